@@ -19,7 +19,7 @@ pub struct Camera {
     pub eye: Vec3,
     /// Point that appears in the centre of the picture.
     pub target: Vec3,
-    /// Approximate up direction; must not be parallel to the viewing direction.
+    /// Approximate up direction. Must not be parallel to the viewing direction.
     pub up: Vec3,
     /// Vertical field of view in degrees, above 0 and below 180.
     pub field_of_view_deg: f32,
@@ -56,15 +56,15 @@ impl Camera {
         perspective_infinite(field, aspect, self.near) * view
     }
 
-    /// The depth of this camera by that of a camera without a far plane, above 1.
+    /// Ratio of this camera's depth to the depth of a camera without a far plane, above 1.
     #[must_use]
     pub fn depth_scale(&self) -> f32 {
         self.far / (self.far - self.near)
     }
 }
 
-/// Share of the picture's half width and half height that the model may fill; the rest is
-/// margin (chosen by eye).
+/// Share of the picture's half width and half height that the model may fill. The rest is margin
+/// (chosen by eye).
 const FILLED: f32 = 0.92;
 
 /// Viewing direction and picture shape, from which a camera is placed around a model.
@@ -88,8 +88,8 @@ impl Default for Framing {
 }
 
 impl Framing {
-    /// Nearest camera that sees a whole bounding box with a margin; it looks at the centre of
-    /// the box. For `bounds` see [`crate::mesh::Mesh::bounds`].
+    /// Nearest camera that sees a whole bounding box with a margin. It looks at the centre of the
+    /// box. For `bounds` see [`crate::mesh::Mesh::bounds`].
     #[must_use]
     pub fn camera(&self, bounds: [Vec3; 2]) -> Camera {
         self.at(bounds, self.distance(bounds))
@@ -225,7 +225,9 @@ impl Default for Reach {
 
 impl Reach {
     fn or(self, other: Self) -> Self {
-        let greater = |a: [f32; 2], b: [f32; 2]| [a[0].max(b[0]), a[1].max(b[1])];
+        fn greater(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
+            [a[0].max(b[0]), a[1].max(b[1])]
+        }
         Self { right: greater(self.right, other.right), up: greater(self.up, other.up) }
     }
 
@@ -247,8 +249,7 @@ fn bounds_of(positions: &[[f32; 3]]) -> [Vec3; 2] {
     positions.fold([first; 2], |[low, high], position| [low.min(position), high.max(position)])
 }
 
-/// Vector from the centre of a box to its highest corner; a box of size 0 counts as one
-/// of size 1.
+/// Vector from the centre of a box to its highest corner. A box of size 0 counts as one of size 1.
 fn half_size(bounds: [Vec3; 2]) -> Vec3 {
     let half = (bounds[1] - bounds[0]) / 2.0;
     if half.max_element() > 0.0 { half } else { Vec3::splat(0.5) }
@@ -272,8 +273,8 @@ impl Camera {
 /// Vertical angle of view of the camera that sees exactly the picture.
 const VIEW_DEG: f32 = 25.0;
 
-/// The cameras of a picture. Its longer side is 1 unit; it lies in the plane z = 0 around the origin,
-/// and its relief on both sides of that plane.
+/// The cameras of a picture. Its longer side is 1 unit. It lies in the plane z = 0 around the
+/// origin, and its relief on both sides of that plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PictureView {
     sides: Vec2,
@@ -310,7 +311,7 @@ impl PictureView {
         }
     }
 
-    /// Width and height in units; the longer is 1.
+    /// Width and height in units. The longer is 1.
     #[must_use]
     pub fn sides(&self) -> Vec2 {
         self.sides
@@ -360,7 +361,7 @@ pub struct CameraPath {
     pub keyframes: Vec<Keyframe>,
 }
 
-/// One camera of a path; positions are in the model's unit.
+/// One camera of a path. Positions are in the model's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
@@ -368,10 +369,10 @@ pub struct Keyframe {
     pub eye: [f32; 3],
     /// Point that appears in the centre of the picture.
     pub target: [f32; 3],
-    /// Approximate up direction; +y by default.
+    /// Approximate up direction, +y by default.
     #[serde(default = "upwards")]
     pub up: [f32; 3],
-    /// Vertical field of view in degrees, 0.1 to 170; 35 by default.
+    /// Vertical field of view in degrees, 0.1 to 170, 35 by default.
     #[serde(default = "normal_lens")]
     pub field_of_view_deg: f32,
 }
@@ -436,7 +437,7 @@ pub enum CameraPathError {
     OutOfRange {
         /// Path of the file.
         name: String,
-        /// Key of the value; keyframes count from 1.
+        /// Key of the value. Keyframes count from 1.
         key: String,
         /// Reason, with the value.
         reason: String,
@@ -478,8 +479,7 @@ impl CameraPath {
         Self::from_text(&name, &text)
     }
 
-    /// Parses a camera path from the text of a TOML file; `name` stands for the path in
-    /// errors.
+    /// Parses a camera path from the text of a TOML file. `name` stands for the path in errors.
     ///
     /// # Errors
     /// [`CameraPathError`] with the line or key.
@@ -514,10 +514,10 @@ impl CameraPath {
         None
     }
 
-    /// One camera per frame, by Catmull-Rom splines (1974) through the keyframes. An open
-    /// path starts at the first keyframe and ends at the last; a closed one returns to the
-    /// first after its last frame. Zoom is interpolated as the logarithm of the tangent of
-    /// half the field of view. The clipping planes enclose the bounding box `bounds` (see
+    /// One camera per frame, by Catmull-Rom splines (1974) through the keyframes. An open path
+    /// starts at the first keyframe and ends at the last. A closed one returns to the first after
+    /// its last frame. Zoom is interpolated as the logarithm of the tangent of half the field of
+    /// view. The clipping planes enclose the bounding box `bounds` (see
     /// [`crate::mesh::Mesh::bounds`]).
     ///
     /// # Panics
@@ -526,8 +526,9 @@ impl CameraPath {
     pub fn cameras(&self, bounds: [Vec3; 2]) -> Vec<Camera> {
         let spans = if self.closed { self.keyframes.len() } else { self.keyframes.len() - 1 };
         let steps = if self.closed { self.frames } else { self.frames.max(2) - 1 };
-        let at = |frame: usize| frame as f32 * spans as f32 / steps as f32;
-        (0..self.frames).map(|frame| self.camera_at(at(frame), bounds)).collect()
+        (0..self.frames)
+            .map(|frame| self.camera_at(frame as f32 * spans as f32 / steps as f32, bounds))
+            .collect()
     }
 
     /// Camera at `time`, counted in spans from the first keyframe.
@@ -552,8 +553,10 @@ impl CameraPath {
         let forward = (target - eye).try_normalize();
         let forward = forward.unwrap_or((last(|at| at.target) - last(|at| at.eye)).normalize());
         let target = if eye == target { eye + forward } else { target };
-        let suitable = |up: &Vec3| up.normalize_or_zero().cross(forward).length() > LEAST_SINE;
-        let up = [up, last(|at| at.up), Vec3::Y].into_iter().find(suitable).unwrap_or(Vec3::Z);
+        let up = [up, last(|at| at.up), Vec3::Y]
+            .into_iter()
+            .find(|up: &Vec3| up.normalize_or_zero().cross(forward).length() > LEAST_SINE)
+            .unwrap_or(Vec3::Z);
         let zooms =
             around.map(|at| Vec3::splat((at.field_of_view_deg / 2.0).to_radians().tan().ln()));
         let zoom = spline(zooms, share).x.exp();

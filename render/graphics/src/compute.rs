@@ -56,7 +56,7 @@ impl Compute {
         Ok(choose(choice)?.map_or(Self::Cpu, Self::gpu))
     }
 
-    /// Name to show to people: `cpu`, or that of the graphics adapter.
+    /// Name to show to people: `cpu`, or the name of the graphics adapter.
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
@@ -65,7 +65,7 @@ impl Compute {
         }
     }
 
-    /// The graphics device; `None` on the processor.
+    /// The graphics device, `None` on the processor.
     #[must_use]
     pub fn device(&self) -> Option<&Device> {
         match self {
@@ -74,8 +74,8 @@ impl Compute {
         }
     }
 
-    /// Returns the graphics device for another use; `None` on the processor. Images made on
-    /// it are lost.
+    /// Returns the graphics device for another use, `None` on the processor. Images made on it are
+    /// lost.
     #[must_use]
     pub fn into_device(self) -> Option<Device> {
         match self {
@@ -87,7 +87,7 @@ impl Compute {
     /// Copies `field` into the memory of the processor or device.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
     pub fn upload<T: bytemuck::Pod>(&mut self, field: &Field<T>) -> Result<Image<T>, DeviceError> {
         match self {
             Self::Cpu => Ok(field.clone().into()),
@@ -95,10 +95,10 @@ impl Compute {
         }
     }
 
-    /// Moves `field` into the memory of the processor, or copies it to that of the device.
+    /// Moves `field` into the memory of the processor, or copies it to the device.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
     pub fn give<T: bytemuck::Pod>(&mut self, field: Field<T>) -> Result<Image<T>, DeviceError> {
         match self {
             Self::Cpu => Ok(field.into()),
@@ -109,7 +109,7 @@ impl Compute {
     /// Copies an image back to a field.
     ///
     /// # Errors
-    /// [`DeviceError`] if the device was lost; never on the processor.
+    /// [`DeviceError`] if the device was lost, never on the processor.
     ///
     /// # Panics
     /// If another form of [`Compute`] made the image.
@@ -123,11 +123,11 @@ impl Compute {
         }
     }
 
-    /// The values of an image. They are copied only from a device, or if another clone of the
-    /// image is alive.
+    /// The values of an image. They are copied only from a device, or if another clone of the image
+    /// is alive.
     ///
     /// # Errors
-    /// [`DeviceError`] if the device was lost; never on the processor.
+    /// [`DeviceError`] if the device was lost, never on the processor.
     ///
     /// # Panics
     /// If another form of [`Compute`] made the image.
@@ -141,14 +141,14 @@ impl Compute {
 
 /// A graphics device with the commands recorded for it and a pool of planes.
 ///
-/// Operations only record; recorded commands are submitted together when values are
-/// written or read back.
+/// Operations only record. Recorded commands are submitted together when values are written or read
+/// back.
 #[derive(Debug)]
 pub struct GpuCompute {
     pub(crate) device: Device,
     pub(crate) recording: Recording,
-    /// Memory of all planes ever made, each with its bytes; a plane is free if the pool
-    /// alone holds it.
+    /// Memory of all planes ever made, each with its bytes. A plane is free if the pool alone holds
+    /// it.
     pool: Vec<(u64, Arc<Buffer>)>,
 }
 
@@ -171,16 +171,16 @@ impl GpuCompute {
         self.device
     }
 
-    /// A plane of `width` x `height` pixels whose values are undefined until written.
+    /// A plane of `width` x `height` pixels. Its values are undefined until written.
     ///
     /// # Errors
-    /// [`DeviceError::TooLarge`] beyond the device's buffer limit,
-    /// [`DeviceError::OutOfMemory`] if it has no memory left.
+    /// [`DeviceError::TooLarge`] beyond the device's buffer limit, [`DeviceError::OutOfMemory`] if
+    /// it has no memory left.
     pub fn plane<T>(&mut self, width: usize, height: usize) -> Result<Plane<T>, DeviceError> {
         let bytes = (width * height * size_of::<T>()) as u64;
-        let free =
-            |(size, buffer): &&(u64, Arc<Buffer>)| *size == bytes && Arc::strong_count(buffer) == 1;
-        if let Some((_, buffer)) = self.pool.iter().find(free) {
+        if let Some((_, buffer)) = self.pool.iter().find(|(size, buffer): &&(u64, Arc<Buffer>)| {
+            *size == bytes && Arc::strong_count(buffer) == 1
+        }) {
             return Ok(Plane::new(Arc::clone(buffer), width, height));
         }
         let buffer = Arc::new(self.device.buffer("an image", bytes)?);
@@ -216,8 +216,8 @@ impl GpuCompute {
         self.device.submit(&mut self.recording)
     }
 
-    /// Writes `values` to the start of `plane`. Commands recorded so far are submitted
-    /// first, since the plane's memory may be that of a plane they still read.
+    /// Writes `values` to the start of `plane`. Commands recorded so far are submitted first, since
+    /// they may still read the plane that had this memory before.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost or refuses a command.
@@ -357,13 +357,13 @@ const MADE_BY_HOST: &str = "a graphics device was handed an image in the process
 /// Checks that an operation's inputs have the same size as the picture it works on.
 ///
 /// # Panics
-/// If `found` is not `wanted`; `what` names the input in the message.
+/// If `found` is not `wanted`. `what` names the input in the message.
 pub fn assert_size(what: &str, found: (usize, usize), wanted: (usize, usize)) {
     assert_eq!(found, wanted, "{what} must have the size of the picture");
 }
 
-/// One value of type `T` per pixel in a graphics device's memory, row by row from the
-/// top. Clones share the memory; it is reused for another plane once all are dropped.
+/// One value of type `T` per pixel in a graphics device's memory, row by row from the top. Clones
+/// share the memory. It is reused for another plane once all are dropped.
 #[derive(Debug, Clone)]
 pub struct Plane<T> {
     buffer: Arc<Buffer>,

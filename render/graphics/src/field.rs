@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::tile::Rect;
 
-/// Values over `width` x `height` cells; the first row is the topmost.
+/// Values over `width` x `height` cells. The first row is the topmost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field<T> {
     width: usize,
@@ -135,8 +135,8 @@ where
     t * t * (T::from(3.0) - T::from(2.0) * t)
 }
 
-/// Blurs `field` by a Gaussian of standard deviation `sigma`, in cells; 0 or less gives a
-/// copy. Cells outside the field have the value of the nearest cell inside it.
+/// Blurs `field` by a Gaussian of standard deviation `sigma`, in cells, 0 or less gives a copy.
+/// Cells outside the field have the value of the nearest cell inside it.
 pub fn blurred<const N: usize>(field: &Field<[f32; N]>, sigma: f64) -> Field<[f32; N]> {
     if sigma <= 0.0 {
         return field.clone();
@@ -223,8 +223,9 @@ mod tests {
             [0.0; 2]
         );
         assert_eq!([2.0, 3.0, 9.0].map(|at| smoothstep([1.0_f64, 3.0], at)), [0.5, 1.0, 1.0]);
-        let slope =
-            |at: f64| (smoothstep([0.0, 1.0], at + 1e-4) - smoothstep([0.0, 1.0], at)) / 1e-4;
+        fn slope(at: f64) -> f64 {
+            (smoothstep([0.0, 1.0], at + 1e-4) - smoothstep([0.0, 1.0], at)) / 1e-4
+        }
         assert!(slope(0.0) < 1e-3 && slope(0.9999) < 1e-3 && (slope(0.5) - 1.5).abs() < 1e-3);
         // Limits may fall.
         assert_eq!(smoothstep([1.0_f32, 0.0], 0.25), smoothstep([0.0, 1.0], 0.75));

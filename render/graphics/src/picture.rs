@@ -54,7 +54,7 @@ impl Photograph {
         Self::from_bytes(&name, &bytes)
     }
 
-    /// Decodes the content of a PNG, JPEG, TIFF or WebP file; `name` stands for the path in errors.
+    /// Decodes the content of a PNG, JPEG, TIFF or WebP file. `name` stands for the path in errors.
     ///
     /// # Errors
     /// [`PhotographError`].
@@ -126,8 +126,8 @@ impl Photograph {
         self.resampled(width, height, |[r, g, b, _]| [r, g, b].map(|value| value as f32))
     }
 
-    /// Resamples the photograph like [`Photograph::on_canvas`], to encoded sRGB with
-    /// opacity (both 0..1). The colour is that of the opaque part, white where there is none.
+    /// Resamples the photograph like [`Photograph::on_canvas`], to encoded sRGB with opacity (both
+    /// 0..1). The colour belongs to the opaque part, white where there is none.
     ///
     /// # Panics
     /// If `width` or `height` is 0.
@@ -331,7 +331,7 @@ impl Explain for PhotographError {
 /// Why a picture cannot be converted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ProfileError {
-    /// The file holds inks, whose colours depend on a press.
+    /// The file holds inks, and their colours depend on a press.
     #[error("its colours are inks ({0})")]
     Inks(String),
     /// The profile cannot be read, or does not suit the picture.
@@ -355,7 +355,9 @@ pub(crate) fn tiff_profile(file: &[u8]) -> TiffResult<Option<Vec<u8>>> {
 /// # Errors
 /// [`ProfileError`] for a damaged profile, one of inks, and one for another number of channels.
 pub fn to_srgb(image: DynamicImage, profile: &[u8]) -> Result<DynamicImage, ProfileError> {
-    let unusable = |error: moxcms::CmsError| ProfileError::Unusable(error.to_string());
+    fn unusable(error: moxcms::CmsError) -> ProfileError {
+        ProfileError::Unusable(error.to_string())
+    }
     let source = ColorProfile::new_from_slice(profile).map_err(unusable)?;
     let grey =
         matches!(image.color(), ColorType::L8 | ColorType::La8 | ColorType::L16 | ColorType::La16);
@@ -467,11 +469,11 @@ mod tests {
     #[test]
     fn the_curve_of_a_grey_profile_is_that_of_the_picture() {
         let profile = ColorProfile::new_gray_with_gamma(1.8).encode().unwrap();
-        let light = |file: &[u8]| {
+        fn light(file: &[u8]) -> f64 {
             let [r, g, b] = linear(file);
             assert!(r == g && g == b, "grey stays grey: {r} {g} {b}");
             f64::from(r)
-        };
+        }
         for value in [40_u8, 128, 220] {
             let wanted = (f64::from(value) / 255.0).powf(1.8);
             let mut png = Vec::new();

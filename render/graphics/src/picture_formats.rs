@@ -11,7 +11,7 @@ pub const NAMES: &str = "PNG, JPEG, TIFF or WebP";
 /// Endings of the names of such files, in lower case.
 pub const ENDINGS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "webp"];
 
-/// Whether a file name ends like that of a picture, in letters of either case.
+/// Whether a file name ends like the name of a picture, in letters of either case.
 #[must_use]
 pub fn has_picture_ending(path: &Path) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str());
@@ -58,7 +58,7 @@ pub fn is_cut_off_jpeg(bytes: &[u8]) -> bool {
 }
 
 /// Whether `bytes` are a JPEG file of four components: inks (CMYK or YCCK). Its frame header
-/// (ISO/IEC 10918-1, B.2.2) tells their number.
+/// (ISO/IEC 10918-1, B.2.2) gives their number.
 #[must_use]
 pub fn is_of_inks(bytes: &[u8]) -> bool {
     let mut at = START.len();
@@ -110,9 +110,8 @@ mod tests {
 
     #[test]
     fn a_jpeg_is_cut_off_wherever_its_end_is_missing() {
-        let noise = |x: u32, y: u32| (x * 7919 + y * 104_729).wrapping_mul(2_654_435_761);
         let picture = image::RgbImage::from_fn(64, 48, |x, y| {
-            let [r, g, b, _] = noise(x, y).to_le_bytes();
+            let [r, g, b, _] = (x * 7919 + y * 104_729).wrapping_mul(2_654_435_761).to_le_bytes();
             image::Rgb([r, g, b])
         });
         let mut whole = Vec::new();
@@ -134,15 +133,15 @@ mod tests {
 
     #[test]
     fn components_are_counted_in_the_frame_header_behind_other_segments() {
-        let file = |kind: u8, components: u8| {
+        fn file(kind: u8, components: u8) -> Vec<u8> {
             let mut file = START.to_vec();
-            // A segment that holds a marker, and a table whose tenth byte is a 4.
+            // A segment that holds a marker, and a table with a tenth byte of 4.
             file.extend([0xff, 0xe0, 0, 6, 0xff, 0xc0, 0, 8]);
             file.extend([0xff, 0xc4, 0, 12, 0, 1, 2, 3, 3, 4, 5, 6, 7, 8]);
             // Markers may have bytes of 0xff before them.
             file.extend([0xff, 0xff, 0xff, kind, 0, 20, 8, 0, 8, 0, 8, components, 1, 0x11, 0]);
             file
-        };
+        }
         for kind in [0xc0, 0xc1, 0xc2, 0xc9] {
             assert!(is_of_inks(&file(kind, 4)), "{kind:x}");
             assert!(!is_of_inks(&file(kind, 3)) && !is_of_inks(&file(kind, 1)), "{kind:x}");

@@ -19,9 +19,9 @@ pub struct ToneRamp {
 }
 
 impl ToneRamp {
-    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light); one level is 0.5
-    /// throughout. `softness` in 0..1 is the share of a step's width over which it blends
-    /// into the next.
+    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light). One level is 0.5
+    /// throughout. `softness` in 0..1 is the share of a step's width over which it blends into the
+    /// next.
     #[must_use]
     pub fn steps(levels: usize, softness: f32) -> Self {
         let levels = levels.max(1) as f32;
@@ -38,11 +38,11 @@ impl ToneRamp {
         })
     }
 
-    /// A ramp through the given greys (0..1), at equal cosine intervals from shade (0) to
-    /// light (1).
+    /// A ramp through the given greys (0..1), at equal cosine intervals from shade (0) to light
+    /// (1).
     ///
     /// # Errors
-    /// [`ToneRampError::Empty`]; [`ToneRampError::OutOfRange`].
+    /// [`ToneRampError::Empty`], [`ToneRampError::OutOfRange`].
     pub fn from_greys(greys: &[f32]) -> Result<Self, ToneRampError> {
         if greys.is_empty() {
             return Err(ToneRampError::Empty);
@@ -92,7 +92,7 @@ impl ToneRamp {
         Self { greys: Box::new(greys) }
     }
 
-    /// Grey at a cosine; negative cosines count as 0.
+    /// Grey at a cosine. Negative cosines count as 0.
     #[must_use]
     #[inline]
     pub fn grey(&self, cosine: f32) -> f32 {

@@ -13,21 +13,20 @@ use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// Draws a texture that follows particles: 0.5 plus the blended differences of its copies
-/// from 0.5, clamped to 0..1. Pixels whose `depth` is 1 show no surface and get 0.5.
+/// Draws a texture that follows particles: 0.5 plus the blended differences of its copies from 0.5,
+/// clamped to 0..1. Pixels of `depth` 1 show no surface and get 0.5.
 ///
-/// The weight of a copy is `(1 - (s - s_min) / reach)^2`, where s is the squared distance of
-/// its particle from the position that the pixel shows and s_min that of the nearest one.
-/// Blending lowers contrast; the sum is divided by the root of the sum of squared weights,
+/// The weight of a copy is `(1 - (s - s_min) / reach)^2`, where s is the squared distance of its
+/// particle from the position that the pixel shows and s_min the squared distance of the nearest
+/// one. Blending lowers contrast. The sum is divided by the root of the sum of squared weights,
 /// which restores it where copies are uncorrelated (Heeger and Bergen 1995).
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
-/// If the width or height of the texture, which repeats, is not a power of two, if `depth`
-/// does not have the size of the anchors' projection, or if another form of [`Compute`]
-/// made an image.
+/// If the width or height of the texture, which repeats, is not a power of two, if `depth` does not
+/// have the size of the anchors' projection, or if another form of [`Compute`] made an image.
 pub fn draw_anchored(
     compute: &mut Compute,
     depth: &GreyImage,
@@ -100,8 +99,8 @@ fn draw_anchored_on_cpu(depth: &Field<f32>, texture: &Field<f32>, anchors: &Anch
     blended
 }
 
-/// The blend of all copies at a pixel that shows `position`; `distances` is scratch memory,
-/// one number for each anchor.
+/// The blend of all copies at a pixel that shows `position`. `distances` is scratch memory, one
+/// number for each anchor.
 fn blend(
     texture: &Field<f32>,
     anchors: &Anchors,
@@ -207,7 +206,7 @@ pub struct Particles {
     spacing_squared: f32,
 }
 
-/// How a texture that follows particles is drawn: an infinite zoom, whose waves keep their
+/// How a texture that follows particles is drawn: an infinite zoom with waves that keep their
 /// length in the picture while the model comes nearer or moves away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnchoredNoise {
@@ -228,7 +227,7 @@ impl AnchoredNoise {
     pub const DISPERSION: Self = Self { wave_px: 10.0, wave_texels: 8.0, octaves: 4, seed: 2 };
 }
 
-/// One copy of the texture in the picture; the layout is that of the kernel.
+/// One copy of the texture in the picture. The kernel reads this layout.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Anchor {
@@ -240,11 +239,11 @@ pub struct Anchor {
     pub x: f32,
     /// Distance of the particle from the upper edge of the picture, in pixels.
     pub y: f32,
-    /// Texels per pixel of the finest octave; each further octave has half as many.
+    /// Texels per pixel of the finest octave. Each further octave has half as many.
     pub texels: f32,
     /// Padding to the alignment of WGSL.
     pub spare: f32,
-    /// Weight of each octave, the finest first; the squares sum to 1.
+    /// Weight of each octave, the finest first. The squares sum to 1.
     pub weights: [f32; MOST_OCTAVES],
     /// Horizontal offset in the texture at which each octave begins, in texels.
     pub right: [f32; MOST_OCTAVES],
@@ -258,17 +257,16 @@ pub struct Anchors {
     pub(super) each: Vec<Anchor>,
     /// Number of octaves of each copy.
     pub(super) octaves: usize,
-    /// A copy fades to 0 where its squared distance exceeds that of the nearest copy by this.
+    /// A copy fades to 0 where its squared distance exceeds the nearest copy's by this.
     pub(super) reach_squared: f32,
     pub(super) projection: Projection,
 }
 
 impl Particles {
-    /// Spreads `count` particles, at least one, over a mesh. They start at the centres of the
-    /// faces of the bounding box, further ones where the mesh is farthest from all others;
-    /// then all move to the centroids of the parts of the mesh nearest to them (Lloyd
-    /// 1982). This keeps distances from the particles small, and with them the sliding of
-    /// the texture over the mesh.
+    /// Spreads `count` particles, at least one, over a mesh. They start at the centres of the faces
+    /// of the bounding box, further ones where the mesh is farthest from all others. Then all move
+    /// to the centroids of the parts of the mesh nearest to them (Lloyd 1982). This keeps distances
+    /// from the particles small, and with them the sliding of the texture over the mesh.
     #[must_use]
     pub fn new(hierarchy: &Hierarchy, count: usize) -> Self {
         let (low, high) = hierarchy
@@ -412,7 +410,7 @@ mod tests {
             particles.anchors(&Projection::new(&camera, 100, 100), NOISE).each[0]
         };
         // What the texture shows ten pixels to the right of the particle.
-        let shown = |anchor: Anchor| {
+        fn shown(anchor: Anchor) -> Vec<(f32, f32, f32)> {
             let mut octaves: Vec<(f32, f32, f32)> = (0..4)
                 .map(|i| {
                     let texels = 10.0 * anchor.texels / (1 << i) as f32;
@@ -422,7 +420,7 @@ mod tests {
                 .collect();
             octaves.sort_by(|a, b| a.0.total_cmp(&b.0));
             octaves
-        };
+        }
         for step in 0..2000 {
             let distance = 2.0 + 0.01 * step as f32;
             let before = shown(at(distance));

@@ -1,5 +1,5 @@
 //! Depths of a visibility buffer: of each pixel, and the nearest and farthest surface in squares of
-//! pixels, which tell what is hidden.
+//! pixels, which show what is hidden.
 
 use rayon::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::surface::{Fragment, VisibilityBuffer};
 /// The depth of each pixel: 0 at the near plane to 1 where no triangle is seen.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made the image.
@@ -133,12 +133,12 @@ impl DepthTiles {
     /// A depth that no surface between these pixels exceeds: what lies behind it is hidden.
     /// Columns and rows are distances from the left and upper edge in pixels.
     pub(super) fn farthest(&self, columns: [f32; 2], rows: [f32; 2]) -> f32 {
-        let squares = |limits: [f32; 2], count: usize| {
+        fn squares(limits: [f32; 2], count: usize) -> Option<[usize; 2]> {
             let [from, to] = limits.map(|at| at / SIDE as f32);
             let inside = count > 0 && to >= 0.0 && from < count as f32;
             let last = count.saturating_sub(1);
             inside.then(|| [from, to].map(|at| (at as usize).min(last)))
-        };
+        }
         let Some(finest) = self.levels.first() else { return BARE };
         let (Some([left, right]), Some([top, bottom])) =
             (squares(columns, finest.across), squares(rows, finest.down))
@@ -193,7 +193,7 @@ mod tests {
                 let right = x + at(13, 60).abs();
                 let bottom = y + at(41, 60).abs();
                 let found = tiles.farthest([x, right], [y, bottom]);
-                // All pixels that the limits touch, and those of the squares around them.
+                // All pixels that the limits touch, and all pixels of the squares around them.
                 let within = |around: f32| {
                     let seen = (0..width * height).filter(|i| {
                         let column = (i % width) as f32;

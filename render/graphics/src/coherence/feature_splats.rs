@@ -26,7 +26,7 @@ impl Features {
     /// [`Self::splats`]. On the processor, features that those surfaces hide are left out early.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
     ///
     /// # Panics
     /// If another form of [`Compute`] made `depth`.
@@ -81,14 +81,16 @@ fn projected(
     let focal = projection.focal_px / at.distance;
     let pixels = focal * focal * towards.abs() / at.distance;
     let rank = feature.priority / pixels;
-    // The comparison is false for features seen edge-on, whose rank is NaN or infinite.
+    // The comparison is false for features seen edge-on, because their rank is NaN or infinite.
     if !(rank < octaves.end() && at.depth <= 1.0) {
         return None;
     }
     let [slope_x, slope_y] = projection.slope(feature.normal, towards);
     let size = [projection.width, projection.height];
     let sign = sign(feature);
-    let near = |at: f32, size: usize, r: f32| at > -r && at < size as f32 + r;
+    fn near(at: f32, size: usize, r: f32) -> bool {
+        at > -r && at < size as f32 + r
+    }
     let seen = move |radius: f32| near(at.x, size[0], radius) && near(at.y, size[1], radius);
     let parts = octaves.parts(rank).filter(move |[radius, _]| seen(*radius));
     let scale = projection.depth_scale();
@@ -119,7 +121,7 @@ pub struct SeenFeature {
     pub depth: f32,
     /// Distance in front of the eye along the viewing direction, in the unit of the model.
     pub distance: f32,
-    /// Cosine between the normal of its triangle and the direction to the eye; negative on
+    /// Cosine between the normal of its triangle and the direction to the eye, negative on
     /// triangles that face away.
     pub facing: f32,
     /// Density at which it begins, in features per pixel of the [`Density`] asked for.
@@ -141,7 +143,7 @@ impl Features {
         self.seen_where(projection, density, end, margin_px, |_| true)
     }
 
-    /// Those of [`Features::seen`] for which `keep` is true, in the same order.
+    /// Features of [`Features::seen`] for which `keep` is true, in the same order.
     #[must_use]
     pub fn seen_where(
         &self,
@@ -154,7 +156,7 @@ impl Features {
         let in_sight = InSight::new(projection, density, end, margin_px);
         self.selected(&in_sight, |feature, seen| {
             seen.extend(see(projection, density, feature).filter(|seen| {
-                // False for features seen edge-on, whose rank is NaN or infinite.
+                // False for features seen edge-on, because their rank is NaN or infinite.
                 seen.rank < end && seen.depth <= 1.0 && keep(seen)
             }));
         })

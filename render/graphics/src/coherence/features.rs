@@ -42,8 +42,8 @@ pub struct Features {
     pub(super) seed: Seed,
     /// The feature of each patch, then one more of the whole mesh.
     pub(super) of_patches: Vec<Feature>,
-    /// Roots of the largest subtrees of up to [`SUBTREE_PATCHES`] patches; one thread
-    /// selects from each.
+    /// Roots of the largest subtrees of up to [`SUBTREE_PATCHES`] patches. One thread selects from
+    /// each.
     pub(super) subtrees: Vec<usize>,
     /// All patches above those subtrees, then the index of the whole mesh's feature.
     pub(super) above: Vec<usize>,
@@ -100,7 +100,7 @@ impl Half {
 }
 
 impl Feature {
-    /// A uniform number in 0..1; each `number` gives an independent one. Numbers below 16 place
+    /// A uniform number in 0..1. Each `number` gives an independent one. Numbers below 16 place
     /// features.
     #[must_use]
     pub fn unit(&self, number: u64) -> f32 {
@@ -157,7 +157,7 @@ impl Features {
     }
 }
 
-/// Triangles are halved at most this often; f32 cannot represent smaller ones.
+/// Triangles are halved at most this often. f32 cannot represent smaller ones.
 const MAX_HALVINGS: u32 = 40;
 
 /// The quantity that the rank of a feature refers to.
@@ -177,7 +177,7 @@ pub enum Density {
 
 /// Selects the features of a noise.
 pub(super) trait Select: Sync {
-    /// The highest priority that is needed within a sphere; `None` if nothing in it is. With a
+    /// The highest priority that is needed within a sphere, `None` if nothing in it is. With a
     /// `normal`, all of it lies on the plane through the centre with this normal.
     fn needed(&self, center: Vec3, radius: f32, normal: Option<Vec3>) -> Option<f32>;
 
@@ -209,7 +209,7 @@ pub(super) struct InSight<'a> {
 struct Below(f32);
 
 impl<'a> InSight<'a> {
-    /// Features of at most this radius in pixels; with a density on the surface, where a unit of
+    /// Features of at most this radius in pixels. With a density on the surface, where a unit of
     /// the model has as many pixels as the density says.
     pub(super) fn new(
         projection: &'a Projection,
@@ -230,7 +230,7 @@ impl<'a> InSight<'a> {
         Self { projection, density, end, forward, sides, beyond, surfaces: None }
     }
 
-    /// Without most of the features that `surfaces` hide. Ranks are those of `octaves`.
+    /// Without most of the features that `surfaces` hide. `octaves` gives the ranks.
     pub(super) fn before(mut self, surfaces: &'a DepthTiles, octaves: &'a Octaves) -> Self {
         self.surfaces = Some((surfaces, octaves));
         self
@@ -335,7 +335,7 @@ impl Features {
         let mut index = subtree;
         while index < end {
             let patch = &self.hierarchy.patches[index];
-            // The centre of a patch is that of its box, which lies on no plane of its faces.
+            // The centre of a patch is the centre of its box, which lies on no plane of its faces.
             if !wanted(select, patch.center, patch.radius, None, patch.area) {
                 index = patch.end;
                 continue;
@@ -429,7 +429,9 @@ mod tests {
         // Two small triangles beside one of fifteen times their area.
         let mut mesh = Mesh::sphere(20);
         mesh.triangles.truncate(3);
-        let triangle = |x: f32, size: f32| [[x, 0.0, 0.0], [x + size, 0.0, 0.0], [x, size, 0.0]];
+        fn triangle(x: f32, size: f32) -> [[f32; 3]; 3] {
+            [[x, 0.0, 0.0], [x + size, 0.0, 0.0], [x, size, 0.0]]
+        }
         let corners = [triangle(-4.0, 1.0), triangle(-2.0, 1.0), triangle(1.0, 15f32.sqrt())];
         mesh.positions = corners.concat();
         for (triangle, first) in mesh.triangles.iter_mut().zip([0, 3, 6]) {

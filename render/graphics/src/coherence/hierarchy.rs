@@ -15,7 +15,7 @@ use crate::mesh::Mesh;
 /// in the normal counts as a distance of this many patch radii. Chosen by eye.
 const FACING: f32 = 0.5;
 
-/// A triangle of the mesh whose area is not 0.
+/// A triangle of the mesh with an area above 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
@@ -28,7 +28,7 @@ pub(super) struct Face {
 /// A node of the tree: some neighbouring faces.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Patch {
-    /// Its faces in [`Hierarchy::faces`]; one face if the patch is a leaf.
+    /// Its faces in [`Hierarchy::faces`], one face if the patch is a leaf.
     pub(super) faces: Range<usize>,
     pub(super) area: f64,
     /// Centre of a sphere that encloses the patch.
@@ -44,9 +44,9 @@ pub(super) struct Patch {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hierarchy {
     pub(super) faces: Vec<Face>,
-    /// For each face the summed area of the faces before it; then the area of all faces.
+    /// For each face the summed area of the faces before it, then the area of all faces.
     area_before: Vec<f64>,
-    /// All patches, each before its parts; the first is the whole mesh.
+    /// All patches, each before its parts. The first is the whole mesh.
     pub(super) patches: Vec<Patch>,
 }
 
@@ -100,15 +100,15 @@ impl Hierarchy {
         hierarchy
     }
 
-    /// Number of faces whose area is not 0.
+    /// Number of faces with an area above 0.
     #[must_use]
     pub fn faces(&self) -> usize {
         self.faces.len()
     }
 
-    /// Adds the patch of `faces`, of which the first has index `first`, and all its
-    /// descendants. The area of a patch is at most half that of its grandparent, so the
-    /// depth of recursion is bounded by the range of f32.
+    /// Adds the patch of `faces`, of which the first has index `first`, and all its descendants.
+    /// The area of a patch is at most half of its grandparent's, so the depth of recursion is
+    /// bounded by the range of f32.
     fn split(&mut self, faces: &mut [Face], first: usize) {
         let corners = || faces.iter().flat_map(|face| face.corners);
         let (low, high) = corners()
@@ -187,7 +187,7 @@ impl Seed {
         Self(bits ^ (bits >> 31))
     }
 
-    /// A uniform number in 0..1; each `number` gives an independent one.
+    /// A uniform number in 0..1. Each `number` gives an independent one.
     pub(super) fn unit(self, number: u64) -> f32 {
         (self.child(number).0 >> 40) as f32 / (1u64 << 24) as f32
     }

@@ -15,8 +15,8 @@ use rayon::prelude::*;
 use super::hierarchy::Seed;
 use crate::field::Field;
 
-/// Width of the range of ranks, in octaves, over which a feature fades to the next octave.
-/// Wide fades pop less; narrow ones mix fewer sizes of features. Chosen by eye.
+/// Width of the range of ranks, in octaves, over which a feature fades to the next octave. Wide
+/// fades pop less. Narrow ones mix fewer sizes of features. Chosen by eye.
 const FADE: f32 = 1.0;
 
 /// Standard deviation of both kinds of noise about their mean of 0.5. Values beyond 0 and
@@ -167,8 +167,9 @@ pub fn repeating_noise(wave_texels: usize, seed: u64) -> Field<f32> {
     let rows = (0..SIDE).into_par_iter().flat_map_iter(|y| {
         let j = y / step;
         let down = &splines[y % step];
-        let column = |i: usize| -> f32 { (0..4).map(|k| down[k] * value(i, j + k)).sum() };
-        let columns: Vec<f32> = (0..nodes + 3).map(column).collect();
+        let columns: Vec<f32> = (0..nodes + 3)
+            .map(|i: usize| -> f32 { (0..4).map(|k| down[k] * value(i, j + k)).sum() })
+            .collect();
         let splines = &splines;
         (0..SIDE).map(move |x| {
             let i = x / step;
@@ -196,7 +197,9 @@ pub fn repeating_noise(wave_texels: usize, seed: u64) -> Field<f32> {
 /// The weights of the four cubic B-splines at `t` (0..1) between two nodes.
 fn spline(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
-    let inner = |t: f32| (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0;
+    fn inner(t: f32) -> f32 {
+        (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0
+    }
     [s * s * s / 6.0, inner(t), inner(s), t * t * t / 6.0]
 }
 

@@ -36,17 +36,16 @@ pub(super) struct Projected {
     pub(super) distance: f32,
 }
 
-/// A projected position; one nearer than the near plane is projected as if it lay on it.
+/// A projected position. One nearer than the near plane is projected as if it lay on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ClampedProjected {
     /// Distance from the left edge in pixels.
     pub(super) x: f32,
     /// Distance from the upper edge in pixels.
     pub(super) y: f32,
-    /// Distance in front of the eye, at least that of the near plane, in the unit of the
-    /// model.
+    /// Distance in front of the eye, at least the near plane's distance, in the unit of the model.
     pub(super) distance: f32,
-    /// True distance in front of the eye; negative behind it.
+    /// True distance in front of the eye, negative behind it.
     pub(super) along: f32,
 }
 
@@ -75,8 +74,8 @@ impl Projection {
         (clip.w >= self.camera.near && clip.w.is_finite()).then(|| self.screen(clip))
     }
 
-    /// Projects a position of the model; one nearer than the near plane is treated as if it
-    /// lay on it.
+    /// Projects a position of the model. One nearer than the near plane is treated as if it lay on
+    /// it.
     pub(super) fn project_clamped(&self, position: Vec3) -> ClampedProjected {
         let mut clip = self.clip_from_model * position.extend(1.0);
         let along = clip.w;
@@ -173,9 +172,8 @@ impl Projection {
         far / (far - near) - self.depth_scale() / distance
     }
 
-    /// How much depth grows per pixel to the right and downwards on a plane with this
-    /// `normal`; `towards` is the dot product of the normal and a vector from the eye to
-    /// the plane.
+    /// How much depth grows per pixel to the right and downwards on a plane with this `normal`.
+    /// `towards` is the dot product of the normal and a vector from the eye to the plane.
     #[must_use]
     pub fn slope(&self, normal: Vec3, towards: f32) -> [f32; 2] {
         let [right, up] = self.axes;
@@ -246,7 +244,7 @@ impl Popping {
         Self { squares: self.squares + other.squares, pixels: self.pixels + other.pixels }
     }
 
-    /// Root mean square difference; 0 if no pixel could be compared.
+    /// Root mean square difference, 0 if no pixel could be compared.
     #[must_use]
     pub fn rms(&self) -> f64 {
         (self.squares / self.pixels.max(1) as f64).sqrt()
@@ -262,7 +260,9 @@ fn noise_before(
     let at = before.projection.project(projection.unproject(pixel, depth))?;
     let left = (at.x - 0.5).floor();
     let top = (at.y - 0.5).floor();
-    let inside = |at: f32, size: usize| at >= 0.0 && at < size as f32 - 1.0;
+    fn inside(at: f32, size: usize) -> bool {
+        at >= 0.0 && at < size as f32 - 1.0
+    }
     if !inside(left, before.projection.width) || !inside(top, before.projection.height) {
         return None;
     }

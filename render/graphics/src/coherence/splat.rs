@@ -26,7 +26,7 @@ pub struct Splat {
     pub y: f32,
     /// 1 / radius, in 1 / pixels. The feature ends at the radius.
     pub narrowness: f32,
-    /// Value added at the centre; negative for a hollow.
+    /// Value added at the centre, negative for a hollow.
     pub amplitude: f32,
     /// Depth of the centre, 0 (near plane) to 1 (far plane).
     pub depth: f32,
@@ -34,18 +34,17 @@ pub struct Splat {
     pub slope_x: f32,
     /// Change of depth on its surface per pixel downwards.
     pub slope_y: f32,
-    /// 1 / tolerance in depth. Pixels within the tolerance of the feature's plane get its
-    /// full value; the value falls to 0 at twice the tolerance.
+    /// 1 / tolerance in depth. Pixels within the tolerance of the feature's plane get its full
+    /// value. The value falls to 0 at twice the tolerance.
     pub tightness: f32,
 }
 
-/// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a
-/// distance d from its centre a feature adds its amplitude times
-/// `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d / radius. Pixels whose `depth` is 1 show no
-/// surface and get 0.5.
+/// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a distance d
+/// from its centre a feature adds its amplitude times `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d /
+/// radius. Pixels of `depth` 1 show no surface and get 0.5.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made `depth`.
@@ -168,8 +167,8 @@ impl<'a> Bands<'a> {
         Self { splats, across: width.div_ceil(SIDE), lists: Lists::new(down, &pairs) }
     }
 
-    /// For each square of a band the features that touch it; with `surfaces`, without those
-    /// that are hidden there.
+    /// For each square of a band the features that touch it, with `surfaces`, without those that
+    /// are hidden there.
     fn squares(&self, band: usize, surfaces: Option<&DepthTiles>) -> Lists {
         let ranges: Option<Vec<_>> = surfaces
             .map(|surfaces| (0..self.across).map(|column| surfaces.range(column, band)).collect());
@@ -208,7 +207,7 @@ impl<'a> Bands<'a> {
     }
 }
 
-/// [`draw_splats`] on the processor; `surfaces` are those of `depth`.
+/// [`draw_splats`] on the processor. `surfaces` are made from `depth`.
 pub(super) fn draw_splats_on_tiles(
     depth: &Field<f32>,
     surfaces: &DepthTiles,

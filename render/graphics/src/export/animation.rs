@@ -246,7 +246,9 @@ pub(super) struct Census {
 }
 
 fn cell([r, g, b]: [u8; 3]) -> usize {
-    let upper = |value: u8| usize::from(value) >> (8 - BITS);
+    fn upper(value: u8) -> usize {
+        usize::from(value) >> (8 - BITS)
+    }
     (upper(r) * SIDE + upper(g)) * SIDE + upper(b)
 }
 
@@ -309,7 +311,9 @@ impl ColorTable {
         }
         let bytes: Vec<[u8; 3]> =
             colors.iter().map(|color| color.map(|value| value.round() as u8)).collect();
-        let middle = |i: usize| ((i % SIDE) << (8 - BITS)) as f32 + 3.5;
+        fn middle(i: usize) -> f32 {
+            ((i % SIDE) << (8 - BITS)) as f32 + 3.5
+        }
         let nearest = (0..SIDE.pow(3))
             .into_par_iter()
             .map(|i| nearest(&colors, [middle(i / SIDE / SIDE), middle(i / SIDE), middle(i)]) as u8)
@@ -372,8 +376,8 @@ fn mean(colors: &[([f32; 3], f32)]) -> [f32; 3] {
     [0, 1, 2].map(|i| colors.iter().map(|color| color.0[i] * color.1).sum::<f32>() / count)
 }
 
-/// Channel with the greatest squared error within a box, and that error; 0 for a box that
-/// cannot be cut.
+/// Channel with the greatest squared error within a box, and that error, 0 for a box that cannot be
+/// cut.
 fn spread(colors: &[([f32; 3], f32)]) -> (usize, f32) {
     if colors.len() < 2 {
         return (0, 0.0);

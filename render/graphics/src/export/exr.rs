@@ -15,8 +15,8 @@ use crate::field::Field;
 /// A part of an OpenEXR file: its name, and channels with their samples row by row.
 pub type ExrPart = (String, Vec<(String, Vec<f32>)>);
 
-/// Encodes named channels (samples row by row) with the primaries of sRGB; a pixel is
-/// `cell_mm` wide.
+/// Encodes named channels (samples row by row) with the primaries of sRGB. A pixel is `cell_mm`
+/// wide.
 pub fn exr_file(
     size: (usize, usize),
     cell_mm: f64,
@@ -26,8 +26,8 @@ pub fn exr_file(
     encoded(size, cell_mm, vec![(attributes, channels)])
 }
 
-/// Encodes parts of one size, each with named channels of 32-bit floats, as one OpenEXR file with the primaries of
-/// sRGB; a pixel is `cell_mm` wide.
+/// Encodes parts of one size, each with named channels of 32-bit floats, as one OpenEXR file with
+/// the primaries of sRGB. A pixel is `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture, a pixel size out of range, and parts that have no name of
@@ -84,21 +84,21 @@ fn encoded(
 fn chromaticities() -> Chromaticities {
     let space = RgbSpace::Srgb;
     let columns = space.xyz_from_linear().0;
-    let at = |[x, y, z]: [f64; 3]| {
+    fn at([x, y, z]: [f64; 3]) -> Vec2<f32> {
         let sum = x + y + z;
         Vec2((x / sum) as f32, (y / sum) as f32)
-    };
+    }
     let column = |j: usize| at([columns[0][j], columns[1][j], columns[2][j]]);
     let white = at(space.white().to_array());
     Chromaticities { red: column(0), green: column(1), blue: column(2), white }
 }
 
-/// Encodes linear sRGB (white at 1) as channels R, G, B of 32-bit floats, unclipped, with
-/// the primaries of sRGB in attribute `chromaticities`; a pixel is `cell_mm` wide.
+/// Encodes linear sRGB (white at 1) as channels R, G, B of 32-bit floats, unclipped, with the
+/// primaries of sRGB in attribute `chromaticities`. A pixel is `cell_mm` wide.
 ///
 /// # Errors
-/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
-/// not finite.
+/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are not
+/// finite.
 pub fn linear_exr(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Vec<u8>, ExportError> {
     let size = (picture.width(), picture.height());
     let channels = rgb_channels(picture)?;
@@ -106,7 +106,7 @@ pub fn linear_exr(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Vec<u8>, Ex
 }
 
 /// Encodes named channels of 32-bit floats, row by row, as one OpenEXR part with the primaries of
-/// sRGB; a pixel is `cell_mm` wide.
+/// sRGB. A pixel is `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture and a pixel size out of range.
@@ -124,11 +124,10 @@ pub fn float_exr(
 /// # Errors
 /// [`ExportError::NotFinite`].
 pub fn rgb_channels(picture: &Field<[f32; 4]>) -> Result<Vec<(String, FlatSamples)>, ExportError> {
-    let not_finite = |rgb: &[f32; 4]| rgb[..3].iter().copied().find(|value| !value.is_finite());
     let values = picture.values();
-    if let Some((index, found)) =
-        values.iter().enumerate().find_map(|(index, rgb)| Some((index, not_finite(rgb)?)))
-    {
+    if let Some((index, found)) = values.iter().enumerate().find_map(|(index, rgb)| {
+        Some((index, rgb[..3].iter().copied().find(|value| !value.is_finite())?))
+    }) {
         let x = index % picture.width();
         let y = index / picture.width();
         return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
@@ -149,7 +148,9 @@ mod tests {
 
     #[test]
     fn parts_keep_their_names_channels_and_values() {
-        let plane = |value: f32| vec![value; 6];
+        fn plane(value: f32) -> Vec<f32> {
+            vec![value; 6]
+        }
         let parts = vec![
             ("color".to_owned(), vec![("R".to_owned(), plane(0.25)), ("B".to_owned(), plane(2.0))]),
             ("count".to_owned(), vec![("sky".to_owned(), plane(300.0))]),

@@ -118,7 +118,7 @@ impl FrameRate {
     }
 }
 
-/// Converts encoded sRGB in 0..1 to a frame; the fourth value is ignored.
+/// Converts encoded sRGB in 0..1 to a frame. The fourth value is ignored.
 #[must_use]
 pub fn frame_of(picture: &Field<[f32; 4]>) -> Frame {
     let pixels = picture.values().par_iter().map(|&[r, g, b, _]| {
@@ -153,7 +153,9 @@ pub fn frame_png(frame: &Frame) -> Result<Vec<u8>, FrameError> {
 /// # Errors
 /// [`FrameError::Unreadable`] for any other file: truncated, not PNG, other channels.
 pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
-    let broken = |reason: String| FrameError::Unreadable { reason };
+    fn broken(reason: String) -> FrameError {
+        FrameError::Unreadable { reason }
+    }
     let mut reader = Decoder::new(file).read_info().map_err(|error| broken(error.to_string()))?;
     let kind = reader.output_color_type();
     if kind != (ColorType::Rgb, BitDepth::Eight) {
@@ -213,7 +215,7 @@ impl CompressedFrame {
         })
     }
 
-    /// The pixels of a whole PNG file as [`frame_png`] writes it. `None` for any other file; the
+    /// The pixels of a whole PNG file as [`frame_png`] writes it. `None` for any other file. The
     /// pixels themselves are not checked.
     #[must_use]
     pub fn from_png(bytes: &[u8]) -> Option<Self> {

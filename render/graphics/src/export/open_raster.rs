@@ -74,11 +74,11 @@ impl OpenRaster {
     }
 
     /// Completes the file with the merged picture in linear sRGB, and returns its content. The
-    /// number of pixels outside the gamut is that of the merged picture.
+    /// number of pixels outside the gamut is counted in the merged picture.
     ///
     /// # Errors
-    /// [`ExportError`] for a picture of another size or with colours that are not finite, or if
-    /// the encoder fails.
+    /// [`ExportError`] for a picture of another size or with colours that are not finite, or if the
+    /// encoder fails.
     pub fn finish(mut self, merged: &Field<[f32; 4]>) -> Result<Png, ExportError> {
         let (width, height) = self.size;
         if (merged.width(), merged.height()) != self.size {

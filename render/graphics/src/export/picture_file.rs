@@ -81,12 +81,12 @@ impl PictureFile {
     }
 }
 
-/// Encodes a picture in linear sRGB (white at 1; the fourth value is ignored); a pixel is
-/// `cell_mm` wide.
+/// Encodes a picture in linear sRGB (white at 1, the fourth value is ignored). A pixel is `cell_mm`
+/// wide.
 ///
 /// # Errors
-/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
-/// not finite.
+/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are not
+/// finite.
 pub fn picture_file(
     picture: &Field<[f32; 4]>,
     cell_mm: f64,
@@ -115,17 +115,17 @@ const CICP: [u8; 4] = [1, 13, 0, 1];
 pub struct Png {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Number of pixels outside the sRGB gamut; see
+    /// Number of pixels outside the sRGB gamut. See
     /// [`mapped_into_gamut`](spectra::color::Rgb::mapped_into_gamut) for what they show.
     pub outside: usize,
 }
 
-/// Encodes linear sRGB (white at 1; the fourth value is ignored) with 8 bits per channel
-/// and the chunks `sRGB`, `cICP` and `pHYs`; a pixel is `cell_mm` wide.
+/// Encodes linear sRGB (white at 1, the fourth value is ignored) with 8 bits per channel and the
+/// chunks `sRGB`, `cICP` and `pHYs`. A pixel is `cell_mm` wide.
 ///
 /// # Errors
-/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
-/// not finite.
+/// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are not
+/// finite.
 pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
     let (pixels, outside) = encoded(picture, eight_bits)?;
     let samples = pixels.values().as_flattened();
@@ -146,7 +146,7 @@ pub fn png16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError
 }
 
 /// Encodes red, green, blue and opacity in encoded sRGB, not premultiplied, with 16 bits per
-/// channel and the chunks of [`png8`]; a pixel is `cell_mm` wide.
+/// channel and the chunks of [`png8`]. A pixel is `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture and a pixel size out of range.
@@ -159,8 +159,8 @@ fn big_endian(samples: &[u16]) -> Vec<u8> {
     samples.iter().flat_map(|sample| sample.to_be_bytes()).collect()
 }
 
-/// Encodes plain numbers as a 16-bit grey channel without a colour space. `texts` are
-/// stored as (keyword, text); a pixel is `cell_mm` wide.
+/// Encodes plain numbers as a 16-bit grey channel without a colour space. `texts` are stored as
+/// (keyword, text). A pixel is `cell_mm` wide.
 pub fn grey16(
     values: &Field<u16>,
     cell_mm: f64,
@@ -227,9 +227,9 @@ pub struct Tiff {
     pub outside: usize,
 }
 
-/// Encodes linear sRGB (white at 1; the fourth value is ignored) as TIFF 6.0 with 16 bits per
-/// channel: the pixels of a 16-bit PNG, compressed without loss, with the ICC profile of sRGB
-/// and the resolution of pixels that are `cell_mm` wide.
+/// Encodes linear sRGB (white at 1, the fourth value is ignored) as TIFF 6.0 with 16 bits per
+/// channel: the pixels of a 16-bit PNG, compressed without loss, with the ICC profile of sRGB and
+/// the resolution of pixels that are `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture, a pixel size out of range, colours that are not finite,
@@ -264,7 +264,7 @@ fn srgb_profile() -> Result<Vec<u8>, ExportError> {
     let mut profile = ColorProfile::new_srgb();
     profile.cicp = None;
     let mut bytes = profile.encode().map_err(|error| failed(&error))?;
-    // The encoder writes the present time; the day on which sRGB was published stays the same.
+    // The encoder writes the present time. The day on which sRGB was published stays the same.
     let published: Vec<u8> =
         [1999_u16, 10, 18, 0, 0, 0].iter().flat_map(|n| n.to_be_bytes()).collect();
     bytes[MADE].copy_from_slice(&published);
@@ -280,11 +280,11 @@ fn failed(error: &dyn std::error::Error) -> ExportError {
 pub struct Srgb16 {
     /// Red, green and blue of every pixel, 0 to 65535.
     pub pixels: Field<[u16; 3]>,
-    /// Number of pixels outside the sRGB gamut; see [`Rgb::mapped_into_gamut`] for what they show.
+    /// Number of pixels outside the sRGB gamut. See [`Rgb::mapped_into_gamut`] for what they show.
     pub outside: usize,
 }
 
-/// Encodes linear sRGB (white at 1; the fourth value is ignored) with 16 bits per channel.
+/// Encodes linear sRGB (white at 1, the fourth value is ignored) with 16 bits per channel.
 ///
 /// # Errors
 /// [`ExportError::NotFinite`].

@@ -14,7 +14,9 @@ use super::ExportError;
 /// # Errors
 /// [`ExportError::Encoder`] if there are 2^31 vertices or more.
 pub fn ply(vertices: &[([f32; 3], [f32; 3])], faces: &[[u32; 3]]) -> Result<Vec<u8>, ExportError> {
-    let failed = |reason: String| ExportError::Encoder { format: "PLY", reason };
+    fn failed(reason: String) -> ExportError {
+        ExportError::Encoder { format: "PLY", reason }
+    }
     if i32::try_from(vertices.len()).is_err() {
         return Err(failed(format!("{} vertices are more than 2147483647", vertices.len())));
     }

@@ -53,12 +53,12 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Opens a folder of frames, creating it if needed. Frames rendered with other settings
-    /// are removed; no other file is touched.
+    /// Opens a folder of frames, creating it if needed. Frames rendered with other settings are
+    /// removed. No other file is touched.
     ///
     /// # Errors
-    /// [`SequenceError`] if a file cannot be read or written, if frames lack a manifest, or
-    /// if the manifest is invalid.
+    /// [`SequenceError`] if a file cannot be read or written, if frames lack a manifest, or if the
+    /// manifest is invalid.
     pub fn open(folder: &Path, settings: SequenceSettings) -> Result<Self, SequenceError> {
         fs::create_dir_all(folder).map_err(at(folder))?;
         let mut sequence = Self { folder: folder.to_owned(), settings, remaining: Vec::new() };
@@ -110,11 +110,11 @@ impl Sequence {
         Ok(())
     }
 
-    /// Makes the frames that remain by `picture`, in order, and writes them. Each is compressed
-    /// and written while the next one is made.
+    /// Makes the frames that remain by `picture`, in order, and writes them. Each is compressed and
+    /// written while the next one is made.
     ///
     /// # Errors
-    /// An error of `picture`, after the frames before it were written, or that of
+    /// An error of `picture`, after the frames before it were written, or an error of
     /// [`Self::write_frame`].
     pub fn write_frames<E: From<SequenceError>>(
         &mut self,
@@ -500,7 +500,9 @@ mod tests {
 
     #[test]
     fn formats_are_known_by_their_extension() {
-        let format = |name: &str| AnimationFormat::from_path(Path::new(name));
+        fn format(name: &str) -> Option<AnimationFormat> {
+            AnimationFormat::from_path(Path::new(name))
+        }
         assert_eq!(format("a.GIF"), Some(AnimationFormat::Gif));
         assert_eq!(format("a.png"), Some(AnimationFormat::Apng));
         assert_eq!(format("a.apng"), Some(AnimationFormat::Apng));

@@ -10,7 +10,7 @@ pub enum BackendChoice {
     Auto,
     /// The processor, never a graphics adapter.
     Cpu,
-    /// Any graphics adapter; hardware is preferred to software.
+    /// Any graphics adapter. Hardware is preferred to software.
     Gpu,
 }
 
@@ -25,7 +25,7 @@ pub enum Kind {
     Virtual,
     /// Hardware of a kind that the driver does not state.
     Other,
-    /// An emulation on the processor (such as lavapipe), for tests: slower than
+    /// An emulation on the processor (for example lavapipe), for tests: slower than
     /// [`BackendChoice::Cpu`].
     Software,
 }
@@ -123,8 +123,8 @@ fn unfit(limits: Limits, computes: bool) -> Option<String> {
     Some(format!("{} {} where {} are needed", lacking.1, lacking.0, lacking.2))
 }
 
-/// Every adapter of this machine, in order of preference; unfit ones come last. Empty if no
-/// driver is installed.
+/// Every adapter of this machine, in order of preference. Unfit ones come last. Empty if no driver
+/// is installed.
 #[must_use]
 pub fn adapters() -> Vec<Adapter> {
     // Excludes OpenGL, which another crate of the program may have enabled: kernels were

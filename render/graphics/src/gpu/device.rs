@@ -10,8 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::adapter::{Adapter, BackendChoice, DeviceError, adapters, best};
 use super::pipelines::{Pipeline, RasterPipeline, ScatterPipeline, StencilPipeline};
 
-/// Number of submissions that may be pending on the device; the next one waits for the
-/// oldest. Chosen by hand: few, so that memory is freed soon.
+/// Number of submissions that may be pending on the device. The next one waits for the oldest.
+/// Chosen by hand: few, so that memory is freed soon.
 const IN_FLIGHT: usize = 3;
 
 /// Number of the next buffer.
@@ -32,8 +32,8 @@ struct Reported {
     refused: Option<String>,
 }
 
-/// An open device. It executes submissions in their order; an error of one may be returned
-/// by a later call.
+/// An open device. It executes submissions in their order. An error of one may be returned by a
+/// later call.
 #[derive(Debug)]
 pub struct Device {
     adapter: Adapter,
@@ -118,8 +118,8 @@ impl Device {
         self.reported.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the first error that the driver has reported since the last call; `what` names
-    /// the current operation.
+    /// Returns the first error that the driver has reported since the last call. `what` names the
+    /// current operation.
     pub(super) fn check(&self, what: &str) -> Result<(), DeviceError> {
         let mut reported = self.reported();
         if let Some(reason) = reported.lost.clone() {
@@ -131,7 +131,7 @@ impl Device {
         }
     }
 
-    /// Checks that a buffer may have `bytes`; `what` names its content in the error.
+    /// Checks that a buffer may have `bytes`. `what` names its content in the error.
     ///
     /// # Errors
     /// [`DeviceError::TooLarge`] beyond the limit of the adapter.
@@ -143,11 +143,11 @@ impl Device {
         Ok(())
     }
 
-    /// Allocates a buffer of `bytes` zeros; `what` names its content in errors.
+    /// Allocates a buffer of `bytes` zeros. `what` names its content in errors.
     ///
     /// # Errors
-    /// [`DeviceError::TooLarge`] beyond the limit of the adapter,
-    /// [`DeviceError::OutOfMemory`] if the device has no memory left.
+    /// [`DeviceError::TooLarge`] beyond the limit of the adapter, [`DeviceError::OutOfMemory`] if
+    /// the device has no memory left.
     pub fn buffer(&self, what: &'static str, bytes: u64) -> Result<Buffer, DeviceError> {
         self.check_size(what, bytes)?;
         let usage = wgpu::BufferUsages::STORAGE
@@ -157,7 +157,7 @@ impl Device {
         self.allocate(what, bytes, usage)
     }
 
-    /// Runs `compile`, which creates a pipeline; `what` names it in the error.
+    /// Runs `compile`, which creates a pipeline. `what` names it in the error.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
@@ -203,7 +203,7 @@ impl Device {
     }
 
     /// Polls the driver, which frees memory no longer in use. wgpu panics if the device is lost
-    /// during a wait; the panic is caught here.
+    /// during a wait. The panic is caught here.
     fn poll(&self, how: wgpu::PollType) -> Result<(), DeviceError> {
         self.check("a submission")?;
         let polled = catch_unwind(AssertUnwindSafe(|| self.inner.poll(how)));
@@ -242,8 +242,8 @@ pub(super) fn one_line(error: &wgpu::Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Whether the system may have graphics hardware. Linux has a device node for it; without
-/// one no driver is loaded, since some drivers print to the terminal.
+/// Whether the system may have graphics hardware. Linux has a device node for it, without one no
+/// driver is loaded, since some drivers print to the terminal.
 fn hardware_is_possible() -> bool {
     const NODES: [&str; 5] = ["/dev/dri", "/dev/nvidiactl", "/dev/dxg", "/dev/kfd", "/dev/mali0"];
     !cfg!(target_os = "linux") || NODES.iter().any(|node| Path::new(node).exists())

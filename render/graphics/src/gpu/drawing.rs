@@ -76,8 +76,8 @@ impl Device {
     }
 }
 
-/// Copies the target into a buffer without gaps between rows. WebGPU copies several rows at
-/// once only if each has a multiple of 256 bytes; others are copied one by one.
+/// Copies the target into a buffer without gaps between rows. WebGPU copies several rows at once
+/// only if each has a multiple of 256 bytes. Others are copied one by one.
 fn copy_texels(encoder: &mut wgpu::CommandEncoder, Draw { target, into, .. }: &Draw) {
     let row_bytes = target.width * TEXEL_BYTES;
     let at_once = match row_bytes % wgpu::COPY_BYTES_PER_ROW_ALIGNMENT {
@@ -189,7 +189,7 @@ impl Device {
             (&parameters.inner, shader.parameters.bytes),
             faces.buffers.iter().map(|buffer| &buffer.inner),
         );
-        // A pass needs a picture; this one is neither read nor written.
+        // A pass needs a picture. This one is neither read nor written.
         let mut pass = begin_pass(encoder, shader.name, target, (None, None));
         pass.set_pipeline(&pipeline.render);
         draw_list(&mut pass, faces, &group);

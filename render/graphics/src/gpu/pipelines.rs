@@ -6,8 +6,8 @@
 
 use std::num::NonZero;
 
-/// Name, size and field offsets of a struct in Rust; a test compares them with the WGSL struct
-/// of the same name.
+/// Name, size and field offsets of a struct in Rust. A test compares them with the WGSL struct of
+/// the same name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
     /// Name of the struct, equal in both languages.
@@ -18,8 +18,8 @@ pub struct Layout {
     pub fields: &'static [(&'static str, usize)],
 }
 
-/// The [`Layout`] of a `repr(C)` struct. All its fields must be listed, in any order;
-/// otherwise it does not compile.
+/// The [`Layout`] of a `repr(C)` struct. All its fields must be listed, in any order, otherwise it
+/// does not compile.
 #[macro_export]
 macro_rules! layout {
     ($type:ident { $($field:ident),* $(,)? }) => {{
@@ -52,7 +52,7 @@ pub enum Storage {
 /// and its storage buffers from 1 on, in order.
 #[derive(Debug)]
 pub struct Kernel {
-    /// Name of the entry point, also used in errors; unique among all shaders.
+    /// Name of the entry point, also used in errors, unique among all shaders.
     pub name: &'static str,
     /// The complete WGSL source, parts concatenated.
     pub source: &'static str,
@@ -70,13 +70,12 @@ pub fn groups(cells: usize) -> u32 {
     (cells as u32).div_ceil(GROUP)
 }
 
-/// A shader that draws triangles. Its vertex entry point `corner` takes only the index of a
-/// corner (three per triangle); its fragment entry point `pixel` returns the four numbers of
-/// a pixel. Group 0 binds its parameters at 0 and the buffers that it reads from 1 on, in
-/// order.
+/// A shader that draws triangles. Its vertex entry point `corner` takes only the index of a corner
+/// (three per triangle). Its fragment entry point `pixel` returns the four numbers of a pixel.
+/// Group 0 binds its parameters at 0 and the buffers that it reads from 1 on, in order.
 #[derive(Debug)]
 pub struct RasterShader {
-    /// Name used in errors; unique among all shaders and kernels.
+    /// Name used in errors, unique among all shaders and kernels.
     pub name: &'static str,
     /// The complete WGSL source, parts concatenated.
     pub source: &'static str,
@@ -93,7 +92,7 @@ pub struct RasterShader {
 /// parameters at 0 and the buffers that it reads from 1 on, in order.
 #[derive(Debug)]
 pub struct StencilShader {
-    /// Name used in errors; unique among all shaders and kernels.
+    /// Name used in errors, unique among all shaders and kernels.
     pub name: &'static str,
     /// The complete WGSL source, parts concatenated.
     pub source: &'static str,
@@ -103,12 +102,12 @@ pub struct StencilShader {
     pub buffers: usize,
 }
 
-/// A shader that draws both sides of triangles, whose fragment entry point `pixel` returns
-/// nothing and adds to a storage buffer. Otherwise as [`StencilShader`]; the buffer that it
-/// writes comes last, and only the fragment stage may use it.
+/// A shader that draws both sides of triangles. Its fragment entry point `pixel` returns nothing
+/// and adds to a storage buffer. Otherwise as [`StencilShader`]. The buffer that it writes comes
+/// last, and only the fragment stage may use it.
 #[derive(Debug)]
 pub struct ScatterShader {
-    /// Name used in errors; unique among all shaders and kernels.
+    /// Name used in errors, unique among all shaders and kernels.
     pub name: &'static str,
     /// The complete WGSL source, parts concatenated.
     pub source: &'static str,

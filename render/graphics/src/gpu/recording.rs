@@ -64,7 +64,7 @@ pub(super) struct List {
 #[derive(Debug)]
 pub(super) struct StencilDraw {
     pub(super) shader: &'static StencilShader,
-    /// The scene whose depth is drawn before; none to keep the depth of the target.
+    /// The scene that gives the depth, drawn first, none to keep the depth of the target.
     pub(super) scene: Option<List>,
     pub(super) faces: List,
     pub(super) target: StencilTarget,
@@ -94,7 +94,7 @@ pub struct TriangleList<'a, P> {
 pub struct Triangles {
     /// Number of triangles.
     pub count: usize,
-    /// Culls triangles whose corners run clockwise in the picture.
+    /// Culls triangles with corners that run clockwise in the picture.
     pub front_only: bool,
     /// The four numbers of a pixel without a triangle.
     pub background: [u32; 4],
@@ -125,11 +125,11 @@ impl Recording {
         first as u32
     }
 
-    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z); 0 in any
+    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z), 0 in any
     /// direction records nothing.
     ///
     /// # Panics
-    /// If the size of `parameters` is not that of the kernel's parameters.
+    /// If `parameters` has not the size of the kernel's parameters.
     pub fn dispatch<P: bytemuck::Pod>(
         &mut self,
         kernel: &'static Kernel,
@@ -146,12 +146,12 @@ impl Recording {
         self.commands.push(Command::Dispatch { kernel, buffers, parameters, groups });
     }
 
-    /// Records a draw of triangles over the whole `target`; of equal depths the first triangle
+    /// Records a draw of triangles over the whole `target`. Of equal depths the first triangle
     /// wins. Then copies the four numbers of every pixel to `into`, row by row without gaps.
     ///
     /// # Panics
-    /// If the size of `parameters` or the number of buffers is not that of the shader, or
-    /// there are more than 2^32 corners.
+    /// If the shader needs another size of `parameters` or another number of buffers, or there are
+    /// more than 2^32 corners.
     pub fn draw<P: bytemuck::Pod>(
         &mut self,
         shader: &'static RasterShader,
@@ -177,14 +177,14 @@ impl Recording {
         })));
     }
 
-    /// Records the counting of faces in the stencil of `target`, which starts at 0: back faces
-    /// that are not before the depth of the target add 1, such front faces subtract 1, and it
-    /// wraps at 256. With a `scene`, its depth is drawn first; otherwise the target keeps the
-    /// depth of the last one. Then copies the stencil to [`StencilTarget::rows`].
+    /// Records the counting of faces in the stencil of `target`, which starts at 0: back faces that
+    /// are not before the depth of the target add 1, such front faces subtract 1, and it wraps at
+    /// 256. With a `scene`, its depth is drawn first, otherwise the target keeps the depth of the
+    /// last one. Then copies the stencil to [`StencilTarget::rows`].
     ///
     /// # Panics
-    /// If the size of the parameters or the number of buffers is not that of the shader, or
-    /// there are more than 2^32 corners.
+    /// If the shader needs another size of the parameters or another number of buffers, or there
+    /// are more than 2^32 corners.
     pub fn count_faces<P: bytemuck::Pod>(
         &mut self,
         shader: &'static StencilShader,
@@ -204,12 +204,12 @@ impl Recording {
         })));
     }
 
-    /// Records a draw of both sides of faces, whose shader adds to its last buffer at their
-    /// pixels in a picture of the size of `target`; the target itself is left as it is.
+    /// Records a draw of both sides of faces, whose shader adds to its last buffer at their pixels
+    /// in a picture of the size of `target`. The target itself is left as it is.
     ///
     /// # Panics
-    /// If the size of the parameters or the number of buffers is not that of the shader, or
-    /// there are more than 2^32 corners.
+    /// If the shader needs another size of the parameters or another number of buffers, or there
+    /// are more than 2^32 corners.
     pub fn scatter<P: bytemuck::Pod>(
         &mut self,
         shader: &'static ScatterShader,
@@ -276,8 +276,8 @@ impl Recording {
 type BindGroupKey = (&'static str, Vec<u64>);
 
 impl Device {
-    /// Compiles `kernel` unless that was done before. [`Self::submit`] calls this for each
-    /// kernel; an earlier call keeps the compilation out of the first submission.
+    /// Compiles `kernel` unless that was done before. [`Self::submit`] calls this for each kernel.
+    /// An earlier call keeps the compilation out of the first submission.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the kernel.

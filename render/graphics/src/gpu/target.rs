@@ -125,9 +125,9 @@ impl Device {
     /// Allocates depth and stencil of `width` x `height` pixels.
     ///
     /// # Errors
-    /// [`DeviceError::Refused`] if a side is 0 or beyond the limit of the adapter, or the
-    /// adapter has no stencil that can be read back; [`DeviceError::OutOfMemory`] if the
-    /// device has no memory left.
+    /// [`DeviceError::Refused`] if a side is 0 or beyond the limit of the adapter, or the adapter
+    /// has no stencil that can be read back, [`DeviceError::OutOfMemory`] if the device has no
+    /// memory left.
     pub fn stencil_target(
         &self,
         width: usize,
@@ -189,7 +189,7 @@ pub(super) const CHUNK: u64 = 64 << 20;
 pub struct Rows {
     /// Offset of the first row.
     pub first: usize,
-    /// Distance from the start of one row to that of the next.
+    /// Distance between the starts of two neighbouring rows.
     pub stride: usize,
     /// Number of values per row.
     pub length: usize,
@@ -228,12 +228,11 @@ impl Rows {
 }
 
 impl Device {
-    /// Allocates a buffer that holds `values`; `what` names them in errors.
+    /// Allocates a buffer that holds `values`. `what` names them in errors.
     ///
     /// # Errors
-    /// [`DeviceError::TooLarge`] beyond the limit of the adapter,
-    /// [`DeviceError::OutOfMemory`] if the device has no memory left, [`DeviceError::Lost`]
-    /// if it was lost.
+    /// [`DeviceError::TooLarge`] beyond the limit of the adapter, [`DeviceError::OutOfMemory`] if
+    /// the device has no memory left, [`DeviceError::Lost`] if it was lost.
     pub fn buffer_of<T: bytemuck::Pod>(
         &mut self,
         what: &'static str,
@@ -303,7 +302,9 @@ impl Device {
                 let _ = sender.send(mapped.is_ok());
             });
             self.wait(index)?;
-            let lost = || DeviceError::Lost { reason: "its memory cannot be read".to_owned() };
+            fn lost() -> DeviceError {
+                DeviceError::Lost { reason: "its memory cannot be read".to_owned() }
+            }
             if !receiver.try_recv().unwrap_or(false) {
                 return Err(lost());
             }

@@ -58,7 +58,7 @@ impl Mesh {
     ///
     /// Vertices with the same position count as one, so seams do not show. The normals are the
     /// mesh's own, averaged with their neighbours `rounds` times: 0 for a fine model, 1 to 3 for
-    /// one whose facets or roughness show. Every number is finite for a mesh that passes
+    /// one with visible facets or roughness. Every number is finite for a mesh that passes
     /// [`Mesh::check`].
     ///
     /// # Panics
@@ -104,7 +104,7 @@ pub(super) struct ShapeTensor {
 pub(super) struct PlaceShape {
     /// Mean of the tensors of its triangles, weighted by their areas around the place.
     pub(super) tensor: ShapeTensor,
-    /// Area of the surface that belongs to the place; 0 if no triangle with area meets there.
+    /// Area of the surface that belongs to the place, 0 if no triangle with area meets there.
     pub(super) area: f64,
 }
 
@@ -264,7 +264,7 @@ impl TangentPlane {
         Self { normal, right, up }
     }
 
-    /// The plane seen from its other side; the first axis stays.
+    /// The plane seen from its other side. The first axis stays.
     pub(super) fn reversed(&self) -> Self {
         Self { normal: -self.normal, right: self.right, up: -self.up }
     }
@@ -274,7 +274,7 @@ impl TangentPlane {
         DVec2::new(vector.dot(self.right), vector.dot(self.up))
     }
 
-    /// Unit vector along a line that is given by its square of any length but 0; the sign is
+    /// Unit vector along a line that is given by its square of any length but 0. The sign is
     /// arbitrary.
     pub(super) fn along(&self, squared: DVec2) -> DVec3 {
         let root = square_root(squared);
@@ -297,7 +297,7 @@ pub(super) fn carried(vector: DVec3, from: DVec3, to: DVec3) -> Option<DVec3> {
     (opening > LEAST_OPENING).then(|| vector - (from + to) * (to.dot(vector) / opening))
 }
 
-/// Complex square root of a number of any length but 0, as a unit vector; 1 for 0.
+/// Complex square root of a number of any length but 0, as a unit vector, 1 for 0.
 fn square_root(squared: DVec2) -> DVec2 {
     let unit = squared.normalize_or(DVec2::X);
     // Each form loses digits on the other side.
@@ -310,7 +310,7 @@ fn square_root(squared: DVec2) -> DVec2 {
     }
 }
 
-/// Sum of unit normals, relative to that of their weights, below which they cancel out (a sheet
+/// Sum of unit normals, relative to the sum of their weights, below which they cancel out (a sheet
 /// with two sides): then one of them is taken.
 const LEAST_SUM: f64 = 1e-3;
 
@@ -336,7 +336,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// The places of a mesh; every normal is averaged `rounds` times with the mean of its
+    /// The places of a mesh. Every normal is averaged `rounds` times with the mean of its
     /// neighbours.
     pub(super) fn of(mesh: &Mesh, rounds: usize) -> Self {
         let (of_vertex, count) = mesh.weld();
@@ -356,8 +356,8 @@ impl Places {
     }
 
     /// Root mean square distance of the surface from its centre, weighted by area (the radius of a
-    /// sphere); 0 for a surface without area. Unlike a bounding box it does not change when
-    /// the model is turned.
+    /// sphere), 0 for a surface without area. Unlike a bounding box it does not change when the
+    /// model is turned.
     pub(super) fn radius(&self) -> f64 {
         let corners = self.triangles.iter().map(|corners| {
             let at = corners.map(|corner| self.positions[corner as usize]);
@@ -375,11 +375,11 @@ impl Places {
     }
 }
 
-/// One unit normal for every place: those of its vertices, each weighted over its triangles by the
-/// sine of the angle over the lengths of both edges (Max, "Weights for computing vertex normals
-/// from facet normals", 1999), so that neither seams nor the cut into triangles shift it. A vertex
-/// without a normal has that of the triangle; a place without triangles has the mean of its
-/// vertices' normals, or +y.
+/// One unit normal for every place: the sum of its vertices' normals, each weighted over its
+/// triangles by the sine of the angle over the lengths of both edges (Max, "Weights for computing
+/// vertex normals from facet normals", 1999), so that neither seams nor the cut into triangles
+/// shift it. A vertex without a normal has the triangle's. A place without triangles has the mean
+/// of its vertices' normals, or +y.
 fn joined_normals(mesh: &Mesh, of_vertex: &[u32], positions: &[DVec3]) -> Vec<DVec3> {
     let normal_of = |vertex: usize| DVec3::from(mesh.normals[vertex].map(f64::from));
     let mut any = vec![DVec3::ZERO; positions.len()];

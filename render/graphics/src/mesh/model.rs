@@ -14,19 +14,19 @@ use rayon::prelude::*;
 /// A triangle mesh. All per-vertex lists have the same length.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
-    /// Vertex positions in the model's own unit; y points up.
+    /// Vertex positions in the model's own unit, y points up.
     pub positions: Vec<[f32; 3]>,
     /// Outward unit normals, one per vertex.
     pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates per vertex as in glTF: (0, 0) is the upper left corner of the
-    /// texture, (1, 1) the lower right; textures repeat.
+    /// Texture coordinates per vertex as in glTF: (0, 0) is the upper left corner of the texture,
+    /// (1, 1) the lower right. Textures repeat.
     pub texture_coordinates: Vec<[f32; 2]>,
-    /// Vertex colours, encoded sRGB in 0..1, which multiply the material's colour; white
-    /// where a file has none.
+    /// Vertex colours, encoded sRGB in 0..1, which multiply the material's colour. White where a
+    /// file has none.
     pub colors: Vec<[f32; 3]>,
     /// Triangles, wound counter-clockwise seen from outside.
     pub triangles: Vec<Triangle>,
-    /// Materials; at least one if there are triangles.
+    /// Materials, at least one if there are triangles.
     pub materials: Vec<Material>,
 }
 
@@ -43,7 +43,7 @@ pub struct Triangle {
 /// Colour of a surface: a base colour, optionally times a texture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Name in the file; empty where it has none. Several materials may share one.
+    /// Name in the file, empty where it has none. Several materials may share one.
     pub name: String,
     /// Base colour, encoded sRGB in 0..1.
     pub color: [f32; 3],
@@ -56,7 +56,7 @@ pub struct Material {
 pub struct Texture {
     /// Width in texels.
     pub width: u32,
-    /// Height in texels; row 0 is the top.
+    /// Height in texels. Row 0 is the top.
     pub height: u32,
     /// Texels row by row, encoded sRGB with opacity, packed as `0xAABBGGRR` (red in the
     /// lowest byte).
@@ -64,13 +64,13 @@ pub struct Texture {
 }
 
 impl Material {
-    /// A material without name and texture; `color` is encoded sRGB in 0..1.
+    /// A material without name and texture. `color` is encoded sRGB in 0..1.
     #[must_use]
     pub fn plain(color: [f32; 3]) -> Self {
         Self::named("", color)
     }
 
-    /// A material without texture; `color` is encoded sRGB in 0..1.
+    /// A material without texture. `color` is encoded sRGB in 0..1.
     #[must_use]
     pub fn named(name: &str, color: [f32; 3]) -> Self {
         Self { name: name.to_owned(), color, texture: None }
@@ -78,7 +78,7 @@ impl Material {
 }
 
 impl Mesh {
-    /// Lowest and highest corner of the axis-aligned bounding box; zeros for a mesh without
+    /// Lowest and highest corner of the axis-aligned bounding box, zeros for a mesh without
     /// vertices.
     #[must_use]
     pub fn bounds(&self) -> [Vec3; 2] {
@@ -259,8 +259,10 @@ impl Mesh {
         let mut edges: Vec<[u32; 3]> = Vec::with_capacity(3 * self.triangles.len());
         for triangle in &self.triangles {
             let [a, b, c] = triangle.corners.map(|corner| welded[corner as usize]);
-            // Lower vertex first; the third entry is the direction of travel.
-            let edge = |from: u32, to: u32| [from.min(to), from.max(to), u32::from(from < to)];
+            // Lower vertex first. The third entry is the direction of travel.
+            fn edge(from: u32, to: u32) -> [u32; 3] {
+                [from.min(to), from.max(to), u32::from(from < to)]
+            }
             edges.extend([edge(a, b), edge(b, c), edge(c, a)].into_iter().filter(|e| e[0] != e[1]));
         }
         edges.par_sort_unstable();
@@ -270,7 +272,7 @@ impl Mesh {
         balanced && self.volume() > 0.0
     }
 
-    /// Six times the enclosed volume; negative if the mesh is inside out.
+    /// Six times the enclosed volume, negative if the mesh is inside out.
     fn volume(&self) -> f64 {
         let first = self.positions.first().copied().unwrap_or_default().map(f64::from);
         let volumes = self.triangles.iter().map(|triangle| {
@@ -287,10 +289,9 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// Computes a normal for every vertex from the adjacent triangles, weighted by the angle
-    /// at the vertex (Thuermer and Wuethrich, "Computing vertex normals from polygonal
-    /// facets", 1998). Vertices with the same position get the same normal; a vertex without
-    /// triangles gets +y.
+    /// Computes a normal for every vertex from the adjacent triangles, weighted by the angle at the
+    /// vertex (Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998).
+    /// Vertices with the same position get the same normal. A vertex without triangles gets +y.
     #[must_use]
     pub fn vertex_normals(&self) -> Vec<[f32; 3]> {
         let (welded, count) = self.weld();
@@ -347,10 +348,10 @@ impl Mesh {
 
 impl Mesh {
     /// For every triangle whether the connected part of the mesh that it belongs to is watertight
-    /// and oriented outwards, as [`Self::is_closed`] tells of a whole mesh.
+    /// and oriented outwards, as [`Self::is_closed`] reports for a whole mesh.
     ///
     /// # Panics
-    /// If a triangle has a vertex that does not exist; [`Mesh::check`] finds that.
+    /// If a triangle has a vertex that does not exist. [`Mesh::check`] finds that.
     #[must_use]
     pub fn closed_parts(&self) -> Vec<bool> {
         let (welded, count) = self.weld();
@@ -361,8 +362,10 @@ impl Mesh {
         let mut open = vec![false; parts];
         let mut edges: Vec<[u32; 3]> = Vec::with_capacity(3 * triangles.len());
         for [a, b, c] in &triangles {
-            // Lower place first; the third entry is the direction of travel.
-            let edge = |from: u32, to: u32| [from.min(to), from.max(to), u32::from(from < to)];
+            // Lower place first. The third entry is the direction of travel.
+            fn edge(from: u32, to: u32) -> [u32; 3] {
+                [from.min(to), from.max(to), u32::from(from < to)]
+            }
             let all = [edge(*a, *b), edge(*b, *c), edge(*c, *a)];
             edges.extend(all.into_iter().filter(|edge| edge[0] != edge[1]));
         }
@@ -414,7 +417,7 @@ pub(super) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Joins the corners of every triangle; the corners are numbers below `count`.
+    /// Joins the corners of every triangle. The corners are numbers below `count`.
     pub(super) fn of_triangles(triangles: impl Iterator<Item = [u32; 3]>, count: usize) -> Self {
         let mut edges: Vec<[u32; 2]> = Vec::with_capacity(6 * triangles.size_hint().0);
         for [a, b, c] in triangles {

@@ -9,12 +9,12 @@ use crate::compute::{ColorImage, Compute, GpuCompute, Image, Plane, assert_size}
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// The extremum of each channel under `element`, which is centred on each pixel in turn.
-/// Pixels outside the picture are ignored. The memory of `spare`, an image of the same
-/// size that is not needed any more, may be used for the result.
+/// The extremum of each channel under `element`, which is centred on each pixel in turn. Pixels
+/// outside the picture are ignored. The memory of `spare`, an image of the same size that is not
+/// needed any more, may be used for the result.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If `spare` has another size, or another form of [`Compute`] made an image.
@@ -107,11 +107,11 @@ fn extremum_on_gpu(
     Ok(current)
 }
 
-/// Removes light details that a round element of `radius_px` does not fit into; a radius
-/// of 0 changes nothing. No pixel becomes lighter, and a second opening changes nothing.
+/// Removes light details that a round element of `radius_px` does not fit into. A radius of 0
+/// changes nothing. No pixel becomes lighter, and a second opening changes nothing.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made the image.
@@ -125,11 +125,11 @@ pub fn opening(
     extremum(compute, &eroded, element, Extremum::Maximum, None)
 }
 
-/// Removes dark details that a round element of `radius_px` does not fit into; a radius of
-/// 0 changes nothing. No pixel becomes darker, and a second closing changes nothing.
+/// Removes dark details that a round element of `radius_px` does not fit into. A radius of 0
+/// changes nothing. No pixel becomes darker, and a second closing changes nothing.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made the image.
@@ -146,7 +146,7 @@ pub fn closing(
 /// An [`opening`] followed by a [`closing`], in three passes rather than four.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made the image.
@@ -267,8 +267,8 @@ impl Tile {
         Self { width, height, reach, stride, first: reach - square, gathers }
     }
 
-    /// Copies the part of the picture at `(left, top)` with its margin into `cells`; cells
-    /// outside the picture get a value that never is the extremum.
+    /// Copies the part of the picture at `(left, top)` with its margin into `cells`. Cells outside
+    /// the picture get a value that never is the extremum.
     fn load(
         &self,
         field: &Field<[f32; 4]>,

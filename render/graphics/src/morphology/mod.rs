@@ -84,9 +84,9 @@ impl StructuringElement {
         beyond(x) + beyond(y) <= self.diamond
     }
 
-    /// Number of crosses of 5 pixels that the element is composed of. The sum of two
-    /// diagonals has only every other pixel of a diamond; the square fills the rest, and
-    /// where there is none, crosses do.
+    /// Number of crosses of 5 pixels that the element is composed of. The sum of two diagonals has
+    /// only every other pixel of a diamond. The square fills the rest, and where there is none,
+    /// crosses do.
     fn crosses(self) -> u32 {
         match (self.diamond % 2, self.square, self.diamond) {
             (1, _, _) => 1,
@@ -95,7 +95,7 @@ impl StructuringElement {
         }
     }
 
-    /// The element as a Minkowski sum of crosses and segments; at least one.
+    /// The element as a Minkowski sum of crosses and segments, at least one.
     fn crossings(self) -> Vec<Crossing> {
         let segment =
             |along, reach_along| Crossing { along, across: [0, 0], reach_along, reach_across: 0 };

@@ -31,8 +31,8 @@ pub(super) struct Bandwidth {
 /// Largest number of f32 lanes in a vector of any machine.
 pub(super) const MOST_LANES: usize = 16;
 
-/// A point of the joint domain, such as a pixel or a mode, or the difference of two points.
-/// `x` and `y` are in pixels.
+/// A point of the joint domain, for example a pixel or a mode, or the difference of two points. `x`
+/// and `y` are in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Mode {
     pub(super) x: f32,
@@ -124,7 +124,7 @@ const MOST_STEPS: usize = 100;
 /// Width and height of a tile in pixels.
 const TILE: usize = 64;
 
-/// The mode of every pixel. `meeting` is usually [`MEETING`]; with 0 no path joins another.
+/// The mode of every pixel. `meeting` is usually [`MEETING`], with 0 no path joins another.
 pub(super) fn modes(planes: &LuvPlanes, bandwidth: Bandwidth, meeting: f32) -> Field<Mode> {
     let width = planes.width;
     let height = planes.height;
@@ -229,7 +229,7 @@ fn squared([l, u, v]: [f32; 3]) -> f32 {
 /// L* of cells outside the picture, so far from every colour that no window contains them.
 const NOWHERE: f32 = 1e6;
 
-/// L*, u* and v* relative to the white of sRGB; each is a plane with a margin on all sides.
+/// L*, u* and v* relative to the white of sRGB. Each is a plane with a margin on all sides.
 pub(super) struct LuvPlanes {
     pub(super) width: usize,
     pub(super) height: usize,
@@ -277,7 +277,7 @@ const STEPS: usize = 4096;
 
 /// Conversion of encoded sRGB to CIELUV, within 1e-3 of the conversion in f64 (tested).
 struct LuvOfSrgb {
-    /// Linear light at equal steps of the encoded value, 0 to 1; the last entry is repeated.
+    /// Linear light at equal steps of the encoded value, 0 to 1. The last entry is repeated.
     linear: Vec<f32>,
     /// Matrix from linear sRGB to X, Y, Z, scaled so that white has Y = 1.
     xyz: [[f32; 3]; 3],
@@ -287,12 +287,13 @@ struct LuvOfSrgb {
 
 impl LuvOfSrgb {
     fn new() -> Self {
-        let decoded = |step: usize| Rgb([step.min(STEPS) as f64 / STEPS as f64; 3]).linear().0[0];
         let xyz = RgbSpace::Srgb.xyz_from_linear().0.map(|row| row.map(|x| (x / 100.0) as f32));
         let white = RgbSpace::Srgb.white();
         let sum = white.x + 15.0 * white.y + 3.0 * white.z;
         Self {
-            linear: (0..=STEPS + 1).map(|step| decoded(step) as f32).collect(),
+            linear: (0..=STEPS + 1)
+                .map(|step| Rgb([step.min(STEPS) as f64 / STEPS as f64; 3]).linear().0[0] as f32)
+                .collect(),
             xyz,
             white: [4.0 * white.x / sum, 9.0 * white.y / sum].map(|x| x as f32),
         }
@@ -362,8 +363,8 @@ mod tests {
                 squared([0, 1, 2].map(|i| a.color[i] - b.color[i])).sqrt() / BANDWIDTH.range
             })
             .collect();
-        let beyond = |limit: f32| off.iter().filter(|&&off| off > limit).count();
-        let share = |limit: f32| beyond(limit) as f32 / off.len() as f32;
+        let share =
+            |limit: f32| off.iter().filter(|&&off| off > limit).count() as f32 / off.len() as f32;
         assert!(share(0.5) < 0.01, "{}", share(0.5));
         assert!(share(0.1) < 0.05, "{}", share(0.1));
         assert!(met != walked, "no path met another");
@@ -398,7 +399,9 @@ mod tests {
         let cases: Vec<Case> = serde_json::from_value(golden["cases"]["modes"].clone()).unwrap();
         assert_eq!(cases.len(), 3);
         for case in cases {
-            let pixel = |rgb: &[u8]| [rgb[0], rgb[1], rgb[2], 255].map(|b| f32::from(b) / 255.0);
+            fn pixel(rgb: &[u8]) -> [f32; 4] {
+                [rgb[0], rgb[1], rgb[2], 255].map(|b| f32::from(b) / 255.0)
+            }
             let pixels: Vec<_> = case.bytes.chunks_exact(3).map(pixel).collect();
             let height = pixels.len() / case.width;
             let picture = Field::from_values(case.width, height, pixels);

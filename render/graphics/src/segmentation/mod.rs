@@ -19,15 +19,15 @@ use regions::{RegionGraph, cut, join_alike, join_small, linked};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentationSettings {
     /// Radius of the window in the picture, in pixels: 1 to
-    /// [`SegmentationSettings::MAX_SPATIAL_PX`]. Larger details stay; the time is proportional
-    /// to its square.
+    /// [`SegmentationSettings::MAX_SPATIAL_PX`]. Larger details stay. The time is proportional to
+    /// its square.
     pub spatial_radius_px: f32,
     /// Radius of the window in colour, a difference in CIELUV above 0 (black and white differ
     /// by 100). Smaller contrasts are flattened.
     pub range_radius: f32,
     /// Area in pixels below which a region is merged into a neighbour.
     pub least_region_px: u32,
-    /// Step in CIELUV by which smooth gradients are divided into tones, 0 and up; 0 divides
+    /// Step in CIELUV by which smooth gradients are divided into tones, 0 and up, 0 divides
     /// nothing.
     pub tone_step: f32,
 }
@@ -72,13 +72,12 @@ impl Segmentation {
 
 /// Regions of `picture`, which is encoded sRGB with coverage.
 ///
-/// Pixels whose modes are close are linked; regions that are too small are merged into a
-/// neighbour; then neighbours whose mean modes are within the range radius are merged, the
-/// nearest first. Smooth gradients are divided into tones if
-/// [`SegmentationSettings::tone_step`] is above 0.
+/// Pixels with close modes are linked. Regions that are too small are merged into a neighbour, then
+/// neighbours with mean modes within the range radius are merged, the nearest first. Smooth
+/// gradients are divided into tones if [`SegmentationSettings::tone_step`] is above 0.
 ///
-/// Bare paper (coverage below 1/2) counts as white and never shares a region with paint,
-/// unless one of them is too small. The result does not depend on the number of threads.
+/// Bare paper (coverage below 1/2) counts as white and never shares a region with paint, unless one
+/// of them is too small. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`SegmentationError`] if a setting is out of its range.
@@ -110,7 +109,7 @@ pub fn segment(
     Ok(Segmentation { labels, colors })
 }
 
-/// The mean of every region, weighted by coverage; white if its coverage is 0.
+/// The mean of every region, weighted by coverage, white if its coverage is 0.
 fn means(picture: &Field<[f32; 4]>, labels: &Field<u32>, count: usize) -> Vec<[f32; 4]> {
     let mut sums = vec![([0.0f64; 4], 0u32); count];
     for (&label, &[r, g, b, coverage]) in labels.values().iter().zip(picture.values()) {

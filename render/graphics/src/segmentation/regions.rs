@@ -68,10 +68,10 @@ pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usi
 /// divides needlessly is merged again later.
 const LINK: f32 = 0.5;
 
-/// Labels every pixel with its region. Returns the labels with the number of regions.
-/// Neighbours in a row or column are linked if their modes are within the spatial radius and
-/// half the range radius of each other, and both are `painted` or both bare; regions are the
-/// connected components (Comaniciu and Meer 2002, section 4.2, step 2).
+/// Labels every pixel with its region. Returns the labels with the number of regions. Neighbours in
+/// a row or column are linked if their modes are within the spatial radius and half the range
+/// radius of each other, and both are `painted` or both bare. Regions are the connected components
+/// (Comaniciu and Meer 2002, section 4.2, step 2).
 pub(super) fn linked(
     modes: &Field<Mode>,
     painted: impl Fn(usize) -> bool,
@@ -122,7 +122,7 @@ struct Weight {
 /// The regions of a picture. A merged region keeps the smallest label of its parts.
 pub(super) struct RegionGraph {
     weights: Vec<Weight>,
-    /// Labels of the neighbours of each region; some may have been merged since.
+    /// Labels of the neighbours of each region. Some may have been merged since.
     neighbours: Vec<Vec<u32>>,
     sets: Sets,
 }
@@ -152,7 +152,7 @@ impl RegionGraph {
         self.weights.len()
     }
 
-    /// Number of pixels of a region; 0 if it was merged into another.
+    /// Number of pixels of a region, 0 if it was merged into another.
     pub(super) fn pixels(&self, region: u32) -> u32 {
         self.weights[region as usize].pixels
     }
@@ -162,7 +162,9 @@ impl RegionGraph {
     pub(super) fn apart(&self, one: u32, other: u32) -> f64 {
         const PAPER: f64 = 1e4;
         let [one, other] = [one, other].map(|region| &self.weights[region as usize]);
-        let mean = |sum: f64, of: &Weight| sum / f64::from(of.pixels);
+        fn mean(sum: f64, of: &Weight) -> f64 {
+            sum / f64::from(of.pixels)
+        }
         let off = |i: usize| mean(one.colors[i], one) - mean(other.colors[i], other);
         let paper = PAPER * (mean(one.painted.into(), one) - mean(other.painted.into(), other));
         (off(0).powi(2) + off(1).powi(2) + off(2).powi(2) + paper.powi(2)).sqrt()
@@ -199,7 +201,7 @@ impl RegionGraph {
         whole
     }
 
-    /// Replaces `labels` by those of the merged regions, numbered without gaps. Returns the
+    /// Replaces `labels` by the labels of the merged regions, numbered without gaps. Returns the
     /// number of regions.
     pub(super) fn relabel(mut self, labels: &mut Field<u32>) -> usize {
         numbered(&mut self.sets, labels.values_mut(), self.weights.len())
@@ -209,14 +211,16 @@ impl RegionGraph {
 /// The neighbours of each region, by rising label.
 fn neighbours(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     let rows: Vec<&[u32]> = labels.values().chunks_exact(labels.width()).collect();
-    let along = |y: usize| {
-        let row = rows[y];
-        let below = rows.get(y + 1).copied().unwrap_or(row);
-        let beside = row.iter().zip(&row[1..]).chain(row.iter().zip(below));
-        let apart = beside.filter(|(a, b)| a != b);
-        apart.map(|(&a, &b)| (u64::from(a.min(b)) << 32) | u64::from(a.max(b)))
-    };
-    let mut pairs: Vec<u64> = (0..rows.len()).into_par_iter().flat_map_iter(along).collect();
+    let mut pairs: Vec<u64> = (0..rows.len())
+        .into_par_iter()
+        .flat_map_iter(|y: usize| {
+            let row = rows[y];
+            let below = rows.get(y + 1).copied().unwrap_or(row);
+            let beside = row.iter().zip(&row[1..]).chain(row.iter().zip(below));
+            let apart = beside.filter(|(a, b)| a != b);
+            apart.map(|(&a, &b)| (u64::from(a.min(b)) << 32) | u64::from(a.max(b)))
+        })
+        .collect();
     pairs.par_sort_unstable();
     pairs.dedup();
     let mut neighbours = vec![Vec::new(); count];
@@ -229,9 +233,9 @@ fn neighbours(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     neighbours
 }
 
-/// Merges each region of fewer than `least_px` pixels into the neighbour whose mean mode is
-/// nearest in colour, the smallest region first, until none is left or there is one region.
-/// Ties go to the smallest label.
+/// Merges each region of fewer than `least_px` pixels into the neighbour with the nearest mean mode
+/// in colour, the smallest region first, until none is left or there is one region. Ties go to the
+/// smallest label.
 pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     let all = (0..graph.count() as u32).map(|region| Reverse((graph.pixels(region), region)));
     let mut small: BinaryHeap<_> = all.filter(|Reverse((pixels, _))| *pixels < least_px).collect();
@@ -251,8 +255,8 @@ pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     }
 }
 
-/// Merges neighbours whose mean modes are at most `range` apart in CIELUV, the nearest
-/// first. Ties go to the smallest labels.
+/// Merges neighbours with mean modes at most `range` apart in CIELUV, the nearest first. Ties go to
+/// the smallest labels.
 pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
     // Distances are not negative, so their bit patterns sort in the same order.
     let mut pairs = BinaryHeap::new();
@@ -287,9 +291,9 @@ pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
 /// Rounds of the power iteration that finds an axis.
 const ROUNDS: usize = 24;
 
-/// Divides the `count` regions of `labels` until the variance of a part along any axis is at
-/// most `step`^2 / 12, that of colours spread evenly over `step` in CIELUV; then into
-/// connected parts. Returns the new labels and their number.
+/// Divides the `count` regions of `labels` until the variance of a part along any axis is at most
+/// `step`^2 / 12, the variance of colours spread evenly over `step` in CIELUV, then into connected
+/// parts. Returns the new labels and their number.
 pub(super) fn cut(
     labels: &Field<u32>,
     count: usize,
@@ -424,17 +428,20 @@ mod tests {
 
     #[test]
     fn links_reach_over_steps_within_the_bandwidths_only() {
-        let mode = |x: f32, l: f32| Mode { x, y: 0.0, color: [l, 0.0, 0.0] };
-        // Steps in L* of 2, 2, 3; a step of place; the paper's edge.
+        // Steps in L* of 2, 2, 3, a step of place, the paper's edge.
         let row = [(0.0, 10.0), (0.0, 12.0), (0.0, 14.0), (0.0, 17.0), (9.0, 17.0), (9.0, 17.0)];
-        let modes = Field::from_values(6, 1, row.map(|(x, l)| mode(x, l)).to_vec());
+        let modes = Field::from_values(
+            6,
+            1,
+            row.map(|(x, l)| Mode { x, y: 0.0, color: [l, 0.0, 0.0] }).to_vec(),
+        );
         let bandwidth = Bandwidth { spatial_px: 4.0, range: 4.0 };
         let (labels, count) = linked(&modes, |pixel| pixel < 5, bandwidth);
         assert_eq!((labels.values(), count), (&[0, 0, 0, 1, 2, 3][..], 4));
     }
 
-    /// The labels of a row of regions after `joining`; a region is given by its number of
-    /// pixels and its L*.
+    /// The labels of a row of regions after `joining`. A region is given by its number of pixels
+    /// and its L*.
     fn joined(regions: &[(usize, f32)], joining: impl Fn(&mut RegionGraph)) -> Vec<u32> {
         let mut labels = Vec::new();
         let mut modes = Vec::new();
@@ -454,7 +461,9 @@ mod tests {
 
     #[test]
     fn the_small_join_the_nearest_in_color() {
-        let row = |l: f32| joined(&[(3, 10.0), (1, l), (3, 60.0)], |graph| join_small(graph, 2));
+        fn row(l: f32) -> Vec<u32> {
+            joined(&[(3, 10.0), (1, l), (3, 60.0)], |graph| join_small(graph, 2))
+        }
         assert_eq!(row(40.0), [0, 0, 0, 1, 1, 1, 1]);
         assert_eq!(row(30.0), [0, 0, 0, 0, 1, 1, 1]);
     }
@@ -472,7 +481,7 @@ mod tests {
 
     #[test]
     fn the_alike_are_joined_the_nearest_first() {
-        // 7 with 9.9, then 4 with 1; their means, 2 and 8.45, are too far apart.
+        // 7 with 9.9, then 4 with 1. Their means, 2 and 8.45, are too far apart.
         let row = [(2, 1.0), (1, 4.0), (2, 7.0), (2, 9.9)];
         let found = joined(&row, |graph| join_alike(graph, 4.0));
         assert_eq!(found, [0, 0, 0, 1, 1, 1, 1]);

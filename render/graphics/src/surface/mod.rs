@@ -35,9 +35,9 @@ pub struct Fragment {
     pub triangle: u32,
     /// Barycentric weight of the triangle's second corner, corrected for perspective.
     pub second: f32,
-    /// Barycentric weight of the third corner; the first corner has the rest.
+    /// Barycentric weight of the third corner. The first corner has the rest.
     pub third: f32,
-    /// Depth, 0 (near plane) to 1 (far plane); 1 where no triangle is seen.
+    /// Depth, 0 (near plane) to 1 (far plane), 1 where no triangle is seen.
     pub depth: f32,
 }
 
@@ -58,13 +58,13 @@ impl Fragment {
 pub struct Vertex {
     /// Position in the unit of the model.
     pub position: [f32; 3],
-    /// Texture coordinate to the right; 0 and 1 are the edges, beyond them the texture repeats.
+    /// Texture coordinate to the right, 0 and 1 are the edges, beyond them the texture repeats.
     pub u: f32,
     /// Outward normal of length 1.
     pub normal: [f32; 3],
-    /// Texture coordinate downwards; 0 and 1 are the edges, beyond them the texture repeats.
+    /// Texture coordinate downwards, 0 and 1 are the edges, beyond them the texture repeats.
     pub v: f32,
-    /// Encoded sRGB, 0..1; multiplies the colour of the material.
+    /// Encoded sRGB, 0..1. Multiplies the colour of the material.
     pub color: [f32; 3],
     spare: f32,
 }
@@ -73,18 +73,18 @@ pub struct Vertex {
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct PackedMaterial {
-    /// Encoded sRGB, 0..1; multiplies the texture.
+    /// Encoded sRGB, 0..1. Multiplies the texture.
     pub color: [f32; 3],
     /// Index of the texture's first texel in [`PackedMesh::texels`].
     pub first: u32,
-    /// Width of the texture in texels; 0 without a texture.
+    /// Width of the texture in texels, 0 without a texture.
     pub width: u32,
     /// Height of the texture in texels.
     pub height: u32,
     spare: [u32; 2],
 }
 
-/// Something with a position, such as a vertex.
+/// Something with a position, for example a vertex.
 pub trait Positioned: Sync {
     /// Position in the unit of the model.
     fn position(&self) -> [f32; 3];

@@ -17,8 +17,8 @@ use crate::camera::Camera;
 use crate::gpu::{RasterShader, layout};
 use crate::mesh::{Mesh, Triangle};
 
-/// The shader that draws a visibility buffer on a graphics device. It reads buffers of
-/// [`Vertex`] and [`Triangle`]; a pixel is a [`Fragment`].
+/// The shader that draws a visibility buffer on a graphics device. It reads buffers of [`Vertex`]
+/// and [`Triangle`]. A pixel is a [`Fragment`].
 pub static RASTER: RasterShader = RasterShader {
     name: "raster",
     source: include_str!("raster.wgsl"),
@@ -104,8 +104,8 @@ const PIECE: u32 = 1 << 31;
 pub enum Sides {
     /// Front and back faces.
     Both,
-    /// Only faces whose corners run counter-clockwise in the picture. Of a closed surface
-    /// seen from outside, nothing else is visible.
+    /// Only faces with corners that run counter-clockwise in the picture. Of a closed surface seen
+    /// from outside, nothing else is visible.
     Front,
 }
 
@@ -134,12 +134,12 @@ struct Piece {
 }
 
 impl Bands {
-    /// Projects triangles to a picture of (width, height) pixels and sorts them; what was
-    /// sorted before is dropped.
+    /// Projects triangles to a picture of (width, height) pixels and sorts them. What was sorted
+    /// before is dropped.
     ///
     /// # Panics
-    /// If a triangle has a corner that `vertices` does not have, or there are 2^31
-    /// triangles or more.
+    /// If a triangle has a corner that `vertices` does not have, or there are 2^31 triangles or
+    /// more.
     pub(super) fn sort(
         &mut self,
         screen: Screen,
@@ -303,8 +303,8 @@ impl Shape {
         a.depth + (second * (b.depth - a.depth) + third * (c.depth - a.depth))
     }
 
-    /// Shares of its corners in 1 / w where the second and third corner have these weights
-    /// in the picture; they add up to 1 / w.
+    /// Shares of its corners in 1 / w where the second and third corner have these weights in the
+    /// picture. They add up to 1 / w.
     #[inline]
     pub(super) fn inverse_w(&self, second: f32, third: f32) -> [f32; 3] {
         let [a, b, c] = &self.corners;
@@ -326,7 +326,9 @@ struct Edge {
 
 impl Edge {
     fn new(from: &Corner, to: &Corner, column: usize, row: usize) -> Self {
-        let center = |pixel: usize| pixel as i64 * i64::from(STEPS) + i64::from(STEPS / 2);
+        fn center(pixel: usize) -> i64 {
+            pixel as i64 * i64::from(STEPS) + i64::from(STEPS / 2)
+        }
         let [dx, dy] = [i64::from(to.x - from.x), i64::from(to.y - from.y)];
         let [x, y] = [center(column) - i64::from(from.x), center(row) - i64::from(from.y)];
         let upper_or_left = dy < 0 || (dy == 0 && dx > 0);
@@ -416,8 +418,8 @@ pub(super) struct Corner {
     pub(super) y: i32,
     /// Depth, 0 (near plane) to 1 (far plane).
     pub(super) depth: f32,
-    /// 1 / w of the clip coordinates. 0 outside the guard band; `x` then has one bit for
-    /// each plane of [`PLANES`] that the vertex is beyond.
+    /// 1 / w of the clip coordinates. 0 outside the guard band. `x` then has one bit for each plane
+    /// of [`PLANES`] that the vertex is beyond.
     pub(super) inverse_w: f32,
 }
 
@@ -453,8 +455,11 @@ impl Screen {
     /// Projects one position of the model.
     fn corner(&self, position: [f32; 3]) -> Corner {
         let clip = self.clip(position);
-        let beyond = |plane: &Vec4| i32::from(plane.dot(clip) < 0.0 || clip.is_nan());
-        match self.planes.iter().fold(0, |bits, plane| bits << 1 | beyond(plane)) {
+        match self
+            .planes
+            .iter()
+            .fold(0, |bits, plane| bits << 1 | i32::from(plane.dot(clip) < 0.0 || clip.is_nan()))
+        {
             0 => self.project(clip),
             x => Corner { x, y: 0, depth: 0.0, inverse_w: 0.0 },
         }
@@ -466,7 +471,9 @@ impl Screen {
 
     fn project(&self, clip: Vec4) -> Corner {
         let inverse_w = 1.0 / clip.w;
-        let steps = |at: f32, half: f32| ((1.0 + at) * (half * STEPS as f32)).round() as i32;
+        fn steps(at: f32, half: f32) -> i32 {
+            ((1.0 + at) * (half * STEPS as f32)).round() as i32
+        }
         Corner {
             x: steps(clip.x * inverse_w, self.half_width),
             y: steps(-clip.y * inverse_w, self.half_height),

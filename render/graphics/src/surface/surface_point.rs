@@ -1,5 +1,5 @@
 //! Position, normal and colour of a mesh at the pixel that shows it, for single points and for four
-//! points on one triangle, such as the samples of a pixel, at once.
+//! points on one triangle, for example the samples of a pixel, at once.
 
 use glam::{Vec2, Vec3, Vec4};
 
@@ -48,7 +48,7 @@ impl<'a> SurfacePoint<'a> {
         }
     }
 
-    /// Points of one triangle: that of the first fragment.
+    /// Points of one triangle, the first fragment's.
     #[inline]
     pub(super) fn on_one_triangle<const N: usize>(
         mesh: &'a PackedMesh,
@@ -154,8 +154,8 @@ fn wrapped(place: f32, count: u32) -> u32 {
 /// Three numbers of each of four points: the first numbers of all, then the second, then the third.
 pub type FourVectors = [Vec4; 3];
 
-/// Four points on one triangle of a mesh. Its numbers are those of four [`SurfacePoint`]s, bit for
-/// bit.
+/// Four points on one triangle of a mesh. Its numbers are the numbers of four [`SurfacePoint`]s,
+/// bit for bit.
 #[derive(Debug, Clone, Copy)]
 pub struct FourPoints<'a> {
     points: [SurfacePoint<'a>; 4],
@@ -265,7 +265,9 @@ mod tests {
     fn four_points_have_the_numbers_of_single_ones() {
         let mesh = ball();
         let eyes = [Vec3::new(2.0, 1.0, -1.5), Vec3::new(0.1, 0.0, 0.2)];
-        let bits = |four: FourVectors, lane: usize| four.map(|axis| axis[lane].to_bits());
+        fn bits(four: FourVectors, lane: usize) -> [u32; 3] {
+            four.map(|axis| axis[lane].to_bits())
+        }
         for triangle in 0..mesh.triangles.len() as u32 {
             let fragments = [0.0, 0.13, 0.31, 0.5].map(|second| {
                 let third = (0.9 - second) * 0.37 * (triangle % 3) as f32 / 2.0;
@@ -274,7 +276,9 @@ mod tests {
             let four = FourPoints::new(&mesh, fragments).unwrap();
             for (lane, fragment) in fragments.into_iter().enumerate() {
                 let point = SurfacePoint::new(&mesh, fragment);
-                let own = |vector: Vec3| vector.to_array().map(f32::to_bits);
+                fn own(vector: Vec3) -> [u32; 3] {
+                    vector.to_array().map(f32::to_bits)
+                }
                 assert_eq!(bits(four.albedo(), lane), own(point.albedo()), "{triangle}");
                 for eye in eyes {
                     let normal = point.normal(eye);
@@ -288,7 +292,9 @@ mod tests {
     #[test]
     fn pixels_of_several_triangles_or_none_are_not_four_points_of_one() {
         let mesh = ball();
-        let seen = |triangle: u32| Fragment { triangle, ..Fragment::EMPTY };
+        fn seen(triangle: u32) -> Fragment {
+            Fragment { triangle, ..Fragment::EMPTY }
+        }
         assert!(FourPoints::new(&mesh, [3; 4].map(seen)).is_some());
         assert!(FourPoints::new(&mesh, [3, 3, 3, 4].map(seen)).is_none());
         assert!(FourPoints::new(&mesh, [NO_TRIANGLE; 4].map(seen)).is_none());

@@ -13,7 +13,7 @@ use crate::relief::blurred_tile;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Texture {
     lightness: Field<f32>,
-    /// Texels that belong to it; `None` for all of a texture that tiles.
+    /// Texels that belong to it, `None` for all of a texture that tiles.
     mask: Option<Field<bool>>,
 }
 
@@ -99,7 +99,7 @@ impl Texture {
     }
 }
 
-/// Blur of the values inside a mask; values outside give nothing.
+/// Blur of the values inside a mask. Values outside give nothing.
 fn masked_blur(values: &Field<f32>, mask: &Field<bool>, sigma: f64) -> Field<f32> {
     let weighed = values
         .values()
@@ -240,7 +240,9 @@ pub fn coherence(first: &Texture, second: &Texture, spacing: f64) -> f64 {
     assert_eq!(first.size(), second.size(), "maps must be of one size");
     let first = detail(first.lightness(), spacing);
     let second = detail(second.lightness(), spacing);
-    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    fn sum(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
+    }
     let squares = sum(&first, &first) * sum(&second, &second);
     if squares > 0.0 { sum(&first, &second) / squares.sqrt() } else { 0.0 }
 }
@@ -266,12 +268,14 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
             note(below == 0, lightness[(x, y)], lightness[(x, below)]);
         }
     }
-    let mean = |(sum, count): (f64, u64)| sum / count.max(1) as f64;
+    fn mean((sum, count): (f64, u64)) -> f64 {
+        sum / count.max(1) as f64
+    }
     if mean(inside) > 0.0 { mean(across) / mean(inside) } else { 1.0 }
 }
 
 /// The figure of [`wrap_ratio`] that 95 of 100 places inside the map stay below: a column and a row
-/// inside taken for the borders. A border above that stands out; strokes that happen to end at one
+/// inside taken for the borders. A border above that stands out. Strokes that happen to end at one
 /// place raise both.
 #[must_use]
 pub fn usual_wrap_ratio(map: &Texture) -> f64 {
@@ -279,10 +283,12 @@ pub fn usual_wrap_ratio(map: &Texture) -> f64 {
     let lightness = map.lightness();
     let step =
         |a: (usize, usize), b: (usize, usize)| f64::from((lightness[a] - lightness[b]).abs());
-    let column = |x: usize| (0..height).map(|y| step((x, y), (x + 1, y))).sum::<f64>();
-    let row = |y: usize| (0..width).map(|x| step((x, y), (x, y + 1))).sum::<f64>();
-    let columns: Vec<f64> = (0..width.saturating_sub(1)).map(column).collect();
-    let rows: Vec<f64> = (0..height.saturating_sub(1)).map(row).collect();
+    let columns: Vec<f64> = (0..width.saturating_sub(1))
+        .map(|x: usize| (0..height).map(|y| step((x, y), (x + 1, y))).sum::<f64>())
+        .collect();
+    let rows: Vec<f64> = (0..height.saturating_sub(1))
+        .map(|y: usize| (0..width).map(|x| step((x, y), (x, y + 1))).sum::<f64>())
+        .collect();
     let inside: f64 = columns.iter().chain(&rows).sum();
     if inside <= 0.0 {
         return 1.0;
@@ -427,7 +433,9 @@ mod tests {
         let map = waves(96, 12.0, 0.1, 0.3);
         let usual = usual_wrap_ratio(&map);
         assert!((usual - std::f64::consts::FRAC_PI_2).abs() < 0.1, "{usual}");
-        let noise = |index: usize| [((index * 7919 % 4093) as f32 / 4093.0) * 0.5; 3];
+        fn noise(index: usize) -> [f32; 3] {
+            [((index * 7919 % 4093) as f32 / 4093.0) * 0.5; 3]
+        }
         let noise = Field::from_values(64, 64, (0..64 * 64).map(noise).collect());
         let usual = usual_wrap_ratio(&Texture::tiled(&noise));
         assert!((1.0..1.3).contains(&usual), "{usual}");

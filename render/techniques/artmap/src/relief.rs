@@ -15,7 +15,7 @@ const PER_SLOPE: f32 = 2.5;
 /// Linear grey of a level surface.
 const LEVEL: f32 = 0.25;
 
-/// Slopes of a surface to the right and downwards, as rise by run; 0 beyond the passage. Texels
+/// Slopes of a surface to the right and downwards, as rise by run, 0 beyond the passage. Texels
 /// beyond the passage count as high as the passage beside them.
 ///
 /// # Panics
@@ -29,23 +29,27 @@ pub(crate) fn slopes(
     let width = height_mm.width();
     let height = height_mm.height();
     let step = mm_per_texel as f32;
-    let row = |y: usize| {
-        let slopes = move |x: usize| {
-            let slope = |before: (usize, usize), after: (usize, usize)| {
-                let [low, high] = [before, after].map(|at| if mask[at] { at } else { (x, y) });
-                let texels = (high.0 - low.0) + (high.1 - low.1);
-                if texels == 0 {
-                    return 0.0;
-                }
-                (height_mm[high] - height_mm[low]) / (texels as f32 * step)
-            };
-            let across = slope((x.saturating_sub(1), y), ((x + 1).min(width - 1), y));
-            let down = slope((x, y.saturating_sub(1)), (x, (y + 1).min(height - 1)));
-            if mask[(x, y)] { [across, down] } else { [0.0; 2] }
-        };
-        (0..width).map(slopes).collect::<Vec<_>>()
-    };
-    let rows = (0..height).into_par_iter().flat_map_iter(row).collect();
+    let rows = (0..height)
+        .into_par_iter()
+        .flat_map_iter(|y: usize| {
+            (0..width)
+                .map(move |x: usize| {
+                    let slope = |before: (usize, usize), after: (usize, usize)| {
+                        let [low, high] =
+                            [before, after].map(|at| if mask[at] { at } else { (x, y) });
+                        let texels = (high.0 - low.0) + (high.1 - low.1);
+                        if texels == 0 {
+                            return 0.0;
+                        }
+                        (height_mm[high] - height_mm[low]) / (texels as f32 * step)
+                    };
+                    let across = slope((x.saturating_sub(1), y), ((x + 1).min(width - 1), y));
+                    let down = slope((x, y.saturating_sub(1)), (x, (y + 1).min(height - 1)));
+                    if mask[(x, y)] { [across, down] } else { [0.0; 2] }
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect();
     Field::from_values(width, height, rows)
 }
 
@@ -63,8 +67,8 @@ pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 
 }
 
 /// A white surface under one distant light from the upper left, after Lambert: linear grey 0 to 1,
-/// a quarter where the surface is level. `tangent` is that of the light's elevation. Nothing casts
-/// shadows.
+/// a quarter where the surface is level. `tangent` is the tangent of the light's elevation. Nothing
+/// casts shadows.
 pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
     // Half of the light's way along the canvas is from the left, half from above.
     let along = 0.5_f32.sqrt() / tangent;
@@ -85,7 +89,7 @@ pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
 pub(crate) fn blurred_tile(field: &Field<f32>, sigma: f64) -> Field<f32> {
     let width = field.width();
     let height = field.height();
-    // The blur repeats the cells at the border; four deviations keep that out of the tile.
+    // The blur repeats the cells at the border. Four deviations keep that out of the tile.
     let margin = (4.0 * sigma).ceil() as usize;
     let wrapped = |index: usize, size: usize| {
         (index as isize - margin as isize).rem_euclid(size as isize) as usize
@@ -146,7 +150,9 @@ mod tests {
 
     #[test]
     fn the_light_is_low_for_flat_paint() {
-        let tangent = |slope: f32| raking_tangent([&plane(slope, slope)].into_iter());
+        fn tangent(slope: f32) -> f32 {
+            raking_tangent([&plane(slope, slope)].into_iter())
+        }
         assert!((tangent(0.1) - 0.25).abs() < 1e-3, "{}", tangent(0.1));
         assert!(tangent(0.05) < tangent(0.2), "{} {}", tangent(0.05), tangent(0.2));
         assert_eq!((tangent(0.0), tangent(9.0)), (TANGENTS[0], TANGENTS[1]));

@@ -22,12 +22,12 @@ const LINE: usize = 2 * MARGIN + 6 * GAP + 7 * 330;
 /// Pictures of a sample on the sheet: its colours, and its relief where it has one.
 type Shown = Vec<Field<Option<[f32; 3]>>>;
 
-/// A picture of all samples side by side, in their order, from dark to light; below each the relief
+/// A picture of all samples side by side, in their order, from dark to light, below each the relief
 /// of its paint under a raking light from the upper left, where height and size are known. The
 /// light stands the lower the flatter the paint of the set is, from 40 down to 2 degrees.
 ///
 /// In linear sRGB, as the samples. All samples have one scale, a whole number of pixels a texel or
-/// of texels a pixel; texels beyond a passage show the grey of the sheet.
+/// of texels a pixel. Texels beyond a passage show the grey of the sheet.
 #[must_use]
 pub fn sheet(set: &SampleSet) -> Picture {
     let largest = set.samples.iter().map(|sample| sample.size().0.max(sample.size().1)).max();
@@ -133,7 +133,7 @@ impl Scale {
         (texels * self.up).div_ceil(self.down)
     }
 
-    /// The picture at this scale: means of the texels of `mask` under each pixel; `None` where
+    /// The picture at this scale: means of the texels of `mask` under each pixel, `None` where
     /// there are none.
     fn scaled(self, picture: &Picture, mask: &Field<bool>) -> Field<Option<[f32; 3]>> {
         let width = self.pixels(picture.width());
@@ -142,18 +142,23 @@ impl Scale {
             let first = pixel * self.down / self.up;
             first..(first + self.down).min(texels)
         };
-        let pixel = |at: usize| {
-            let mut sum = [0.0; 3];
-            let mut count = 0.0;
-            for y in under(at / width, picture.height()) {
-                for x in under(at % width, picture.width()).filter(|&x| mask[(x, y)]) {
-                    (0..3).for_each(|channel| sum[channel] += picture[(x, y)][channel]);
-                    count += 1.0;
-                }
-            }
-            (count > 0.0).then(|| sum.map(|sum| sum / count))
-        };
-        Field::from_values(width, height, (0..width * height).map(pixel).collect())
+        Field::from_values(
+            width,
+            height,
+            (0..width * height)
+                .map(|at: usize| {
+                    let mut sum = [0.0; 3];
+                    let mut count = 0.0;
+                    for y in under(at / width, picture.height()) {
+                        for x in under(at % width, picture.width()).filter(|&x| mask[(x, y)]) {
+                            (0..3).for_each(|channel| sum[channel] += picture[(x, y)][channel]);
+                            count += 1.0;
+                        }
+                    }
+                    (count > 0.0).then(|| sum.map(|sum| sum / count))
+                })
+                .collect(),
+        )
     }
 }
 

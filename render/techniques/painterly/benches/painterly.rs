@@ -128,7 +128,7 @@ fn camera(mesh: &Mesh, (width, height): (usize, usize)) -> Camera {
     framing.fit(&mesh.positions)
 }
 
-/// A painter whose strokes and outlines are so wide that as many splats are drawn as the row has.
+/// A painter with strokes and outlines so wide that as many splats are drawn as the row has.
 fn painter(row: Row) -> (Painter, Camera) {
     let mesh = row.shape.mesh(20_000);
     let camera = camera(&mesh, row.size);
@@ -256,7 +256,7 @@ fn color_paint() -> ColorPaint {
     ColorPaint::new(library, slots, (&ground, &Lighting::default()), &settings).unwrap()
 }
 
-/// A photograph of one megapixel, from its pixels to the painted picture; the map is laid out each
+/// A photograph of one megapixel, from its pixels to the painted picture. The map is laid out each
 /// time too. Published: nothing.
 #[divan::bench(sample_count = 5)]
 fn photograph(bencher: Bencher<'_, '_>) {

@@ -60,7 +60,7 @@ pub struct FilmHeight {
 }
 
 impl FilmHeight {
-    /// Films as high as the brushwork of a map; 0.12 mm for maps without relief.
+    /// Films as high as the brushwork of a map, 0.12 mm for maps without relief.
     #[must_use]
     pub fn of(map: &ArtMap) -> Self {
         let heights = map.keys.iter().filter_map(|key| key.tile.height_mm.as_ref());
@@ -74,7 +74,7 @@ impl FilmHeight {
         Self { mean_mm: mean, brushwork_mm: mean }
     }
 
-    /// Films of another mean height; the relief stays.
+    /// Films of another mean height. The relief stays.
     #[must_use]
     pub fn with_mean(self, mean_mm: f32) -> Self {
         Self { mean_mm, ..self }
@@ -126,7 +126,7 @@ impl ColorPaint {
     /// Takes seconds.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`SeparationError::NoPigment`] if the library has no pigment to use.
+    /// As [`Self::new`], and [`SeparationError::NoPigment`] if the library has no pigment to use.
     pub fn palette(
         painted: &PaintedPicture,
         library: &PigmentLibrary,
@@ -189,20 +189,25 @@ impl ColorPaint {
         let PaintedPicture { color, height_mm } = painted;
         assert_eq!(color.bounds(), height_mm.bounds(), "colours and heights differ in size");
         let pixels = color.values().par_iter().zip(height_mm.values()).with_min_len(PIXELS);
-        let paint = |(&color, &height_mm): (&[f32; 4], &f32)| {
-            let cover = color[3];
-            let mut amounts = [0.0; SLOTS + 1];
-            if cover > 0.0 {
-                // Heights of pixels that are covered in part are lower by as much.
-                let brushwork_mm = height_mm / cover;
-                let film_mm = film.mean_mm + brushwork_mm - film.brushwork_mm;
-                let film_mm = film_mm.max(self.least_mm);
-                let heights = self.films.heights_mm(self.target(color), film_mm);
-                amounts.iter_mut().zip(heights).for_each(|(own, mm)| *own = cover * mm);
-            }
-            amounts
-        };
-        Field::from_values(color.width(), color.height(), pixels.map(paint).collect())
+        Field::from_values(
+            color.width(),
+            color.height(),
+            pixels
+                .map(|(&color, &height_mm): (&[f32; 4], &f32)| {
+                    let cover = color[3];
+                    let mut amounts = [0.0; SLOTS + 1];
+                    if cover > 0.0 {
+                        // Heights of pixels that are covered in part are lower by as much.
+                        let brushwork_mm = height_mm / cover;
+                        let film_mm = film.mean_mm + brushwork_mm - film.brushwork_mm;
+                        let film_mm = film_mm.max(self.least_mm);
+                        let heights = self.films.heights_mm(self.target(color), film_mm);
+                        amounts.iter_mut().zip(heights).for_each(|(own, mm)| *own = cover * mm);
+                    }
+                    amounts
+                })
+                .collect(),
+        )
     }
 }
 
@@ -405,8 +410,8 @@ mod tests {
         Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
     }
 
-    /// Mean CIEDE2000 of the document's picture against the colours over the pixels that strokes cover
-    /// and whose colour is in gamut, with their number and that of all covered pixels.
+    /// Mean CIEDE2000 of the document's picture against the colours over the pixels that strokes
+    /// cover with a colour in gamut, with their number and the number of all covered pixels.
     fn difference(painted: &PaintedPicture) -> (f64, usize, usize) {
         let film = FilmHeight::of(&map(4));
         let document = document(&PAINT.amounts(painted, film));
@@ -527,7 +532,9 @@ mod tests {
     #[test]
     fn a_palette_is_chosen_for_the_colours_of_the_picture() {
         let library = PigmentLibrary::van_gogh_oils();
-        let color = |at: usize| [0.75, 0.2 + 0.01 * at as f32, 0.1, 1.0];
+        fn color(at: usize) -> [f32; 4] {
+            [0.75, 0.2 + 0.01 * at as f32, 0.1, 1.0]
+        }
         let colors: Vec<[f32; 4]> = (0..30).map(color).chain([[0.0; 4]; 30]).collect();
         let painted = PaintedPicture {
             color: Field::from_values(60, 1, colors),

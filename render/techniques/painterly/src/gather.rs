@@ -17,8 +17,8 @@ use super::tones::Tones;
 /// bits. So splats come in without a step.
 const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
-/// Factor of weights before they are raised to a power, so that those of a thin cover do not vanish
-/// among the numbers of f32.
+/// Factor of weights before they are raised to a power, so that the weights of a thin cover do not
+/// vanish among the numbers of f32.
 const SCALE: f32 = 8.0;
 
 /// Sums of weights below this are lost.
@@ -59,11 +59,11 @@ pub(super) struct Gather<'a> {
     pub(super) tones: &'a Tones,
     /// How often weights are squared.
     pub(super) squarings: u32,
-    /// Weight of the lowest furrow, before it is squared, by that of the highest ridge.
+    /// Weight of the lowest furrow, before it is squared, relative to the highest ridge.
     pub(super) furrow: f32,
     /// Whether splats have colours of their own.
     pub(super) colored: bool,
-    /// Whether the map is looked up; else only the weights of all splats are summed.
+    /// Whether the map is looked up, else only the weights of all splats are summed.
     pub(super) textured: bool,
     pub(super) into: &'a mut Gathered,
 }
@@ -154,7 +154,7 @@ impl pulp::WithSimd for Gather<'_> {
     }
 }
 
-/// Weighs the splats that reach out before the mesh: those of the nearest surface count.
+/// Weighs the splats that reach out before the mesh: the ones of the nearest surface count.
 #[inline(always)]
 fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gathered) {
     let mut nearest = [[f32::INFINITY; SIDE]; SIDE];
@@ -301,7 +301,7 @@ fn any(values: &Values) -> bool {
 pub(super) const THIN: f32 = 1e-3;
 
 /// Sums of weights over which strokes beyond an outline come in, from none to full cover, at the
-/// least overhang; the first falls to 0 at the full overhang.
+/// least overhang. The first falls to 0 at the full overhang.
 const OVERHANG: [f32; 2] = [0.7, 0.9];
 
 /// How much further the highest ridges of a stroke reach beyond an outline than its furrows.
@@ -314,12 +314,12 @@ pub(super) struct Divide<'a> {
     pub(super) coloring: &'a Coloring,
     /// How far strokes reach beyond outlines, 0 to 1.
     pub(super) overhang: f32,
-    /// Cover around which strokes on the mesh end, above 0; up to [`THIN`] for the lowest layer.
+    /// Cover around which strokes on the mesh end, above 0, up to [`THIN`] for the lowest layer.
     pub(super) thin: f32,
 }
 
 impl Divide<'_> {
-    /// The pixel of a square: encoded sRGB with cover, and height. `covered` tells whether the mesh
+    /// The pixel of a square: encoded sRGB with cover, and height. `covered` says whether the mesh
     /// is seen there: then it is never bare where any stroke reaches.
     #[inline(always)]
     pub(super) fn pixel(
@@ -381,7 +381,7 @@ impl Divide<'_> {
         self.thin <= THIN
     }
 
-    /// How high the brushwork stands, 0 to 1 of the map's heights; its lightness in maps without.
+    /// How high the brushwork stands, 0 to 1 of the map's heights, its lightness in maps without.
     #[inline(always)]
     fn ridge(&self, sums: &Sums, row: usize, column: usize) -> f32 {
         let channel = if self.tones.step[3] > 0.0 { 3 } else { 0 };
@@ -389,7 +389,7 @@ impl Divide<'_> {
         if weight > LOST { sums.bytes[row][column][channel] / (65_280.0 * weight) } else { 0.0 }
     }
 
-    /// Encoded sRGB and height of one surface; zeros where it has no stroke.
+    /// Encoded sRGB and height of one surface, zeros where it has no stroke.
     #[inline(always)]
     fn surface(&self, sums: &Sums, row: usize, column: usize) -> Vec4 {
         let weight = sums.weight[row][column];

@@ -48,12 +48,12 @@ impl Painter {
         Self::of_model_with(mesh, &Brushwork::of(map), &[], settings)
     }
 
-    /// Paints a mesh with several maps, each for some materials of the mesh, and with
-    /// directions that strokes must have.
+    /// Paints a mesh with several maps, each for some materials of the mesh, and with directions
+    /// that strokes must have.
     ///
     /// # Errors
-    /// Those of [`Self::of_model`]; [`PainterError::Regions`] for regions that the mesh does not have,
-    /// [`PainterError::Directions`] for guides that do not lie on the mesh.
+    /// As [`Self::of_model`], and [`PainterError::Regions`] for regions that the mesh does not
+    /// have, [`PainterError::Directions`] for guides that do not lie on the mesh.
     pub fn of_model_with(
         mesh: &Mesh,
         brushwork: &Brushwork<'_>,
@@ -154,7 +154,7 @@ mod painting_tests {
     /// Slot of the pigment of the map.
     const SLOT: usize = 3;
 
-    /// A map whose paint is half as high as its relief, with a third as much vehicle.
+    /// A map with paint half as high as its relief, with a third as much vehicle.
     fn painted_map() -> ArtMap {
         let mut map = map(3);
         for key in &mut map.keys {
@@ -301,7 +301,7 @@ mod painting_tests {
 
 #[cfg(test)]
 mod baseline_tests {
-    //! Popping of brushwork that ignores the model, beside that of ours.
+    //! Popping of brushwork that ignores the model, compared with ours.
 
     use graphics::mesh::SampleModel;
     use graphics::tile::Rect;

@@ -1,5 +1,5 @@
 //! The paint of one or several maps in common slots, laid out for painting: a packed slice for each
-//! tone, at several sizes; and a layer of paint made of amounts in mm.
+//! tone, at several sizes, and a layer of paint made of amounts in mm.
 
 use artmap::map::{ArtMap, Between};
 use artmap::sample::{PaintOfSamples, TexelPaint};
@@ -24,7 +24,7 @@ const GROUPS: usize = (SLOTS + 1).div_ceil(LANES);
 pub(super) type PackedSums = [[f32; LANES]; GROUPS];
 
 /// Paint of all tones of some maps, in the order and sizes of `Tones`. Only what some texel has is
-/// stored, in 65,535 steps: the mean of many texels is that of their amounts.
+/// stored, in 65,535 steps: the mean of many texels is the mean of their amounts.
 #[derive(Debug, Clone)]
 pub(super) struct PaintTones {
     pub(super) of: PaintOfSamples,
@@ -48,10 +48,10 @@ struct Packed {
 }
 
 impl PaintTones {
-    /// Lays out the paint of maps; `None` if one of them has none.
+    /// Lays out the paint of maps, `None` if one of them has none.
     ///
     /// # Errors
-    /// [`PaintOfMapsError`] for maps whose pigments are not of one library, or more than eight.
+    /// [`PaintOfMapsError`] for maps with pigments of several libraries, or with more than eight.
     pub(super) fn new(
         maps: &[&ArtMap],
         between: Between,

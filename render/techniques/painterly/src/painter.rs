@@ -35,7 +35,7 @@ use super::tones::{ToneMemory, Tones};
 /// Cover around which the strokes of upper layers end.
 const THIN_ABOVE: f32 = 0.7;
 
-/// Distance of strokes in mm where a map does not tell it: that of a small flat brush.
+/// Distance of strokes in mm where a map does not give it: the distance of a small flat brush.
 const STROKE_MM: f64 = 3.0;
 
 /// Most pixels of a picture.
@@ -54,11 +54,12 @@ pub struct Painter {
     layers: Vec<Layered>,
     tones: Tones,
     settings: Settings,
-    /// The paint of the maps, if they have any; maps whose paint cannot be joined still have colours.
+    /// The paint of the maps, if they have any. Maps that cannot be joined in paint still have
+    /// colours.
     paint: Result<Option<PaintTones>, PaintOfMapsError>,
     /// Films of the subject's own colours.
     film: FilmHeight,
-    /// Pigments for them, if not those of the maps' library.
+    /// Pigments for them, if not from the maps' library.
     pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
     /// The ground of the last painting.
     pub(super) ground: Option<BuiltGround>,
@@ -89,10 +90,13 @@ impl Painter {
         if hierarchy.faces() == 0 {
             return Err(PainterError::NoArea);
         }
-        let first = |(number, map): (usize, &&ArtMap)| {
-            tones.nearest(number, map.keys[map.first.min(map.keys.len() - 1)].tone as f32)
-        };
-        let slices: Vec<usize> = maps.iter().enumerate().map(first).collect();
+        let slices: Vec<usize> = maps
+            .iter()
+            .enumerate()
+            .map(|(number, map): (usize, &&ArtMap)| {
+                tones.nearest(number, map.keys[map.first.min(map.keys.len() - 1)].tone as f32)
+            })
+            .collect();
         let mut strokes = 0;
         let mut continued = 0.0;
         let mut layers = Vec::new();
@@ -127,7 +131,7 @@ impl Painter {
         })
     }
 
-    /// Makes pictures on another device. They agree with those of the processor to rounding; strokes,
+    /// Makes pictures on another device. They agree with the processor's to rounding. Strokes,
     /// stages and paintings are the same to the bit.
     ///
     /// # Errors
@@ -139,12 +143,12 @@ impl Painter {
         Ok(self)
     }
 
-    /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds. The
-    /// same input gives the same bits on any number of threads.
+    /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds.
+    /// The same input gives the same bits on any number of threads.
     ///
     /// # Errors
     /// [`PainterError::Size`] for a picture without pixels or with more than 2^28,
-    /// [`PainterError::Time`] for a time that is no number.
+    /// [`PainterError::Time`] for a time that is not a number.
     pub fn paint(
         &mut self,
         camera: &Camera,
@@ -181,11 +185,11 @@ impl Painter {
         Ok(whole.unwrap_or_else(|| PaintedPicture::bare(size)))
     }
 
-    /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
-    /// the lowest first.
+    /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each
+    /// layer, the lowest first.
     ///
     /// # Errors
-    /// Those of [`Self::paint`].
+    /// As [`Self::paint`].
     pub fn splats(
         &mut self,
         camera: &Camera,
@@ -254,7 +258,8 @@ impl Painter {
         divide(&self.tones, &self.layers[layer], layer, &self.settings.overlap)
     }
 
-    /// Distance of the middle of the subject in front of the eye, at least that of the near plane.
+    /// Distance of the middle of the subject in front of the eye, at least the near plane's
+    /// distance.
     fn distance(&self, camera: &Camera) -> f32 {
         let [low, high] = self.bounds;
         let [_, _, back] = camera.axes();
@@ -277,21 +282,21 @@ impl Painter {
         &self.settings
     }
 
-    /// Share of strokes that continue a neighbour, 0 to 1; 0 with random offsets.
+    /// Share of strokes that continue a neighbour, 0 to 1, 0 with random offsets.
     #[must_use]
     pub fn matched(&self) -> f64 {
         self.matched
     }
 
-    /// Takes pigments for the colours of the subject from this library, instead of that of the maps:
-    /// those of a palette, or up to eight that suit the picture.
+    /// Takes pigments for the colours of the subject from this library instead of the maps'
+    /// library: the pigments of a palette, or up to eight that suit the picture.
     pub fn set_pigments(&mut self, library: Arc<PigmentLibrary>, palette: Option<Slots>) {
         self.pigments = Some((library, palette));
         self.ground = None;
     }
 
-    /// The library of pigments for the colours of the subject: the one that was set, that of the
-    /// maps, or the Van Gogh oils; and the palette, if one was set.
+    /// The library of pigments for the colours of the subject: the one that was set, the maps' own,
+    /// or the Van Gogh oils, and the palette, if one was set.
     pub(super) fn pigments(&self) -> (Arc<PigmentLibrary>, Option<Slots>) {
         self.pigments
             .clone()
@@ -419,20 +424,21 @@ mod exact_tests {
         let seen = picture(document, &scene(document, &light));
         let spectral = SpectralDocument::full(document);
         let weights = light.viewing.weights(document.library.grid).unwrap();
-        let lab = |rgb: [f64; 3]| {
+        fn lab(rgb: [f64; 3]) -> Lab {
             let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb);
             Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
-        };
-        let cell = |index: usize| {
-            let x = index % seen.width();
-            let y = index / seen.width();
-            let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
-            let white = light.quadrature.rule.white;
-            let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
-            let [r, g, b, _] = seen[(x, y)].map(f64::from);
-            delta_e_ciede2000(lab(exact), lab([r, g, b]))
-        };
-        (0..seen.values().len()).map(cell).collect()
+        }
+        (0..seen.values().len())
+            .map(|index: usize| {
+                let x = index % seen.width();
+                let y = index / seen.width();
+                let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
+                let white = light.quadrature.rule.white;
+                let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
+                let [r, g, b, _] = seen[(x, y)].map(f64::from);
+                delta_e_ciede2000(lab(exact), lab([r, g, b]))
+            })
+            .collect()
     }
 
     #[test]
@@ -500,8 +506,10 @@ impl BuiltGround {
         (size, cell_mm): ((usize, usize), f64),
         library: &PigmentLibrary,
     ) -> Result<Ground, GroundError> {
-        let same = |own: &&Self| own.spec == *spec && own.size == size && own.cell_mm == cell_mm;
-        if let Some(own) = kept.as_ref().filter(same) {
+        if let Some(own) = kept
+            .as_ref()
+            .filter(|own: &&Self| own.spec == *spec && own.size == size && own.cell_mm == cell_mm)
+        {
             return Ok(own.ground.clone());
         }
         let ground = spec.build(size.0, size.1, cell_mm, library)?;
@@ -554,7 +562,7 @@ pub enum PainterError {
         /// Its height.
         height: usize,
     },
-    /// The time is no number.
+    /// The time is not a number.
     #[error("the time is `{seconds}` seconds")]
     Time {
         /// The time asked for.
@@ -616,7 +624,7 @@ impl Explain for PainterError {
 /// Maps with their names, and the regions that are painted with one or another.
 #[derive(Debug, Clone)]
 pub struct Brushwork<'a> {
-    /// At least one; the first is that of everything that no region covers.
+    /// At least one. The first is for everything that no region covers.
     pub maps: Vec<(&'a str, &'a ArtMap)>,
     /// Regions, which call maps by their names.
     pub regions: Regions,
@@ -631,8 +639,9 @@ impl<'a> Brushwork<'a> {
 
     /// Checks that there is a map, and that each has a tile.
     pub(super) fn check(&self) -> Result<(), PainterError> {
-        let bare = |map: &ArtMap| map.keys.is_empty() || map.size() == 0;
-        match self.maps.is_empty() || self.maps.iter().any(|(_, map)| bare(map)) {
+        match self.maps.is_empty()
+            || self.maps.iter().any(|(_, map)| map.keys.is_empty() || map.size() == 0)
+        {
             true => Err(PainterError::NoTile),
             false => Ok(()),
         }

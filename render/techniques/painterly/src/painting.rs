@@ -26,22 +26,22 @@ struct Mixed {
 }
 
 impl Painter {
-    /// Paints the subject as [`Self::paint`] does, with pigments: a painting with a dry layer for each
-    /// layer of strokes, a cell for each pixel.
+    /// Paints the subject as [`Self::paint`] does, with pigments: a painting with a dry layer for
+    /// each layer of strokes, a cell for each pixel.
     ///
-    /// Where colours are the maps', amounts are the weighted means of the amounts that strokes show,
-    /// so strokes that overlap do not pile up within a layer. Where they are the subject's, each cell
-    /// is a film of the mixture that shows its colour, as high as the brushwork: of up to eight
-    /// pigments of the library ([`Self::set_pigments`]) that suit the picture.
+    /// Where colours are the maps', amounts are the weighted means of the amounts that strokes
+    /// show, so strokes that overlap do not pile up within a layer. Where they are the subject's,
+    /// each cell is a film of the mixture that shows its colour, as high as the brushwork: of up to
+    /// eight pigments of the library ([`Self::set_pigments`]) that suit the picture.
     ///
     /// Cells are as wide as the first map's strokes demand: `strokes.width_px` of them to the
-    /// distance of its strokes in mm (3 mm where the map does not tell).
+    /// distance of its strokes in mm (3 mm where the map does not give it).
     ///
     /// # Errors
-    /// Those of [`Self::paint`]; [`PainterError::NoPaint`] for the colours of maps without pigments,
-    /// [`PainterError::Maps`] for those of maps whose pigments do not go together,
-    /// [`PainterError::Colors`] for a library that cannot paint colours,
-    /// [`PainterError::Ground`] for a ground that cannot be made.
+    /// As [`Self::paint`], and [`PainterError::NoPaint`] for the colours of maps without pigments,
+    /// [`PainterError::Maps`] for maps with pigments that do not go together,
+    /// [`PainterError::Colors`] for a library that cannot paint colours, [`PainterError::Ground`]
+    /// for a ground that cannot be made.
     pub fn painting(
         &mut self,
         camera: &Camera,
@@ -123,12 +123,13 @@ pub struct Stage {
 }
 
 impl Painter {
-    /// The steps to the picture that [`Self::paint`] gives: depth; of each layer the strokes (each in
-    /// a colour of its own where it is the strongest), their directions (as hues: red level, cyan
-    /// upright), their tones and what they paint; the height of the brushwork; and the picture.
+    /// The steps to the picture that [`Self::paint`] gives: depth. Of each layer the strokes (each
+    /// in a colour of its own where it is the strongest), their directions (as hues: red level,
+    /// cyan upright), their tones and what they paint, the height of the brushwork, and the
+    /// picture.
     ///
     /// # Errors
-    /// Those of [`Self::paint`].
+    /// As [`Self::paint`].
     pub fn stages(
         &mut self,
         camera: &Camera,
@@ -234,7 +235,7 @@ fn heights(heights: &Field<f32>) -> Field<[f32; 4]> {
     Field::from_values(heights.width(), heights.height(), values)
 }
 
-/// A colour that tells a stroke from its neighbours.
+/// A colour that sets a stroke apart from its neighbours.
 fn own_color(splat: &StrokeSplat) -> Vec3 {
     // Places in the map scatter over the whole of it.
     let place = splat.offset[0] * 7.0 + splat.offset[1] * 13.0;
@@ -279,13 +280,13 @@ impl Explain for CompositingError {
 
 impl Painter {
     /// The picture that [`Self::paint`] gives as an OpenEXR file of 32-bit floats: `R`, `G`, `B` in
-    /// linear sRGB times the cover, `A` the cover, `Z` the distance of the subject in front of the eye
-    /// (infinite where there is none), `height` of the brushwork in mm, and `direction.x`,
+    /// linear sRGB times the cover, `A` the cover, `Z` the distance of the subject in front of the
+    /// eye (infinite where there is none), `height` of the brushwork in mm, and `direction.x`,
     /// `direction.y`, the unit direction of the strongest stroke of the uppermost layer that shows
-    /// (x to the right, y downwards; 0 where there is none).
+    /// (x to the right, y downwards, 0 where there is none).
     ///
     /// # Errors
-    /// Those of [`Self::paint`]; [`CompositingError::Export`] for pictures that OpenEXR cannot hold.
+    /// As [`Self::paint`], and [`CompositingError::Export`] for pictures that OpenEXR cannot hold.
     pub fn exr_frame(
         &mut self,
         camera: &Camera,
@@ -296,13 +297,6 @@ impl Painter {
         let painted = self.picture(depth.clone(), &layers)?;
         let projection = Projection::new(camera, size.0, size.1);
         let [_, _, back] = camera.axes();
-        let distance = |index: usize| {
-            let at = (index % size.0, index / size.0);
-            match depth[at] < 1.0 {
-                true => (camera.eye - projection.unproject(at, depth[at])).dot(back),
-                false => f32::INFINITY,
-            }
-        };
         let mut directions = vec![[0.0; 2]; size.0 * size.1];
         for splats in &layers {
             let strongest = strongest(&depth, splats);
@@ -321,7 +315,18 @@ impl Painter {
             ("G", colors(1).collect()),
             ("B", colors(2).collect()),
             ("A", cover.collect()),
-            ("Z", (0..size.0 * size.1).map(distance).collect()),
+            (
+                "Z",
+                (0..size.0 * size.1)
+                    .map(|index: usize| {
+                        let at = (index % size.0, index / size.0);
+                        match depth[at] < 1.0 {
+                            true => (camera.eye - projection.unproject(at, depth[at])).dot(back),
+                            false => f32::INFINITY,
+                        }
+                    })
+                    .collect(),
+            ),
             ("height", painted.height_mm.values().to_vec()),
             ("direction.x", directions.iter().map(|[x, _]| *x).collect()),
             ("direction.y", directions.iter().map(|[_, y]| *y).collect()),
@@ -353,9 +358,9 @@ mod tests {
         let painted = painter.paint(&camera, (96, 72), 0.0).unwrap().color;
         assert_eq!(stages[10].picture, painted);
         for stage in &stages[..5] {
-            let seen = |picture: &Field<[f32; 4]>| {
+            fn seen(picture: &Field<[f32; 4]>) -> f32 {
                 picture.values().iter().filter(|pixel| pixel[3] > 0.5).count() as f32
-            };
+            }
             let share = seen(&stage.picture) / seen(&painted);
             assert!((0.7..1.1).contains(&share), "{}: {share}", stage.name);
         }

@@ -22,7 +22,7 @@ use super::tones::{DeviceTones, ToneMemory, Tones};
 pub struct PaintedPicture {
     /// Encoded sRGB in 0..1, with the share of each pixel that strokes cover.
     pub color: Field<[f32; 4]>,
-    /// Height of the brushwork over the canvas in mm; 0 for maps without relief.
+    /// Height of the brushwork over the canvas in mm, 0 for maps without relief.
     pub height_mm: Field<f32>,
 }
 
@@ -38,7 +38,7 @@ impl PaintedPicture {
 /// reach it in their order, so the picture does not depend on threads.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made `depth` or `memory`.
@@ -211,16 +211,21 @@ mod device_tests {
 
     /// A mesh that leans away to the right, with a part before it below, and nothing on the right.
     fn mesh((width, height): (usize, usize)) -> Field<f32> {
-        let depth = |index: usize| {
-            let x = index % width;
-            let y = index / width;
-            match (4 * x >= 3 * width, 4 * y >= 3 * height) {
-                (true, _) => 1.0,
-                (_, true) => 0.48,
-                _ => 0.5 + 0.0004 * x as f32,
-            }
-        };
-        Field::from_values(width, height, (0..width * height).map(depth).collect())
+        Field::from_values(
+            width,
+            height,
+            (0..width * height)
+                .map(|index: usize| {
+                    let x = index % width;
+                    let y = index / width;
+                    match (4 * x >= 3 * width, 4 * y >= 3 * height) {
+                        (true, _) => 1.0,
+                        (_, true) => 0.48,
+                        _ => 0.5 + 0.0004 * x as f32,
+                    }
+                })
+                .collect(),
+        )
     }
 
     #[test]
@@ -483,8 +488,8 @@ pub(super) fn painted_on_device(
 /// Sums of packed amounts at the pixels of a square, times weights.
 type SquareSums = [[PackedSums; SIDE]; SIDE];
 
-/// Paint at each pixel in mm, thinner where strokes cover a pixel in part. Splats, depth and overlap
-/// are those of the picture.
+/// Paint at each pixel in mm, thinner where strokes cover a pixel in part. Splats, depth and
+/// overlap are the picture's.
 pub(super) fn amounts(
     depth: &Field<f32>,
     splats: &[StrokeSplat],
@@ -555,8 +560,8 @@ pub(super) fn amounts(
     found
 }
 
-/// Sums what the strokes of one surface show in a square: paint, and the height that tells ridges
-/// from furrows.
+/// Sums what the strokes of one surface show in a square: paint, and the height that separates
+/// ridges from furrows.
 struct Sum<'a> {
     square: &'a Square,
     splats: &'a [StrokeSplat],

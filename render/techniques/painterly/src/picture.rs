@@ -65,11 +65,12 @@ impl Painter {
         Self::of_picture_with(picture, &Brushwork::of(map), &PictureForm::default(), settings)
     }
 
-    /// Paints a picture with several maps, each for some regions of the picture, and with a
-    /// form: depth, flow, guides.
+    /// Paints a picture with several maps, each for some regions of the picture, and with a form:
+    /// depth, flow, guides.
     ///
     /// # Errors
-    /// Those of [`Self::of_picture`]; [`PainterError::Regions`] for regions that pictures cannot have.
+    /// As [`Self::of_picture`], and [`PainterError::Regions`] for regions that pictures cannot
+    /// have.
     pub fn of_picture_with(
         picture: &Photograph,
         brushwork: &Brushwork<'_>,
@@ -116,14 +117,16 @@ fn subject(
     };
     let maps = brushwork.art_maps();
     let coloring = Coloring::new(&maps, &colors, &settings.color, SubjectKind::Picture);
-    let surface = |layer: LayerColors| Surface {
-        mesh: Arc::clone(&mesh),
-        packed: Arc::new(packed(&mesh, &layer)),
-        directions: Arc::clone(&directions),
-        detail: layer.shown.map_or(Detail::Everywhere, Detail::Pictured),
-        regions: Arc::clone(&regions),
-    };
-    let surfaces: Vec<Surface> = layers.into_iter().map(surface).collect();
+    let surfaces: Vec<Surface> = layers
+        .into_iter()
+        .map(|layer: LayerColors| Surface {
+            mesh: Arc::clone(&mesh),
+            packed: Arc::new(packed(&mesh, &layer)),
+            directions: Arc::clone(&directions),
+            detail: layer.shown.map_or(Detail::Everywhere, Detail::Pictured),
+            regions: Arc::clone(&regions),
+        })
+        .collect();
     Ok(Subject {
         packed: Arc::clone(&surfaces[0].packed),
         surfaces,
@@ -194,7 +197,9 @@ fn directions(
     let mut lines = Vec::with_capacity(mesh.positions.len());
     for (vertex, share) in mesh.texture_coordinates.iter().enumerate() {
         let share = Vec2::from(*share);
-        let cell = |at: f32, count: usize| ((at * count as f32) as usize).min(count - 1);
+        fn cell(at: f32, count: usize) -> usize {
+            ((at * count as f32) as usize).min(count - 1)
+        }
         let x = cell(share.x, width);
         let y = cell(share.y, height);
         let mut line =
@@ -301,7 +306,7 @@ mod flow_tests {
                 let greens = color.values().iter().map(|pixel| pixel[1]).collect();
                 Field::from_values(320, 240, greens)
             };
-            // The map is 180 px long; a half pixel of motion.
+            // The map is 180 px long, a half pixel of motion.
             let before = frame(10.0);
             let after = frame(10.3);
             let mut off: Vec<f64> = motions(&before, &after)
@@ -315,10 +320,10 @@ mod flow_tests {
     }
 }
 
-/// Values of red and green this near the middle are no direction: the middle of 8 bits is none.
+/// Values of red and green this near the middle give no direction: the middle of 8 bits is none.
 const STILL: f32 = 0.01;
 
-/// Form of a picture; the default has none.
+/// Form of a picture. The default has none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PictureForm {
     /// Depth from 0 (far) to 1 (near), stretched over the picture.
@@ -333,7 +338,7 @@ pub struct PictureForm {
 /// Arrows over a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlowPicture {
-    /// Arrows, x to the right and y downwards, whose length is the strength, 0 to 1.
+    /// Arrows, x to the right and y downwards. Their length is the strength, 0 to 1.
     arrows: Field<[f32; 2]>,
 }
 
@@ -355,7 +360,7 @@ impl PictureForm {
             .collect())
     }
 
-    /// Depth of a picture whose white is near and whose black is far.
+    /// Depth of a picture: white is near and black is far.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -369,8 +374,8 @@ impl PictureForm {
 }
 
 impl FlowPicture {
-    /// Reads a picture of arrows: red to the right and green upwards, both about one half; blue is
-    /// the strength. Neutral pixels (one half each), and those of no strength, have no arrow.
+    /// Reads a picture of arrows: red to the right and green upwards, both about one half. Blue is
+    /// the strength. Neutral pixels (one half each), and pixels of no strength, have no arrow.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -398,7 +403,9 @@ impl FlowPicture {
 
     /// The arrow at a place, 0 to 1 over width and height.
     pub(super) fn at(&self, share: Vec2) -> Vec2 {
-        let cell = |share: f32, count: usize| ((share * count as f32) as usize).min(count - 1);
+        fn cell(share: f32, count: usize) -> usize {
+            ((share * count as f32) as usize).min(count - 1)
+        }
         let width = self.arrows.width();
         let height = self.arrows.height();
         self.arrows[(cell(share.x, width), cell(share.y, height))].into()
@@ -417,7 +424,7 @@ pub(super) struct LayerColors {
     /// Mean colours of cells, linear sRGB.
     pub(super) picture: Picture,
     pub(super) lab: Field<[f32; 3]>,
-    /// Where strokes show, 0 to 1; `None` on the lowest layer.
+    /// Where strokes show, 0 to 1, `None` on the lowest layer.
     pub(super) shown: Option<Field<f32>>,
 }
 
@@ -524,9 +531,9 @@ mod tests {
     }
 
     fn lab(picture: &Field<[f32; 4]>) -> Field<[f32; 3]> {
-        let linear = |[r, g, b, _]: &[f32; 4]| {
+        fn linear([r, g, b, _]: &[f32; 4]) -> [f32; 3] {
             Rgb([r, g, b].map(|value| f64::from(*value))).linear().0.map(|value| value as f32)
-        };
+        }
         let linear = picture.values().iter().map(linear).collect();
         lab_from_linear(&Picture::from_values(picture.width(), picture.height(), linear))
     }
@@ -602,8 +609,9 @@ mod tests {
                 .map(|splat| (Vec2::new(splat.x, splat.y), splat.turn()))
                 .collect::<Vec<_>>()
         };
-        let off =
-            |turn: f32, wanted: Vec2| Vec2::from_angle(turn).perp_dot(wanted.normalize()).abs();
+        fn off(turn: f32, wanted: Vec2) -> f32 {
+            Vec2::from_angle(turn).perp_dot(wanted.normalize()).abs()
+        }
         let guide = [[0.2, 0.5], [3.0, 3.0]];
         let form = PictureForm { guides: vec![guide], ..PictureForm::default() };
         assert!(turned(&form, Vec::new()).iter().all(|(_, turn)| off(*turn, Vec2::ONE) < 0.1));
@@ -700,7 +708,9 @@ mod tests {
         let mut plane = Painter::of_picture(&picture, &map, &settings).unwrap();
         let wanted = plane.paint(&front, size, 0.0).unwrap().color;
         let [found, wanted] = [lab(&painted), lab(&wanted)];
-        let part = |lab: &Field<[f32; 3]>| mean(lab, 30..90, 30..90);
+        fn part(lab: &Field<[f32; 3]>) -> Vec3 {
+            mean(lab, 30..90, 30..90)
+        }
         assert!(part(&found).distance(part(&wanted)) < 3.0);
     }
 
@@ -710,7 +720,7 @@ mod tests {
             let fine = x > 160 && (x / 8 + y / 8).is_multiple_of(2);
             if fine { [220, 200, 160] } else { [70, 60, 60] }
         });
-        let error = |layers: u32| {
+        let [one, three] = [1, 3].map(|layers: u32| {
             let mut settings = settings();
             settings.strokes.width_px = 16.0;
             settings.layers.count = layers;
@@ -720,8 +730,7 @@ mod tests {
             let wanted = lab_from_linear(&picture.on_canvas(320, 240));
             let off = found.values().iter().zip(wanted.values());
             off.map(|(a, b)| Vec3::from(*a).distance(Vec3::from(*b))).sum::<f32>() / 76_800.0
-        };
-        let [one, three] = [1, 3].map(error);
+        });
         assert!(three < 0.75 * one, "{three} {one}");
     }
 
@@ -739,9 +748,9 @@ mod tests {
     #[test]
     fn small_strokes_show_where_large_ones_would_blur() {
         // An even half, and one of fine stripes.
-        let color = |x: usize| {
+        fn color(x: usize) -> [u8; 3] {
             if x >= 128 && (x / 4).is_multiple_of(2) { [230, 220, 210] } else { [60, 70, 80] }
-        };
+        }
         let values = (0..256 * 128).map(|index| color(index % 256)).collect();
         let png = frame_png(&Field::from_values(256, 128, values)).unwrap();
         let photograph = Photograph::from_bytes("stripes", &png).unwrap();

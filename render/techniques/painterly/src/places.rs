@@ -24,7 +24,7 @@ const FADE_RINGS: usize = 2;
 pub(super) struct Place {
     /// Unit normal, interpolated.
     pub(super) normal: Vec3,
-    /// Unit direction of strokes along the surface; it is the direction of flow too.
+    /// Unit direction of strokes along the surface. It is the direction of flow too.
     pub(super) along: Vec3,
     /// Strength of the flow, 0 to 1.
     pub(super) flow: f32,
@@ -82,11 +82,11 @@ impl Directions {
             Some(given) => lines.oriented_by(given, FADE_RINGS),
         };
         let curvatures = mesh.curvatures(NORMAL_ROUNDS);
-        let along = |direction: [f32; 3], curvature: f32| {
+        fn along(direction: [f32; 3], curvature: f32) -> Mat3 {
             let direction = Vec3::from(direction);
             Mat3::from_cols_array_2d(&[0, 1, 2].map(|i| (direction * direction[i]).to_array()))
                 * curvature
-        };
+        }
         Self {
             lines,
             arrows,
@@ -234,7 +234,7 @@ pub(super) fn colors(mesh: &Mesh, packed: &PackedMesh) -> Vec<(Vec3, f64)> {
 /// A subject.
 #[derive(Debug)]
 pub(super) struct Subject {
-    /// Its surface for the strokes of each layer, the lowest first; at least one.
+    /// Its surface for the strokes of each layer, the lowest first, at least one.
     pub(super) surfaces: Vec<Surface>,
     /// The mesh that hides what lies behind it.
     pub(super) packed: Arc<PackedMesh>,

@@ -34,7 +34,7 @@ pub(super) struct Root {
     pub(super) start: Start,
     /// Colour that is added to the map's.
     pub(super) color: Vec3,
-    /// Tone, 0 to 1 of the map's, that does not depend on light; `None` if light decides.
+    /// Tone, 0 to 1 of the map's, that does not depend on light, `None` if light decides.
     pub(super) tone: Option<f32>,
 }
 
@@ -62,8 +62,8 @@ impl Start {
     }
 }
 
-/// From the centre of one stroke to that of another, across and along the mean of both their axes,
-/// in units of the model.
+/// From the centre of one stroke to the centre of another, across and along the mean of both their
+/// axes, in units of the model.
 pub(super) fn way(from: (&Feature, &Place), to: (&Feature, &Place)) -> Vec2 {
     let between = to.0.position - from.0.position;
     let part = |one: Vec3, other: Vec3| {
@@ -79,7 +79,7 @@ pub(super) fn alike(one: &Place, other: &Place) -> bool {
     one.normal.dot(other.normal) > ALIKE && one.region == other.region
 }
 
-/// The strokes of a subject. Those up to some density are kept; all others are made when they are
+/// The strokes of a subject. Those up to some density are kept. All others are made when they are
 /// asked for, and continue the nearest kept one.
 #[derive(Debug)]
 pub(super) struct Roots {
@@ -125,13 +125,14 @@ impl Roots {
         self.kept.len()
     }
 
-    /// Least and greatest size of strokes by that of the settings.
+    /// Least and greatest size of strokes relative to the settings.
     pub(super) fn sizes(&self) -> [f32; 2] {
         self.surface.regions.sizes()
     }
 
-    /// The same strokes; those of all features below a priority are kept, and start where `starts`
-    /// says instead of anywhere. `reach` is half the length of a stroke in units of the model.
+    /// The same strokes. The strokes of all features below a priority are kept, and start where
+    /// `starts` says instead of anywhere. `reach` is half the length of a stroke in units of the
+    /// model.
     pub(super) fn keeping(
         mut self,
         features: &Features,
@@ -226,7 +227,7 @@ const PATCH: f32 = 6.0;
 /// Texels between strokes where they are compared.
 const COMPARED_SPACING: f32 = 4.0;
 
-/// Mean squared difference, by that of unrelated places, at which a continuation is good enough.
+/// Mean squared difference, relative to unrelated places, at which a continuation is good enough.
 const GOOD: f32 = 0.02;
 
 /// Places of a splat at which it is compared, by half its width and length.
@@ -298,7 +299,9 @@ impl Greys {
         let [x, y] = [whole.x as usize % self.size, whole.y as usize % self.size];
         let [right, below] = [(x + 1) % self.size, (y + 1) % self.size];
         let value = |x: usize, y: usize| self.values[y * self.size + x];
-        let mix = |a: f32, b: f32, share: f32| a + (b - a) * share;
+        fn mix(a: f32, b: f32, share: f32) -> f32 {
+            a + (b - a) * share
+        }
         let upper = mix(value(x, y), value(right, y), share.x);
         mix(upper, mix(value(x, below), value(right, below), share.x), share.y)
     }
@@ -329,7 +332,7 @@ impl Matching<'_> {
         map.spacing / (self.width * size * map.size as f32)
     }
 
-    /// Where all strokes start in the map; and the share of strokes that continue a neighbour.
+    /// Where all strokes start in the map, and the share of strokes that continue a neighbour.
     pub(super) fn starts(&self) -> (Vec<Start>, f64) {
         let maps = self.slices.iter().enumerate();
         let greys: Vec<Greys> =
@@ -469,17 +472,21 @@ impl Matching<'_> {
             let own = self.features[index].position;
             let place = &self.roots[index].place;
             let radii = self.radii(index);
-            let off = |other: usize| {
-                let from = self.features[other].position - own;
-                let across = from.dot(place.across()) / radii[0];
-                let along = from.dot(place.along) / radii[1];
-                let above = from.dot(place.normal) / radii[0];
-                across * across + along * along + above * above
-            };
             let mut found: Vec<(f32, u32)> = grid
                 .near(own)
                 .filter(|&other| other != index && alike(&self.roots[other].place, place))
-                .map(|other| (off(other), other as u32))
+                .map(|other| {
+                    (
+                        {
+                            let from = self.features[other].position - own;
+                            let across = from.dot(place.across()) / radii[0];
+                            let along = from.dot(place.along) / radii[1];
+                            let above = from.dot(place.normal) / radii[0];
+                            across * across + along * along + above * above
+                        },
+                        other as u32,
+                    )
+                })
                 .filter(|(square, _)| *square < 1.0)
                 .collect();
             found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -533,10 +540,10 @@ mod tests {
 
     #[test]
     fn all_points_within_the_side_of_a_cube_are_near() {
-        let point = |i: usize| {
+        fn point(i: usize) -> Vec3 {
             let [x, y, z] = [i % 7, i / 7 % 11, i / 77].map(|part| part as f32);
             Vec3::new(0.37 * x - 1.0, 0.23 * y - 1.3, 0.29 * z - 0.7)
-        };
+        }
         let grid = Grid::new((0..300).map(point), 0.4);
         for place in [Vec3::ZERO, point(17), Vec3::splat(-1.1), Vec3::splat(50.0)] {
             let near: Vec<usize> = grid.near(place).collect();

@@ -9,7 +9,7 @@ use graphics::lanes::{greater, lesser};
 
 /// A splat of brushwork in the picture: an ellipse with a part of the map.
 ///
-/// Coordinates across and along the stroke are 0 at the centre; the splat ends where the sum of
+/// Coordinates across and along the stroke are 0 at the centre. The splat ends where the sum of
 /// their squares is 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeSplat {
@@ -117,7 +117,9 @@ impl Lists {
 
 /// The squares, out of `count`, that a range of pixels touches.
 fn squares(at: f32, reach: f32, count: usize) -> std::ops::Range<usize> {
-    let square = |at: f32| (at / SIDE as f32).floor() as i64;
+    fn square(at: f32) -> i64 {
+        (at / SIDE as f32).floor() as i64
+    }
     let last = square(at + reach).saturating_add(1).clamp(0, count as i64) as usize;
     (square(at - reach).max(0) as usize).min(last)..last
 }
@@ -125,7 +127,9 @@ fn squares(at: f32, reach: f32, count: usize) -> std::ops::Range<usize> {
 /// Whether the ellipse may reach a pixel of a square.
 fn reaches(splat: &StrokeSplat, column: usize, row: usize) -> bool {
     const HALF: f32 = SIDE as f32 / 2.0;
-    let middle = |square: usize| (square * SIDE) as f32 + HALF;
+    fn middle(square: usize) -> f32 {
+        (square * SIDE) as f32 + HALF
+    }
     let right = middle(column) - splat.x;
     let down = middle(row) - splat.y;
     let part = |[x, y]: [f32; 2]| {
@@ -148,7 +152,7 @@ const NOTHING: f32 = 1.0;
 pub(super) struct Square {
     /// Centre of its first pixel.
     pub(super) first: [f32; 2],
-    /// Depth of the mesh at each pixel; 1 where there is none and beyond the picture.
+    /// Depth of the mesh at each pixel, 1 where there is none and beyond the picture.
     pub(super) depths: Values,
     /// Least and greatest depth.
     range: [f32; 2],
@@ -166,7 +170,7 @@ pub(super) enum Lie {
 }
 
 impl Square {
-    /// The square whose upper left pixel is (`x`, `y`).
+    /// The square with the upper left pixel (`x`, `y`).
     pub(super) fn new(depth: &Field<f32>, x: usize, y: usize) -> Self {
         let mut depths = [[NOTHING; SIDE]; SIDE];
         let columns = SIDE.min(depth.width() - x);
@@ -257,7 +261,7 @@ impl Square {
 }
 
 /// exp(-4.5 x) brought to 0 at x = 1 and beyond, for x of 0 and up. The polynomial is the fourth
-/// power of Taylor's for exp(-1.125 x) about 1/2; its error is below 0.002.
+/// power of Taylor's for exp(-1.125 x) about 1/2. Its error is below 0.002.
 #[inline(always)]
 fn bell(square: f32) -> f32 {
     const MIDDLE: f32 = 0.569_782_8;
@@ -411,7 +415,9 @@ mod tests {
         let far = StrokeSplat { depth: 0.6, ..near };
         let mut weight = [[1.0; SIDE]; SIDE];
         weight[0][0] = 0.0;
-        let flat = |depth: f32| [[depth; SIDE]; SIDE];
+        fn flat(depth: f32) -> [[f32; 8]; 8] {
+            [[depth; SIDE]; SIDE]
+        }
         let bowls = [
             bowl(&near, &flat(near.depth), &weight),
             bowl(&far, &flat(far.depth), &[[1.0; SIDE]; SIDE]),

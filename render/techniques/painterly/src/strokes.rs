@@ -61,7 +61,7 @@ pub(super) struct Sight<'a> {
     pub(super) px_per_unit: f32,
     /// Distance of the middle of the model in front of the eye, above 0.
     pub(super) distance: f32,
-    /// For each triangle whether it is hidden where it turns away; empty where all are seen.
+    /// For each triangle whether it is hidden where it turns away, empty where all are seen.
     pub(super) closed: &'a [bool],
 }
 
@@ -97,7 +97,7 @@ pub(super) fn splats(
         .collect()
 }
 
-/// The splat of one feature; `None` if it has no weight.
+/// The splat of one feature, `None` if it has no weight.
 fn splat(
     seen: &SeenFeature,
     (root, roots): (&Root, &Roots),
@@ -164,7 +164,7 @@ pub(super) struct Brushed {
 }
 
 impl Brushed {
-    /// The splat of a feature; `None` if it is seen edge-on.
+    /// The splat of a feature, `None` if it is seen edge-on.
     pub(super) fn splat(
         &self,
         seen: &SeenFeature,
@@ -222,7 +222,7 @@ impl Brushed {
 }
 
 impl Sight<'_> {
-    /// Size of strokes by that of the settings, where a unit of the model has so many pixels.
+    /// Size of strokes relative to the settings, where a unit of the model has so many pixels.
     fn zoom(&self, px_per_unit: f32) -> f32 {
         match self.settings.strokes.zoom {
             Zoom::Screen => 1.0,
@@ -237,8 +237,8 @@ impl Sight<'_> {
     }
 }
 
-/// Distance by which strokes go on in each other: that of the middle of the model for all places
-/// that are about as far, so that strokes do not slide in the map while the model turns.
+/// Distance by which strokes go on in each other: the distance of the middle of the model for all
+/// places that are about as far, so that strokes do not slide in the map while the model turns.
 fn calm_distance(own: f32, middle: f32) -> f32 {
     let [nearest, farthest] = [middle / CALM, middle * CALM];
     if own < nearest {
@@ -250,14 +250,14 @@ fn calm_distance(own: f32, middle: f32) -> f32 {
     }
 }
 
-/// Splats of a line per area of a splat, where the surface faces the eye; there are more towards
+/// Splats of a line per area of a splat, where the surface faces the eye. There are more towards
 /// outlines.
 const DENSITY: f32 = 1.5;
 
 /// Length of a splat by its width.
 const STRETCH: f32 = 4.0;
 
-/// Half the width of a splat by that of the line.
+/// Half the width of a splat relative to the line.
 const RADIUS: f32 = 0.8;
 
 /// Part of the line in pixels behind the outline, by its width.
@@ -266,7 +266,7 @@ const BEHIND: f32 = 0.5;
 /// Greatest cosine at which a place belongs to an outline, however much the surface bends.
 const MOST: f32 = 0.6;
 
-/// How much the cosine of a triangle may differ from that of the smooth surface.
+/// How much the cosine of a triangle may differ from the cosine of the smooth surface.
 const UNEVEN: f32 = 0.2;
 
 /// Weight against other strokes, after it is raised to the power of the sharpness.
@@ -275,7 +275,7 @@ const STRENGTH: f32 = 256.0;
 /// Part of a splat in the cover beyond outlines.
 const COVER: f32 = 1.0;
 
-/// The splats of outlines, in an order that does not depend on the sight; none for lines of no
+/// The splats of outlines, in an order that does not depend on the sight, none for lines of no
 /// width.
 pub(super) fn outlines(
     features: &Features,
@@ -289,13 +289,18 @@ pub(super) fn outlines(
     }
     let radii = [RADIUS * width, RADIUS * STRETCH * width];
     let end = DENSITY / (radii[0] * radii[1]);
-    let near = |seen: &SeenFeature| {
-        seen.facing.abs() < MOST + UNEVEN && sight.may_see(seen) && {
-            let most = most(roots.greatest_bend(&seen.feature), seen, sight);
-            seen.facing.abs() < most + UNEVEN
-        }
-    };
-    let seen = features.seen_where(sight.projection, Density::Facing, end, radii[1], near);
+    let seen = features.seen_where(
+        sight.projection,
+        Density::Facing,
+        end,
+        radii[1],
+        |seen: &SeenFeature| {
+            seen.facing.abs() < MOST + UNEVEN && sight.may_see(seen) && {
+                let most = most(roots.greatest_bend(&seen.feature), seen, sight);
+                seen.facing.abs() < most + UNEVEN
+            }
+        },
+    );
     seen.par_iter()
         .with_min_len(256)
         .filter_map(|seen: &SeenFeature| {
@@ -365,8 +370,8 @@ pub(super) fn phase(seconds: f64, settings: &FlowSettings) -> f32 {
     if steps >= 1.0 { 0.0 } else { steps }
 }
 
-/// How much lighter a stroke is, -1 to 1, at a `phase` of a loop with so many changes to lighter and
-/// darker; `own` (0 to 1) is where the stroke stands at the beginning.
+/// How much lighter a stroke is, -1 to 1, at a `phase` of a loop with so many changes to lighter
+/// and darker. `own` (0 to 1) is where the stroke stands at the beginning.
 pub(super) fn twinkled(twinkles: u32, phase: f32, own: f32) -> f32 {
     let at = phase * twinkles as f32 + own;
     let at = at - at.floor();
@@ -406,8 +411,13 @@ mod tests {
     fn a_loop_ends_where_it_began_to_the_bit() {
         let settings = settings(3);
         for frame in 0..48 {
-            let time = |frame: i32| f64::from(frame) * f64::from(settings.loop_seconds) / 48.0;
-            let place = |frame| moved(0.8, phase(time(frame), &settings), settings.periods);
+            let place = |frame| {
+                moved(
+                    0.8,
+                    phase(f64::from(frame) * f64::from(settings.loop_seconds) / 48.0, &settings),
+                    settings.periods,
+                )
+            };
             for loops in [1, 2, 7, 1000] {
                 assert_eq!(place(frame).to_bits(), place(frame + 48 * loops).to_bits(), "{frame}");
             }
@@ -429,10 +439,10 @@ mod tests {
 
     #[test]
     fn strokes_move_evenly_and_stand_where_there_is_no_flow() {
-        let step = |phase: f32| {
+        fn step(phase: f32) -> f32 {
             let step = moved(1.0, phase, 2) - moved(1.0, phase + 0.01, 2);
             step.rem_euclid(1.0)
-        };
+        }
         assert!((0..99).all(|i| (step(i as f32 * 0.01) - 0.02).abs() < 1e-4));
         assert_eq!(moved(0.0, 0.3, 2), 0.0);
         assert_eq!(moved(1.0, 0.3, 0), 0.0);

@@ -23,8 +23,14 @@ const FINE: usize = 3;
 
 /// A map of ochre strokes at equal places, in `tones` tones. Strokes run along y.
 pub(super) fn map(tones: usize) -> ArtMap {
-    let tone = |index: usize| 0.04 + 0.46 * (index as f32 / (tones.max(2) - 1) as f32).powi(2);
-    let keys = (0..tones).map(|index| key(&format!("tone {index}"), tone(index))).collect();
+    let keys = (0..tones)
+        .map(|index| {
+            key(
+                &format!("tone {index}"),
+                0.04 + 0.46 * (index as f32 / (tones.max(2) - 1) as f32).powi(2),
+            )
+        })
+        .collect();
     ArtMap {
         keys,
         first: 0,
@@ -86,7 +92,7 @@ fn tile(tone: f32) -> Tile {
 }
 
 /// A splat at a place of the picture with these radii across and along, turned by radians from
-/// downwards; flat, in the middle of the depth.
+/// downwards, flat, in the middle of the depth.
 pub(super) fn splat([x, y]: [f32; 2], [across, along]: [f32; 2], turn: f32) -> StrokeSplat {
     let (sin, cos) = turn.sin_cos();
     let reach = |a: f32, b: f32| (a * a * across * across + b * b * along * along).sqrt();
@@ -129,9 +135,11 @@ pub(super) fn device() -> Option<Compute> {
 }
 
 /// Greatest differences of two pictures: of cover, of encoded colour where it can be seen, and of
-/// height; then the number of pixels whose colour was compared.
+/// height, then the number of pixels with a compared colour.
 pub(super) fn differences(one: &PaintedPicture, other: &PaintedPicture) -> ([f32; 3], usize) {
-    let size = |picture: &PaintedPicture| (picture.color.width(), picture.color.height());
+    fn size(picture: &PaintedPicture) -> (usize, usize) {
+        (picture.color.width(), picture.color.height())
+    }
     assert_eq!(size(one), size(other));
     let mut most = [0.0_f32; 3];
     let mut compared = 0;

@@ -118,7 +118,7 @@ impl Tones {
         self.nearest(map, darkest + tone.clamp(0.0, 1.0) * (lightest - darkest))
     }
 
-    /// Index of the slice of a map whose mean L* is nearest.
+    /// Index of the slice of a map with the nearest mean L*.
     pub(super) fn nearest(&self, map: usize, wanted: f32) -> usize {
         let first = self.maps[map].slices.start;
         let slices = &self.slices[self.maps[map].slices.clone()];
@@ -199,7 +199,7 @@ impl Texels {
     /// Returns 256 times the interpolated bytes.
     #[inline(always)]
     pub(super) fn between(&self, column: usize, row: usize, across: u32, down: u32) -> [f32; 4] {
-        // Nothing of this wraps; said so, tests are as fast as programs.
+        // Nothing of this wraps. Said so, tests are as fast as programs.
         let stride = self.size.wrapping_add(1);
         let at = row.wrapping_mul(stride).wrapping_add(column);
         let above = pair(&self.packed, at);
@@ -208,10 +208,10 @@ impl Texels {
         let lower = u64::from(down);
         let left = 256_u64.wrapping_sub(right);
         let upper = 256_u64.wrapping_sub(lower);
-        // Two mixes of whole numbers in lanes of 16 bits; the first is rounded to 8 bits again.
-        let mix = |a: u64, b: u64, low: u64, high: u64| {
+        // Two mixes of whole numbers in lanes of 16 bits. The first is rounded to 8 bits again.
+        fn mix(a: u64, b: u64, low: u64, high: u64) -> u64 {
             a.wrapping_mul(low).wrapping_add(b.wrapping_mul(high))
-        };
+        }
         const LANES: u64 = 0x00ff_00ff_00ff_00ff;
         const HALF: u64 = 0x0080_0080_0080_0080;
         let row = |[a, b]: [u32; 2]| {
@@ -229,7 +229,7 @@ fn pair(texels: &[u32], at: usize) -> [u32; 2] {
     [pair[0], pair[1]]
 }
 
-/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3: that of the channels.
+/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3 of the channels.
 #[inline(always)]
 fn spread(texel: u32) -> u64 {
     const EVEN: u64 = 0x00ff_00ff;
@@ -266,11 +266,12 @@ fn halved(color: &Picture, heights: &[f32]) -> (Picture, Vec<f32>) {
         let y = 2 * (index / half);
         [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]
     };
-    let mean_color = |index| {
-        let sum: Vec3 = corners(index).map(|at| Vec3::from(color[at])).iter().sum();
-        (sum / 4.0).to_array()
-    };
-    let colors = (0..half * half).map(mean_color).collect();
+    let colors = (0..half * half)
+        .map(|index| {
+            let sum: Vec3 = corners(index).map(|at| Vec3::from(color[at])).iter().sum();
+            (sum / 4.0).to_array()
+        })
+        .collect();
     (
         Field::from_values(half, half, colors),
         (0..half * half)
@@ -294,7 +295,7 @@ fn range<'a>(
 }
 
 /// Value of a byte of 0 and change from byte to byte for heights: a few lumps and pits are cut, so
-/// that bytes tell the ridges of strokes.
+/// that bytes resolve the ridges of strokes.
 fn usual_heights(heights: impl Iterator<Item = f32>, [low, step]: [f32; 2]) -> (f32, f32) {
     let (count, sum, square) = heights.fold((0.0_f64, 0.0, 0.0), |(count, sum, square), height| {
         let height = f64::from(height);
@@ -308,10 +309,6 @@ fn usual_heights(heights: impl Iterator<Item = f32>, [low, step]: [f32; 2]) -> (
 }
 
 fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNELS]) -> Texels {
-    let byte = |value: f32, channel: usize| match step[channel] {
-        0.0 => 0,
-        step => ((value - low[channel]) / step).round().clamp(0.0, 255.0) as u8,
-    };
     Texels {
         size,
         packed: (0..(size + 1) * (size + 1))
@@ -319,7 +316,12 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
                 let x = index % (size + 1) % size;
                 let y = index / (size + 1) % size;
                 let value = values[y * size + x];
-                u32::from_le_bytes([0, 2, 1, 3].map(|channel| byte(value[channel], channel)))
+                u32::from_le_bytes([0, 2, 1, 3].map(|channel| match step[channel] {
+                    0.0 => 0,
+                    step => {
+                        ((value[channel] - low[channel]) / step).round().clamp(0.0, 255.0) as u8
+                    }
+                }))
             })
             .collect(),
     }
@@ -330,7 +332,7 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
 pub(super) enum ToneMemory {
     /// The processor's memory.
     Host,
-    /// That of a graphics device.
+    /// The memory of a graphics device.
     Device(DeviceTones),
 }
 
@@ -348,7 +350,7 @@ impl ToneMemory {
     ///
     /// # Errors
     /// [`DeviceError::TooLarge`] for tones beyond the device's buffer limit, and other errors of a
-    /// device; never on the processor.
+    /// device, never on the processor.
     pub(super) fn new(
         compute: &mut Compute,
         tones: &Tones,

@@ -22,8 +22,8 @@ const LEAST_ALONG: f64 = 1e-3;
 /// A smooth field of tangent directions of arbitrary sign on a mesh, one for every vertex.
 ///
 /// It belongs to the model: it does not depend on a camera, and it turns with the mesh. Only a
-/// connected part without any direction in its shape, such as a sphere or a plane, follows a fixed
-/// axis (y, or x if its surface faces up), and its poles stay singular.
+/// connected part without any direction in its shape, for example a sphere or a plane, follows a
+/// fixed axis (y, or x if its surface faces up), and its poles stay singular.
 #[derive(Debug, Clone)]
 pub struct DirectionField {
     pub(super) of_vertex: Vec<u32>,
@@ -48,18 +48,17 @@ struct Base<'a> {
 }
 
 impl DirectionField {
-    /// The field along the principal directions of the mesh's curvature
-    /// ([`Mesh::curvatures`]), smoothed over `settings.smoothing` as lines of two-fold
-    /// symmetry. A direction counts by the difference between the absolute values of both
-    /// curvatures times the model's radius; where they are equal the neighbours decide. Vertices
-    /// with a guide have its direction.
+    /// The field along the principal directions of the mesh's curvature ([`Mesh::curvatures`]),
+    /// smoothed over `settings.smoothing` as lines of two-fold symmetry. A direction counts by the
+    /// difference between the absolute values of both curvatures times the model's radius. Where
+    /// they are equal the neighbours decide. Vertices with a guide have its direction.
     ///
     /// # Errors
-    /// [`DirectionFault`] if the smoothing is outside 0..1, or a guide has no such vertex or no part
-    /// along the surface there.
+    /// [`DirectionFault`] if the smoothing is outside 0..1, or a guide has no such vertex or no
+    /// part along the surface there.
     ///
     /// # Panics
-    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions;
+    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions.
     /// [`Mesh::check`] finds both.
     pub fn of_curvature(
         mesh: &Mesh,
@@ -74,14 +73,14 @@ impl DirectionField {
     }
 
     /// The field through given lines, one for each vertex, smoothed over `settings.smoothing`. A
-    /// line counts by its weight and the area around its vertex; where weights are 0 the neighbours
+    /// line counts by its weight and the area around its vertex. Where weights are 0 the neighbours
     /// decide. Vertices with a guide have its direction.
     ///
     /// # Errors
-    /// Those of [`Self::of_curvature`].
+    /// As [`Self::of_curvature`].
     ///
     /// # Panics
-    /// Those of [`Self::of_curvature`], or if there are fewer lines than vertices.
+    /// As [`Self::of_curvature`], and if there are fewer lines than vertices.
     pub fn of_lines(
         mesh: &Mesh,
         lines: &[Line],
@@ -142,9 +141,9 @@ impl DirectionField {
         self.squares[self.of_vertex[vertex] as usize].length().min(1.0) as f32
     }
 
-    /// Unit direction, of arbitrary sign, at a point inside a triangle with these corners, whose
-    /// barycentric weights are not negative and add up to 1. But for the sign it is continuous
-    /// in the triangle and across its edges, except at singular points.
+    /// Unit direction, of arbitrary sign, at a point inside a triangle with these corners. The
+    /// barycentric weights are not negative and add up to 1. But for the sign it is continuous in
+    /// the triangle and across its edges, except at singular points.
     ///
     /// # Panics
     /// If the mesh has no such vertices.
@@ -157,7 +156,7 @@ impl DirectionField {
     }
 }
 
-/// Line with this square; a projected axis where nothing determines it.
+/// Line with this square, a projected axis where nothing determines it.
 fn line(plane: &TangentPlane, square: DVec2) -> DVec3 {
     let axis = plane.projected(DVec3::Y);
     plane.along(if square == DVec2::ZERO { axis.rotate(axis) } else { square })
@@ -212,18 +211,18 @@ pub struct FlowField {
 
 impl DirectionField {
     /// Gives the lines signs along the spanning tree of greatest reliability, which grows from all
-    /// places with a guide at once, so that flow runs along guides and not against them. Where signs cannot
-    /// agree, around singular places and across the cuts that half turns force, vertices are
-    /// marked as singular and the strength is 0; it rises to 1 over `fade_rings` rings of edges (2
-    /// or 3 are usual; 0 leaves it at 1 beside singular vertices).
+    /// places with a guide at once, so that flow runs along guides and not against them. Where
+    /// signs cannot agree, around singular places and across the cuts that half turns force,
+    /// vertices are marked as singular and the strength is 0. It rises to 1 over `fade_rings` rings
+    /// of edges (2 or 3 are usual, 0 leaves it at 1 beside singular vertices).
     #[must_use]
     pub fn oriented(&self, fade_rings: usize) -> FlowField {
         self.signed(self.arrows(), fade_rings)
     }
 
-    /// Gives the lines the signs of arrows of any length, one for each vertex; 0 leaves a vertex
-    /// without. A connected part takes those vertices' signs as [`Self::oriented`] does, turned over
-    /// if most given arrows say so.
+    /// Gives the lines the signs of arrows of any length, one for each vertex, 0 leaves a vertex
+    /// without. A connected part takes those vertices' signs as [`Self::oriented`] does, turned
+    /// over if most given arrows say so.
     ///
     /// # Panics
     /// If there are fewer arrows than vertices.
@@ -329,7 +328,7 @@ impl FlowField {
     }
 
     /// Flow at a point inside a triangle with these corners, whose barycentric weights are not
-    /// negative and add up to 1: a tangent vector whose length, 0 to 1, is the strength. It is
+    /// negative and add up to 1: a tangent vector. Its length, 0 to 1, is the strength. It is
     /// continuous in the triangle and across its edges.
     ///
     /// # Panics
@@ -461,7 +460,7 @@ pub(super) fn spanning_tree(
     steps
 }
 
-/// The best candidate whose place is not reached yet.
+/// The best candidate with a place that is not reached yet.
 fn unreached(candidates: &mut BinaryHeap<Candidate>, reached: &[bool]) -> Option<Step> {
     while let Some(Candidate { place, from, .. }) = candidates.pop() {
         if !reached[place as usize] {

@@ -29,10 +29,10 @@ pub enum Along {
 /// Settings of a field of directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectionSettings {
-    /// The principal direction that the field follows; the least by default.
+    /// The principal direction that the field follows, the least by default.
     pub along: Along,
     /// Rounds of averaging normals before curvature is computed, see
-    /// [`Mesh::curvatures`](crate::mesh::Mesh::curvatures); 1 by default.
+    /// [`Mesh::curvatures`](crate::mesh::Mesh::curvatures), 1 by default.
     pub normal_rounds: usize,
     /// Length over which directions are smoothed where curvature is well defined, as a share of the
     /// model's radius (root mean square distance of the surface from its centre): 0 to 1, 0.05 by
@@ -49,7 +49,7 @@ impl Default for DirectionSettings {
 /// A direction that a vertex asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Line {
-    /// Direction of any length and sign in the model's axes; only its part along the surface
+    /// Direction of any length and sign in the model's axes. Only its part along the surface
     /// counts.
     pub along: [f32; 3],
     /// How much it counts, 0 to 1.
@@ -59,11 +59,11 @@ pub struct Line {
 /// A direction that the field must have at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guide {
-    /// Index of the vertex. All vertices at the same position follow; of several guides at
-    /// one position the last one counts.
+    /// Index of the vertex. All vertices at the same position follow. Of several guides at one
+    /// position the last one counts.
     pub vertex: u32,
-    /// Direction of any length in the model's axes; only its part along the surface counts. Lines
-    /// have no sign, but flow has that of the guide
+    /// Direction of any length in the model's axes. Only its part along the surface counts. Lines
+    /// have no sign, but flow has the sign of the guide
     /// ([`DirectionField::oriented`](DirectionField::oriented)).
     pub along: [f32; 3],
 }

@@ -20,31 +20,31 @@ use super::{Along, Line};
 use crate::mesh::curvature::{PlaceShape, Places, ShapeTensor, TangentPlane, carried};
 use crate::smoothstep;
 
-/// Residual, relative to that of no lines at all, at which the solver stops.
+/// Residual at which the solver stops, relative to the residual without any lines.
 const RESIDUAL: f64 = 1e-8;
 
 /// Most steps of the solver. A plane of 100,000 triangles that a guide in one corner decides takes
 /// about 1000, a still life of that size 400.
 const MOST_STEPS: usize = 4000;
 
-/// Places in one portion of a sum; sums are added portion by portion, so that the number of threads
+/// Places in one portion of a sum. Sums are added portion by portion, so that the number of threads
 /// does not matter.
 const PORTION: usize = 1 << 11;
 
-/// The system whose solution is the smooth field.
+/// The system that the smooth field solves.
 struct System<'a> {
     links: &'a Links,
     /// Square of the smoothing length.
     spread: f64,
     evidence: &'a Evidence,
     fixed: &'a [bool],
-    /// One over the diagonal of the matrix; 0 at fixed places and at those that nothing determines.
+    /// One over the diagonal of the matrix, 0 at fixed places and at those that nothing determines.
     inverse_diagonal: Vec<f64>,
 }
 
-/// Squares of the smooth lines at all places; their length, at most 1 but for rounding, tells how
-/// well the surroundings agree. Places that are `fixed` keep the value of `given`; one that
-/// nothing determines gets 0.
+/// Squares of the smooth lines at all places. Their length, at most 1 but for rounding, shows how
+/// well the surroundings agree. Places that are `fixed` keep the value of `given`. One that nothing
+/// determines gets 0.
 pub(super) fn smooth_squares(
     links: &Links,
     evidence: &Evidence,
@@ -56,9 +56,13 @@ pub(super) fn smooth_squares(
     let mut squares = system.start(given);
     let mut product = vec![DVec2::ZERO; squares.len()];
     system.multiply(&squares, &mut product);
-    let rest = |place: usize| evidence.squares[place] - product[place];
-    let free = |place: usize| if fixed[place] { DVec2::ZERO } else { rest(place) };
-    let mut residual: Vec<DVec2> = (0..squares.len()).map(free).collect();
+    let mut residual: Vec<DVec2> = (0..squares.len())
+        .map(
+            |place: usize| {
+                if fixed[place] { DVec2::ZERO } else { evidence.squares[place] - product[place] }
+            },
+        )
+        .collect();
     let mut scaled = system.preconditioned(&residual);
     let mut direction = scaled.clone();
     let mut size = dot(&residual, &scaled);
@@ -125,7 +129,7 @@ impl<'a> System<'a> {
         dot(&residual, &self.preconditioned(&residual))
     }
 
-    /// Product of the matrix and a field; at fixed places the product is of no use.
+    /// Product of the matrix and a field. At fixed places the product is of no use.
     fn multiply(&self, field: &[DVec2], product: &mut [DVec2]) {
         let rows = product.par_iter_mut().with_min_len(1 << 9).enumerate();
         rows.for_each(|(place, product)| {
@@ -211,7 +215,7 @@ impl Evidence {
         own
     }
 
-    /// Adds an axis of the model to every connected part whose curvature tells no direction, for
+    /// Adds an axis of the model to every connected part without a direction of curvature, for
     /// example a sphere or a plane, unless it has a fixed place.
     pub(super) fn add_axes(
         &mut self,
@@ -259,7 +263,7 @@ fn reliability(tensor: &ShapeTensor, radius: f64) -> f64 {
 
 /// Unit square of the principal direction, or 0 if there is none.
 fn principal_square(tensor: &ShapeTensor, along: Along) -> DVec2 {
-    // The direction of the greater curvature by sign is that of the greater by size if convex.
+    // On a convex surface the curvature that is greater by sign is also greater by size.
     let greatest = if tensor.mean >= 0.0 { tensor.difference } else { -tensor.difference };
     let square = greatest.normalize_or_zero();
     match along {
@@ -306,8 +310,8 @@ pub(super) struct Links {
 }
 
 impl Links {
-    /// The links along the edges of the triangles. The stiffness is that of the edge times (1 +
-    /// cosine of the angle between the normals) / 2; places of opposite normals have no link.
+    /// The links along the edges of the triangles. The stiffness is the edge's times (1 + cosine of
+    /// the angle between the normals) / 2. Places of opposite normals have no link.
     pub(super) fn new(places: &Places, planes: &[TangentPlane]) -> Self {
         let mut starts = vec![0];
         let mut all = Vec::with_capacity(places.stiffness.len());
@@ -387,7 +391,7 @@ pub(super) fn vector_within(normals: [DVec3; 3], vectors: [DVec3; 3], weights: [
     parts.sum()
 }
 
-/// Interpolated unit normal; that of the heaviest corner if they cancel out.
+/// Interpolated unit normal, the heaviest corner's if they cancel out.
 fn normal_within(normals: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     let sum: DVec3 = (0..3).map(|i| weights[i] * normals[i]).sum();
     let heaviest = (1..3).fold(0, |most, i| if weights[i] > weights[most] { i } else { most });

@@ -62,7 +62,9 @@ fn assert_sound(name: &str, mesh: &Mesh, field: &DirectionField, flow: &FlowFiel
 #[test]
 fn lines_follow_the_least_or_the_greatest_curvature() {
     let ring = torus(4000, 1.0, 0.4);
-    let around = |at: Vec3| Vec3::Z.cross(at).normalize();
+    fn around(at: Vec3) -> Vec3 {
+        Vec3::Z.cross(at).normalize()
+    }
     let error = greatest_error(&ring, &field(&ring), |_| true, around);
     assert!(error < 1.0, "torus, least: {error} deg");
     let settings = DirectionSettings { along: Along::Greatest, ..DirectionSettings::default() };
@@ -89,8 +91,12 @@ fn flat_places_take_the_direction_of_their_neighbours() {
 fn a_ball_has_smooth_lines_with_two_poles() {
     let mesh = Mesh::sphere(6000);
     let field = field(&mesh);
-    let meridian = |at: Vec3| (Vec3::Y - at * at.y).normalize();
-    let error = greatest_error(&mesh, &field, |at| at.y.abs() < 0.9, meridian);
+    let error = greatest_error(
+        &mesh,
+        &field,
+        |at| at.y.abs() < 0.9,
+        |at: Vec3| (Vec3::Y - at * at.y).normalize(),
+    );
     assert!(error < 1.0, "{error} deg");
     let flow = field.oriented(2);
     let singular = |vertex: usize| flow.is_singular(vertex);
@@ -196,7 +202,9 @@ fn flow_fades_over_rings_of_edges() {
     };
     assert_eq!(strengths(0), [0.0, 1.0]);
     assert!(strengths(usize::MAX).into_iter().all(|strength| strength < 0.01), "endless rings");
-    let smooth = |at: f32| at * at * (3.0 - 2.0 * at);
+    fn smooth(at: f32) -> f32 {
+        at * at * (3.0 - 2.0 * at)
+    }
     let [first, second] = [smooth(1.0 / 3.0), smooth(2.0 / 3.0)];
     for (found, wanted) in strengths(2).into_iter().zip([0.0, first, second, 1.0]) {
         assert!((found - wanted).abs() < 1e-6, "{found}, {wanted}");
@@ -308,13 +316,17 @@ fn faults_of_settings_and_guides_are_named() {
 fn given_lines_are_followed_and_spread_where_none_are_given() {
     let mesh = square(400);
     let wanted = Vec3::new(0.6, 0.8, 0.0);
-    let line = |at: &[f32; 3]| match at[0] > 0.3 {
-        true => {
-            Line { along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(), weight: 1.0 }
-        }
-        false => Line { along: [0.8, -0.6, 0.0], weight: 0.0 },
-    };
-    let lines: Vec<Line> = mesh.positions.iter().map(line).collect();
+    let lines: Vec<Line> = mesh
+        .positions
+        .iter()
+        .map(|at: &[f32; 3]| match at[0] > 0.3 {
+            true => Line {
+                along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(),
+                weight: 1.0,
+            },
+            false => Line { along: [0.8, -0.6, 0.0], weight: 0.0 },
+        })
+        .collect();
     let field = DirectionField::of_lines(&mesh, &lines, &DirectionSettings::default(), &[]);
     let worst = greatest_error(&mesh, &field.unwrap(), |_| true, |_| wanted);
     assert!(worst < 0.5, "{worst}");
@@ -344,7 +356,7 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
     let split = field.oriented_by(&both, 1);
     for (vertex, at) in mesh.positions.iter().enumerate() {
         assert!(Vec3::from(split.arrow(vertex)).dot(Vec3::from(both[vertex])) > 0.99);
-        // Columns are 1/7 apart; one ring of edges on both sides of the cut is weak.
+        // Columns are 1/7 apart. One ring of edges on both sides of the cut is weak.
         let near = (at[0] - 0.07).abs() < 0.25;
         assert!(!near || split.strength(vertex) < 1.0, "{at:?}");
     }
@@ -357,8 +369,9 @@ fn flow_runs_along_every_guide_and_stops_where_guides_meet() {
     let flow = |guides: &[Guide]| {
         DirectionField::of_curvature(&mesh, &settings, guides).unwrap().oriented(1)
     };
-    let guide =
-        |vertex: usize, along: Vec3| Guide { vertex: vertex as u32, along: along.to_array() };
+    fn guide(vertex: usize, along: Vec3) -> Guide {
+        Guide { vertex: vertex as u32, along: along.to_array() }
+    }
     let most = |side: f32| {
         let places = mesh.positions.iter().map(|&[x, ..]| side * x).enumerate();
         places.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0

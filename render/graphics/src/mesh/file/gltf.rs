@@ -129,7 +129,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Adds the triangles of a primitive; points and lines are skipped.
+    /// Adds the triangles of a primitive. Points and lines are skipped.
     fn add_primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,

@@ -16,11 +16,9 @@ use crate::mesh::model::{Material, Mesh, Texture};
 /// one from the file.
 pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
-    let at_line = |name: &str, (line, reason): (usize, String)| MeshError::Malformed {
-        name: name.to_owned(),
-        place: format!("line {line}"),
-        reason,
-    };
+    fn at_line(name: &str, (line, reason): (usize, String)) -> MeshError {
+        MeshError::Malformed { name: name.to_owned(), place: format!("line {line}"), reason }
+    }
     check_obj(&text).map_err(|fault| at_line(name, fault))?;
     let options = tobj::LoadOptions {
         single_index: true,
@@ -162,7 +160,9 @@ struct Counts {
 
 /// Checks the lines of an OBJ file that affect the mesh.
 pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
-    let words = |line: &'_ str| line.split_whitespace().next().map(str::to_owned);
+    fn words(line: &'_ str) -> Option<String> {
+        line.split_whitespace().next().map(str::to_owned)
+    }
     let count = |of: &str| text.lines().filter(|line| words(line).as_deref() == Some(of)).count();
     let all = Counts { positions: count("v"), coordinates: count("vt"), normals: count("vn") };
     let mut so_far = Counts::default();

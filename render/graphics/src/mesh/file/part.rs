@@ -1,4 +1,4 @@
-//! Parts of a model as files store them, appended to one mesh; texture images; errors of reading
+//! Parts of a model as files store them, appended to one mesh, texture images, errors of reading
 //! models.
 
 use std::io::Cursor;
@@ -13,7 +13,7 @@ use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<[f32; 3]>,
-    /// Empty, or one per position; likewise the next two lists.
+    /// Empty, or one per position, likewise the next two lists.
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texture_coordinates: Vec<[f32; 2]>,
     pub(super) colors: Vec<[f32; 3]>,
@@ -32,7 +32,7 @@ pub(super) const PAINTED: Material =
     Material { name: String::new(), color: [1.0; 3], texture: None };
 
 impl Mesh {
-    /// Appends a part. Missing attributes are filled in; missing normals become zeros, to be
+    /// Appends a part. Missing attributes are filled in. Missing normals become zeros, to be
     /// computed later.
     pub(super) fn add(&mut self, part: Part) {
         let first = self.positions.len() as u32;
@@ -57,7 +57,7 @@ impl Mesh {
 const LONGEST: u32 = 16_384;
 
 impl Texture {
-    /// Decodes a PNG, JPEG, TIFF or WebP image; the error is the decoder's reason.
+    /// Decodes a PNG, JPEG, TIFF or WebP image. The error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         if is_cut_off_jpeg(bytes) {
             return Err(CUT_OFF.to_owned());
@@ -93,7 +93,7 @@ pub enum MeshError {
     UnknownFormat {
         /// Path of the file.
         name: String,
-        /// The extension, lower case; empty if there is none.
+        /// The extension, lower case, empty if there is none.
         extension: String,
     },
     /// The content violates the file's format.

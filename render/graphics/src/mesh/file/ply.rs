@@ -11,7 +11,7 @@ use ply_rs_bw::ply::{
 use super::part::{MeshError, PAINTED, PLAIN, Part};
 use crate::mesh::model::Mesh;
 
-/// Reads a PLY file; elements other than vertices and faces are skipped.
+/// Reads a PLY file. Elements other than vertices and faces are skipped.
 pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let malformed = |place: &str, reason: &str| MeshError::Malformed {
         name: name.to_owned(),
@@ -148,7 +148,9 @@ impl PropertyAccess for Face {
             return PropertyAccessResult::Ignored;
         }
         // A negative index is mapped to one that is out of range.
-        let whole = |value: i64| u32::try_from(value).unwrap_or(u32::MAX);
+        fn whole(value: i64) -> u32 {
+            u32::try_from(value).unwrap_or(u32::MAX)
+        }
         self.corners = match property {
             Property::ListChar(list) => list.into_iter().map(|at| whole(at.into())).collect(),
             Property::ListUChar(list) => list.into_iter().map(u32::from).collect(),

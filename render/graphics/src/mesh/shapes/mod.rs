@@ -59,7 +59,7 @@ impl SampleModel {
     }
 }
 
-/// Resolution of a grid; each cell becomes two triangles.
+/// Resolution of a grid. Each cell becomes two triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GridSize {
     /// Number of cells along u.
@@ -69,8 +69,8 @@ pub struct GridSize {
 }
 
 impl GridSize {
-    /// Grid of about `triangles` triangles with `aspect` times as many columns as rows; at
-    /// least 3 x 2 cells.
+    /// Grid of about `triangles` triangles with `aspect` times as many columns as rows, at least 3
+    /// x 2 cells.
     #[must_use]
     pub fn for_triangles(triangles: usize, aspect: f64) -> Self {
         let rows = (triangles as f64 / 2.0 / aspect).sqrt();
@@ -80,10 +80,10 @@ impl GridSize {
 }
 
 impl Mesh {
-    /// Appends the parametric surface `position(u, v)` for u and v in 0..1 (evaluated
-    /// slightly beyond for the normals), white and with one material. Texture coordinates are
-    /// (u, v). Seen from outside, u increases to the right and v downwards. Edges that
-    /// coincide are joined; an edge that collapses to a point becomes a pole.
+    /// Appends the parametric surface `position(u, v)` for u and v in 0..1 (evaluated slightly
+    /// beyond for the normals), white and with one material. Texture coordinates are (u, v). Seen
+    /// from outside, u increases to the right and v downwards. Edges that coincide are joined. An
+    /// edge that collapses to a point becomes a pole.
     pub fn add_grid(&mut self, cells: GridSize, material: u32, position: impl Fn(Vec2) -> Vec3) {
         let GridSize { columns, rows } = cells;
         let first = self.positions.len();
@@ -113,8 +113,8 @@ impl Mesh {
     }
 }
 
-/// Makes positions at the edges of a grid equal if they differ by rounding only; a pole
-/// gets the mean of its normals.
+/// Makes positions at the edges of a grid equal if they differ by rounding only. A pole gets the
+/// mean of its normals.
 fn join(
     positions: &mut [[f32; 3]],
     normals: &mut [[f32; 3]],
@@ -144,8 +144,8 @@ fn join(
     }
 }
 
-/// Normal of the surface by central differences; at a pole, that of a point slightly
-/// beside it.
+/// Normal of the surface by central differences, at a pole, the normal of a point slightly beside
+/// it.
 fn normal(uv: Vec2, position: &impl Fn(Vec2) -> Vec3) -> Vec3 {
     const STEP: f32 = 1e-3;
     let slopes = |at: Vec2| {
@@ -189,7 +189,7 @@ impl Mesh {
     }
 }
 
-/// Point of the unit sphere; v = 0 is the north pole, v = 1 the south pole.
+/// Point of the unit sphere. v = 0 is the north pole, v = 1 the south pole.
 fn unit_sphere(uv: Vec2) -> Vec3 {
     let (sin_u, cos_u) = (uv.x * TAU).sin_cos();
     let (sin_v, cos_v) = (uv.y * PI).sin_cos();
@@ -218,8 +218,8 @@ fn catmull_rom(points: &[Vec3], at: f32) -> Vec3 {
     b + ((c - a) * t + quadratic * (t * t) + cubic * (t * t * t)) / 2.0
 }
 
-/// Surface of revolution about the y axis. The profile is given from top to bottom as
-/// (radius, height); a hollow body starts at the bottom of its inside.
+/// Surface of revolution about the y axis. The profile is given from top to bottom as (radius,
+/// height). A hollow body starts at the bottom of its inside.
 fn lathe(outline: &[[f32; 2]]) -> impl Fn(Vec2) -> Vec3 + use<> {
     let points: Vec<Vec3> = outline.iter().map(|&[r, y]| Vec3::new(r, y, 0.0)).collect();
     move |uv| {
@@ -229,7 +229,7 @@ fn lathe(outline: &[[f32; 2]]) -> impl Fn(Vec2) -> Vec3 + use<> {
     }
 }
 
-/// Tube along a spline, with radius `thickness(v)`; closed where that is 0 at the ends.
+/// Tube along a spline, with radius `thickness(v)`, closed where that is 0 at the ends.
 fn tube(points: &[Vec3], thickness: impl Fn(f32) -> f32) -> impl Fn(Vec2) -> Vec3 {
     let points = points.to_vec();
     move |uv| {
@@ -250,9 +250,9 @@ fn mix_colors(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
 }
 
 impl Mesh {
-    /// A picture, encoded sRGB with opacity in 0..1, as a rectangle of two triangles in the plane
-    /// z = 0 around the origin, towards +z. Its longer side is 1; `camera::PictureView` has
-    /// cameras that see it. Transparent parts are white.
+    /// A picture, encoded sRGB with opacity in 0..1, as a rectangle of two triangles in the plane z
+    /// = 0 around the origin, towards +z. Its longer side is 1. `camera::PictureView` has cameras
+    /// that see it. Transparent parts are white.
     ///
     /// # Panics
     /// If the picture has no pixels, or a side of 2^32 or more.

@@ -57,7 +57,7 @@ impl Mesh {
 
 /// Four blue stripes and a red one on linen white.
 fn stripes() -> Texture {
-    let texel = |x: u32| {
+    fn texel(x: u32) -> u32 {
         let blue = (8..16).contains(&(x % 32));
         let red = (19..21).contains(&(x % 32));
         let [r, g, b] = match (blue, red) {
@@ -66,7 +66,7 @@ fn stripes() -> Texture {
             _ => [238, 230, 214],
         };
         u32::from_le_bytes([r, g, b, 255])
-    };
+    }
     Texture { width: 64, height: 2, texels: (0..128).map(|i| texel(i % 64)).collect() }
 }
 
@@ -129,12 +129,14 @@ fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let handle = [[-0.38, 1.66], [-0.72, 1.72], [-0.92, 1.40], [-0.84, 0.95], [-0.58, 0.70]];
     let points = handle.map(|[z, y]| Vec3::new(z, y, 0.0));
     // Both ends lie inside the body.
-    let thickness = |v: f32| (0.085 - 0.02 * v) * smoothstep([0.0, 0.04], v.min(1.0 - v));
+    fn thickness(v: f32) -> f32 {
+        (0.085 - 0.02 * v) * smoothstep([0.0, 0.04], v.min(1.0 - v))
+    }
     let handle = tube(&points, thickness);
     let turn = spout * Quat::from_rotation_y(-TAU / 4.0);
     mesh.add_grid(GridSize::for_triangles(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
     mesh.tint(first, |position| {
-        // The foot is bare clay; a band stays pale.
+        // The foot is bare clay. A band stays pale.
         let band =
             smoothstep([0.84, 0.88], position.y) * (1.0 - smoothstep([1.08, 1.12], position.y));
         let glazed = mix_colors([0.36, 0.54, 0.68], [0.84, 0.86, 0.84], band);

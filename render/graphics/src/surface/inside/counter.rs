@@ -15,8 +15,8 @@ use crate::mesh::Triangle;
 use crate::surface::model::{DeviceModel, Model};
 use crate::surface::{Fragment, Positioned, Vertex};
 
-/// Counts the closed surfaces that hold what each pixel shows. Keeps its memory between
-/// pictures; of use to one [`Compute`] only.
+/// Counts the closed surfaces that hold what each pixel shows. Keeps its memory between pictures,
+/// of use to one [`Compute`] only.
 #[derive(Debug, Default)]
 pub struct InsideCounter {
     crossings: Crossings,
@@ -24,17 +24,17 @@ pub struct InsideCounter {
 }
 
 impl InsideCounter {
-    /// The number of `surfaces` that hold the point that each pixel of `visible` shows: of
-    /// `model`, as `camera` sees it. 0 where nothing is seen.
+    /// The number of `surfaces` that hold the point that each pixel of `visible` shows: of `model`,
+    /// as `camera` sees it. 0 where nothing is seen.
     ///
-    /// A device draws the model again for its depth and counts in the stencil, in passes of at
-    /// most 255 surfaces. It may differ from the processor where a surface's outline passes
-    /// within a pixel or its skin within rounding.
+    /// A device draws the model again for its depth and counts in the stencil, in passes of at most
+    /// 255 surfaces. It may differ from the processor where a surface's outline passes within a
+    /// pixel or its skin within rounding.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left, was lost or has no stencil that can be
-    /// read back; a device also refuses pictures without a pixel and those larger than it can
-    /// draw. Never on the processor.
+    /// [`DeviceError`] if a device has no memory left, was lost or has no stencil that can be read
+    /// back. A device also refuses pictures without a pixel and those larger than it can draw.
+    /// Never on the processor.
     ///
     /// # Panics
     /// If another form of [`Compute`] made the model or the image, or (on the processor) if a
@@ -57,16 +57,16 @@ impl InsideCounter {
         }
     }
 
-    /// The sum of the `weights` of the surfaces that hold the point that each pixel of
-    /// `visible` shows; 0 where nothing is seen. There is one weight for each surface; sums
-    /// beyond the range of `i32` wrap.
+    /// The sum of the `weights` of the surfaces that hold the point that each pixel of `visible`
+    /// shows, 0 where nothing is seen. There is one weight for each surface. Sums beyond the range
+    /// of `i32` wrap.
     ///
     /// A device adds at every pixel of every face, which not all devices can
     /// ([`crate::gpu::Device::scatters`]).
     ///
     /// # Errors
-    /// As [`Self::counts`], and [`DeviceError::Refused`] on a device whose fragments cannot
-    /// write to buffers.
+    /// As [`Self::counts`], and [`DeviceError::Refused`] on a device that cannot write to buffers
+    /// from fragments.
     ///
     /// # Panics
     /// As [`Self::counts`], and if a surface has no weight.
@@ -94,14 +94,14 @@ impl InsideCounter {
     }
 
     /// The number of `surfaces` that hold the point that each pixel of `visible` shows and whose
-    /// gate lets its triangle pass; 0 where nothing is seen.
+    /// gate lets its triangle pass, 0 where nothing is seen.
     ///
     /// # Errors
     /// As [`Self::weighed`].
     ///
     /// # Panics
-    /// As [`Self::counts`]; if a surface has no gate, or (on the processor) a triangle that is
-    /// seen has no normal.
+    /// As [`Self::counts`]. If a surface has no gate, or (on the processor) a triangle that is seen
+    /// has no normal.
     pub fn gated(
         &mut self,
         compute: &mut Compute,
@@ -334,7 +334,7 @@ fn device_gated(
     scattered(gpu, &GATED_FACES, (visible.size(), &buffers), camera, surfaces, target)
 }
 
-/// Sums of `shader` over every pixel of every face. Its buffers are those of the surfaces, then
+/// Sums of `shader` over every pixel of every face. Its buffers are the surfaces' buffers, then
 /// `buffers`, then the sums.
 fn scattered(
     gpu: &mut GpuCompute,
@@ -369,16 +369,16 @@ mod tests {
 
     #[test]
     fn a_batch_has_as_many_surfaces_as_a_stencil_counts() {
-        let triangles = |counts: &[u32]| -> Vec<Triangle> {
+        fn triangles(counts: &[u32]) -> Vec<Triangle> {
             let faces = counts.iter().zip(0..).flat_map(|(&count, material)| {
                 (0..count).map(move |_| Triangle { corners: [0; 3], material: 7 * material })
             });
             faces.collect()
-        };
-        let ends = |counts: &[u32]| -> Vec<[usize; 2]> {
+        }
+        fn ends(counts: &[u32]) -> Vec<[usize; 2]> {
             let batches = batches(&triangles(counts)).into_iter();
             batches.map(|batch| [batch.start, batch.end]).collect()
-        };
+        }
         assert_eq!(ends(&[]), [[0, 0]]);
         assert_eq!(ends(&[2; 255]), [[0, 510]]);
         assert_eq!(ends(&[2; 256]), [[0, 510], [510, 512]]);

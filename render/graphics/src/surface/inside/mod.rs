@@ -32,7 +32,7 @@ pub use counter::{ADD_STENCIL, GATED_FACES, InsideCounter, STENCIL_FACES, WEIGHE
 pub struct ClosedSurfaces<'a, V> {
     /// The vertices of all surfaces, in the unit of the model.
     pub vertices: &'a [V],
-    /// The triangles of all surfaces; [`Triangle::material`] is the index of the surface.
+    /// The triangles of all surfaces. [`Triangle::material`] is the index of the surface.
     pub triangles: &'a [Triangle],
 }
 
@@ -52,7 +52,7 @@ pub struct Crossing {
     pub pixel: usize,
     /// Index of the surface.
     pub surface: u32,
-    /// Depth as in [`crate::surface::Fragment`]; above 1 beyond the far plane.
+    /// Depth as in [`crate::surface::Fragment`], above 1 beyond the far plane.
     pub depth: f32,
     /// 1 where the ray leaves the surface (a back face), -1 where it enters.
     pub sign: i32,
@@ -76,10 +76,10 @@ impl Crossing {
 /// Crossings of a pixel are added in the order of the triangles. A sum in whole numbers that
 /// wrap does not depend on that order.
 pub trait CrossingSum: Sync {
-    /// The sum of a pixel; its default is the sum over no crossing.
+    /// The sum of a pixel, its default is the sum over no crossing.
     type Sum: Copy + Default + Send + Sync;
 
-    /// Whether crossings before the seen point are added too, and those of pixels that show
+    /// Whether crossings before the seen point are added too, and crossings at pixels that show
     /// nothing. Otherwise only crossings at or behind the seen point are added.
     const EVERY_CROSSING: bool = false;
 
@@ -87,7 +87,7 @@ pub trait CrossingSum: Sync {
     fn add(&self, sum: &mut Self::Sum, crossing: &Crossing);
 }
 
-/// The number of closed surfaces that hold the seen point; 0 where nothing is seen.
+/// The number of closed surfaces that hold the seen point, 0 where nothing is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Count;
 
@@ -100,12 +100,12 @@ impl CrossingSum for Count {
     }
 }
 
-/// The sum of the weights of the closed surfaces that hold the seen point; 0 where nothing is
-/// seen or no surface holds it.
+/// The sum of the weights of the closed surfaces that hold the seen point, 0 where nothing is seen
+/// or no surface holds it.
 ///
-/// The function gives the weight of a surface (first argument) at a pixel (second argument).
-/// It must be a function of these two alone, so that the crossings of a surface that does not
-/// hold the point cancel. Sums beyond the range of `i32` wrap.
+/// The function gives the weight of a surface (first argument) at a pixel (second argument). It
+/// must be a function of these two alone, so that the crossings of a surface that does not hold the
+/// point cancel. Sums beyond the range of `i32` wrap.
 #[derive(Debug, Clone, Copy)]
 pub struct WeighedCount<W>(pub W);
 
@@ -124,12 +124,12 @@ impl<W: Fn(u32, usize) -> i32 + Sync> CrossingSum for WeighedCount<W> {
 #[derive(Debug, Clone, Copy)]
 pub struct Gates<'a> {
     /// Of each closed surface a unit vector, and as the fourth number the least cosine between it
-    /// and the normal of a triangle that the surface holds; -2 for a surface that holds all. The
-    /// fifth number is that of the only body whose triangles it holds, 0 for any; the others have no
-    /// meaning.
+    /// and the normal of a triangle that the surface holds, -2 for a surface that holds all. The
+    /// fifth number names the only body that it can hold triangles of, 0 for any. The others have
+    /// no meaning.
     pub surfaces: &'a [[f32; 8]],
-    /// The unit normal of each triangle of the scene, in the memory of what counts, and as the fourth
-    /// number that of its body, 0 for one that surfaces of any body hold.
+    /// The unit normal of each triangle of the scene, in the memory of what counts, and as the
+    /// fourth number its body, 0 for a triangle that surfaces of any body hold.
     pub normals: &'a Image<[f32; 4]>,
 }
 
@@ -156,11 +156,11 @@ impl CrossingSum for GatedCount<'_> {
     }
 }
 
-/// Columns of a tile, whose nearest seen depth lets faces before it be skipped.
+/// Columns of a tile. Its nearest seen depth lets faces before it be skipped.
 const TILE: usize = 16;
 
 /// Depths of a face within this much of the nearest seen one are looked at pixel by pixel:
-/// interpolated depths may exceed those of the corners by rounding.
+/// interpolated depths may exceed the depths of the corners by rounding.
 const MARGIN: f32 = 1e-5;
 
 /// Sums over the crossings of eye rays with the faces of closed surfaces, on the processor.
@@ -235,7 +235,7 @@ fn add<S: CrossingSum>(
 /// The seen depths of a band.
 struct SeenBand {
     width: usize,
-    /// Of each pixel; infinite where nothing is seen.
+    /// Of each pixel, infinite where nothing is seen.
     depths: Vec<f32>,
     /// The least of every [`TILE`] columns.
     nearest: Vec<f32>,
@@ -243,11 +243,13 @@ struct SeenBand {
 
 impl SeenBand {
     fn new(fragments: &[Fragment], width: usize) -> Self {
-        let depth = |seen: &Fragment| match seen.triangle {
-            NO_TRIANGLE => f32::INFINITY,
-            _ => seen.depth,
-        };
-        let depths: Vec<f32> = fragments.iter().map(depth).collect();
+        let depths: Vec<f32> = fragments
+            .iter()
+            .map(|seen: &Fragment| match seen.triangle {
+                NO_TRIANGLE => f32::INFINITY,
+                _ => seen.depth,
+            })
+            .collect();
         let mut nearest = vec![f32::INFINITY; width.div_ceil(TILE)];
         for row in depths.chunks(width) {
             for (nearest, depths) in nearest.iter_mut().zip(row.chunks(TILE)) {

@@ -23,7 +23,7 @@ impl ArtMap {
 /// Shares of the way to the lighter tile at which in-betweens are measured.
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
 
-/// Distance in spacings above which unevenness is no stroke.
+/// Distance in spacings above which unevenness is not a stroke.
 const LEVELLED: f64 = 4.0;
 
 /// Figures of a map, as `ArtMap::figures` measures them.
@@ -48,12 +48,13 @@ pub struct KeyFigures {
     pub contrast: f64,
     /// Length of the strokes along y in texels, of the tile levelled over four spacings.
     pub stroke_length: f64,
-    /// Correlation of its detail with that of the first tile, -1 to 1; 1 for the first tile.
+    /// Correlation of its detail with the first tile's, -1 to 1, 1 for the first tile.
     pub coherence: f64,
-    /// Correlation of its detail with that of the neighbouring tile on the side of the first one,
+    /// Correlation of its detail with the detail of the neighbouring tile on the side of the first
+    /// one,
     /// -1 to 1. In line art strokes are added from tone to tone, so that only neighbours agree.
     pub neighbour_coherence: f64,
-    /// Steps of L* across the borders over those within the tile; 1 where no seam shows.
+    /// Steps of L* across the borders over those within the tile, 1 where no seam shows.
     pub wrap_ratio: f64,
     /// The ratio that 95 of 100 places within the tile stay below.
     pub usual_wrap_ratio: f64,
@@ -66,7 +67,7 @@ pub struct BetweenFigures {
     pub lower: usize,
     /// Share of the way to the lighter one, 0 to 1.
     pub share: f64,
-    /// Contrast over that of the key tiles, weighted by the share. None where those have none.
+    /// Contrast relative to the key tiles, weighted by the share. None where they have no contrast.
     pub contrast: Option<f64>,
     /// Mean L*.
     pub tone: f64,
@@ -78,7 +79,7 @@ impl ArtMap {
     /// Measures the map.
     ///
     /// # Panics
-    /// If the tiles differ in size, or `first` is no tile.
+    /// If the tiles differ in size, or `first` is not the index of a tile.
     #[must_use]
     pub fn figures(&self) -> MapFigures {
         let textures: Vec<Texture> =
@@ -89,21 +90,23 @@ impl ArtMap {
             }
             coherence(&textures[other], &textures[index], self.spacing)
         };
-        let key = |index: usize| KeyFigures {
-            name: self.keys[index].name.clone(),
-            tone: self.keys[index].tone,
-            contrast: contrast(&textures[index]),
-            stroke_length: stroke_length(&textures[index].levelled(LEVELLED * self.spacing)),
-            coherence: agreement(index, self.first),
-            neighbour_coherence: match index.cmp(&self.first) {
-                Ordering::Less => agreement(index, index + 1),
-                Ordering::Equal => 1.0,
-                Ordering::Greater => agreement(index, index - 1),
-            },
-            wrap_ratio: wrap_ratio(&textures[index]),
-            usual_wrap_ratio: usual_wrap_ratio(&textures[index]),
-        };
-        let keys: Vec<KeyFigures> = (0..self.keys.len()).into_par_iter().map(key).collect();
+        let keys: Vec<KeyFigures> = (0..self.keys.len())
+            .into_par_iter()
+            .map(|index: usize| KeyFigures {
+                name: self.keys[index].name.clone(),
+                tone: self.keys[index].tone,
+                contrast: contrast(&textures[index]),
+                stroke_length: stroke_length(&textures[index].levelled(LEVELLED * self.spacing)),
+                coherence: agreement(index, self.first),
+                neighbour_coherence: match index.cmp(&self.first) {
+                    Ordering::Less => agreement(index, index + 1),
+                    Ordering::Equal => 1.0,
+                    Ordering::Greater => agreement(index, index - 1),
+                },
+                wrap_ratio: wrap_ratio(&textures[index]),
+                usual_wrap_ratio: usual_wrap_ratio(&textures[index]),
+            })
+            .collect();
         let lower = 0..self.keys.len().saturating_sub(1);
         let betweens: Vec<Vec<BetweenFigures>> =
             lower.into_par_iter().map(|lower| self.between_figures(lower, &keys)).collect();
@@ -117,21 +120,22 @@ impl ArtMap {
         };
         let darker = &keys[lower];
         let lighter = &keys[lower + 1];
-        let figures = |at: f32| {
-            let tile = transition.at(at);
-            let share = f64::from(at);
-            let mean = |dark: f64, light: f64| dark + share * (light - dark);
-            let of_keys = mean(darker.contrast, lighter.contrast);
-            let found = contrast(&Texture::tiled(&tile.color));
-            BetweenFigures {
-                lower,
-                share,
-                contrast: (of_keys > 0.0).then(|| found / of_keys),
-                tone: tile.tone(),
-                wanted_tone: mean(darker.tone, lighter.tone),
-            }
-        };
-        SHARES.map(figures).to_vec()
+        SHARES
+            .map(|at: f32| {
+                let tile = transition.at(at);
+                let share = f64::from(at);
+                let mean = |dark: f64, light: f64| dark + share * (light - dark);
+                let of_keys = mean(darker.contrast, lighter.contrast);
+                let found = contrast(&Texture::tiled(&tile.color));
+                BetweenFigures {
+                    lower,
+                    share,
+                    contrast: (of_keys > 0.0).then(|| found / of_keys),
+                    tone: tile.tone(),
+                    wanted_tone: mean(darker.tone, lighter.tone),
+                }
+            })
+            .to_vec()
     }
 }
 
@@ -140,7 +144,7 @@ impl ArtMap {
 const COHERENCE: f64 = 0.60;
 /// Largest step across the borders over that within a tile, unless places within it vary more.
 const WRAP: f64 = 1.05;
-/// Least contrast of an in-between over that of its key tiles.
+/// Least contrast of an in-between, relative to its key tiles.
 const CONTRAST: f64 = 0.93;
 /// Largest distance of the tone of an in-between from the weighted mean, in L*.
 const TONE: f64 = 0.5;
@@ -154,7 +158,7 @@ const SPREAD: f64 = 20.0;
 /// A fault of a map: where, the figure found, and the one wanted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MapFault {
-    /// Strokes of a tile do not stand where those of the first tile stand.
+    /// Strokes of a tile do not stand where the strokes of the first tile stand.
     #[error("tile `{name}`: coherence with the first tile is {found:.2}, wanted at least {wanted}")]
     Coherence {
         /// Name of the tile.
@@ -427,9 +431,9 @@ mod tests {
 
     #[test]
     fn tones_that_do_not_rise_or_spread_are_told() {
-        let tones = |greys: [f32; 3]| {
+        fn tones(greys: [f32; 3]) -> ArtMap {
             map(greys.into_iter().zip(["a", "b", "c"]).map(|(g, n)| key(n, g, 12.0, 0.0)).collect())
-        };
+        }
         let faults = tones([0.2, 0.05, 0.5]).faults();
         let step =
             MapFault::Step { darker: "a".into(), lighter: "b".into(), found: 0.0, wanted: 0.0 };

@@ -84,7 +84,7 @@ struct FileHeader {
     first: usize,
     settings: SynthesisSettings,
     keys: Vec<KeyHeader>,
-    /// Pigments in use, with their channels; `None` for maps without paint.
+    /// Pigments in use, with their channels, `None` for maps without paint.
     pigments: Option<Vec<PigmentChannel>>,
     library: Option<Value>,
 }
@@ -155,7 +155,7 @@ impl FileHeader {
         Ok(json)
     }
 
-    /// Parses and checks a description; returns it with the library and slots that it holds.
+    /// Parses and checks a description. Returns it with the library and slots that it holds.
     fn from_json(
         origin: Origin<'_>,
         json: &str,
@@ -213,7 +213,7 @@ impl FileHeader {
             }
         }
         for pair in keys.windows(2) {
-            // Also if one of them is no number.
+            // Also if one of them is not a number.
             if !matches!(pair[0].tone.partial_cmp(&pair[1].tone), Some(order) if order.is_le()) {
                 let darker = pair[0].tone;
                 let lighter = pair[1].tone;
@@ -247,17 +247,18 @@ fn part(key: &KeyMap, plan: PartPlan, pigments: Option<&[PigmentChannel]>) -> Pa
 /// Checks the numbers of a part.
 ///
 /// # Errors
-/// The channel whose numbers are impossible, and the reason.
+/// The channel with impossible numbers, and the reason.
 fn check(part: &PartPlanes, pigments: Option<&[PigmentChannel]>) -> Result<(), (String, String)> {
     part.check_texels(pigments, |_| true)?;
-    let place = |number: f32| (0.0..f32::from(u16::MAX)).contains(&number) && number.fract() == 0.0;
     for channel in SOURCE {
-        part.check(channel, "is no whole number below 65535", |_, number| place(number))?;
+        part.check(channel, "is no whole number below 65535", |_, number| {
+            (0.0..f32::from(u16::MAX)).contains(&number) && number.fract() == 0.0
+        })?;
     }
     Ok(())
 }
 
-/// Checks that the tone of a tile is that of its colours.
+/// Checks that the tone of a tile agrees with its colours.
 ///
 /// # Errors
 /// The reason, with what was found.
@@ -292,17 +293,20 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<ArtMap, TexelFileError> {
     let opened = Opened::new(origin, bytes)?;
     let (header, paint) = FileHeader::from_json(origin, &opened.description()?)?;
     let pigments = header.pigments.as_deref();
-    let decoded = |(part, of): (PartPlanes, &KeyHeader)| -> Result<KeyMap, TexelFileError> {
-        check(&part, pigments).map_err(|fault| origin.channel(&of.part, fault))?;
-        if of_planes(&part) != of.digest {
-            return Err(origin.changed(&of.part));
-        }
-        let key = key_map(of, &part, pigments);
-        check_tone(&key.tile, key.tone).map_err(|reason| origin.part(&of.part, reason))?;
-        Ok(key)
-    };
     let parts = opened.planes(header.plans())?;
-    let keys: Vec<_> = parts.into_par_iter().zip(&header.keys).map(decoded).collect();
+    let keys: Vec<_> = parts
+        .into_par_iter()
+        .zip(&header.keys)
+        .map(|(part, of): (PartPlanes, &KeyHeader)| -> Result<KeyMap, TexelFileError> {
+            check(&part, pigments).map_err(|fault| origin.channel(&of.part, fault))?;
+            if of_planes(&part) != of.digest {
+                return Err(origin.changed(&of.part));
+            }
+            let key = key_map(of, &part, pigments);
+            check_tone(&key.tile, key.tone).map_err(|reason| origin.part(&of.part, reason))?;
+            Ok(key)
+        })
+        .collect();
     Ok(ArtMap {
         keys: keys.into_iter().collect::<Result<_, _>>()?,
         first: header.first,
@@ -320,7 +324,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<ArtMap, TexelFileError> {
 /// Encodes a map as a file. Equal maps always give equal bytes.
 ///
 /// # Errors
-/// [`TexelFileError::Unwritable`] for a map without tiles, tiles that are no squares of one size
+/// [`TexelFileError::Unwritable`] for a map without tiles, tiles that are not squares of one size
 /// or not in order of tone, paint without pigment, and impossible numbers.
 pub fn write(map: &ArtMap) -> Result<Vec<u8>, TexelFileError> {
     check_tiles(map).map_err(|reason| KIND.unwritable(reason))?;

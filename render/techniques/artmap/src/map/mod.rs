@@ -34,14 +34,14 @@ pub struct KeyMap {
 }
 
 /// A painterly art map (Yan and others 2008): tiles of one size with the brushwork of a painting,
-/// from dark to light, whose strokes stand at the same places.
+/// from dark to light, with strokes at the same places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArtMap {
     /// Tiles from dark to light, at least one.
     pub keys: Vec<KeyMap>,
     /// Index of the tile that was made first and that the others follow.
     pub first: usize,
-    /// Pigments of the paint of the tiles; `None` for maps without pigments.
+    /// Pigments of the paint of the tiles, `None` for maps without pigments.
     pub paint: Option<PaintOfSamples>,
     /// Distance of neighbouring strokes in texels.
     pub spacing: f64,
@@ -60,7 +60,7 @@ pub struct ArtMap {
 }
 
 impl ArtMap {
-    /// Synthesises a map of the samples. Tiles are in the order of their mean lightness; tiles of
+    /// Synthesises a map of the samples. Tiles are in the order of their mean lightness. Tiles of
     /// equal lightness keep the order of the samples.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl ArtMap {
     /// ([`key_maps_with_stages`]).
     ///
     /// # Errors
-    /// Those of [`Self::of`].
+    /// As [`Self::of`].
     pub fn with_stages(
         set: &SampleSet,
         settings: &SynthesisSettings,
@@ -84,10 +84,10 @@ impl ArtMap {
 
     /// The map of synthesised places.
     fn gathered(set: &SampleSet, settings: &SynthesisSettings, maps: KeyMaps) -> Self {
-        let key = |(sample, sources): (&Sample, Field<[u16; 2]>)| {
+        fn key((sample, sources): (&Sample, Field<[u16; 2]>)) -> KeyMap {
             let tile = tile_of(sample, &sources);
             KeyMap { name: sample.name.clone(), tone: tile.tone(), tile, sources }
-        };
+        }
         let pairs: Vec<_> = set.samples.iter().zip(maps.sources).collect();
         let keys: Vec<KeyMap> = pairs.into_par_iter().map(key).collect();
         let mut order: Vec<usize> = (0..keys.len()).collect();
@@ -116,8 +116,8 @@ impl ArtMap {
         self.keys.first().map_or(0, |key| key.tile.size())
     }
 
-    /// Number of tiles between those of tones `lower` and `upper` that make steps of at most `step`
-    /// of 255 levels of intensity (equation 7 of Yan and others 2008, with L* as intensity).
+    /// Number of tiles between the tones `lower` and `upper` that make steps of at most `step` of
+    /// 255 levels of intensity (equation 7 of Yan and others 2008, with L* as intensity).
     #[must_use]
     pub fn steps(lower: f64, upper: f64, step: f64) -> usize {
         ((upper - lower).abs() * 2.55 / step).floor() as usize
@@ -152,14 +152,14 @@ pub struct Transition<'a> {
     darker: &'a Tile,
     lighter: &'a Tile,
     labs: [Field<[f32; 3]>; 2],
-    /// When each texel changes, 0 first to 1 last; `None` where all change all the way.
+    /// When each texel changes, 0 first to 1 last, `None` where all change all the way.
     ranks: Option<Vec<f32>>,
-    /// Share of the difference of tone that changes with the strokes; the rest changes evenly.
+    /// Share of the difference of tone that changes with the strokes. The rest changes evenly.
     in_strokes: f32,
 }
 
 impl ArtMap {
-    /// The transition from key tile `lower` to the next lighter one; `None` for the last one.
+    /// The transition from key tile `lower` to the next lighter one, `None` for the last one.
     #[must_use]
     pub fn transition(&self, lower: usize, between: Between) -> Option<Transition<'_>> {
         let darker = &self.keys.get(lower)?.tile;
@@ -233,24 +233,29 @@ struct Mixing {
 }
 
 impl Mixing {
-    /// Mixes a channel of any sign. The mean is that of both tiles by share.
+    /// Mixes a channel of any sign. The mean is mixed from both tiles by share.
     fn level<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let means = [dark, light].map(|texels| mean(texels.iter().map(&of)));
         let step = means[1] - means[0];
         let wanted = means[0] + self.share * step;
         let evenly = (1.0 - self.in_strokes) * step;
-        let texel = |((dark, light), weight): ((&T, &T), &f32)| {
-            let dark = of(dark);
-            let light = of(light);
-            dark + self.share * evenly + weight * (light - dark - evenly)
-        };
-        let mut mixed: Vec<f32> = dark.iter().zip(light).zip(&self.weights).map(texel).collect();
+        let mut mixed: Vec<f32> = dark
+            .iter()
+            .zip(light)
+            .zip(&self.weights)
+            .map(|((dark, light), weight): ((&T, &T), &f32)| {
+                let dark = of(dark);
+                let light = of(light);
+                dark + self.share * evenly + weight * (light - dark - evenly)
+            })
+            .collect();
         let shift = wanted - mean(mixed.iter().copied());
         mixed.iter_mut().for_each(|value| *value += shift);
         mixed
     }
 
-    /// Mixes a channel of amounts, which are not negative. The mean is that of both tiles by share.
+    /// Mixes a channel of amounts, which are not negative. The mean is mixed from both tiles by
+    /// share.
     fn amount<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let mut mixed = self.level(dark, light, of);
         let wanted = mean(mixed.iter().copied());
@@ -314,9 +319,9 @@ fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) 
 pub struct Tile {
     /// Colour under a level surface, in linear sRGB with white at 1.
     pub color: Picture,
-    /// Paint of each texel; `None` for maps without pigments.
+    /// Paint of each texel, `None` for maps without pigments.
     pub paint: Option<Field<TexelPaint>>,
-    /// Height of the surface above the ground in mm; `None` without relief.
+    /// Height of the surface above the ground in mm, `None` without relief.
     pub height_mm: Option<Field<f32>>,
 }
 
@@ -336,12 +341,12 @@ impl Tile {
     }
 }
 
-/// Texels on either side of a seam whose channels are blended.
+/// Texels on either side of a seam over which channels are blended.
 const BLEND: isize = 1;
 
 /// The tile that shows, at every texel, the texel of `sample` in `sources`. Where neighbouring
-/// texels show places that are no neighbours in the sample, colour, paint and height are the means
-/// of what the texels within one texel continue to; elsewhere they are those of the source.
+/// texels show places that are not neighbours in the sample, colour, paint and height are the means
+/// of what the texels within one texel continue to. Elsewhere they belong to the source.
 fn tile_of(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
     let size = sources.width();
     let shown: Vec<Vec<(usize, usize)>> = (0..size * size)
@@ -451,12 +456,14 @@ mod tests {
                 let x = index % size;
                 let y = index / size;
                 let [u, v] = key.sources[(x, y)];
-                let continues = |i: isize, j: isize| {
-                    let wrap = |at: usize, by: isize| (at as isize + by).rem_euclid(size as isize);
-                    let near = key.sources[(wrap(x, i) as usize, wrap(y, j) as usize)];
-                    near == [u as isize + i, v as isize + j].map(|at| at as u16)
-                };
-                if (-1..=1).all(|j| (-1..=1).all(|i| continues(i, j))) {
+                if (-1..=1).all(|j| {
+                    (-1..=1).all(|i| {
+                        let wrap =
+                            |at: usize, by: isize| (at as isize + by).rem_euclid(size as isize);
+                        let near = key.sources[(wrap(x, i) as usize, wrap(y, j) as usize)];
+                        near == [u as isize + i, v as isize + j].map(|at| at as u16)
+                    })
+                }) {
                     let place = (usize::from(u), usize::from(v));
                     assert_eq!(key.tile.color[(x, y)], from.color[place]);
                     assert_eq!(
@@ -520,7 +527,7 @@ mod tests {
     #[test]
     fn paint_and_height_between_two_tones_have_the_means_of_both() {
         let (_, map) = map();
-        let means = |tile: &Tile| {
+        fn means(tile: &Tile) -> [f64; 3] {
             let texels = tile.paint.as_ref().unwrap().values();
             let heights = tile.height_mm.as_ref().unwrap().values();
             assert!(
@@ -534,7 +541,7 @@ mod tests {
                 texels.iter().map(|texel| f64::from(texel.vehicle_mm)).sum(),
                 heights.iter().map(|mm| f64::from(*mm)).sum(),
             ]
-        };
+        }
         let keys = [0, 1].map(|at| means(&map.keys[at].tile));
         for between in [Between::Dissolve, Between::Blend] {
             let found = means(&map.transition(0, between).unwrap().at(0.25));

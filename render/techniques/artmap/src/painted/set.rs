@@ -24,7 +24,7 @@ pub struct PaintedSettings {
     pub hue: String,
     /// Number of tones, 2 to 12.
     pub tones: usize,
-    /// Seed of the strokes; `None` for that of the style.
+    /// Seed of the strokes, `None` for the style's seed.
     pub seed: Option<u64>,
 }
 
@@ -226,10 +226,10 @@ mod tests {
     #[test]
     fn nested_tones_have_the_same_strokes_and_others_do_not() {
         let mut style = small("oil-flat", 64);
-        let related = |style: &Style| {
+        fn related(style: &Style) -> f64 {
             let set = painted_samples(style, &settings(2)).unwrap();
             correlation(&heights(&set.samples[0]), &heights(&set.samples[1]))
-        };
+        }
         let nested = related(&style);
         style.strokes.nested = false;
         let single = related(&style);
@@ -244,7 +244,9 @@ mod tests {
         let drawn =
             |sample: &Sample| heights(sample).iter().map(|h| *h > 0.005).collect::<Vec<_>>();
         let covers: Vec<Vec<bool>> = set.samples.iter().map(drawn).collect();
-        let cells = |cover: &[bool]| cover.iter().filter(|drawn| **drawn).count();
+        fn cells(cover: &[bool]) -> usize {
+            cover.iter().filter(|drawn| **drawn).count()
+        }
         for pair in covers.windows(2) {
             assert!(cells(&pair[0]) > cells(&pair[1]), "a darker tone has more lines");
             let lost =
@@ -256,7 +258,7 @@ mod tests {
 
     #[test]
     fn gaps_between_strokes_show_the_underpainting_and_not_the_ground() {
-        let darkest = |underpainting_mm: f64| {
+        fn darkest(underpainting_mm: f64) -> (f64, f64, f64) {
             let mut style = small("oil-flat", 48);
             (style.strokes.coats, style.strokes.spacing_mm) = (1, 9.0);
             style.paint.underpainting_mm = underpainting_mm;
@@ -264,7 +266,7 @@ mod tests {
             let least = heights(&sample).into_iter().fold(f64::INFINITY, f64::min);
             let tones = sample.color.values().iter().map(|rgb| lightness(*rgb));
             (mean_lightness(&sample), f64::from(tones.fold(f32::INFINITY, f32::min)), least)
-        };
+        }
         let (_, bare, no_paint) = darkest(0.0);
         let (mean, covered, least) = darkest(0.05);
         assert!(no_paint < 1e-6 && (least - 0.05).abs() < 1e-4, "{no_paint} {least}");

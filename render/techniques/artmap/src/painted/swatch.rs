@@ -224,8 +224,8 @@ fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
 
 /// Knots of the pattern of a half-mixed brush around its head.
 pub(super) const KNOTS: usize = 20;
-/// Steps of ranks from column to column and from row to row: Roberts' sequence R2 (2018), whose
-/// first numbers below any share lie evenly on the plane.
+/// Steps of ranks from column to column and from row to row: Roberts' sequence R2 (2018): its first
+/// numbers below any share lie evenly on the plane.
 const RANK_STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 /// Points of a stroke's path for each width of the brush.
 const POINTS: f64 = 2.0;
@@ -243,7 +243,7 @@ pub struct SwatchStroke {
     pub samples: Vec<BrushworkSample>,
     /// L* of the stroke relative to its tone.
     pub lightness: f64,
-    /// L* around the head relative to that of the stroke, at knots that are evenly spaced.
+    /// L* around the head relative to the stroke, at knots that are evenly spaced.
     pub streaks: Vec<f64>,
     /// Height of the paint on the head in mm.
     pub load_mm: f64,
@@ -286,7 +286,7 @@ fn coat_strokes(
     let plan = &style.strokes;
     let columns = (width / plan.spacing_mm).ceil() as i64;
     let rows = (height / plan.advance_mm).ceil() as i64 + 1;
-    // Strokes of a coat lie between those of the coat before.
+    // Strokes of a coat lie between the strokes of the coat before.
     let shift = 0.5 * f64::from(coat % 2);
     let mut strokes = Vec::new();
     for column in 0..columns {
@@ -327,8 +327,8 @@ fn stroke(
     SwatchStroke { coat, rank, samples, lightness, streaks, load_mm }
 }
 
-/// Poses along an arc from top to bottom. The broad side of the brush lies across the motion;
-/// pressure falls towards both ends over a brush width.
+/// Poses along an arc from top to bottom. The broad side of the brush lies across the motion.
+/// Pressure falls towards both ends over a brush width.
 fn samples(
     style: &Style,
     [x, y]: [f64; 2],
@@ -352,7 +352,7 @@ fn samples(
             pressure: pressure * (style.strokes.lift + (1.0 - style.strokes.lift) * eased),
             tilt_x_deg: 0.0,
             tilt_y_deg: 0.0,
-            // At 0 the broad side runs along x; the head turns with the heading.
+            // At 0 the broad side runs along x. The head turns with the heading.
             twist_deg: -(angle + slope.atan()).to_degrees(),
         }
     };

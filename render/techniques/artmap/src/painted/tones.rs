@@ -55,7 +55,7 @@ pub struct ToneLadder {
 impl ToneLadder {
     /// Finds `count` tones of `hue` (`#rrggbb` or `L,a,b`) in even steps of L*.
     ///
-    /// The darkest and the lightest mixture that keep the hue bound the range; the tones lie within
+    /// The darkest and the lightest mixture that keep the hue bound the range. The tones lie within
     /// it, `margin` L* from both ends, so that strokes may be darker or lighter than their tone.
     /// All mixtures come from the recipe search against the masstones of the library: the pigments
     /// of the mixture nearest to the hue, the white, the darkest paint, and dark paints of a like
@@ -63,8 +63,8 @@ impl ToneLadder {
     /// where the paints reach less.
     ///
     /// # Errors
-    /// [`TonesError`] for a hue that is no colour, a count out of range, a library that cannot be
-    /// mixed or has no white, and a hue whose mixtures span less than the margins.
+    /// [`TonesError`] for a hue that is not a colour, a count out of range, a library that cannot
+    /// be mixed or has no white, and a hue with mixtures that span less than the margins.
     pub fn new(
         library: Arc<PigmentLibrary>,
         hue: &str,
@@ -143,7 +143,7 @@ impl ToneLadder {
     }
 
     /// Shares by slot of a mixture with this L*, blended from the two nearest mixtures of the
-    /// ladder; beyond the range, the mixture at its end.
+    /// ladder, beyond the range, the mixture at its end.
     #[must_use]
     pub fn shares_at(&self, lightness: f64) -> [f64; SLOTS] {
         let above = self.rungs.partition_point(|rung| rung.lab.lightness < lightness);
@@ -270,14 +270,16 @@ fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesEr
     Ok((best.lab[0], best.shares))
 }
 
-/// L* farthest from that of `base` towards `end` at which a mixture keeps the hue.
+/// L* farthest from `base` towards `end` at which a mixture keeps the hue.
 fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
     let mut kept = base.lightness;
     let mut lost = end;
     for _ in 0..BISECTIONS {
         let lightness = (kept + lost) / 2.0;
         let (found, _) = mixture_at(search, base, lightness)?;
-        let chroma = |lab: Lab| lab.to_lch().chroma;
+        fn chroma(lab: Lab) -> f64 {
+            lab.to_lch().chroma
+        }
         let keeps = hue_difference(found, base) <= HUE_TOLERANCE
             && chroma(found) >= LEAST_CHROMA * chroma(shaded(base, lightness))
             && (found.lightness - lightness).abs() <= LIGHTNESS_TOLERANCE;
@@ -294,7 +296,7 @@ fn hue_difference(found: Lab, base: Lab) -> f64 {
 /// Tones of a hue cannot be mixed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TonesError {
-    /// The hue is no colour.
+    /// The hue is not a colour.
     #[error(transparent)]
     Hue(#[from] ColorCodeError),
     /// The number of tones is out of range.

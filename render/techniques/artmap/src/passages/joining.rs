@@ -30,9 +30,9 @@ pub(super) struct Passage {
 
 /// The passage of each scribble.
 ///
-/// All regions under a scribble belong to it; a region under several scribbles is divided among
-/// them. Then neighbours are joined, the most alike first, while their unlikeness is below
-/// `reach`; regions of different scribbles never are. Gaps are filled at last.
+/// All regions under a scribble belong to it. A region under several scribbles is divided among
+/// them. Then neighbours are joined, the most alike first, while their unlikeness is below `reach`.
+/// Regions of different scribbles never are. Gaps are filled at last.
 pub(super) fn passages(
     regions: &Regions,
     scribbles: &[Vec<u32>],
@@ -91,8 +91,8 @@ fn unite(whole: &mut Candidate, part: Candidate) {
     whole.scribble = whole.scribble.or(part.scribble);
 }
 
-/// Divides regions under several scribbles: each pixel goes to the scribble nearest along a path
-/// of rows and columns inside the region; of equally near ones to the first.
+/// Divides regions under several scribbles: each pixel goes to the scribble nearest along a path of
+/// rows and columns inside the region, of equally near ones to the first.
 fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
     let width = regions.labels.width();
     let height = regions.labels.height();
@@ -102,7 +102,6 @@ fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
             owners[regions.labels.values()[pixel as usize] as usize].insert(number);
         }
     }
-    let shared = |pixel: u32| owners[regions.labels.values()[pixel as usize] as usize].len() > 1;
     let mut labels = regions.labels.clone();
     let mut reached = vec![false; width * height];
     let mut queue = VecDeque::new();
@@ -110,7 +109,10 @@ fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
     for scribble in scribbles {
         // One scribble may run over several shared regions, so each has its own new label.
         let mut names = vec![None; regions.count];
-        for &pixel in scribble.iter().filter(|&&pixel| shared(pixel)) {
+        for &pixel in scribble
+            .iter()
+            .filter(|&&pixel| owners[regions.labels.values()[pixel as usize] as usize].len() > 1)
+        {
             let region = regions.labels.values()[pixel as usize];
             let name = *names[region as usize].get_or_insert_with(|| {
                 next += 1;
@@ -153,7 +155,7 @@ fn united(regions: &Regions, scribbles: &[Vec<u32>]) -> (Regions, Vec<usize>) {
     (Regions::numbered(Field::from_values(width, height, labels), regions.count), under)
 }
 
-/// Share of the strongest gradients that tell the direction.
+/// Share of the strongest gradients that give the direction.
 const STRONGEST: f64 = 0.2;
 
 /// Depth from which gradients do not feel the neighbouring region.
@@ -237,7 +239,7 @@ impl RegionTraits {
         if angle < PI { angle } else { 0.0 }
     }
 
-    /// Unlikeness of two regions; those below 1 are joined.
+    /// Unlikeness of two regions. Those below 1 are joined.
     pub(super) fn apart(&self, other: &Self) -> f64 {
         let mean = (self.mean() - other.mean()) / MEAN_STEP;
         let deviation = (self.deviation() - other.deviation()) / DEVIATION_STEP;
@@ -262,7 +264,7 @@ pub(super) fn traits_of(
         .collect()
 }
 
-/// Those pixels whose gradients belong to the region: the ones deep inside if they are a quarter
+/// The pixels with gradients that belong to the region: the ones deep inside if they are a quarter
 /// of it, else those not at its border, else all.
 fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
     let depths = [INSIDE, 2];
@@ -279,13 +281,13 @@ fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
     found.unwrap_or_else(|| pixels.to_vec())
 }
 
-/// The fifth of the pixels that has the largest gradients; of equal ones the first.
+/// The fifth of the pixels that has the largest gradients, of equal ones the first.
 fn strongest(pixels: &[u32], gradient: &Field<[f32; 2]>) -> Vec<u32> {
     let mut by_strength: Vec<(u32, u32)> = pixels
         .iter()
         .map(|&pixel| {
             let [x, y] = gradient.values()[pixel as usize];
-            // Bits of numbers of at least 0 are in their order; the complement turns it around.
+            // Bits of numbers of at least 0 are in their order. The complement turns it around.
             (!(x * x + y * y).to_bits(), pixel)
         })
         .collect();
@@ -312,10 +314,10 @@ const MORE_UNLIKE: f64 = 2.5;
 /// all.
 ///
 /// A region of the size of a stroke has the tone of that stroke, which scatters about the mean of
-/// the passage; so the place decides with the traits. Regions behind a gap that are like the
-/// passage count as its border, and are joined once the gap is filled. The edge of the picture is
-/// no border.
-/// This is ours; Yan, Chi, Lee and Lin do not say what becomes of such regions.
+/// the passage, so the place decides with the traits. Regions behind a gap that are like the
+/// passage count as its border, and are joined once the gap is filled. The edge of the picture does
+/// not count as a border. This is ours. Yan, Chi, Lee and Lin do not say what becomes of such
+/// regions.
 pub(super) fn filled(
     regions: &Regions,
     traits: &[RegionTraits],
@@ -351,7 +353,7 @@ fn sums(traits: &[RegionTraits], passages: &[Option<usize>]) -> Vec<RegionTraits
     whole
 }
 
-/// The passage that the region `label` touches and belongs to; of several the most alike.
+/// The passage that the region `label` touches and belongs to, of several the most alike.
 fn around(
     label: usize,
     borders: &[(u32, u32)],
@@ -365,19 +367,20 @@ fn around(
         borders.iter().filter(|(other, _)| chosen(*other)).map(|(_, length)| length).sum()
     };
     let all = length(&|_| true);
-    let belongs = |passage: &usize| {
-        let whole = &whole[*passage];
-        let inside = |other: u32| found[other as usize] == Some(*passage);
-        let taken = |other: u32| {
-            found[other as usize].is_some() || traits[other as usize].apart(whole) < reach
-        };
-        let enclosed = f64::from(length(&taken)) > LEAST_BORDER * f64::from(all);
-        let small = own.pixels < MOST_AREA * whole.pixels;
-        let gap = enclosed && small && own.apart(whole) < MORE_UNLIKE * reach;
-        length(&inside) > 0 && (gap || own.apart(whole) < reach)
-    };
     let unlike = |passage: &usize| own.apart(&whole[*passage]);
-    (0..whole.len()).filter(belongs).min_by(|one, other| unlike(one).total_cmp(&unlike(other)))
+    (0..whole.len())
+        .filter(|passage: &usize| {
+            let whole = &whole[*passage];
+            let inside = |other: u32| found[other as usize] == Some(*passage);
+            let taken = |other: u32| {
+                found[other as usize].is_some() || traits[other as usize].apart(whole) < reach
+            };
+            let enclosed = f64::from(length(&taken)) > LEAST_BORDER * f64::from(all);
+            let small = own.pixels < MOST_AREA * whole.pixels;
+            let gap = enclosed && small && own.apart(whole) < MORE_UNLIKE * reach;
+            length(&inside) > 0 && (gap || own.apart(whole) < reach)
+        })
+        .min_by(|one, other| unlike(one).total_cmp(&unlike(other)))
 }
 
 /// The neighbours of each region by rising label, and the lengths of the common borders in pixels.
@@ -491,7 +494,7 @@ mod tests {
         assert_eq!(found[0].pixels.len(), 31 * 20);
     }
 
-    /// Waves whose crests run at an angle, about a mean.
+    /// Waves about a mean, with crests that run at an angle.
     fn waves(degrees: f64, mean: f64, height: f64) -> RegionTraits {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let intensity = Field::from_values(
@@ -535,10 +538,12 @@ mod tests {
     #[test]
     fn a_border_does_not_lend_its_direction() {
         // Waves along x at the left, a much lighter area at the right.
-        let value = |i: usize| match i % 60 < 30 {
-            true => 0.3 + 0.05 * ((i / 60) as f32 * 0.9).sin(),
-            false => 0.9,
-        };
+        fn value(i: usize) -> f32 {
+            match i % 60 < 30 {
+                true => 0.3 + 0.05 * ((i / 60) as f32 * 0.9).sin(),
+                false => 0.9,
+            }
+        }
         let intensity = Field::from_values(60, 60, (0..3600).map(value).collect());
         let labels = (0..3600).map(|i| u32::from(i % 60 >= 30)).collect();
         let regions = Regions { labels: Field::from_values(60, 60, labels), count: 2 };

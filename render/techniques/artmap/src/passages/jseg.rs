@@ -33,7 +33,7 @@ use super::regions::{Regions, beside, joined};
 
 /// A size of the window.
 struct Scale {
-    /// Distance of the pixels that are looked at; the window is 8 times as wide, and 1.
+    /// Distance of the pixels that are looked at. The window is 8 times as wide, and 1.
     step: usize,
     /// Least size of a valley in pixels.
     least_px: usize,
@@ -113,7 +113,9 @@ fn quantised(luv: &Field<[f32; 3]>, most: usize) -> Field<u8> {
 
 /// The occupied cells of CIELUV, and the cell of each pixel.
 fn binned(luv: &Field<[f32; 3]>) -> (Vec<Bin>, Vec<u32>) {
-    let cell = |value: f32| ((value / CELL).round() as i32 + 512).clamp(0, 1023) as u64;
+    fn cell(value: f32) -> u64 {
+        ((value / CELL).round() as i32 + 512).clamp(0, 1023) as u64
+    }
     let mut keys: Vec<u64> = (0u64..)
         .zip(luv.values())
         .map(|(pixel, &[l, u, v])| (cell(l) << 52) | (cell(u) << 42) | (cell(v) << 32) | pixel)
@@ -167,7 +169,9 @@ impl Class {
 fn split(bins: &[Bin], most: usize) -> Vec<Vector3<f64>> {
     let mut classes = vec![Class::of(bins.to_vec())];
     while classes.len() < most {
-        let error = |class: &Class| class.scatter.trace();
+        fn error(class: &Class) -> f64 {
+            class.scatter.trace()
+        }
         let worst = (0..classes.len())
             .rev()
             .max_by(|&one, &other| error(&classes[one]).total_cmp(&error(&classes[other])));
@@ -199,7 +203,7 @@ fn lloyd(bins: &[Bin], mut centers: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
     centers
 }
 
-/// Index of the nearest of `centers`; the first of equally near ones.
+/// Index of the nearest of `centers`, the first of equally near ones.
 fn nearest(centers: &[Vector3<f64>], color: Vector3<f64>) -> usize {
     let apart = |index: usize| (centers[index] - color).norm_squared();
     (0..centers.len()).min_by(|&a, &b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
@@ -263,10 +267,12 @@ impl Window {
     }
 
     fn j(&self) -> f32 {
-        let about = |[count, x, y]: [i32; 3]| match count {
-            0 => 0.0,
-            count => (x * x + y * y) as f32 / count as f32,
-        };
+        fn about([count, x, y]: [i32; 3]) -> f32 {
+            match count {
+                0 => 0.0,
+                count => (x * x + y * y) as f32 / count as f32,
+            }
+        }
         let mut whole = [0; 3];
         let mut means = 0.0;
         for class in self.by_class {
@@ -286,7 +292,7 @@ const OFFSETS: [f64; 7] = [-0.7, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4];
 
 /// The valleys of the region `label` with at least `least_px` pixels.
 ///
-/// `pixels` are those of the region. Of all thresholds the lowest is taken that gives most
+/// `pixels` are the pixels of the region. Of all thresholds the lowest is taken that gives most
 /// valleys.
 fn valleys(
     labels: &Field<u32>,
@@ -408,7 +414,9 @@ fn grow_parts(labels: &mut Field<u32>, pixels: &[u32], names: &[u32], j: &Field<
     let width = labels.width();
     let height = labels.height();
     let value = |pixel: u32| f64::from(j.values()[pixel as usize]);
-    let is_left = |labels: &Field<u32>, pixel: u32| labels.values()[pixel as usize] == NOBODY;
+    fn is_left(labels: &Field<u32>, pixel: u32) -> bool {
+        labels.values()[pixel as usize] == NOBODY
+    }
     let left: Vec<u32> = pixels.iter().copied().filter(|&pixel| is_left(labels, pixel)).collect();
     let mean = left.iter().map(|&pixel| value(pixel)).sum::<f64>() / left.len().max(1) as f64;
     for part in components(&left, (width, height), |pixel: u32| {
@@ -425,7 +433,7 @@ fn grow_parts(labels: &mut Field<u32>, pixels: &[u32], names: &[u32], j: &Field<
     }
 }
 
-/// Distance of histograms below which neighbours are merged. Deng and Manjunath take 0.4; an
+/// Distance of histograms below which neighbours are merged. Deng and Manjunath take 0.4. An
 /// over-segmentation keeps more regions apart.
 const ALIKE: f64 = 0.1;
 
@@ -458,7 +466,7 @@ mod tests {
 
     /// Two mixtures of the same mean: columns and rows of two colours, and a plain one.
     fn mixtures() -> Field<[f32; 3]> {
-        let color = |x: usize, y: usize| -> [f32; 3] {
+        fn color(x: usize, y: usize) -> [f32; 3] {
             match (x < 80, y < 60) {
                 (true, _) => {
                     [if (x / 3 + y / 5).is_multiple_of(2) { 30.0 } else { 45.0 }, 0.0, 10.0]
@@ -468,7 +476,7 @@ mod tests {
                 }
                 (false, false) => [55.0, -30.0, -20.0],
             }
-        };
+        }
         let values = (0..160 * 130).map(|i| color(i % 160, i / 160)).collect();
         Field::from_values(160, 130, values)
     }
@@ -476,11 +484,13 @@ mod tests {
     #[test]
     fn no_region_spans_two_textures() {
         let regions = jseg(&mixtures(), 16);
-        let texture = |pixel: usize| match (pixel % 160 < 80, pixel / 160 < 60) {
-            (true, _) => 0,
-            (false, true) => 1,
-            (false, false) => 2,
-        };
+        fn texture(pixel: usize) -> usize {
+            match (pixel % 160 < 80, pixel / 160 < 60) {
+                (true, _) => 0,
+                (false, true) => 1,
+                (false, false) => 2,
+            }
+        }
         let mut strays = 0;
         for pixels in regions.pixels() {
             let mut counts = [0; 3];
@@ -630,7 +640,7 @@ mod tests {
 
     #[test]
     fn valleys_meet_at_the_ridge() {
-        // J rises towards column 6; the valleys are the outermost columns.
+        // J rises towards column 6. The valleys are the outermost columns.
         let j: Vec<f32> = (0..13 * 3).map(|i| 6.0 - f32::abs((i % 13) as f32 - 6.0)).collect();
         let j = Field::from_values(13, 3, j);
         let mut labels = Field::filled(13, 3, 4);
@@ -656,11 +666,13 @@ mod tests {
     #[test]
     fn only_neighbours_of_one_mixture_are_merged() {
         // Three strips of 40 columns: the first two have classes 0 and 1 in equal parts.
-        let class = |x: usize, y: usize| match x / 40 {
-            0 => (x + y) % 2,
-            1 => (x / 2 + y) % 2,
-            _ => 1 + (x + y) % 2,
-        };
+        fn class(x: usize, y: usize) -> usize {
+            match x / 40 {
+                0 => (x + y) % 2,
+                1 => (x / 2 + y) % 2,
+                _ => 1 + (x + y) % 2,
+            }
+        }
         let values = (0..120 * 20).map(|i| class(i % 120, i / 120) as u8).collect();
         let classes = Field::from_values(120, 20, values);
         let labels = (0..120 * 20).map(|i| (i % 120 / 40) as u32).collect();

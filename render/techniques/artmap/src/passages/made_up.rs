@@ -1,4 +1,4 @@
-//! Made-up paintings for tests: textures of strokes whose masks, directions and spacings are known.
+//! Made-up paintings for tests: textures of strokes with known masks, directions and spacings.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -95,7 +95,7 @@ impl Texture {
     }
 }
 
-/// A picture in linear light in which `texture_at` tells the texture of each pixel.
+/// A picture in linear light in which `texture_at` gives the texture of each pixel.
 pub(super) fn textured(
     width: usize,
     height: usize,
@@ -106,21 +106,28 @@ pub(super) fn textured(
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let values: Vec<f64> = (0..VALUES).map(|_| random.random_range(-1.0..1.0)).collect();
     let grain: Vec<f64> = (0..VALUES).map(|_| random.random_range(-0.012..0.012)).collect();
-    let pixel = |i: usize| {
-        let x = i % width;
-        let y = i / width;
-        let texture = &textures[texture_at(x, y)];
-        let mut sum = [0.0; 3];
-        for k in 0..4 {
-            let place = |at: usize, half: usize| at as f64 + 0.5 * half as f64 - 0.25;
-            // Away from 0, so that truncating is rounding down.
-            let color = texture.at(place(x, k % 2) + 1e3, place(y, k / 2) + 1e3, &values);
-            (0..3).for_each(|channel| sum[channel] += color[channel] / 4.0);
-        }
-        let grain = grain[(x * 7919 + y * 104_729) % VALUES];
-        sum.map(|value| (value + grain).clamp(0.0, 1.0).powf(2.2) as f32)
-    };
-    Field::from_values(width, height, (0..width * height).map(pixel).collect())
+    Field::from_values(
+        width,
+        height,
+        (0..width * height)
+            .map(|i: usize| {
+                let x = i % width;
+                let y = i / width;
+                let texture = &textures[texture_at(x, y)];
+                let mut sum = [0.0; 3];
+                for k in 0..4 {
+                    fn place(at: usize, half: usize) -> f64 {
+                        at as f64 + 0.5 * half as f64 - 0.25
+                    }
+                    // Away from 0, so that truncating is rounding down.
+                    let color = texture.at(place(x, k % 2) + 1e3, place(y, k / 2) + 1e3, &values);
+                    (0..3).for_each(|channel| sum[channel] += color[channel] / 4.0);
+                }
+                let grain = grain[(x * 7919 + y * 104_729) % VALUES];
+                sum.map(|value| (value + grain).clamp(0.0, 1.0).powf(2.2) as f32)
+            })
+            .collect(),
+    )
 }
 
 /// A made-up painting with scribbles.

@@ -50,20 +50,22 @@ mod tests {
         let picture = SourcePicture::of_colors(painting.picture(), painting.name);
         let settings = PassageSettings { over, ..PassageSettings::default() };
         let (_, reports) = samples_of_picture(&picture, &painting.marks(), &settings).unwrap();
-        let overlap = |report: &PassageReport| {
-            let texture: usize = report.name.parse().unwrap();
-            let mut both = 0;
-            let mut either = 0;
-            for y in 0..HEIGHT {
-                for x in 0..WIDTH {
-                    let pair = (report.mask[(x, y)], painting.texture_at(x, y) == texture);
-                    both += usize::from(pair == (true, true));
-                    either += usize::from(pair != (false, false));
+        reports
+            .iter()
+            .map(|report: &PassageReport| {
+                let texture: usize = report.name.parse().unwrap();
+                let mut both = 0;
+                let mut either = 0;
+                for y in 0..HEIGHT {
+                    for x in 0..WIDTH {
+                        let pair = (report.mask[(x, y)], painting.texture_at(x, y) == texture);
+                        both += usize::from(pair == (true, true));
+                        either += usize::from(pair != (false, false));
+                    }
                 }
-            }
-            f64::from(both as u32) / f64::from(either as u32)
-        };
-        reports.iter().map(overlap).collect()
+                f64::from(both as u32) / f64::from(either as u32)
+            })
+            .collect()
     }
 
     fn mean(values: &[f64]) -> f64 {

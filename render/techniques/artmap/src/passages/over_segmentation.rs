@@ -34,9 +34,8 @@ pub fn over_segmented(
     }
     let small = divided(&reduced(color, factor), settings);
     let last = (small.labels.width() - 1, small.labels.height() - 1);
-    let place = |pixel: usize| (pixel % width / factor, pixel / width / factor);
     let labels = (0..width * height).map(|pixel| {
-        let (x, y) = place(pixel);
+        let (x, y) = (pixel % width / factor, pixel / width / factor);
         small.labels[(x.min(last.0), y.min(last.1))]
     });
     Ok(Regions::numbered(Field::from_values(width, height, labels.collect()), small.count))
@@ -75,18 +74,23 @@ fn reduced(color: &Picture, factor: usize) -> Picture {
     let size = |pixels: usize| (pixels / factor).max(1);
     let width = size(color.width());
     let height = size(color.height());
-    let mean = |cell: usize| {
-        let left = cell % width * factor;
-        let top = cell / width * factor;
-        let across = factor.min(color.width() - left);
-        let rows = top..(top + factor).min(color.height());
-        let mut sum = [0.0f64; 3];
-        for pixel in rows.clone().flat_map(|y| color.row(y, left, across)) {
-            sum.iter_mut().zip(pixel).for_each(|(sum, &value)| *sum += f64::from(value));
-        }
-        sum.map(|sum| (sum / (across * rows.len()) as f64) as f32)
-    };
-    Field::from_values(width, height, (0..width * height).map(mean).collect())
+    Field::from_values(
+        width,
+        height,
+        (0..width * height)
+            .map(|cell: usize| {
+                let left = cell % width * factor;
+                let top = cell / width * factor;
+                let across = factor.min(color.width() - left);
+                let rows = top..(top + factor).min(color.height());
+                let mut sum = [0.0f64; 3];
+                for pixel in rows.clone().flat_map(|y| color.row(y, left, across)) {
+                    sum.iter_mut().zip(pixel).for_each(|(sum, &value)| *sum += f64::from(value));
+                }
+                sum.map(|sum| (sum / (across * rows.len()) as f64) as f32)
+            })
+            .collect(),
+    )
 }
 
 impl PassageSettings {
@@ -115,8 +119,9 @@ mod tests {
 
     #[test]
     fn a_large_picture_is_divided_at_a_smaller_size() {
-        let color = |x: usize| if x < 1500 { [0.1, 0.1, 0.4] } else { [0.6, 0.3, 0.1] };
-        let values = (0..2400 * 60).map(|i| color(i % 2400)).collect();
+        let values = (0..2400 * 60)
+            .map(|i| if (i % 2400) < 1500 { [0.1, 0.1, 0.4] } else { [0.6, 0.3, 0.1] })
+            .collect();
         let picture = Field::from_values(2400, 60, values);
         for over in [OverSegmentation::Jseg, OverSegmentation::MeanShift] {
             let settings = PassageSettings { over, ..PassageSettings::default() };

@@ -5,7 +5,6 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 
 use graphics::blurred;
-use graphics::encoding::encoded_from_linear;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use rayon::prelude::*;
@@ -83,8 +82,8 @@ impl Regions {
         neighbours
     }
 
-    /// Distance of each pixel from the nearest pixel of another region, along rows and columns:
-    /// 1 at a border, more inside. The edge of the picture is no border.
+    /// Distance of each pixel from the nearest pixel of another region, along rows and columns: 1
+    /// at a border, more inside. The edge of the picture does not count as a border.
     pub(super) fn depths(&self) -> Field<u32> {
         let width = self.labels.width();
         let height = self.labels.height();
@@ -111,8 +110,8 @@ impl Regions {
     }
 }
 
-/// Joins neighbours, cheapest first, while their cost is below `limit`; of equal costs the pair
-/// of the smallest labels is first. A joined region has the summary that `unite` makes of both.
+/// Joins neighbours, cheapest first, while their cost is below `limit`. Of equal costs the pair of
+/// the smallest labels is first. A joined region has the summary that `unite` makes of both.
 ///
 /// `summaries` and the returned ones stand in the order of the labels. Costs are at least 0.
 pub(super) fn joined<T>(
@@ -186,7 +185,7 @@ fn relabelled<T>(
     let width = regions.labels.width();
     let height = regions.labels.height();
     let found = Regions::numbered(Field::from_values(width, height, labels), regions.count);
-    // The order of first appearance, in which labels are numbered, is that of the least labels.
+    // Labels are numbered in the order of first appearance, which is the order of the least labels.
     let kept = summaries.iter_mut().filter_map(Option::take).collect();
     (found, kept)
 }
@@ -259,9 +258,13 @@ mod tests {
     fn neighbours_are_joined_cheapest_first_with_means_that_follow() {
         let regions = row(&[0, 1, 2, 3]);
         let sums = vec![(0.0, 1.0), (1.0, 1.0), (2.5, 1.0), (9.0, 1.0)];
-        let apart = |a: &(f64, f64), b: &(f64, f64)| (a.0 / a.1 - b.0 / b.1).abs();
-        let unite = |a: &mut (f64, f64), b: (f64, f64)| *a = (a.0 + b.0, a.1 + b.1);
-        // 0 and 1 are joined first; their mean 0.5 is then 2.0 from the third.
+        fn apart(a: &(f64, f64), b: &(f64, f64)) -> f64 {
+            (a.0 / a.1 - b.0 / b.1).abs()
+        }
+        fn unite(a: &mut (f64, f64), b: (f64, f64)) -> () {
+            *a = (a.0 + b.0, a.1 + b.1)
+        }
+        // 0 and 1 are joined first. Their mean 0.5 is then 2.0 from the third.
         let (found, sums_found) = joined(&regions, sums.clone(), 1.8, apart, unite);
         assert_eq!(found.labels.values(), [0, 0, 1, 2]);
         assert_eq!(sums_found, [(1.0, 2.0), (2.5, 1.0), (9.0, 1.0)]);

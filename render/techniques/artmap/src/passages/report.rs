@@ -20,7 +20,7 @@ pub enum StrokesSeen {
 pub enum SpacingSource {
     /// Two points that the painter marked.
     Marked,
-    /// Set for all samples whose marks give none.
+    /// Set for all samples without marks that give one.
     Set,
     /// Estimated by autocorrelation across the strokes.
     Estimated {
@@ -39,7 +39,7 @@ pub struct PassageReport {
     pub name: String,
     /// Pixels of the passage in the picture.
     pub mask: Field<bool>,
-    /// Number of regions of the over-segmentation under the scribble; 0 for a rectangle.
+    /// Number of regions of the over-segmentation under the scribble, 0 for a rectangle.
     pub regions_under: usize,
     /// Direction of the strokes.
     pub direction: StrokeDirection,
@@ -77,7 +77,7 @@ impl PassageReport {
     }
 }
 
-/// Names and linear sRGB of the colours of marks, in their order; after the last the first again.
+/// Names and linear sRGB of the colours of marks, in their order, after the last the first again.
 /// They can be told apart with deficient colour vision (Okabe and Ito 2008).
 const COLORS: [(&str, [f32; 3]); 7] = [
     ("orange", [0.791, 0.347, 0.0]),
@@ -111,7 +111,7 @@ pub fn color_of_mark(index: usize) -> [f32; 3] {
 }
 
 /// The picture with each mark drawn on it in a colour of its own, and, if there are any, the
-/// outlines of the `passages` that were taken by them; everything beyond the passages is faded.
+/// outlines of the `passages` that were taken by them. Everything beyond the passages is faded.
 ///
 /// # Errors
 /// [`MarksError`] if a mark lies off the picture or two lines cross.
@@ -165,10 +165,6 @@ fn fade(shown: &mut Picture, passages: &[PassageReport]) {
 fn outline(shown: &mut Picture, mask: &Field<bool>, reach: usize, color: [f32; 3]) {
     let width = mask.width();
     let height = mask.height();
-    let inside = |x: Option<usize>, y: Option<usize>| match (x, y) {
-        (Some(x), Some(y)) => x < width && y < height && mask[(x, y)],
-        _ => false,
-    };
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let around = [
             (x.checked_sub(reach), Some(y)),
@@ -176,7 +172,14 @@ fn outline(shown: &mut Picture, mask: &Field<bool>, reach: usize, color: [f32; 3
             (Some(x), y.checked_sub(reach)),
             (Some(x), Some(y + reach)),
         ];
-        if mask[(x, y)] && around.into_iter().any(|(x, y)| !inside(x, y)) {
+        if mask[(x, y)]
+            && around.into_iter().any(|(x, y)| {
+                !(match (x, y) {
+                    (Some(x), Some(y)) => x < width && y < height && mask[(x, y)],
+                    _ => false,
+                })
+            })
+        {
             shown[(x, y)] = color;
         }
     }

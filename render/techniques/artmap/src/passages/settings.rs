@@ -38,11 +38,11 @@ pub struct PassageSettings {
     pub over: OverSegmentation,
     /// Number of colour classes of JSEG, 10 to 20.
     pub color_classes: usize,
-    /// How unlike regions may be that are still joined, 0 to 10; 1 is usual.
+    /// How unlike regions may be that are still joined, 0 to 10, 1 is usual.
     pub reach: f64,
     /// Direction in which samples are resized.
     pub density: Density,
-    /// Distance of neighbouring strokes in pixels where the marks give none, 1 to 1000; `None`
+    /// Distance of neighbouring strokes in pixels where the marks give none, 1 to 1000, `None`
     /// estimates it.
     pub spacing: Option<f64>,
 }
@@ -65,9 +65,9 @@ impl Default for PassageSettings {
 pub struct SourcePicture {
     /// Colour of each pixel in linear sRGB with white at 1.
     pub color: Picture,
-    /// Paint of each pixel, and its pigments; `None` for pictures without pigments.
+    /// Paint of each pixel, and its pigments, `None` for pictures without pigments.
     pub paint: Option<(Field<TexelPaint>, PaintOfSamples)>,
-    /// Height of the surface above the ground in mm; `None` without relief.
+    /// Height of the surface above the ground in mm, `None` without relief.
     pub height_mm: Option<Field<f32>>,
     /// Side of a pixel in mm, where it is known.
     pub mm_per_pixel: Option<f64>,
@@ -182,7 +182,7 @@ pub enum PassageError {
         /// Distance of neighbouring strokes in pixels.
         spacing_px: f64,
     },
-    /// The spacing of a sample is very unlike that of the median sample.
+    /// The spacing of a sample is very unlike the median sample's.
     #[error(
         "the strokes of sample `{sample}` are {spacing_px:.1} px apart, those of `{reference}` \
          {reference_px:.1} px"

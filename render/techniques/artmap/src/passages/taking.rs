@@ -21,11 +21,11 @@ const MOST_SCALE: f64 = 8.0;
 
 /// The marked samples of a picture, upright, of one spacing, dark to light, and a report of each.
 ///
-/// Direction and distance of strokes are measured in the lightness and, where the picture has a true
-/// relief, in the height of the paint; the clearer of both counts.
+/// Direction and distance of strokes are measured in the lightness and, where the picture has a
+/// true relief, in the height of the paint. The clearer of both counts.
 ///
-/// The spacing is that of the sample of median spacing; of an even number, of the smaller one in
-/// the middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of both directions.
+/// The spacing is the median of the samples' spacings, of an even number, of the smaller one in the
+/// middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of both directions.
 ///
 /// # Errors
 /// [`PassageError`]. If spacings cannot be estimated, it names all such samples.
@@ -141,7 +141,7 @@ fn masks(
     Ok(masks.collect())
 }
 
-/// Direction and spacing of one passage; `None` if its spacing cannot be estimated.
+/// Direction and spacing of one passage, `None` if its spacing cannot be estimated.
 fn report(
     mark: &Mark,
     mask: Field<bool>,
@@ -235,7 +235,7 @@ const DIRECTIONS: usize = 16;
 
 /// Marks for `count` samples at most of a picture in linear sRGB: scribbles inside passages that
 /// are large, have strokes, and differ most in tone, contrast and direction. Names are `passage 1`
-/// and so on; the first is the largest.
+/// and so on. The first is the largest.
 ///
 /// # Errors
 /// [`PassageError`] if a setting or a colour is out of its range, or no passage has strokes.
@@ -270,10 +270,11 @@ pub fn propose_marks(
 /// extent and unlikeness to those before.
 fn chosen(traits: &[RegionTraits], picture_px: usize, count: usize) -> Vec<usize> {
     let least = LEAST_SHARE * picture_px as f64;
-    let fits = |label: &usize| {
-        traits[*label].pixels >= least && traits[*label].deviation() >= LEAST_DEVIATION
-    };
-    let mut left: Vec<usize> = (0..traits.len()).filter(fits).collect();
+    let mut left: Vec<usize> = (0..traits.len())
+        .filter(|label: &usize| {
+            traits[*label].pixels >= least && traits[*label].deviation() >= LEAST_DEVIATION
+        })
+        .collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count {
         let worth = |label: usize| {
@@ -332,7 +333,9 @@ fn scribble(regions: &Regions, label: usize, pixels: &[u32], depths: &Field<u32>
         let (sin, cos) = angle.sin_cos();
         [walked([-cos, -sin]), walked([cos, sin])]
     });
-    let length = |[from, to]: &[[f64; 2]; 2]| (to[0] - from[0]).hypot(to[1] - from[1]);
+    fn length([from, to]: &[[f64; 2]; 2]) -> f64 {
+        (to[0] - from[0]).hypot(to[1] - from[1])
+    }
     let longest =
         lines.reduce(|best, line| if length(&line) > length(&best) { line } else { best });
     longest.map_or(vec![middle], |line| line.to_vec())
@@ -354,9 +357,12 @@ mod tests {
             let mut seen = Vec::new();
             for mark in &marks.samples {
                 let MarkedArea::Scribble(points) = &mark.area else { panic!("a scribble") };
-                let at =
-                    |point: &[f64; 2]| painting.texture_at(point[0] as usize, point[1] as usize);
-                let own: Vec<usize> = points.iter().map(at).collect();
+                let own: Vec<usize> = points
+                    .iter()
+                    .map(|point: &[f64; 2]| {
+                        painting.texture_at(point[0] as usize, point[1] as usize)
+                    })
+                    .collect();
                 assert!(own.iter().all(|texture| *texture == own[0]), "{own:?}");
                 seen.push(own[0]);
             }
@@ -368,8 +374,10 @@ mod tests {
 
     #[test]
     fn an_unlike_passage_comes_before_a_larger_like_one() {
-        // Strips of 50, 40 and 10 columns, all with waves; the first two are nearly alike.
-        let strip = |x: usize| usize::from(x >= 50) + usize::from(x >= 90);
+        // Strips of 50, 40 and 10 columns, all with waves. The first two are nearly alike.
+        fn strip(x: usize) -> usize {
+            usize::from(x >= 50) + usize::from(x >= 90)
+        }
         let intensity = Field::from_values(
             100,
             40,

@@ -106,7 +106,7 @@ pub struct StrokeDirection {
 }
 
 impl StrokeDirection {
-    /// Direction of the strokes among `pixels`, whose depth inside the passage is `depth`.
+    /// Direction of the strokes among `pixels`, which lie `depth` deep inside the passage.
     pub(super) fn of(
         pixels: &[u32],
         depth: &Field<u32>,
@@ -119,7 +119,7 @@ impl StrokeDirection {
         Self { degrees, coherence, turned: coherence >= LEAST_COHERENCE }
     }
 
-    /// Unit vector along the strokes; y for a passage that is not turned.
+    /// Unit vector along the strokes, y for a passage that is not turned.
     pub(super) fn along(&self) -> [f64; 2] {
         if !self.turned {
             return [0.0, 1.0];
@@ -172,7 +172,7 @@ impl Frame {
         Self { origin, across, along, scale, size }
     }
 
-    /// The field of `gather` for each texel that lies in the mask by at least half; `None`
+    /// The field of `gather` for each texel that lies in the mask by at least half, `None`
     /// elsewhere. Weights are above 0 and sum to 1 over pixels inside of the mask, so that nothing
     /// from outside bleeds in.
     pub(super) fn resampled<T: Send + Sync>(
@@ -191,7 +191,7 @@ impl Frame {
         Field::from_values(width, height, texels.collect())
     }
 
-    /// Fills `taps` for the texel at `place`; false if it lies outside of the mask.
+    /// Fills `taps` for the texel at `place`. False if it lies outside of the mask.
     ///
     /// A texel is a tent over the sample's axes: one texel to each side, or one pixel where pixels
     /// are larger.
@@ -262,8 +262,8 @@ pub(super) struct Estimate {
 /// false, strokes have no direction, and the mean over x and y is taken.
 ///
 /// The first minimum of the autocorrelation across the strokes and the maximum after it are looked
-/// for; a parabola through the maximum gives fractions of a pixel. `None` if there is none, if
-/// the sharpness is below 0.1, or if the maximum itself is.
+/// for. A parabola through the maximum gives fractions of a pixel. `None` if there is none, if the
+/// sharpness is below 0.1, or if the maximum itself is.
 pub(super) fn estimated(
     intensity: &Field<f32>,
     mask: &Field<bool>,
@@ -327,7 +327,7 @@ fn correlation(detail: &Field<[f32; 2]>, lag: usize) -> f64 {
     if norm > 1e-12 { product / norm } else { 0.0 }
 }
 
-/// The first maximum after the first minimum, each of which stands out by [`RIPPLE`]; `None` if it
+/// The first maximum after the first minimum, each of which stands out by [`RIPPLE`], `None` if it
 /// is not clear.
 fn first_peak(correlation: &[f64]) -> Option<Estimate> {
     let mut valley = 0;
@@ -364,11 +364,11 @@ mod tests {
 
     /// A picture of all channels, with other values inside of a disc than outside.
     fn disc() -> (SourcePicture, Field<bool>) {
-        let inside = |i: usize| {
+        fn inside(i: usize) -> bool {
             let x = (i % 60) as f64 - 30.0;
             let y = (i / 60) as f64 - 25.0;
             x.hypot(y) < 20.0
-        };
+        }
         let field = |value: &dyn Fn(bool) -> f32| -> Field<f32> {
             Field::from_values(60, 50, (0..3000).map(|i| value(inside(i))).collect())
         };
@@ -500,9 +500,12 @@ mod tests {
         let mask = Field::filled(60, 50, true);
         let (sin, cos) = 30f64.to_radians().sin_cos();
         let frame = Frame::around(&mask, [cos, sin], [1.0, 2.0]);
-        let value = |pixel: usize| (pixel % 60) as f64 * cos + (pixel / 60) as f64 * sin;
         let found = frame.resampled(&mask, |taps: &[Tap]| -> f64 {
-            taps.iter().map(|&(pixel, weight)| f64::from(weight) * value(pixel)).sum()
+            taps.iter()
+                .map(|&(pixel, weight)| {
+                    f64::from(weight) * ((pixel % 60) as f64 * cos + (pixel / 60) as f64 * sin)
+                })
+                .sum()
         });
         let x = frame.size[0] / 2;
         let y = frame.size[1] / 2;
@@ -515,9 +518,8 @@ mod tests {
     fn a_smaller_sample_takes_means() {
         let mask = Field::filled(40, 40, true);
         let frame = Frame::around(&mask, [0.0, 1.0], [0.25; 2]);
-        let check = |pixel: usize| ((pixel % 40 + pixel / 40) % 2) as f32;
         let found = frame.resampled(&mask, |taps| {
-            taps.iter().map(|&(p, weight)| weight * check(p)).sum::<f32>()
+            taps.iter().map(|&(p, weight)| weight * (((p % 40 + p / 40) % 2) as f32)).sum::<f32>()
         });
         let middle = found[(5, 5)].unwrap();
         assert!((middle - 0.5).abs() < 0.05, "{middle}");
@@ -547,15 +549,17 @@ mod tests {
 
     #[test]
     fn a_peak_is_refined_between_pixels_and_noise_is_refused() {
-        let wave = |lag: usize| (std::f64::consts::TAU * lag as f64 / 10.4).cos();
+        fn wave(lag: usize) -> f64 {
+            (std::f64::consts::TAU * lag as f64 / 10.4).cos()
+        }
         let found = first_peak(&(0..30).map(wave).collect::<Vec<_>>()).unwrap();
         assert!((found.spacing_px - 10.4).abs() < 0.05, "{found:?}");
         assert!(found.sharpness > 1.8, "{found:?}");
         let falling: Vec<f64> = (0..30).map(|lag| (-0.2 * f64::from(lag)).exp()).collect();
         assert_eq!(first_peak(&falling), None);
-        let faint = |height: f64| -> Vec<f64> {
+        fn faint(height: f64) -> Vec<f64> {
             (0..30).map(|lag| height * wave(lag) - if lag > 0 { 0.3 } else { 0.0 }).collect()
-        };
+        }
         assert_eq!(first_peak(&faint(0.35)), None, "a maximum near 0 is none");
         assert!(first_peak(&faint(0.6)).is_some(), "one of 0.3 is");
         let flat = Field::filled(80, 60, 0.5);

@@ -48,7 +48,7 @@ impl SampleSet {
     }
 }
 
-/// Channel that tells which texels belong to the sample.
+/// Channel that marks the texels of the sample.
 const MASK: &str = "mask";
 
 /// Files of samples.
@@ -67,7 +67,7 @@ struct FileHeader {
     version: u64,
     provenance: String,
     samples: Vec<SampleHeader>,
-    /// Pigments in use, with their channels; `None` for samples without paint.
+    /// Pigments in use, with their channels, `None` for samples without paint.
     pigments: Option<Vec<PigmentChannel>>,
     library: Option<Value>,
 }
@@ -129,7 +129,7 @@ impl FileHeader {
         encoded(&KIND, self)
     }
 
-    /// Parses and checks a description; returns it with the library and slots that it holds.
+    /// Parses and checks a description. Returns it with the library and slots that it holds.
     fn from_json(
         origin: Origin<'_>,
         json: &str,
@@ -167,7 +167,9 @@ impl SampleHeader {
         if *width == 0 || *height == 0 {
             return Err(format!("sample `{name}` has texels, found `{width} x {height}`"));
         }
-        let positive = |number: f64| number.is_finite() && number > 0.0;
+        fn positive(number: f64) -> bool {
+            number.is_finite() && number > 0.0
+        }
         if !positive(*spacing) {
             return Err(format!("spacing of sample `{name}` is above 0, found `{spacing}`"));
         }
@@ -200,7 +202,7 @@ fn part(sample: &Sample, plan: PartPlan, pigments: Option<&[PigmentChannel]>) ->
 /// Checks the numbers of a part. Texels outside the mask may hold anything.
 ///
 /// # Errors
-/// The channel whose numbers are impossible, and the reason.
+/// The channel with impossible numbers, and the reason.
 fn check(part: &PartPlanes, pigments: Option<&[PigmentChannel]>) -> Result<(), (String, String)> {
     part.check(MASK, "is 0 or 1, found another number", |_, number| [0.0, 1.0].contains(&number))?;
     let mask = part.of(MASK);
@@ -291,9 +293,6 @@ mod tests {
     }
 
     fn sample(name: &str, width: usize, height: usize) -> Sample {
-        let field = |act: &dyn Fn(usize) -> f32| {
-            Field::from_values(width, height, (0..width * height).map(act).collect())
-        };
         let color =
             (0..width * height).map(|i| [number(i), -number(i + 7), number(i + 9)]).collect();
         let paint = (0..width * height).map(|i| TexelPaint {
@@ -304,7 +303,13 @@ mod tests {
             name: name.to_owned(),
             color: Field::from_values(width, height, color),
             paint: Some(Field::from_values(width, height, paint.collect())),
-            height_mm: Some(field(&|i| number(2 * i))),
+            height_mm: Some({
+                Field::from_values(
+                    width,
+                    height,
+                    (0..width * height).map(|i| number(2 * i)).collect(),
+                )
+            }),
             mask: Field::from_values(
                 width,
                 height,
@@ -361,12 +366,12 @@ mod tests {
     #[test]
     fn bad_files_are_refused_with_their_place_and_a_way_out() {
         let bytes = write(&set()).unwrap();
-        let refused = |bytes: &[u8]| {
+        fn refused(bytes: &[u8]) -> TexelFileError {
             let error = read("a.exr", bytes).unwrap_err();
             assert!(error.to_string().starts_with("a.exr: "), "{error}");
             assert!(error.hint().is_some(), "{error}");
             error
-        };
+        }
         let error = refused(&replaced(&bytes, "\"version\":1", "\"version\":9"));
         assert!(
             matches!(error, TexelFileError::Version { ref found, newest: 1, .. } if found == "9")
@@ -405,7 +410,7 @@ mod tests {
         for at in (0..bytes.len()).step_by(61) {
             let mut bytes = bytes.clone();
             bytes[at] ^= 0x55;
-            // A flipped number may be possible; it must only not panic.
+            // A flipped number may be possible. It must only not panic.
             let _ = read("a.exr", &bytes);
         }
     }

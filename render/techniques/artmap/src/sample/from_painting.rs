@@ -46,7 +46,8 @@ impl WholePainting {
     /// multiplied by its opacity, its height is not.
     ///
     /// With `merge_minor`, pigments below [`MINOR`] of all pigment count as the remaining pigment
-    /// whose masstone is nearest by CIEDE2000, if the painting has more pigments than a table holds.
+    /// with the nearest masstone by CIEDE2000, if the painting has more pigments than a table
+    /// holds.
     ///
     /// # Errors
     /// [`FromPaintingError`] for more than eight pigments, and a library without visible
@@ -58,17 +59,16 @@ impl WholePainting {
         for (slot, pigment) in slots.iter_mut().zip(&kept) {
             *slot = Some(*pigment);
         }
-        let place = |pigment: PigmentId| {
-            let target = merged.iter().find(|(minor, _)| *minor == pigment);
-            let target = target.map_or(pigment, |(_, into)| *into);
-            kept.iter().position(|kept| *kept == target)
-        };
         let light = Light::named(&document.library, "D65", "1931-2")?;
         let name = |pigment: PigmentId| document.library[pigment].name.clone();
         Ok(Self {
             title: document.title.clone(),
             color: level_colors(document, &light),
-            paint: summed_paint(document, place),
+            paint: summed_paint(document, |pigment: PigmentId| {
+                let target = merged.iter().find(|(minor, _)| *minor == pigment);
+                let target = target.map_or(pigment, |(_, into)| *into);
+                kept.iter().position(|kept| *kept == target)
+            }),
             height_mm: summed_height(document),
             mm_per_texel: document.cell_mm,
             pigments: PaintOfSamples { library: Arc::new(document.library.clone()), slots },
@@ -107,7 +107,9 @@ fn table(
     used: &[(PigmentId, f64)],
     merge_minor: bool,
 ) -> Result<(Vec<PigmentId>, Merged), FromPaintingError> {
-    let ids = |used: &[(PigmentId, f64)]| used.iter().map(|(id, _)| *id).collect::<Vec<_>>();
+    fn ids(used: &[(PigmentId, f64)]) -> Vec<PigmentId> {
+        used.iter().map(|(id, _)| *id).collect::<Vec<_>>()
+    }
     if used.len() <= SLOTS {
         return Ok((ids(used), Vec::new()));
     }
@@ -157,7 +159,9 @@ pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
         lighting: &Lighting { relief: 0.0, ..Lighting::default() },
     };
     let mut scene = appearance.scene(light);
-    let matt = |gloss: Gloss| Gloss { strength: 0.0, ..gloss };
+    fn matt(gloss: Gloss) -> Gloss {
+        Gloss { strength: 0.0, ..gloss }
+    }
     let lamp = &mut scene.lamp;
     (lamp.wet, lamp.dry, lamp.ground) = (matt(lamp.wet), matt(lamp.dry), matt(lamp.ground));
     let shown = picture(document, &scene);
@@ -228,7 +232,7 @@ pub enum FromPaintingError {
         title: String,
         /// Names of its pigments.
         names: Vec<String>,
-        /// Number of minor pigments whose merging would help; 0 if it would not.
+        /// Number of minor pigments that are worth merging, 0 if it would not.
         minor: usize,
     },
     /// The painting's library has no wavelengths in common with daylight.
@@ -264,7 +268,7 @@ mod tests {
 
     use super::*;
 
-    /// A painting of two strokes in different pigments; the first is dry.
+    /// A painting of two strokes in different pigments. The first is dry.
     fn painting() -> Document {
         let oils = PigmentLibrary::van_gogh_oils();
         let ground = GroundKind::Panel.spec(1);
@@ -353,10 +357,10 @@ mod tests {
         let merged = WholePainting::of(&document, true).unwrap();
         assert_eq!(merged.merged.len(), 7);
         assert_eq!(merged.pigments.slots.iter().flatten().count(), 3);
-        let sum = |whole: &WholePainting| -> f64 {
+        fn sum(whole: &WholePainting) -> f64 {
             let texels = whole.paint.values().iter().flat_map(|texel| texel.pigments_mm);
             texels.map(f64::from).sum()
-        };
+        }
         let before = WholePainting::of(&painting(), false).unwrap();
         let more = 7.0 * 5000.0 * mm_from_quanta(1, document.cell_mm);
         let off = sum(&merged) - sum(&before) - more;

@@ -31,9 +31,9 @@ pub struct Sample {
     pub name: String,
     /// Colour of each texel under a level surface, in linear sRGB with white at 1.
     pub color: Picture,
-    /// Paint of each texel; `None` for pictures without pigments.
+    /// Paint of each texel, `None` for pictures without pigments.
     pub paint: Option<Field<TexelPaint>>,
-    /// Height of the surface above the ground in mm; `None` without relief.
+    /// Height of the surface above the ground in mm, `None` without relief.
     pub height_mm: Option<Field<f32>>,
     /// Whether each texel belongs to the passage. Other texels hold no information.
     pub mask: Field<bool>,
@@ -58,13 +58,13 @@ impl Sample {
         self.mask.values().iter().filter(|inside| **inside).count()
     }
 
-    /// Mean CIELAB lightness of the passage, 0 to 100; 0 without texels.
+    /// Mean CIELAB lightness of the passage, 0 to 100, 0 without texels.
     #[must_use]
     pub fn mean_lightness(&self) -> f64 {
         self.mean(&lab_from_linear(&self.color))[0]
     }
 
-    /// Mean colour of the passage in linear sRGB with white at 1; black without texels.
+    /// Mean colour of the passage in linear sRGB with white at 1, black without texels.
     #[must_use]
     pub fn mean_color(&self) -> [f64; 3] {
         self.mean(&self.color)
@@ -87,7 +87,7 @@ impl Sample {
 pub struct SampleSet {
     /// The samples. All or none have paint.
     pub samples: Vec<Sample>,
-    /// Pigments of their paint; `None` where no sample has any.
+    /// Pigments of their paint, `None` where no sample has any.
     pub paint: Option<PaintOfSamples>,
     /// Where the samples come from, in words, for the file.
     pub provenance: String,
@@ -172,7 +172,7 @@ impl SampleSet {
 /// Deviation of the blur that takes away the grain of a photograph, in distances of strokes.
 const GRAIN: f64 = 0.04;
 
-/// Deviation of the blur whose result is the level of the paint, in distances of strokes.
+/// Deviation of the blur that gives the level of the paint, in distances of strokes.
 const LEVEL: f64 = 0.35;
 
 /// Deviations of the detail between the mean and the highest ridge.
@@ -202,7 +202,7 @@ impl SampleSet {
     }
 }
 
-/// Heights in mm; 0 beyond the passage.
+/// Heights in mm, 0 beyond the passage.
 fn guessed(sample: &Sample, relief_mm: f64) -> Field<f32> {
     let fine = lightness(sample, GRAIN * sample.spacing);
     let level = lightness(sample, LEVEL * sample.spacing);
@@ -226,7 +226,7 @@ fn guessed(sample: &Sample, relief_mm: f64) -> Field<f32> {
     Field::from_values(sample.mask.width(), sample.mask.height(), heights)
 }
 
-/// L* of a sample, blurred; only texels of the passage count.
+/// L* of a sample, blurred. Only texels of the passage count.
 fn lightness(sample: &Sample, sigma: f64) -> Vec<f32> {
     let lab = lab_from_linear(&sample.color);
     let weighed = lab
@@ -272,7 +272,7 @@ mod guessed_relief_tests {
         SampleSet { samples, paint: None, provenance: String::new() }
     }
 
-    /// Strokes with a true relief, whose ridges are lighter than their furrows.
+    /// Strokes with a true relief. Their ridges are lighter than their furrows.
     fn known() -> (Sample, Field<f32>) {
         let mut sample = strokes("a", 120, 10, 0.2, 3);
         let height = sample.height_mm.take().unwrap();
@@ -280,10 +280,10 @@ mod guessed_relief_tests {
     }
 
     fn correlation(one: &Field<f32>, other: &Field<f32>) -> f64 {
-        let mean = |field: &Field<f32>| {
+        fn mean(field: &Field<f32>) -> f64 {
             field.values().iter().map(|mm| f64::from(*mm)).sum::<f64>()
                 / field.values().len() as f64
-        };
+        }
         let mean_one = mean(one);
         let mean_other = mean(other);
         let mut sums = [0.0; 3];

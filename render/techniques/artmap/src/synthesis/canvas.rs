@@ -72,14 +72,6 @@ impl<'a> SourceCanvas<'a> {
     pub(crate) fn paste(&mut self, cell: [usize; 2], place: [u16; 2]) {
         let patch = self.grid.patch;
         let source = |column: usize, row: usize| [place[0] + column as u16, place[1] + row as u16];
-        let error = |column: usize, row: usize| {
-            let there = self.sources[self.texel(cell, column, row)];
-            if there == NONE {
-                return 0.0;
-            }
-            let new = as_texel(source(column, row));
-            difference(&self.level.look[new], &self.level.look[as_texel(there)])
-        };
         let mut takes = vec![true; patch * patch];
         // `at(along, across)`: a texel of the strip, `across` counted from the patch's border.
         let mut cut = |width: usize, at: &dyn Fn(usize, usize) -> (usize, usize)| {
@@ -88,7 +80,14 @@ impl<'a> SourceCanvas<'a> {
             }
             let errors: Vec<f32> = (0..patch * width)
                 .map(|index| at(index / width, index % width))
-                .map(|(column, row)| error(column, row))
+                .map(|(column, row)| {
+                    let there = self.sources[self.texel(cell, column, row)];
+                    if there == NONE {
+                        return 0.0;
+                    }
+                    let new = as_texel(source(column, row));
+                    difference(&self.level.look[new], &self.level.look[as_texel(there)])
+                })
                 .collect();
             for (along, seam) in cheapest_cut(&errors, width).into_iter().enumerate() {
                 for across in 0..seam {
@@ -126,8 +125,8 @@ pub(crate) fn as_texel([x, y]: [u16; 2]) -> (usize, usize) {
 }
 
 /// Column of the cut in every row of a strip with `width` errors a row. Columns of neighbouring
-/// rows differ by one at most; the sum of errors along the cut is the least possible. Of equal
-/// ones the leftmost is taken.
+/// rows differ by one at most. The sum of errors along the cut is the least possible. Of equal ones
+/// the leftmost is taken.
 pub(crate) fn cheapest_cut(errors: &[f32], width: usize) -> Vec<usize> {
     let rows = errors.len() / width;
     let mut sums = errors.to_vec();
@@ -159,12 +158,11 @@ const REACH: isize = 2;
 /// Half the width of the neighbourhood that a texel has to fit.
 const NEAR: isize = 3;
 
-/// Synthesises the texels at seams anew. Candidates are the sources of the texels around,
-/// shifted (k-coherence, Tong and others 2002); the one that fits its neighbourhood best is
-/// taken.
+/// Synthesises the texels at seams anew. Candidates are the sources of the texels around, shifted
+/// (k-coherence, Tong and others 2002). The one that fits its neighbourhood best is taken.
 pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
     let mut seams = seam_texels(level, sources);
-    // Worst first; ties in the order of rows.
+    // Worst first, ties in the order of rows.
     seams.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let size = sources.width();
     for (_, index) in seams {
@@ -192,8 +190,8 @@ pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
     }
 }
 
-/// Mean squared difference between the neighbourhood of a place in the sample and that of a texel
-/// of the map.
+/// Mean squared difference between the neighbourhoods of a place in the sample and of a texel of
+/// the map.
 fn misfit(
     level: &Level,
     sources: &Field<[u16; 2]>,
@@ -211,7 +209,7 @@ fn misfit(
             count += 1.0;
         }
     }
-    // Places at the border of the sample are judged by fewer texels; half of them must be there.
+    // Places at the border of the sample are judged by fewer texels. Half of them must be there.
     if count < 25.0 { f32::INFINITY } else { sum / count }
 }
 
@@ -230,8 +228,7 @@ fn seam_texels(level: &Level, sources: &Field<[u16; 2]>) -> Vec<(f32, usize)> {
                 continue;
             }
             let [x, y] = continued.map(|value| value as isize);
-            let inside = |place| is_inside(level, place);
-            let error = if inside((x, y)) {
+            let error = if is_inside(level, (x, y)) {
                 difference(&level.look[as_texel(continued)], &level.look[as_texel(there)])
             } else {
                 0.0

@@ -37,7 +37,7 @@ pub(crate) struct PatchSpace {
 pub(crate) struct Descriptors {
     /// First texel of each patch.
     pub(crate) places: Vec<[u16; 2]>,
-    /// Index of the patch at each texel; `u32::MAX` where there is none.
+    /// Index of the patch at each texel, `u32::MAX` where there is none.
     index: Field<u32>,
     dimensions: usize,
     values: Vec<f32>,
@@ -137,7 +137,7 @@ impl Descriptors {
         (index != u32::MAX).then(|| self.of(index as usize))
     }
 
-    /// The `count` patches most like the one described by `wanted`, nearest first; of equal ones
+    /// The `count` patches most like the one described by `wanted`, nearest first, of equal ones
     /// the first in the sample.
     pub(crate) fn nearest(&self, wanted: &[f32], count: usize) -> Vec<Link> {
         let mut all: Vec<(f32, u32)> = (0..self.places.len())
@@ -228,10 +228,10 @@ pub(crate) struct Prepared {
     pub(crate) grids: Vec<PatchGrid>,
     /// Levels of each sample.
     pub(crate) pyramids: Vec<Vec<Level>>,
-    /// Index of the sample whose map is made first.
+    /// Index of the sample that gets the first map.
     pub(crate) first: usize,
-    /// Its described patches, by level. Those of the others are described as they are needed: they
-    /// take the most memory.
+    /// Its described patches, by level. The patches of the others are described as they are needed:
+    /// they take the most memory.
     pub(crate) of_first: Vec<Descriptors>,
     /// Channels that describe patches, for each level.
     spaces: Vec<PatchSpace>,
@@ -285,14 +285,14 @@ impl Prepared {
 }
 
 fn check_settings(settings: &SynthesisSettings) -> Result<(), SynthesisError> {
-    let check = |name: &'static str, found: f64, from: f64, to: f64| {
+    fn check(name: &'static str, found: f64, from: f64, to: f64) -> Result<(), SynthesisError> {
         if (from..=to).contains(&found) {
             return Ok(());
         }
         let found = format!("{found}");
         let range = format!("{from} to {to}");
         Err(SynthesisError::Setting { name, found, range })
-    };
+    }
     let sizes = SynthesisSettings::SIZES;
     check("size", settings.size as f64, *sizes.start() as f64, *sizes.end() as f64)?;
     check("links", settings.links as f64, 1.0, 512.0)?;

@@ -49,13 +49,13 @@ impl Channels {
     pub(crate) fn of(sample: &Sample) -> Self {
         let lab = lab_from_linear(&sample.color);
         let (width, height) = sample.size();
-        let height_mm =
-            |index: usize| sample.height_mm.as_ref().map_or(0.0, |heights| heights.values()[index]);
         let values = lab
             .values()
             .iter()
             .enumerate()
-            .map(|(index, &[l, a, b]): (usize, &[f32; 3])| [l, a, b, height_mm(index)])
+            .map(|(index, &[l, a, b]): (usize, &[f32; 3])| {
+                [l, a, b, sample.height_mm.as_ref().map_or(0.0, |heights| heights.values()[index])]
+            })
             .collect();
         Self { values: Field::from_values(width, height, values), mask: sample.mask.clone() }
     }
@@ -81,7 +81,7 @@ impl Channels {
         Self { values, mask: Field::from_values(width, height, mask) }
     }
 
-    /// Blurs the channels; texels outside the mask give nothing and take their neighbours'.
+    /// Blurs the channels. Texels outside the mask give nothing and take their neighbours'.
     fn smooth(&self, sigma: f64) -> Field<[f32; LOOKS]> {
         let weighed = self
             .values
@@ -112,7 +112,7 @@ impl Channels {
         )
     }
 
-    /// Slope of a channel of `fine` over its L*, over the mask; 0 where L* is even.
+    /// Slope of a channel of `fine` over its L*, over the mask, 0 where L* is even.
     fn slope_over_lightness(&self, fine: &Field<[f32; LOOKS]>, channel: usize) -> f32 {
         let (mean, deviation) = self.moments(|index| fine.values()[index][0]);
         let covariance = self
@@ -135,15 +135,15 @@ impl Channels {
 }
 
 impl Level {
-    /// The level of `channels`, whose strokes are `spacing` texels apart.
+    /// The level of `channels`, with strokes `spacing` texels apart.
     pub(crate) fn new(channels: &Channels, spacing: f64, features: Features) -> Self {
         let values = &channels.values;
         let width = values.width();
         let height = values.height();
         let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
         let edges = edge_strength(&fine);
-        // Across the tones of one paint, a* and b* may rise or fall with L*; what L* tells is left
-        // to L*.
+        // Across the tones of one paint, a* and b* may rise or fall with L*. What follows from L*
+        // is left to L*.
         let slopes = [1, 2].map(|channel| channels.slope_over_lightness(&fine, channel));
         let raw = |index: usize| {
             let [l, a, b, height] = fine.values()[index];
@@ -164,7 +164,9 @@ impl Level {
         };
         let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
         let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
-        let per = |deviation: f64| if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 };
+        fn per(deviation: f64) -> f32 {
+            if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 }
+        }
         let per_color = per(color);
         let per_height = HEIGHT * per(deviation(3));
         let look = |&[l, a, b, height]: &[f32; LOOKS]| {
@@ -189,7 +191,7 @@ impl Level {
     }
 
     /// Places whose patch of `patch` x `patch` texels, from there to the right and down, lies in
-    /// the mask; row by row.
+    /// the mask, row by row.
     pub(crate) fn places(&self, patch: usize) -> Vec<[u16; 2]> {
         let width = self.mask.width();
         let height = self.mask.height();
@@ -264,15 +266,15 @@ pub enum Features {
 pub struct SynthesisSettings {
     /// Width and height of the maps in texels, [`SynthesisSettings::SIZES`].
     pub size: usize,
-    /// Name of the sample whose map is made first and which the others follow; without it the
-    /// sample with the strongest contrast of lightness.
+    /// Name of the sample that gets the first map, which the others follow, without it the sample
+    /// with the strongest contrast of lightness.
     pub first: Option<String>,
     /// Properties by which patches are compared.
     pub features: Features,
     /// Number of links of a patch to each other sample, 1..=512.
     pub links: usize,
-    /// Weight of the likeness of linked patches beside that of overlaps, 0..=16: higher keeps
-    /// maps closer to the first one, lower makes better seams.
+    /// Weight of the likeness of linked patches relative to the likeness of overlaps, 0..=16:
+    /// higher keeps maps closer to the first one, lower makes better seams.
     pub follow: f32,
     /// Penalty on places that were used before, 0..=16.
     pub uniformity: f32,
@@ -446,8 +448,8 @@ impl PatchGrid {
 /// strokes have less than 0.2, painted tones of the same strokes more than 0.4.
 const NESTED: f64 = 0.3;
 
-/// Whether the strokes of `other` stand where those of `first` do. Both must be of one size and
-/// cover the same texels.
+/// Whether the strokes of `other` stand where the strokes of `first` do. Both must be of one size
+/// and cover the same texels.
 pub(crate) fn is_nested(first: &Level, other: &Level) -> bool {
     first.mask == other.mask && correlation(first, other) >= NESTED
 }
@@ -455,7 +457,9 @@ pub(crate) fn is_nested(first: &Level, other: &Level) -> bool {
 /// Correlation of the smoothed L* of two samples, texel by texel.
 fn correlation(first: &Level, other: &Level) -> f64 {
     let inside = first.mask.values();
-    let lightness = |level: &Level, at: usize| f64::from(level.features.values()[at][1]);
+    fn lightness(level: &Level, at: usize) -> f64 {
+        f64::from(level.features.values()[at][1])
+    }
     let mut sums = [0.0; 3];
     for at in (0..inside.len()).filter(|at| inside[*at]) {
         // Features have mean 0.

@@ -20,10 +20,10 @@ use patches::{Following, LevelMap, first_level};
 
 pub use level::{Features, SynthesisError, SynthesisSettings};
 
-/// Tileable maps, one of each sample, whose strokes stand where those of the first one stand.
+/// Tileable maps, one of each sample. Their strokes stand at the places of the first map's strokes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeyMaps {
-    /// Index of the sample whose map was made first.
+    /// Index of the sample that got the first map.
     pub first: usize,
     /// For every map, in the order of the samples: the texel (column and row) of the sample that
     /// each texel of the map shows.
@@ -52,11 +52,13 @@ pub fn key_maps(set: &SampleSet, settings: &SynthesisSettings) -> Result<KeyMaps
 impl KeyMaps {
     /// The finest of the levels of all maps.
     pub(crate) fn of(prepared: &Prepared, maps: Vec<Vec<LevelMap>>) -> Self {
-        let finest = |mut levels: Vec<LevelMap>| {
-            levels.pop().map_or_else(|| Field::filled(0, 0, [0; 2]), |map| map.sources)
-        };
         let Prepared { first, patch, ref grids, .. } = *prepared;
-        let sources = maps.into_iter().map(finest).collect();
+        let sources = maps
+            .into_iter()
+            .map(|mut levels: Vec<LevelMap>| {
+                levels.pop().map_or_else(|| Field::filled(0, 0, [0; 2]), |map| map.sources)
+            })
+            .collect();
         Self { first, sources, patch, levels: grids.len() }
     }
 }
@@ -74,21 +76,23 @@ pub(crate) fn level_maps(prepared: &Prepared, settings: &SynthesisSettings) -> V
     }
     let SynthesisSettings { links, follow, uniformity, .. } = *settings;
     let following = Following { links, follow, uniformity };
-    let levels_of = |sample: usize| {
-        let finest = grids.len() - 1;
-        if sample == first || is_nested(&pyramids[first][finest], &pyramids[sample][finest]) {
-            return first_maps.clone();
-        }
-        let mut maps: Vec<LevelMap> = Vec::with_capacity(grids.len());
-        for (index, &grid) in grids.iter().enumerate() {
-            let described = prepared.described(sample, index);
-            let here = (&pyramids[sample][index], &described);
-            let there = (&first_maps[index], &of_first[index]);
-            maps.push(following.level(index + 1, here, there, grid, maps.last()));
-        }
-        maps
-    };
-    (0..pyramids.len()).into_par_iter().map(levels_of).collect()
+    (0..pyramids.len())
+        .into_par_iter()
+        .map(|sample: usize| {
+            let finest = grids.len() - 1;
+            if sample == first || is_nested(&pyramids[first][finest], &pyramids[sample][finest]) {
+                return first_maps.clone();
+            }
+            let mut maps: Vec<LevelMap> = Vec::with_capacity(grids.len());
+            for (index, &grid) in grids.iter().enumerate() {
+                let described = prepared.described(sample, index);
+                let here = (&pyramids[sample][index], &described);
+                let there = (&first_maps[index], &of_first[index]);
+                maps.push(following.level(index + 1, here, there, grid, maps.last()));
+            }
+            maps
+        })
+        .collect()
 }
 
 /// Encoded grey of what has no information, and of a feature of its mean value.
@@ -103,24 +107,24 @@ const GAP: usize = 4;
 /// A picture of one step of a synthesis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Name in letters, digits and hyphens; samples and levels count from 1, coarse to fine.
+    /// Name in letters, digits and hyphens. Samples and levels count from 1, coarse to fine.
     pub name: String,
     /// Linear sRGB.
     pub picture: Picture,
 }
 
-/// Synthesises maps as [`key_maps`](key_maps) does, to the bit, with pictures of the steps in
-/// their order:
+/// Synthesises maps as [`key_maps`](key_maps) does, to the bit, with pictures of the steps in their
+/// order:
 ///
-/// - `sample-1` and on: the samples, dark to light;
+/// - `sample-1` and on: the samples, dark to light,
 /// - `features-1` and on: what patches are compared by (edges, lightness, a*, b*, height) as
-///   greys beside each other;
+///   greys beside each other,
 /// - `links-1-level-1` and on: in the place of each patch of the first map the most similar patch
-///   of the sample, before anything is made to fit its neighbours;
+///   of the sample, before anything is made to fit its neighbours,
 /// - `map-1-level-1` and on: the map of the sample at each level.
 ///
 /// # Errors
-/// Those of [`key_maps`](key_maps).
+/// As [`key_maps`](key_maps).
 pub fn key_maps_with_stages(
     set: &SampleSet,
     settings: &SynthesisSettings,
@@ -161,25 +165,30 @@ fn stage(name: String, picture: Picture) -> Stage {
     Stage { name, picture }
 }
 
-/// A sample with its sides halved so many times; grey where it has no texel.
+/// A sample with its sides halved so many times, grey where it has no texel.
 fn shrunk(sample: &Sample, halvings: usize) -> Picture {
     let (width, height) = sample.size();
     let side = 1 << halvings;
-    let mean = |index: usize| {
-        let x = index % (width >> halvings) * side;
-        let y = index / (width >> halvings) * side;
-        let texels = (0..side * side).map(|at| (x + at % side, y + at / side));
-        let mut sum = [0.0; 3];
-        let mut count = 0.0_f32;
-        for at in texels.filter(|at| sample.mask[*at]) {
-            (0..3).for_each(|channel| sum[channel] += sample.color[at][channel]);
-            count += 1.0;
-        }
-        if count > 0.0 { sum.map(|sum| sum / count) } else { [grey(GREY); 3] }
-    };
     let columns = width >> halvings;
     let rows = height >> halvings;
-    Field::from_values(columns, rows, (0..columns * rows).map(mean).collect())
+    Field::from_values(
+        columns,
+        rows,
+        (0..columns * rows)
+            .map(|index: usize| {
+                let x = index % (width >> halvings) * side;
+                let y = index / (width >> halvings) * side;
+                let texels = (0..side * side).map(|at| (x + at % side, y + at / side));
+                let mut sum = [0.0; 3];
+                let mut count = 0.0_f32;
+                for at in texels.filter(|at| sample.mask[*at]) {
+                    (0..3).for_each(|channel| sum[channel] += sample.color[at][channel]);
+                    count += 1.0;
+                }
+                if count > 0.0 { sum.map(|sum| sum / count) } else { [grey(GREY); 3] }
+            })
+            .collect(),
+    )
 }
 
 /// Colours of a sample at a level, at the places of `sources`.
@@ -194,8 +203,8 @@ fn shown(sample: &Sample, halvings: usize, sources: &Field<[u16; 2]>) -> Picture
     Field::from_values(sources.width(), sources.height(), colors)
 }
 
-/// Places of the patches of a sample that are most like those of the first map, laid without seams
-/// being cut.
+/// Places of the patches of a sample that are most like the patches of the first map, laid without
+/// seams being cut.
 fn linked(
     prepared: &Prepared,
     first: &LevelMap,
@@ -441,15 +450,18 @@ mod tests {
                 assert!((0.9..=1.1).contains(&ratio), "contrast {ratio}");
                 let most = most_used(sources, &sample.mask, 16);
                 assert!(most <= 4.0, "use {most}");
-                let length =
-                    |texture: &Texture| stroke_length(&texture.levelled(4.0 * SPACING as f64));
+                fn length(texture: &Texture) -> f64 {
+                    stroke_length(&texture.levelled(4.0 * SPACING as f64))
+                }
                 lengths.push(length(&map) / length(&whole));
                 seams.push(wrap_ratio(&map));
             }
         }
         // Both figures scatter by 0.15 even over crops of one sample of this size, so their means are
         // held to the bounds.
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        fn mean(values: &[f64]) -> f64 {
+            values.iter().sum::<f64>() / values.len() as f64
+        }
         assert!((0.8..=1.25).contains(&mean(&lengths)), "stroke lengths {lengths:?}");
         assert!(lengths.iter().all(|length| (0.65..=1.4).contains(length)), "{lengths:?}");
         assert!(mean(&seams) <= 1.05, "seams {seams:?}");
@@ -458,9 +470,9 @@ mod tests {
     #[test]
     fn links_are_the_nearest_of_all_patches() {
         const PATCH: usize = 10;
-        let level = |sample: &Sample| {
+        fn level(sample: &Sample) -> Level {
             Level::new(&Channels::of(sample), SPACING as f64, Features::default())
-        };
+        }
         let first = level(&strokes("a", 64, SPACING, 0.1, 1));
         let second = level(&strokes("b", 64, SPACING, 0.3, 2));
         let space = PatchSpace::of(&[&first, &second], PATCH);
@@ -560,10 +572,12 @@ mod tests {
 
     #[test]
     fn samples_that_cannot_be_used_are_refused_by_name() {
-        let refused = |samples: Vec<Sample>, settings: &SynthesisSettings| {
+        fn refused(samples: Vec<Sample>, settings: &SynthesisSettings) -> String {
             key_maps(&set(samples), settings).unwrap_err().to_string()
-        };
-        let good = || strokes("good", 96, SPACING, 0.2, 1);
+        }
+        fn good() -> Sample {
+            strokes("good", 96, SPACING, 0.2, 1)
+        }
         assert!(refused(vec![], &small()).contains("no sample"));
         let tiny = strokes("tiny", 12, SPACING, 0.2, 1);
         assert!(refused(vec![good(), tiny], &small()).contains("`tiny` of 12 x 12"));

@@ -31,9 +31,9 @@ pub(crate) fn from_coarser(
 ) -> [isize; 2] {
     let last = coarser.sources.width() - 1;
     let [x, y] = coarser.sources[((texel.0 / 2).min(last), (texel.1 / 2).min(last))];
-    let fine = |coarse: u16, texel: usize, into: usize| {
+    fn fine(coarse: u16, texel: usize, into: usize) -> isize {
         2 * coarse as isize + (texel % 2) as isize - into as isize
-    };
+    }
     [fine(x, texel.0, into[0]), fine(y, texel.1, into[1])]
 }
 
@@ -139,10 +139,16 @@ fn placed_as(
     let near = patch / 4;
     let far = 3 * patch / 4;
     let texels = [[patch / 2, patch / 2], [near, near], [far, near], [near, far], [far, far]];
-    let place = |into: [usize; 2]| {
-        from_coarser(coarser, ((x + into[0]) % size, (y + into[1]) % size), into)
-    };
-    texels.into_iter().flat_map(|into| around(place(into), REACH, described)).collect()
+    texels
+        .into_iter()
+        .flat_map(|into| {
+            around(
+                from_coarser(coarser, ((x + into[0]) % size, (y + into[1]) % size), into),
+                REACH,
+                described,
+            )
+        })
+        .collect()
 }
 
 /// Mean squared difference between the coarser map and the coarser level of a patch.
@@ -181,10 +187,10 @@ pub(crate) struct Following {
 }
 
 impl Following {
-    /// Synthesises level `number` (1 is the coarsest) of a map from the same level of the first
-    /// map and its own coarser level, if there is one.
+    /// Synthesises level `number` (1 is the coarsest) of a map from the same level of the first map
+    /// and its own coarser level, if there is one.
     ///
-    /// Equation 6 weighs pixel values as it is printed; here the weights belong to the costs.
+    /// Equation 6 weighs pixel values as it is printed. Here the weights belong to the costs.
     pub(crate) fn level(
         &self,
         number: usize,

@@ -220,10 +220,10 @@ pub(crate) fn encoded(
     ascii_json(description).map_err(|error| kind.unwritable(error.to_string()))
 }
 
-/// Parses a description after its keys `format` and `version` were found to be those of the kind.
+/// Parses a description after its keys `format` and `version` were found to match the kind.
 ///
 /// # Errors
-/// [`TexelFileError`] for another format or version, and for text that is no such description.
+/// [`TexelFileError`] for another format or version, and for text that is not such a description.
 pub(crate) fn decoded<T: DeserializeOwned>(
     origin: Origin<'_>,
     json: &str,
@@ -254,7 +254,7 @@ pub(crate) fn encoded_library(
     library.map_err(|error| kind.unwritable(error.to_string()))
 }
 
-/// The paint that the values `pigments` and `library` of a description tell of.
+/// The paint that the values `pigments` and `library` of a description stand for.
 ///
 /// # Errors
 /// [`TexelFileError`] if one of them is missing, if the library is invalid, and if the channels

@@ -119,7 +119,7 @@ fn check_part(
 /// Number of blocks that are read as a batch and then decompressed in parallel.
 const BATCH: usize = 64;
 
-/// A file whose headers were read.
+/// A file with its headers read.
 pub(crate) struct Opened<'a> {
     origin: Origin<'a>,
     reader: Reader<Cursor<&'a [u8]>>,
@@ -350,8 +350,9 @@ mod tests {
 
     #[test]
     fn descriptions_of_other_formats_and_versions_are_told_apart() {
-        let decode =
-            |json: &str| decoded::<serde_json::Value>(ORIGIN, json).unwrap_err().to_string();
+        fn decode(json: &str) -> String {
+            decoded::<serde_json::Value>(ORIGIN, json).unwrap_err().to_string()
+        }
         let other = decode(r#"{"format": "impasto-painting", "version": 3}"#);
         let wanted = "`format` must be \"impasto-test\", found `\"impasto-painting\"`";
         assert_eq!(other, format!("a.exr: no test of impasto: {wanted}"));
@@ -412,7 +413,9 @@ mod tests {
         let width = 1_000_000;
         let mut bytes = bytes();
         // The data window of the first part: left, top, right and bottom, the last ones inclusive.
-        let window = |right: i32| [0, 0, right, 63].map(i32::to_le_bytes).concat();
+        fn window(right: i32) -> Vec<u8> {
+            [0, 0, right, 63].map(i32::to_le_bytes).concat()
+        }
         let at = place(&bytes, b"dataWindow\0box2i\0") + 21;
         assert_eq!(bytes[at..at + 16], window(4));
         bytes[at..at + 16].copy_from_slice(&window(width - 1));

@@ -37,7 +37,7 @@ impl Texels<'_> {
         names
     }
 
-    /// Numbers of a channel, row by row; that of no colour, height or pigment is the vehicle.
+    /// Numbers of a channel, row by row. That of no colour, height or pigment is the vehicle.
     pub(crate) fn plane(&self, channel: &str, pigments: Option<&[PigmentChannel]>) -> Vec<f32> {
         if let Some(color) = COLOR.iter().position(|name| *name == channel) {
             return self.color.values().iter().map(|rgb| rgb[color]).collect();
@@ -90,7 +90,7 @@ impl Texels<'_> {
 
 impl PartPlanes {
     /// Checks that the numbers of colour, height and paint are possible where `inside` says so.
-    /// Colours outside the gamut of sRGB may be below 0; heights and amounts are not.
+    /// Colours outside the gamut of sRGB may be below 0. Heights and amounts are not.
     ///
     /// # Errors
     /// Channel and reason.
@@ -124,7 +124,9 @@ impl PartPlanes {
     /// Paint of the texels.
     pub(crate) fn paint(&self, pigments: &[PigmentChannel]) -> Field<TexelPaint> {
         let vehicle = self.of(VEHICLE).iter();
-        let texel = |&vehicle_mm: &f32| TexelPaint { vehicle_mm, ..TexelPaint::default() };
+        fn texel(&vehicle_mm: &f32) -> TexelPaint {
+            TexelPaint { vehicle_mm, ..TexelPaint::default() }
+        }
         let mut paint: Vec<TexelPaint> = vehicle.map(texel).collect();
         for PigmentChannel { slot, channel, .. } in pigments {
             for (texel, amount) in paint.iter_mut().zip(self.of(channel)) {
@@ -134,7 +136,7 @@ impl PartPlanes {
         self.field(paint)
     }
 
-    /// Height of the texels; `None` if the part has no channel of heights.
+    /// Height of the texels, `None` if the part has no channel of heights.
     pub(crate) fn height_mm(&self) -> Option<Field<f32>> {
         let relief = self.plan.channels.iter().any(|channel| channel == HEIGHT);
         relief.then(|| self.field(self.of(HEIGHT).to_vec()))
@@ -180,7 +182,7 @@ pub(crate) struct PartPlanes {
 }
 
 impl PartPlanes {
-    /// Numbers of a channel; none if the part has no such channel.
+    /// Numbers of a channel, none if the part has no such channel.
     pub(crate) fn of(&self, channel: &str) -> &[f32] {
         let place = self.plan.channels.iter().position(|name| name == channel);
         place.map_or(&[], |place| &self.planes[place])

@@ -111,7 +111,7 @@ fn a_surface_wholly_before_the_camera_sums_to_nothing() {
 #[test]
 fn the_skin_itself_counts_from_the_side_of_the_eye() {
     // Faces with the corners of the wall have its depth, bit for bit. The box behind the wall
-    // begins on it and does not hold it; the box before the wall ends on it and does.
+    // begins on it and does not hold it. The box before the wall ends on it and does.
     let mut scene = before_wall(Surfaces::default());
     scene.mesh = wall(-3.0, 1.0, 1);
     scene.surfaces.add_box(Vec3::new(-1.0, -1.0, -4.0), Vec3::new(1.0, 1.0, -3.0));

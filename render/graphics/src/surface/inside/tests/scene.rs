@@ -31,10 +31,10 @@ pub(super) struct Found {
     pub(super) samples: usize,
     /// The greatest count of the oracle.
     pub(super) most: i32,
-    /// Samples whose count is not the oracle's.
+    /// Samples with another count than the oracle's.
     pub(super) differ: usize,
-    /// Those of them that are farther than half a pixel from every outline and than a
-    /// thousandth of the radius from every skin.
+    /// The points that are farther than half a pixel from every outline and than a thousandth of
+    /// the radius from every skin.
     pub(super) wrong: usize,
 }
 
@@ -269,14 +269,16 @@ impl Solid {
             && self.faces.iter().any(|&face| distance_to_triangle(point, face) <= near)
     }
 
-    /// Whether the outline seen from `eye` passes within `near` pixels of `at`; `project`
-    /// takes a point before the near plane, whose distance along `forward` is given, to pixels.
+    /// Whether the outline seen from `eye` passes within `near` pixels of `at`. `project` takes a
+    /// point before the near plane, whose distance along `forward` is given, to pixels.
     pub(super) fn has_outline_at(&self, at: DVec2, near: f64, view: &View) -> bool {
         let faces_eye = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(view.eye - a) > 0.0;
         let fronts = self.faces.iter().filter(|&&face| faces_eye(face));
         // An edge is of the outline if only one of its two faces faces the eye.
         let mut edges: Vec<[[u64; 3]; 2]> = Vec::new();
-        let bits = |corner: DVec3| corner.to_array().map(f64::to_bits);
+        fn bits(corner: DVec3) -> [u64; 3] {
+            corner.to_array().map(f64::to_bits)
+        }
         for [a, b, c] in fronts.map(|face| face.map(bits)) {
             edges.extend([[a, b], [b, c], [c, a]]);
         }

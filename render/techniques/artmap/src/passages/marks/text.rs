@@ -153,9 +153,13 @@ fn finite<'a>(mut values: impl Iterator<Item = &'a f64>) -> Result<(), MarkFault
 }
 
 fn rectangle(numbers: [f64; 4]) -> Result<MarkedArea, MarkFault> {
-    let whole = |value: f64| value.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&value);
     let [x, y, width, height] = numbers.map(|value| value as u32);
-    if !numbers.into_iter().all(whole) || width == 0 || height == 0 {
+    if !numbers
+        .into_iter()
+        .all(|value: f64| value.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&value))
+        || width == 0
+        || height == 0
+    {
         return Err(MarkFault::Rectangle);
     }
     Ok(MarkedArea::Rectangle { x, y, width, height })
