@@ -1,4 +1,5 @@
 #!/bin/sh
+# shellcheck disable=SC2086 # words of $model, $own and $small are arguments of their own
 # Writes the pictures of models and photographs in the brushwork of maps into docs/images/:
 # painterly*.jpg, painterly-turning.gif and painterly-flow.gif.
 # Needs `impasto` on the path (or IMPASTO=its path) and Python with Pillow (PYTHON=its path).

@@ -3,6 +3,8 @@
 use std::error::Error;
 use std::fmt;
 
+pub use documents_derive::Explain;
+
 /// Advice on how to resolve an error, as one sentence.
 ///
 /// Settings are written in square brackets, by their name in the library and optionally
@@ -105,6 +107,56 @@ pub enum Fault {
 
 /// Advice and cause of an error, beside its message. Every public error of these
 /// libraries implements it.
+///
+/// The derive macro of the same name takes both from attributes, which stand beside the
+/// message:
+///
+/// ```
+/// use documents::did_you_mean;
+/// use documents::hint::{Explain, Fault};
+///
+/// #[derive(Debug, thiserror::Error, Explain)]
+/// #[fault(Setting)]
+/// enum PaletteError {
+///     #[error("there are {count} pigments, more than `8`")]
+///     #[hint("leave out {} of them, or set [palette=auto]", count - 8)]
+///     TooMany { count: usize },
+///     #[error("there is no pigment `{0}`")]
+///     #[hint(if did_you_mean(_0, ["zinc"]).is_none(), "pigments are zinc and umber")]
+///     #[hint(verbatim, "{}", did_you_mean(_0, ["zinc"]).unwrap_or_default())]
+///     Unknown(String),
+///     #[error(transparent)]
+///     Io(#[from] std::io::Error),
+///     #[error("the palette is empty")]
+///     #[fault(Input)]
+///     Empty,
+/// }
+///
+/// let error = PaletteError::TooMany { count: 10 };
+/// let hint = error.hint().map(|hint| hint.to_string());
+/// assert_eq!(hint.as_deref(), Some("leave out 2 of them, or set `palette = auto`"));
+/// assert_eq!(error.fault(), Fault::Setting);
+/// let error = PaletteError::Unknown("zinq".to_owned());
+/// assert_eq!(error.hint().map(|hint| hint.to_string()).as_deref(), Some("did you mean zinc?"));
+/// assert_eq!((PaletteError::Empty.hint(), PaletteError::Empty.fault()), (None, Fault::Input));
+/// ```
+///
+/// | attribute of a variant or a struct | hint |
+/// | --- | --- |
+/// | `#[hint("text with [setting] and {field}")]` | the text as [`Hint::new`]; braces as in `format!`, with all fields by name, those of tuples as `{0}` or `_0` |
+/// | `#[hint("{} and {}", expression, expression)]` | the same with arguments, in which fields are references and `self` is the error |
+/// | `#[hint(verbatim, "text")]` | the text as [`Hint::verbatim`] |
+/// | `#[hint(with = expression)]` | the expression, an `Option<Hint>`; a path to a function is called with `self` |
+/// | `#[hint(inner)]`, `#[hint(inner = field)]` | the hint of the wrapped error: the field with `#[from]` or `#[source]`, else `source` or `error`, else the only one; the fault is taken from it as well |
+/// | `#[hint(none)]` | none, also where the enum has one for all |
+/// | `#[hint(if condition, ..)]` | any of these if the condition holds; otherwise the next `#[hint(..)]` of the variant |
+/// | nothing | the one of the enum; else the wrapped error's where the message is `#[error(transparent)]`; else none |
+///
+/// | attribute of a variant, a struct or an enum | fault |
+/// | --- | --- |
+/// | `#[fault(Setting)]` | that variant of [`Fault`] |
+/// | `#[fault(with = expression)]`, `#[fault(inner)]` | as for hints |
+/// | nothing | the wrapped error's under `#[hint(inner)]` or `#[error(transparent)]`; else the one of the enum; else [`Fault::Input`] |
 pub trait Explain: Error {
     /// Advice on how to resolve the error, or `None` if the message already says it.
     fn hint(&self) -> Option<Hint> {
@@ -116,6 +168,8 @@ pub trait Explain: Error {
         Fault::Input
     }
 }
+
+impl Explain for std::convert::Infallible {}
 
 impl Explain for std::io::Error {
     fn hint(&self) -> Option<Hint> {

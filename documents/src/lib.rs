@@ -4,23 +4,24 @@
 //! |---|---|
 //! | read a file whole, write it so that nothing is lost | [`file::read`], [`file::write_whole`] |
 //! | say what is wrong and the way out | [`hint::Explain`] |
-//! | stop long work | [`Cancellation`] |
+//! | report long work, stop it | [`Task`] |
 //! | find the name that was meant | [`did_you_mean`] |
-//! | find the line of a value in a TOML text | [`settings_text`] |
+//! | declare settings, presets and their files | [`mod@settings`] |
+//! | read TOML and JSON with lines in errors | [`text::Source`] |
 //!
 //! Every other crate may use this one; it uses none of them.
 
-pub mod hint;
-mod cancellation;
-mod name_list;
-mod counted;
-mod similar;
-mod parser_reason;
-pub mod file;
-pub mod settings_text;
+// The derive macro names this crate, also within it.
+extern crate self as documents;
 
-pub use cancellation::{Cancellation, Cancelled};
-pub use counted::{counted, counted_as};
-pub use name_list::name_list;
-pub use parser_reason::{ParserReason, plain_parser_message};
-pub use similar::{did_you_mean, similar_names};
+pub mod hint;
+mod task;
+mod wording;
+pub mod file;
+pub mod text;
+pub mod settings;
+
+pub use task::{Cancellation, Cancelled, Progress, Steps, Task};
+pub use wording::{
+    ParserReason, counted, counted_as, did_you_mean, name_list, plain_parser_message, similar_names,
+};

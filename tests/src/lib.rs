@@ -1,9 +1,5 @@
 //! Helpers of several test programs: golden files, comparison, sample data and runs of `impasto`.
-
-pub mod adapter;
 pub mod golden;
-pub mod guides;
-pub mod near;
 pub mod program;
 pub mod oils;
 pub mod watercolors;

@@ -1,10 +1,16 @@
 //! Options and files of an animation: a folder of frames that can be resumed, and one file.
+//!
+//! Options of a timelapse of a script, and its files.
 
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use graphics::export::{AnimationFormat, Frame, FrameRate, Sequence, SequenceSettings};
+use paint::session::PaintingSession;
+use paint::strokes::StrokeScript;
+use paint::timelapse::{Interval, Timelapse, TimelapseFiles, TimelapseSettings};
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
@@ -156,5 +162,141 @@ impl Recording {
             output.write(format.encode(&sequence, (animation.rate, 1))?, console)?;
         }
         Ok(frames - remaining)
+    }
+}
+
+/// Steps of the progress bar.
+const STEPS: usize = 1000;
+
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Timelapse")]
+pub(crate) struct TimelapseOptions {
+    /// Write how the script is painted: .gif, or .png (APNG, all colours). The script is played once
+    /// more for it
+    #[arg(long, value_name = "FILE", conflicts_with = "from")]
+    timelapse: Option<PathBuf>,
+    /// Keep each frame in this folder as PNG, from which an interrupted run continues
+    /// [default: FILE.frames beside the timelapse]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "from")]
+    timelapse_frames: Option<PathBuf>,
+    /// Frames in all, spread over the time that strokes on the canvas take
+    #[arg(long, value_name = "N", default_value_t = 250)]
+    timelapse_count: usize,
+    /// Take a frame after every N actions that change the canvas
+    #[arg(long, value_name = "N", conflicts_with = "timelapse_count")]
+    timelapse_every: Option<usize>,
+    /// Take a frame after every so many seconds of strokes on the canvas
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        allow_negative_numbers = true,
+        conflicts_with_all = ["timelapse_count", "timelapse_every"]
+    )]
+    timelapse_seconds: Option<f64>,
+    /// Longest side of a frame in pixels; a canvas with fewer cells keeps them
+    #[arg(long, value_name = "PX", default_value_t = 960)]
+    timelapse_size: usize,
+    /// Frames per second
+    #[arg(long, value_name = "RATE", default_value_t = 25.0, allow_negative_numbers = true)]
+    timelapse_rate: f64,
+    /// How long the last frame is shown, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, allow_negative_numbers = true)]
+    timelapse_hold: f64,
+    /// Show passages that are undone later too
+    #[arg(long)]
+    timelapse_undone: bool,
+}
+
+/// A timelapse whose files were checked to be writable.
+pub(crate) struct OpenTimelapse {
+    settings: TimelapseSettings,
+    files: TimelapseFiles,
+}
+
+/// Figures of a timelapse that was written.
+pub(crate) struct TimelapseReport {
+    pub(crate) frames: usize,
+    /// Number of frames that existed already.
+    pub(crate) found: usize,
+    /// Width and height in pixels.
+    pub(crate) size: (usize, usize),
+}
+
+impl TimelapseOptions {
+    /// Checks settings and files. Returns `None` if no timelapse is requested. `writes` tells
+    /// whether another output has this file.
+    pub(crate) fn open(
+        &self,
+        inputs: &[PathBuf],
+        writes: impl Fn(&Output) -> bool,
+    ) -> Result<Option<OpenTimelapse>> {
+        let beside = self.timelapse.as_ref().map(|path| path.with_extension("frames"));
+        let Some(frames) = self.timelapse_frames.clone().or(beside) else { return Ok(None) };
+        let interval = match (self.timelapse_every, self.timelapse_seconds) {
+            (Some(count), _) => Interval::Actions(count),
+            (None, Some(seconds)) => Interval::Seconds(seconds),
+            (None, None) => Interval::Frames(self.timelapse_count),
+        };
+        let longest_px = self.timelapse_size;
+        let with_undone = self.timelapse_undone;
+        let settings = TimelapseSettings { interval, longest_px, with_undone };
+        let words = || "the timelapse";
+        settings.check().context(words)?;
+        let rate = FrameRate::new(self.timelapse_rate)
+            .context(|| "--timelapse-rate takes another value")?;
+        let animation = self.timelapse.as_deref();
+        let animation = animation.map(|path| file(path, inputs, writes)).transpose()?;
+        OutputFolder::open(&frames, inputs)?;
+        let hold_seconds = self.timelapse_hold;
+        let files = TimelapseFiles { animation, frames, keep_frames: true, rate, hold_seconds };
+        files.check().context(words)?;
+        Ok(Some(OpenTimelapse { settings, files }))
+    }
+}
+
+fn file(
+    path: &Path,
+    inputs: &[PathBuf],
+    writes: impl Fn(&Output) -> bool,
+) -> Result<(PathBuf, AnimationFormat)> {
+    let format = format(path)?;
+    let output = Output::open(path, inputs)?;
+    if writes(&output) {
+        return Err(output.used_twice());
+    }
+    Ok((path.to_owned(), format))
+}
+
+impl OpenTimelapse {
+    /// Plans the timelapse of `script`.
+    pub(crate) fn plan<'a>(&self, script: &'a StrokeScript) -> Result<Timelapse<'a>> {
+        Timelapse::new(script, self.settings).context(|| "the timelapse")
+    }
+
+    /// Plays `timelapse` on `session`, which must be as its script begins, and writes the files.
+    pub(crate) fn write(
+        &self,
+        timelapse: &Timelapse<'_>,
+        session: &mut PaintingSession,
+        console: &mut Console<'_>,
+    ) -> Result<TimelapseReport> {
+        let bar = Progress::new(STEPS, "timelapse", console.shows_progress());
+        let mut shown = 0;
+        let found = timelapse.write(session, &self.files, |done| {
+            while shown < (done * STEPS as f64) as usize {
+                bar.step();
+                shown += 1;
+            }
+            ControlFlow::Continue(())
+        });
+        bar.done();
+        let found = found?.unwrap_or(0);
+        console.wrote(&self.files.frames)?;
+        if let Some((path, _)) = &self.files.animation {
+            console.wrote(path)?;
+        }
+        let frames = timelapse.frames();
+        let size = timelapse.size(session);
+        Ok(TimelapseReport { frames, found, size })
     }
 }

@@ -7,9 +7,8 @@ use clap::{Args, Command, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::console::{Console, Voice};
-use crate::examples::with_examples;
 use crate::failure::{Failure, Result};
-use crate::manual::pages;
+use crate::manual::{pages, with_examples};
 use crate::output::OutputFolder;
 use crate::verbs::Verb;
 

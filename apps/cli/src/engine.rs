@@ -7,8 +7,7 @@ use graphics::gpu::BackendChoice;
 use paint::engine::PaintEngine;
 use paint::painting::UNDO_BYTES;
 
-use crate::console::Console;
-use crate::driver_noise::without_noise;
+use crate::console::{Console, without_noise};
 use crate::failure::Result;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

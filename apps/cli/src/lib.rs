@@ -3,38 +3,21 @@
 //! Each verb has a file of its own: its options, one or two calls of a library, and printing.
 //! Exit status: 0 done, 1 the data are faulty or a check failed, 2 the command could not run
 //! (a wrong option, an unreadable file, a missing device), 128 + n ended by signal n.
-
-mod command_line;
-mod decimals;
 mod failure;
 mod console;
 mod progress;
-mod shown_color;
 mod csv_rows;
-mod driver_noise;
-mod input;
 mod library_choice;
-mod referencing;
 mod readings;
-mod selected_spectra;
-mod grid_option;
-mod ground;
-mod canvas;
-mod targets;
-mod costs;
 mod surface;
 mod output;
-mod stages;
 mod engine;
 mod pictures;
-mod plain_picture;
 mod setting_changes;
 mod subject;
 mod palette;
 mod animation;
-mod timelapse;
 mod verbs;
-mod examples;
 mod manual;
 mod command;
 
@@ -59,7 +42,7 @@ pub fn run(
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
     let words: Vec<_> = std::iter::once("impasto".into()).chain(words).collect();
-    let command = command_line::command_line(words.iter().map(AsRef::as_ref));
+    let command = console::command_line(words.iter().map(AsRef::as_ref));
     let parsed = command::command()
         .try_get_matches_from(arguments)
         .and_then(|matches| Arguments::from_arg_matches(&matches));

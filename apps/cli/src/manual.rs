@@ -1,4 +1,6 @@
 //! Manual pages: those that clap makes, with examples to copy, exit status and environment.
+//!
+//! Examples in the help of every verb.
 
 use std::io;
 
@@ -98,4 +100,226 @@ fn examples(command: &Command, page: &mut Roff) {
         page.text([roman(line.trim_start())]);
     }
     page.control("fi", []);
+}
+
+/// Verbs, by their words, and commands that show them.
+const EXAMPLES: [(&str, &[&str]); 34] = [
+    (
+        "fit",
+        &[
+            "impasto fit measurements/van-gogh-oils.csv --saunderson 0.03,0.6 --below-surface floor -o oils.json",
+            "impasto fit swatches.ti3 --recipes recipes.csv --white \"Zinc White\" -o paints.json",
+            "impasto fit measurements/van-gogh-oils.csv --below-surface floor --half 1 -o half.json",
+            "impasto fit counts.csv --white-reading white.txt --dark-reading dark.txt --csv",
+        ],
+    ),
+    (
+        "validate",
+        &[
+            "impasto validate measurements/van-gogh-oils.csv",
+            "impasto validate readings.csv --with Viridian --csv",
+            "impasto validate readings.csv --residuals residuals.json",
+        ],
+    ),
+    (
+        "mix",
+        &[
+            "impasto mix oils.json \"Zinc White=9\" \"Cobalt Blue=1\"",
+            "impasto mix \"Viridian=1\" --thickness 0.5 --over black",
+        ],
+    ),
+    (
+        "color",
+        &[
+            "impasto color measurements/van-gogh-oils.csv --illuminant FL11 --observer 10",
+            "impasto color swatch.txt --white-reading white.txt --dark-reading dark.txt --tile 0.98",
+            "cat spectra.csv | impasto color - --csv",
+        ],
+    ),
+    (
+        "map",
+        &[
+            "impasto map scan.hdr oils.json -o maps.zarr --pictures maps",
+            "impasto map scan.hdr oils.json --residuals residuals.json -o maps.zarr",
+            "impasto map scan.hdr oils.json --ground 0..20,0..100 -o maps.zarr",
+            "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
+            "impasto map field.hdr oils.json -o maps.zarr --truth field-truth.zarr",
+            "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",
+        ],
+    ),
+    (
+        "simulate-scan",
+        &[
+            "impasto simulate-scan field.exr -o field.hdr",
+            "impasto simulate-scan field.exr -o fine.hdr --bands 204 --seed 7",
+        ],
+    ),
+    ("light", &["impasto light A FL11 LED-B3", "impasto light lamp.spdx --samples"]),
+    (
+        "quadrature",
+        &["impasto quadrature oils.json --illuminant D65", "impasto quadrature -n 4 --csv"],
+    ),
+    (
+        "match",
+        &[
+            "impasto match oils.json \"#4a7d8c\" --grams 40",
+            "impasto match oils.json swatches.csv --illuminant D65 --illuminant A=0.5 --parts 12",
+            "impasto match oils.json \"swatches.csv#sky\" --by spectrum",
+            "impasto match 52,-10.5,8 --with \"Lead White\" --csv",
+        ],
+    ),
+    (
+        "correct",
+        &[
+            "impasto correct oils.json pot.csv#standard pot.csv#batch --made \"Zinc White=440\" \"Cobalt Blue=60\"",
+            "impasto correct \"#5092e1\" batch.csv --made \"Zinc White=1\" --grams 500 --stock \"Cobalt Blue=20\"",
+        ],
+    ),
+    ("library list", &["impasto library list oils.json", "impasto library list --csv"]),
+    ("library show", &["impasto library show oils.json Viridian --csv"]),
+    ("library check", &["impasto library check oils.json"]),
+    ("library diff", &["impasto library diff oils.json batch2.json --tolerance 1"]),
+    ("library merge", &["impasto library merge oils.json batch2.json --prefer last -o both.json"]),
+    (
+        "library convert",
+        &[
+            "impasto library convert oils.json --white \"Lead White\" -o lead.json",
+            "impasto library convert oils.json --grid 400,700,5 -o fine.json",
+        ],
+    ),
+    ("library rename", &["impasto library rename oils.json \"Viridian=PG18\" -o named.json"]),
+    (
+        "library subset",
+        &["impasto library subset oils.json \"Zinc White\" Viridian Cobalt -o few.json"],
+    ),
+    (
+        "library export",
+        &[
+            "impasto library export oils.json --tints -o oils.ase",
+            "impasto library export oils.json --to csv -o -",
+        ],
+    ),
+    (
+        "library from-rgb",
+        &["impasto library from-rgb oils.json \"#2a5caa\" --name Sky -o with-sky.json"],
+    ),
+    (
+        "plan",
+        &[
+            "impasto plan \"Cobalt Blue\" Viridian --white \"Zinc White\" -o readings.csv",
+            "impasto plan oils.json \"Cobalt Blue\" Viridian --white \"Zinc White\" --swatches 16 --csv",
+        ],
+    ),
+    ("report", &["impasto report oils.json measurements/van-gogh-oils.csv -o out/oils"]),
+    ("demo", &["impasto demo", "impasto demo -o out"]),
+    (
+        "paint",
+        &[
+            "impasto paint paintings/landscape.json -o field.png -o field.exr",
+            "impasto paint --from photo.jpg oils.json -o painted.png",
+        ],
+    ),
+    (
+        "relight",
+        &[
+            "impasto relight field.exr --illuminant A --adaptation 0.4 -o evening.png",
+            "impasto relight field.exr --swap \"all:Prussian Blue=Ultramarine\" -o other.png",
+        ],
+    ),
+    (
+        "watercolor",
+        &[
+            "impasto watercolor photo.jpg --preset portrait -o watercolor.png",
+            "impasto watercolor photo.jpg oils.json -o glazed.exr",
+            "impasto watercolor shape:village --turntable 60 --animation turning.gif",
+        ],
+    ),
+    (
+        "artmap sample",
+        &[
+            "impasto artmap sample painted.jpg --propose 4 -o marks.toml --marked marked.png",
+            "impasto artmap sample painted.jpg --marks marks.toml -o samples.exr --sheet samples.png",
+        ],
+    ),
+    ("artmap paint", &["impasto artmap paint oils.json --style dabs -o dabs.exr --sheet dabs.png"]),
+    ("artmap build", &["impasto artmap build dabs.exr -o dabs.artmap.exr --sheet map.png"]),
+    ("artmap check", &["impasto artmap check dabs.artmap.exr --csv"]),
+    ("artmap show", &["impasto artmap show dabs.exr --sheet dabs.png"]),
+    (
+        "painterly",
+        &[
+            "impasto painterly shape:still-life --style oil-flat --set colour.from=model -o still-life.png",
+            "impasto painterly photo.jpg --preset knife -o knife.png",
+        ],
+    ),
+    (
+        "stencil",
+        &[
+            "impasto stencil shape:village --pour 0.5,0.5,300 -o village.png",
+            "impasto stencil shape:still-life oils.json --pour 0.4,0.5,15 --paint Ultramarine -o glazes.exr",
+        ],
+    ),
+    ("gpu", &["impasto gpu"]),
+];
+
+/// The command line with its examples.
+pub(crate) fn with_examples(whole: Command) -> Command {
+    EXAMPLES.iter().fold(whole, |whole, (path, lines)| {
+        let words: Vec<&str> = path.split(' ').collect();
+        let text = format!("Examples:\n  {}", lines.join("\n  "));
+        at(whole, &words, &text)
+    })
+}
+
+/// The command with `text` below the help of the verb that `words` name.
+fn at(command: Command, words: &[&str], text: &str) -> Command {
+    match words {
+        [] => command.after_help(text.to_owned()),
+        [first, rest @ ..] => command.mut_subcommand(*first, |inner| at(inner, rest, text)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command::command;
+
+    /// Splits a command into words as a shell does, with double quotes.
+    fn words(line: &str) -> Vec<String> {
+        let mut words = Vec::new();
+        for (index, part) in line.split('"').enumerate() {
+            match index % 2 {
+                1 => words.push(part.to_owned()),
+                _ => words.extend(part.split_whitespace().map(str::to_owned)),
+            }
+        }
+        words
+    }
+
+    #[test]
+    fn every_example_is_a_command_of_its_verb() {
+        for (path, lines) in EXAMPLES {
+            for line in lines {
+                let own = line.rsplit_once("| ").map_or(*line, |(_, own)| own);
+                assert!(own.starts_with(&format!("impasto {path}")), "{line}");
+                let parsed = command().try_get_matches_from(words(own));
+                assert!(parsed.is_ok(), "{line}\n{}", parsed.unwrap_err());
+            }
+        }
+    }
+
+    #[test]
+    fn every_verb_has_an_example() {
+        fn check(command: &Command, path: &str) {
+            for verb in command.get_subcommands().filter(|verb| !verb.is_hide_set()) {
+                let own = format!("{path}{}", verb.get_name());
+                if verb.has_subcommands() {
+                    check(verb, &format!("{own} "));
+                } else {
+                    assert!(EXAMPLES.iter().any(|(path, _)| *path == own), "{own} has no example");
+                }
+            }
+        }
+        check(&command(), "");
+    }
 }

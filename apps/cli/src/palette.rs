@@ -1,10 +1,16 @@
 //! Pigments of a library named in a list.
+//!
+//! The option `--cost`: prices of pigments.
+
+use std::path::Path;
 
 use calibrate::library::PigmentLibrary;
+use calibrate::matching::{PriceList, parse_price};
+use documents::file::is_there;
 use paint::document::Slots;
 use paint::palette::palette_slots;
 
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
 
 /// Finds the pigments that `--palette` names and puts them into the slots of a layer.
 pub(crate) fn palette(lists: &[String], library: &PigmentLibrary) -> Result<Slots> {
@@ -54,6 +60,25 @@ pub(crate) fn name_in_recipe(part: &str) -> &str {
         Some((name, share)) if !share.contains(',') => name,
         _ => part,
     }
+}
+
+/// Reads prices from texts `NAME=PRICE` and from CSV files with the columns `pigment` and `price`.
+pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
+    let mut prices = PriceList::default();
+    for text in texts {
+        if is_there(Path::new(text)) {
+            prices.add_file(text)?;
+            continue;
+        }
+        let (name, price) = text.rsplit_once('=').ok_or_else(|| {
+            Failure::usage(
+                format!("--cost takes NAME=PRICE or an existing CSV file, found `{text}`"),
+                "try --cost \"Cobalt Blue=0.9\" or --cost prices.csv",
+            )
+        })?;
+        prices.set(name, parse_price(price, text)?)?;
+    }
+    Ok(prices)
 }
 
 #[cfg(test)]

@@ -1,15 +1,34 @@
 //! Options for measurement files (format, units, references of counts), and reading them.
+//!
+//! Options and inputs that several verbs share: light, observer and pigment library.
+//!
+//! Options that convert the counts of a spectrometer to reflectance: white, dark and tile.
+//!
+//! Spectra of a measurement file that an option names as `FILE` or `FILE#NAME`.
+//!
+//! Target colours: `#rrggbb`, CIELAB, or measured spectra.
 
 use std::path::{Path, PathBuf};
 
 use calibrate::Readings;
-use calibrate::measurement::{MeasurementTable, Scale, ScaleChoice};
+use calibrate::evaluate::Viewing;
+use calibrate::library::PigmentLibrary;
+use calibrate::matching::{ColorTarget, ViewingCondition};
+use calibrate::measurement::{
+    AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
+};
+use calibrate::visible_band::check_visible_band;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use documents::counted_as;
+use documents::file::{is_standard_input, is_there};
 
 use crate::console::Console;
-use crate::failure::Result;
-use crate::referencing::ReferencingOptions;
+use crate::failure::{Failure, Result};
+use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
+use spectra::instrument::split_file_and_name;
+use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
+use spectra::{Grid, Observer, Reflectance, Spectrum, TristimulusWeights, light_from_text};
 
 /// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
@@ -116,4 +135,260 @@ pub(crate) fn remark_repeated(paths: &[PathBuf], console: &mut Console<'_>) -> R
         }
     }
     Ok(())
+}
+
+/// Options for the light and the observer.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct ViewingOptions {
+    /// Light: a CIE illuminant (D65, A, FL11, LED-B3 ..), a black body (5600K), daylight (D5600K),
+    /// or a lamp's file: an instrument's (FILE#NAME for one of several spectra), or lines `nm,power`
+    ///
+    /// The power may have any unit. Negative noise down to -1 % of the peak counts as 0.
+    #[arg(long, value_name = "LIGHT", default_value = "D65")]
+    illuminant: String,
+    /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
+    #[arg(long, value_name = "NAME", default_value = "1931-2")]
+    observer: String,
+}
+
+impl ViewingOptions {
+    pub(crate) fn viewing(&self) -> Result<Viewing> {
+        viewing(&self.illuminant, &self.observer)
+    }
+}
+
+/// Reads the light and looks up the observer that the texts of two options name.
+pub(crate) fn viewing(illuminant: &str, observer: &str) -> Result<Viewing> {
+    Ok(Viewing { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
+}
+
+/// Reads a light with its weight among several, `LIGHT` or `LIGHT=WEIGHT`.
+pub(crate) fn condition(text: &str, observer: &str) -> Result<ViewingCondition> {
+    let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
+        let weight: f64 = weight.parse().ok()?;
+        Some((light, weight))
+    });
+    let (light, weight) = weighted.unwrap_or((text, 1.0));
+    Ok(ViewingCondition { viewing: viewing(light, observer)?, weight })
+}
+
+/// Converts a colour to encoded sRGB, adapted from `white` by Bradford's transform.
+pub(crate) fn srgb(xyz: Xyz, white: Xyz) -> Rgb {
+    RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford)
+}
+
+/// Computes the weights that turn spectra on `grid` into XYZ. Warns if `grid` covers only a part
+/// of the visible band.
+pub(crate) fn color_weights(
+    viewing: &Viewing,
+    grid: Grid,
+    console: &mut Console<'_>,
+) -> Result<TristimulusWeights> {
+    remark_coverage(grid, console)?;
+    Ok(viewing.weights(grid)?)
+}
+
+/// Warns if `grid` covers only a part of the visible band; an error if it has no visible
+/// wavelength.
+pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> Result<()> {
+    console.remarks(&check_visible_band(grid)?)
+}
+
+/// Reads a pigment library from a file.
+pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
+    Ok(PigmentLibrary::open(path)?)
+}
+
+/// Whether a file is TOML: by its ending, standard input by what it holds.
+pub(crate) fn is_toml(path: &Path) -> bool {
+    match is_standard_input(path) {
+        true => holds_toml(&documents::file::read(path).unwrap_or_default()),
+        false => path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")),
+    }
+}
+
+/// Whether the first line that is no comment is one of TOML: a table, or a key with its value.
+fn holds_toml(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+    first
+        .is_some_and(|line| line.starts_with('[') || (line.contains('=') && !line.starts_with('{')))
+}
+
+/// Reads a file of text, or standard input.
+pub(crate) fn text(path: &Path) -> Result<String> {
+    let name = path.display();
+    String::from_utf8(documents::file::read(path)?).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::data(format!("{name}, byte {at}: text must be UTF-8"), "save the file in UTF-8")
+    })
+}
+
+/// References that convert counts to reflectance.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct ReferencingOptions {
+    /// White reading, FILE or FILE#NAME, for measurement files that hold counts
+    ///
+    /// Reflectance = tile x (sample - dark) / (white - dark), sample and white each divided by their
+    /// integration time where the files state it. Saturated counts or too little light from 380 to
+    /// 730 nm are an error; outside this range such wavelengths are left out.
+    #[arg(long, value_name = "FILE")]
+    white_reading: Option<String>,
+    /// Dark reading of sample and white, FILE or FILE#NAME; 0 if subtracted already
+    ///
+    /// Dark counts are not scaled by time: if sample and white have different integration times,
+    /// give a dark reading for each.
+    #[arg(long, alias = "dark", value_name = "FILE")]
+    dark_reading: Vec<String>,
+    /// The white's own reflectance, FILE, FILE#NAME or a fraction [default: 1]
+    #[arg(long, value_name = "FILE|0.99")]
+    tile: Option<String>,
+    /// Largest count of the detector, such as 65535 [default: guessed]
+    ///
+    /// Guessed from a maximum of 4095, 16383 or 65535, or from neighbouring values that share the
+    /// maximum.
+    #[arg(long, value_name = "COUNT")]
+    full_scale: Option<f64>,
+    /// Minimum light of the white, as a fraction of its peak [default: 0.01]
+    #[arg(long, value_name = "SHARE")]
+    least_light: Option<f64>,
+}
+
+impl ReferencingOptions {
+    /// The options with a white reading, for verbs that also take it by another option.
+    pub(crate) fn with_white_reading(&self, white: Option<String>) -> Self {
+        Self { white_reading: self.white_reading.clone().or(white), ..self.clone() }
+    }
+
+    /// Refuses options that need a white reading if there is none.
+    pub(crate) fn check(&self) -> Result<()> {
+        let present = [
+            ("--dark-reading", !self.dark_reading.is_empty()),
+            ("--tile", self.tile.is_some()),
+            ("--full-scale", self.full_scale.is_some()),
+            ("--least-light", self.least_light.is_some()),
+        ];
+        match present.into_iter().find(|(_, present)| *present && self.white_reading.is_none()) {
+            None => Ok(()),
+            Some((option, _)) => Err(Failure::usage(
+                format!("{option} needs the white reading of the same counts"),
+                "add --white-reading FILE",
+            )),
+        }
+    }
+
+    /// Paths of all reference files.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        self.reference_files().map_or_else(Vec::new, |files| files.paths())
+    }
+
+    /// Reference files to be opened by the library; `None` without a white.
+    pub(crate) fn reference_files(&self) -> Option<ReferenceFiles> {
+        let mut files = ReferenceFiles::new(self.white_reading.as_ref()?);
+        files.dark = match self.dark_reading.as_slice() {
+            [zero] if zero == "0" => DarkFiles::Subtracted,
+            darks => DarkFiles::Files(darks.to_vec()),
+        };
+        if let Some(tile) = &self.tile {
+            let fraction = tile.parse().map(TileSource::Fraction);
+            files.tile = fraction.unwrap_or_else(|_| TileSource::File(tile.clone()));
+        }
+        files.full_scale = self.full_scale;
+        files.least_light = self.least_light.unwrap_or(files.least_light);
+        Some(files)
+    }
+}
+
+/// Spectra of one file.
+pub(crate) struct SelectedSpectra {
+    /// Path of the file.
+    pub(crate) file: String,
+    /// One or more spectra, in the order of the file.
+    pub(crate) averaged: AveragedSpectra,
+}
+
+/// Reads the spectra that `text` selects: all of `FILE`, or those of `FILE#NAME`. Returns `None` if
+/// there is no such file.
+pub(crate) fn select_spectra(
+    text: &str,
+    reading: &ReadingOptions,
+    console: &mut Console<'_>,
+) -> Result<Option<SelectedSpectra>> {
+    let (file, name) = split_file_and_name(text);
+    if !is_there(Path::new(file)) {
+        return Ok(None);
+    }
+    let mut averaged = spectra(&[PathBuf::from(file)], reading, console)?.averaged();
+    if let Some(name) = name {
+        averaged.spectra = averaged.find(name)?.into_iter().cloned().collect();
+    }
+    Ok(Some(SelectedSpectra { file: file.to_owned(), averaged }))
+}
+
+/// Parses a target: one colour as `#rrggbb` or `L,a,b`, or the spectra of `FILE` or `FILE#SAMPLE`.
+pub(crate) fn targets(
+    text: &str,
+    reading: &ReadingOptions,
+    console: &mut Console<'_>,
+) -> Result<Vec<ColorTarget>> {
+    if let Some(selected) = select_spectra(text, reading, console)? {
+        return measured(selected, console);
+    }
+    let target = text.parse().map_err(|_| {
+        Failure::usage(
+            format!("a target takes #rrggbb, L,a,b or an existing file of spectra, found `{text}`"),
+            "try \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
+        )
+    })?;
+    Ok(vec![target])
+}
+
+/// Makes targets of the spectra of paint in `selected`. Spectra of bare cards are skipped unless
+/// nothing else was selected.
+fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<ColorTarget>> {
+    let SelectedSpectra { file, averaged: AveragedSpectra { grid, mut spectra } } = selected;
+    remark_coverage(grid, console)?;
+    let count = spectra.len();
+    if spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
+        spectra.retain(|spectrum| spectrum.film == Film::Paint);
+    }
+    if spectra.len() < count {
+        let bare = count - spectra.len();
+        console.remark(format!(
+            "{file}: skipped {} only if selected by name",
+            counted_as(bare, "bare card, which is a target", "bare cards, which are targets")
+        ))?;
+    }
+    spectra
+        .into_iter()
+        .map(|spectrum: AveragedSpectrum| {
+            let reflectance = Spectrum::<Reflectance>::new(grid, spectrum.reflectance)?;
+            Ok(ColorTarget::measured(spectrum.name, reflectance))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::holds_toml;
+
+    #[test]
+    fn toml_is_told_from_models_json_and_pictures() {
+        for toml in
+            ["format = \"paint-volumes\"\n", "# guides\n\n[[guide]]\n", "[edges]\nstrength = 2"]
+        {
+            assert!(holds_toml(toml.as_bytes()), "{toml}");
+        }
+        for other in [
+            &b"# a tent\nmtllib tent.mtl\nv 0 0 1\n"[..],
+            b"ply\nformat ascii 1.0\ncomment a = b\n",
+            b"{\"asset\": {\"generator\": \"a=b\"}}",
+            b"\x89PNG\r\n\x1a\n= \xff",
+            b"# a comment alone\n",
+            b"",
+        ] {
+            assert!(!holds_toml(other), "{other:?}");
+        }
+    }
 }

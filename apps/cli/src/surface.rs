@@ -1,9 +1,18 @@
 //! Options for the surface reflection of a paint film.
+//!
+//! The option `--over`: the ground under a film, a grey or a measured spectrum.
+//!
+//! The option `--grid`: regular wavelengths as `FIRST,LAST,STEP`.
 
+use calibrate::Backing;
 use clap::{Args, ValueEnum};
+use documents::name_list;
 use spectra::optics::{Specular, Surface};
+use spectra::{Grid, GridError, Reflectance, Spectrum};
 
+use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::readings::{ReadingOptions, SelectedSpectra, select_spectra};
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SpecularName {
@@ -60,4 +69,58 @@ impl SurfaceOptions {
             SpecularName::Excluded => Specular::Excluded,
         }
     }
+}
+
+/// Maximum number of names that the hint lists; chosen by eye.
+const LISTED: usize = 8;
+
+/// Parses `--over`: a reflectance from 0 to 1, `white`, `black`, or one spectrum of a file.
+pub(crate) fn ground(text: &str, console: &mut Console<'_>) -> Result<Backing> {
+    if let Ok(backing) = text.parse() {
+        return Ok(backing);
+    }
+    let selected = select_spectra(text, &ReadingOptions::default(), console)?;
+    let Some(SelectedSpectra { file, averaged }) = selected else {
+        return Err(Failure::usage(
+            format!("--over takes 0 to 1, white, black or an existing file, found `{text}`"),
+            "try --over 0.85 or --over paper.csv#SAMPLE",
+        ));
+    };
+    let [spectrum] = averaged.spectra.as_slice() else {
+        let names: Vec<&str> = averaged.spectra.iter().map(|s| s.name.as_str()).collect();
+        return Err(Failure::data(
+            format!("{file}: expected one spectrum of a ground, found `{}`", names.len()),
+            format!(
+                "select one by --over \"{file}#NAME\", with NAME {}",
+                name_list(&names, LISTED, " or ")
+            ),
+        ));
+    };
+    Ok(Backing::Measured(Spectrum::<Reflectance>::new(
+        averaged.grid,
+        spectrum.reflectance.clone(),
+    )?))
+}
+
+/// Parses a grid `FIRST,LAST,STEP` in nm.
+pub(crate) fn grid(text: &str) -> Result<Grid> {
+    let invalid = || {
+        Failure::usage(
+            format!(
+                "--grid takes FIRST,LAST,STEP in nm, LAST a whole number of steps from FIRST, found `{text}`"
+            ),
+            "try --grid 400,700,10",
+        )
+    };
+    let [first, last, step] = numbers(text).ok_or_else(invalid)?;
+    Grid::from_range(first, last, step).map_err(|error| match error {
+        GridError::Range { .. } => invalid(),
+        error => Failure::usage(format!("--grid {text}: {error}"), "try --grid 400,700,10"),
+    })
+}
+
+/// Parses exactly N numbers separated by commas.
+pub(crate) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    numbers?.try_into().ok()
 }

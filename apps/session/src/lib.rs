@@ -41,40 +41,23 @@
 //! ```
 //!
 //! Out of scope: windows, pens and pictures on a screen (crate `studio`).
-
-mod awaited;
-pub mod background;
 mod state;
 mod event;
 mod command;
-mod defaults;
 mod backend;
 mod srgb;
-mod tiles;
 pub mod warm_up;
-mod colors;
-mod films;
-mod thumbnail;
 mod miniature;
-mod shots;
 mod layers;
-mod masks;
-mod pick;
-mod free_space;
 mod meter;
 mod inbox;
-mod works;
 mod outbox;
 mod prepare;
 mod report;
-mod stroke_timing;
-mod groups;
-mod tally;
-mod replay;
 mod worker;
 mod dispatch;
 mod open;
-mod thread;
+pub mod thread;
 mod failure;
 mod autosave;
 pub mod brushes;
@@ -86,10 +69,10 @@ mod tests;
 
 pub use autosave::{Autosave, LostSession, RecoveredWork, SessionMeta, now};
 pub use command::{Command, Origin, Pace, PenSample};
-pub use defaults::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
 pub use event::{Event, HeadOnCanvas, KeptPainting, Picked, PickedLayer, Snapshot, TilePixels};
 pub use failure::FileFailure;
 pub use inbox::Wait;
+pub use prepare::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
 pub use state::{
     BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, MaskState,
     PaintingState, Performance, Thumbnail,

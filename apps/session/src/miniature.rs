@@ -1,11 +1,22 @@
 //! A small picture of the canvas that follows its changes.
+//!
+//! Summary of a dry layer: statistics of all cells, and some cells for a thumbnail.
+//!
+//! Pictures of the canvas after each action of the history, in a limited memory.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use graphics::field::Field;
 use graphics::tile::{Rect, TILE, TileSet};
+use paint::document::{Document, DryLayer};
+use paint::ground::Ground;
+use paint::layer::Layer;
+use paint::painting::{DryLayerState, Painting};
+use paint::scene;
 
-use super::srgb::SrgbBytes;
-use super::state::Thumbnail;
-use super::tiles::runs;
+use super::srgb::{SrgbBytes, runs};
+use super::state::{HistoryShot, HistoryShots, LayerState, Thumbnail};
 
 /// Longer side of the small picture in pixels, for canvases of up to `LONGEST * TILE` cells.
 const LONGEST: usize = 240;
@@ -101,11 +112,233 @@ pub(super) fn difference(before: &Thumbnail, after: &Thumbnail) -> Option<[usize
     extent.map(|[x0, y0, x1, y1]| [x0, y0, x1 - x0 + 1, y1 - y0 + 1])
 }
 
+/// Longer side of a thumbnail in pixels: enough for a row of the panel on a screen with two pixels
+/// a point.
+const LONGEST_THUMBNAIL: usize = 160;
+
+/// Number of cells per pixel in each direction.
+const PROBES: usize = 2;
+
+/// Statistics and sampled cells of a dry layer.
+#[derive(Debug, Clone)]
+pub(super) struct LayerSummary {
+    mean_mm: f64,
+    max_mm: f64,
+    coverage: f64,
+    /// `PROBES` x `PROBES` cells for each pixel of the thumbnail.
+    cells: Layer,
+}
+
+impl LayerSummary {
+    /// Summary of a layer of `bounds`. `read` returns the paint of a rectangle; it is called
+    /// for rows of tiles.
+    ///
+    /// # Errors
+    /// The errors of `read`.
+    pub(super) fn new<E>(
+        bounds: Rect,
+        cell_mm: f64,
+        mut read: impl FnMut(Rect) -> Result<Layer, E>,
+    ) -> Result<Self, E> {
+        let (width, height) = size(bounds);
+        let mut cells = Layer::empty(PROBES * width, PROBES * height);
+        let place =
+            |index: usize, count: usize, along: usize| (2 * index + 1) * along / (2 * count);
+        let columns: Vec<usize> =
+            (0..cells.width()).map(|x| place(x, cells.width(), bounds.width)).collect();
+        let rows: Vec<usize> =
+            (0..cells.height()).map(|y| place(y, cells.height(), bounds.height)).collect();
+        let mut sum = 0_u64;
+        let mut most = 0_u32;
+        let mut painted = 0_u64;
+        for top in (0..bounds.height).step_by(TILE) {
+            let height = TILE.min(bounds.height - top);
+            let strip = read(Rect { x: 0, y: top, width: bounds.width, height })?;
+            for index in 0..bounds.width * height {
+                let volume = strip.cell(index).volume();
+                sum += u64::from(volume);
+                most = most.max(volume);
+                painted += u64::from(volume > 0);
+            }
+            for (y, row) in rows.iter().enumerate() {
+                let Some(row) = row.checked_sub(top).filter(|&row| row < height) else { continue };
+                for (x, column) in columns.iter().enumerate() {
+                    let cell = strip.cell(row * bounds.width + column);
+                    cells.set_cell(y * columns.len() + x, cell);
+                }
+            }
+        }
+        let mm = |quanta: f64| quanta * paint::amount::mm_from_quanta(1, cell_mm);
+        Ok(Self {
+            mean_mm: mm(sum as f64 / painted.max(1) as f64),
+            max_mm: mm(f64::from(most)),
+            coverage: painted as f64 / (bounds.width * bounds.height).max(1) as f64,
+            cells,
+        })
+    }
+
+    /// State of the layer whose properties are `dry`.
+    pub(super) fn state(
+        &self,
+        dry: &DryLayerState,
+        painting: &Painting,
+        bytes: &SrgbBytes,
+    ) -> LayerState {
+        LayerState {
+            id: dry.id,
+            name: dry.name.clone(),
+            visible: dry.visible,
+            slots: dry.slots,
+            opacity: dry.opacity,
+            mean_mm: self.mean_mm,
+            max_mm: self.max_mm,
+            coverage: self.coverage,
+            thumbnail: Arc::new(self.thumbnail(dry, painting, bytes)),
+        }
+    }
+
+    /// Picture of the layer alone over the ground, with its opacity, whether it is shown or not.
+    fn thumbnail(&self, dry: &DryLayerState, painting: &Painting, bytes: &SrgbBytes) -> Thumbnail {
+        let columns = self.cells.width();
+        let rows = self.cells.height();
+        let layer = DryLayer::new(dry.id, dry.slots, self.cells.clone());
+        let layer = DryLayer { opacity: dry.opacity, ..layer };
+        let document = document_of(painting, layer);
+        let mut scene = scene::scene(&document, painting.light());
+        // Neighbouring sampled cells are not neighbours on the canvas, so their slopes have no
+        // meaning.
+        scene.lamp.relief = 0.0;
+        let picture = scene::picture(&document, &scene);
+        let width = columns / PROBES;
+        let height = rows / PROBES;
+        let pixel = |index: usize| {
+            let x = index % width * PROBES;
+            let y = index / width * PROBES;
+            let probes = (0..PROBES * PROBES).map(|i| (x + i % PROBES, y + i / PROBES));
+            let mut sum = [0.0; 4];
+            for (x, y) in probes {
+                if self.cells.cell(y * columns + x).volume() > 0 {
+                    for (sum, value) in sum.iter_mut().zip(picture[(x, y)]) {
+                        *sum += value;
+                    }
+                }
+            }
+            // The fourth channel counts the cells with paint.
+            let count = sum[3];
+            let [r, g, b, _] = bytes.pixel(sum.map(|value| value / count.max(1.0)));
+            [r, g, b, (255.0 * count / (PROBES * PROBES) as f32).round() as u8]
+        };
+        Thumbnail { width, height, pixels: (0..width * height).map(pixel).collect() }
+    }
+}
+
+/// Document of `layer` over the ground of `painting` without relief.
+fn document_of(painting: &Painting, layer: DryLayer) -> Document {
+    let width = layer.paint.width();
+    let height = layer.paint.height();
+    let Ground { name, reflectance, gloss, .. } = painting.ground();
+    let level = Ground {
+        name: name.clone(),
+        height: Field::filled(width, height, 0),
+        reflectance: reflectance.clone(),
+        gloss: *gloss,
+    };
+    let cell_mm = painting.cell_mm();
+    let library = painting.library().clone();
+    let medium = painting.medium().clone();
+    let lighting = painting.state().lighting.clone();
+    let slots = layer.slots;
+    let mut document = Document::bare("", cell_mm, level, library, medium, slots, lighting);
+    document.dry.push(layer);
+    document
+}
+
+/// Width and height of the thumbnail of a canvas in pixels, at most one pixel a cell.
+fn size(bounds: Rect) -> (usize, usize) {
+    let longer = bounds.width.max(bounds.height);
+    let side = |cells: usize| (cells * LONGEST_THUMBNAIL.min(longer) / longer.max(1)).max(1);
+    (side(bounds.width), side(bounds.height))
+}
+
+/// Memory of all pictures, in bytes.
+const MOST_BYTES: usize = 24 << 20;
+
+/// Pictures by the number of the state that they show.
+#[derive(Debug, Clone)]
+pub(super) struct Shots {
+    /// Numbers of the states that can be reached.
+    order: Vec<u64>,
+    taken: BTreeMap<u64, HistoryShot>,
+    most_bytes: usize,
+}
+
+impl Default for Shots {
+    fn default() -> Self {
+        Self { order: vec![0], taken: BTreeMap::new(), most_bytes: MOST_BYTES }
+    }
+}
+
+impl Shots {
+    /// Adopts the numbers of the states that can be reached now, the beginning first. Pictures of
+    /// others are dropped. The numbers rise.
+    pub(super) fn follow(&mut self, numbers: &[u64]) {
+        self.order.clear();
+        self.order.extend_from_slice(numbers);
+        self.taken.retain(|number, _| numbers.binary_search(number).is_ok());
+    }
+
+    /// Whether there is a picture after the first `done` actions.
+    pub(super) fn has(&self, done: usize) -> bool {
+        self.order.get(done).is_some_and(|number| self.taken.contains_key(number))
+    }
+
+    /// Keeps the picture after the first `done` actions. If the memory is full, the pictures of the
+    /// oldest actions are dropped.
+    pub(super) fn keep(&mut self, done: usize, picture: &Thumbnail) {
+        let Some(&number) = self.order.get(done) else { return };
+        let previous = done.checked_sub(1).and_then(|before| self.taken.get(&self.order[before]));
+        let changed = previous.and_then(|previous| difference(&previous.picture, picture));
+        let same = previous.filter(|previous| *previous.picture == *picture);
+        // Actions on the palette leave the canvas as it was.
+        let picture =
+            same.map_or_else(|| Arc::new(picture.clone()), |same| Arc::clone(&same.picture));
+        self.taken.insert(number, HistoryShot { picture, changed });
+        let mut bytes = self.bytes();
+        for oldest in self.order.clone() {
+            if bytes <= self.most_bytes || oldest == number {
+                break;
+            }
+            if self.taken.remove(&oldest).is_some() {
+                bytes = self.bytes();
+            }
+        }
+    }
+
+    /// Memory that the pictures take, in bytes; a picture that several actions share counts once.
+    fn bytes(&self) -> usize {
+        let in_order = self.order.iter().filter_map(|number| self.taken.get(number));
+        let mut last: Option<&Arc<Thumbnail>> = None;
+        let mut bytes = 0;
+        for HistoryShot { picture, .. } in in_order {
+            if !last.is_some_and(|last| Arc::ptr_eq(last, picture)) {
+                bytes += picture.pixels.len() * size_of::<[u8; 4]>();
+            }
+            last = Some(picture);
+        }
+        bytes
+    }
+
+    /// Pictures in the order of the history.
+    pub(super) fn report(&self) -> HistoryShots {
+        let shots = self.order.iter().map(|number| self.taken.get(number).cloned()).collect();
+        HistoryShots { shots, bytes: self.bytes(), most_bytes: self.most_bytes }
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use std::convert::Infallible;
-
     use super::*;
+    use std::convert::Infallible;
 
     fn canvas(width: usize, height: usize, color: impl Fn(usize, usize) -> f32) -> Field<[f32; 4]> {
         Field::from_values(
@@ -154,5 +387,69 @@ mod tests {
         assert_eq!(second, whole);
         assert_eq!(difference(&first, &second), Some([0, 0, 35, 5]), "two cells a pixel");
         assert_eq!(difference(&first, &first), None);
+    }
+
+    /// A picture of 10 x 10 pixels, 400 bytes.
+    fn picture(shade: u8) -> Thumbnail {
+        let mut pixels = vec![[7, 7, 7, 255]; 100];
+        pixels[34] = [shade, 0, 0, 255];
+        Thumbnail { width: 10, height: 10, pixels }
+    }
+
+    fn shades(shots: &Shots) -> Vec<Option<u8>> {
+        shots
+            .report()
+            .shots
+            .iter()
+            .map(|shot: &Option<HistoryShot>| shot.as_ref().map(|shot| shot.picture.pixels[34][0]))
+            .collect()
+    }
+
+    #[test]
+    fn pictures_follow_their_actions_through_undo_and_forgetting() {
+        let mut shots = Shots::default();
+        shots.keep(0, &picture(10));
+        for number in 1..=3 {
+            shots.follow(&(0..=number).collect::<Vec<_>>());
+            assert!(!shots.has(number as usize));
+            shots.keep(number as usize, &picture(10 + number as u8));
+            assert!(shots.has(number as usize));
+        }
+        assert_eq!(shades(&shots), [Some(10), Some(11), Some(12), Some(13)]);
+        // Two actions undone, another done in their place.
+        shots.follow(&[0, 1, 4]);
+        assert_eq!(shades(&shots), [Some(10), Some(11), None]);
+        assert_eq!(shots.taken.len(), 2, "pictures of what was undone for good are dropped");
+        shots.keep(2, &picture(14));
+        // The first action can no longer be undone.
+        shots.follow(&[1, 4]);
+        assert_eq!(shades(&shots), [Some(11), Some(14)]);
+    }
+
+    #[test]
+    fn what_an_action_changed_is_outlined_and_equal_pictures_are_shared() {
+        let mut shots = Shots::default();
+        shots.keep(0, &picture(10));
+        shots.follow(&[0, 1, 2]);
+        shots.keep(1, &picture(20));
+        shots.keep(2, &picture(20));
+        let HistoryShots { shots, bytes, .. } = shots.report();
+        let changed: Vec<_> = shots.iter().flatten().map(|shot| shot.changed).collect();
+        assert_eq!(changed, [None, Some([4, 3, 1, 1]), None]);
+        assert_eq!(bytes, 800, "the third is the second");
+    }
+
+    #[test]
+    fn a_full_memory_drops_the_oldest_pictures_but_never_the_new_one() {
+        let mut shots = Shots { most_bytes: 900, ..Shots::default() };
+        shots.follow(&[0, 1, 2, 3]);
+        for done in 0..=3 {
+            shots.keep(done, &picture(done as u8));
+            assert!(shots.bytes() <= 900, "{done}");
+        }
+        assert_eq!(shades(&shots), [None, None, Some(2), Some(3)]);
+        let mut tight = Shots { most_bytes: 10, ..Shots::default() };
+        tight.keep(0, &picture(1));
+        assert_eq!(shades(&tight), [Some(1)]);
     }
 }

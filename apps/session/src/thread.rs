@@ -1,20 +1,27 @@
 //! The worker as the front end sees it.
+//!
+//! A thread that is waited for when its owner is dropped.
+//!
+//! The place where the work of a session is done: a thread, or the turns that a front end gives.
+//!
+//! Work beside the window: on a thread of its own, or in a page, which has none, between its frames.
 
+use std::cell::RefCell;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::{self, JoinHandle};
 
 use documents::hint::Hint;
 use graphics::gpu::BackendChoice;
 use paint::painting::UNDO_BYTES;
-use web_time::Instant;
+use web_time::{Duration, Instant};
 
-use super::awaited::Awaited;
 use super::backend::Backend;
 use super::command::Command;
 use super::event::Event;
 use super::inbox::{Inbox, Input, Wait};
 use super::worker::WorkerLoop;
-use super::works::Works;
 
 /// Settings of a worker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,11 +128,107 @@ fn report_panic(send: &dyn Fn(Event), work: impl FnOnce()) {
     });
 }
 
+/// Longest wait: a file that is being read may take longer, and nobody waits that long for a window to
+/// close.
+const LONGEST: Duration = Duration::from_secs(5);
+
+/// Time between two looks whether it has ended.
+const LOOK: Duration = Duration::from_millis(1);
+
+/// A thread that works on paint. Drivers of graphics devices end with the process and crash if a thread
+/// still uses them, so the owner, who has told the thread to end, waits for it.
+#[derive(Debug)]
+pub(crate) struct Awaited(JoinHandle<()>);
+
+impl Awaited {
+    /// Starts the thread.
+    pub(crate) fn spawn(work: impl FnOnce() + Send + 'static) -> Self {
+        Self(thread::spawn(work))
+    }
+}
+
+impl Drop for Awaited {
+    fn drop(&mut self) {
+        let begun = Instant::now();
+        while !self.0.is_finished() && begun.elapsed() < LONGEST {
+            thread::sleep(LOOK);
+        }
+    }
+}
+
+/// The thread of a loop, or the loop itself.
+pub(crate) enum Works<Loop> {
+    /// On a thread, which is waited for.
+    OnThread { _thread: Awaited },
+    /// In the turns that the front end gives; nothing after the command to quit.
+    InTurns(RefCell<Option<Box<Loop>>>),
+}
+
+impl<Loop> Works<Loop> {
+    /// A loop that works in turns.
+    pub(crate) fn in_turns(work: Loop) -> Self {
+        Self::InTurns(RefCell::new(Some(Box::new(work))))
+    }
+
+    /// Calls `turn` of a loop that works in turns, and ends the loop if it returns `None`. Returns how long
+    /// it may wait for the next turn.
+    pub(crate) fn turn(&self, turn: impl FnOnce(&mut Loop) -> Option<Wait>) -> Wait {
+        let Self::InTurns(work) = self else { return Wait::Forever };
+        // A wake that calls back finds the loop at work.
+        let Ok(mut work) = work.try_borrow_mut() else { return Wait::Forever };
+        let wait = work.as_mut().and_then(|work| turn(work));
+        if wait.is_none() {
+            *work = None;
+        }
+        wait.unwrap_or(Wait::Forever)
+    }
+}
+
+impl<Loop> fmt::Debug for Works<Loop> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::OnThread { .. } => "OnThread",
+            Self::InTurns(_) => "InTurns",
+        })
+    }
+}
+
+/// Starts `work`: on a thread, or in a page when [`next`] is called.
+pub fn start(work: impl FnOnce() + Send + 'static) {
+    #[cfg(target_arch = "wasm32")]
+    waiting::WAITING.with_borrow_mut(|waiting| waiting.push_back(Box::new(work)));
+    #[cfg(not(target_arch = "wasm32"))]
+    thread::spawn(work);
+}
+
+/// In a page does the work that waits longest. Returns whether there was any; where there are
+/// threads, there never is.
+pub fn next() -> bool {
+    #[cfg(target_arch = "wasm32")]
+    if let Some(work) = waiting::WAITING.with_borrow_mut(std::collections::VecDeque::pop_front) {
+        work();
+        return true;
+    }
+    false
+}
+
+#[cfg(target_arch = "wasm32")]
+mod waiting {
+    use std::cell::RefCell;
+    use std::collections::VecDeque;
+
+    type Work = Box<dyn FnOnce()>;
+
+    thread_local! {
+        pub(super) static WAITING: RefCell<VecDeque<Work>> = const { RefCell::new(VecDeque::new()) };
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use std::cell::RefCell;
-
     use super::*;
+    use std::cell::RefCell;
+    use std::sync::mpsc::{Sender, channel};
 
     #[test]
     fn a_panic_is_reported() {
@@ -139,5 +242,23 @@ mod tests {
             panic!("one message: {events:?}");
         };
         assert!(text.contains("there are 3 cells") && hint.is_some(), "{text}");
+    }
+
+    #[test]
+    fn the_thread_has_ended_when_its_owner_is_gone() {
+        /// Told to end by the end of its sender, like the workers.
+        struct Owner {
+            _inputs: Sender<()>,
+            _thread: Awaited,
+        }
+        let (inputs, receiver) = channel::<()>();
+        let (ended, is_ended) = channel();
+        let thread = Awaited::spawn(move || {
+            let _ = receiver.recv();
+            thread::sleep(Duration::from_millis(50));
+            ended.send(()).unwrap();
+        });
+        drop(Owner { _inputs: inputs, _thread: thread });
+        assert!(is_ended.try_recv().is_ok(), "the owner did not wait");
     }
 }

@@ -11,8 +11,7 @@ use paint::session::{PaintingSession, SessionError};
 use paint::strokes::BrushSpec;
 use pigment::library::PigmentLibrary;
 
-use super::srgb::SrgbBytes;
-use super::tiles::encode;
+use super::srgb::{SrgbBytes, encode};
 
 /// Number of strokes, each of some 20 sub-steps.
 const STROKES: usize = 30;

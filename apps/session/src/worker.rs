@@ -9,16 +9,14 @@ use paint::session::{PaintingSession, SessionError};
 
 use super::backend::Backend;
 use super::event::{Event, Snapshot};
-use super::groups::Groups;
 use super::inbox::{Inbox, Wait};
 use super::meter::Meter;
-use super::outbox::Outbox;
+use super::miniature::Shots;
+use super::open::{Groups, Replay};
+use super::outbox::{Outbox, StrokeTiming, head_on_canvas, is_lifted, waiting_substeps};
 use super::prepare::PreparedPainting;
-use super::replay::Replay;
 use super::report::Reporter;
-use super::shots::Shots;
 use super::state::Performance;
-use super::stroke_timing::{StrokeTiming, head_on_canvas, is_lifted, waiting_substeps};
 
 /// Minimum time between two states: 20 a second.
 const STATE_INTERVAL: Duration = Duration::from_millis(50);

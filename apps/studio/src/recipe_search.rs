@@ -7,7 +7,7 @@ use pigment::library::PigmentLibrary;
 use pigment::matching::{
     MatchError, MatchRequest, RecipeMatch, SearchControl, Target, recipes_with_control,
 };
-use session::background;
+use session::thread;
 
 /// A target colour, and the pigments and limits of the search.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ impl RecipeSearch {
         let control = Arc::new(SearchControl::default());
         let (sender, receiver) = channel();
         self.running = Some(Running { control: Arc::clone(&control), receiver });
-        background::start(move || {
+        thread::start(move || {
             let SearchRequest { library, target, limits } = &request;
             let recipes = recipes_with_control(library, target, limits, &control).transpose();
             if let Some(recipes) = recipes {

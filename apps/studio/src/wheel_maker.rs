@@ -7,7 +7,7 @@ use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::palette::{Cards, ColorWheel, Palette, PaletteError, color_wheel};
-use session::background;
+use session::thread;
 
 /// Tubes and light of a wheel.
 #[derive(Debug, Clone)]
@@ -64,7 +64,7 @@ impl WheelMaker {
             let (sender, receiver) = channel();
             let wanted = request.clone();
             self.running = Some((request.clone(), receiver));
-            background::start(move || {
+            thread::start(move || {
                 let _ = sender.send(wanted.make());
                 drop(sender);
                 wake();

@@ -24,16 +24,14 @@ use replace_in_memory as replace;
 use replace_in_memory as temporary;
 
 mod signals;
-mod input;
 mod whole;
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
-mod pieces;
-
-pub use input::{STANDARD_INPUT, is_standard_input, is_there};
-#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
-pub use pieces::FileInPieces;
+pub use replace::FileInPieces;
 pub use replace::sync_folder;
 pub use signals::end_cleanly_on_signals;
 pub use temporary::abandon_writes;
-pub use whole::{FileAction, FileError, check_writable, read, write_whole};
+pub use whole::{
+    FileAction, FileError, STANDARD_INPUT, check_writable, is_standard_input, is_there, read,
+    write_whole,
+};

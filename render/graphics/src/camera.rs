@@ -1,11 +1,10 @@
 //! Perspective cameras: single ones, those that frame a model or a picture, and paths through
 //! keyframes of a TOML file.
 
-use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-use documents::ParserReason;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
+use documents::text::{Source, TextError, read_text};
 use glam::camera::rh::proj::directx::{perspective, perspective_infinite};
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec2, Vec3};
@@ -331,6 +330,10 @@ const MOST_FRAMES: usize = 100_000;
 /// not fix the camera's roll in f32.
 const LEAST_SINE: f32 = 1e-3;
 
+/// The way out where the parser knows none.
+const KEYS: &str = "a path has `frames` and [[keyframe]] tables with `eye`, `target` and, if wanted, `up` \
+    and `field_of_view_deg`";
+
 /// A camera path through keyframes that are evenly spaced in time, read from a TOML file,
 /// for example
 ///
@@ -411,56 +414,22 @@ impl Keyframe {
 }
 
 /// A camera path could not be read. Every message starts with the file's path.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum CameraPathError {
-    /// The file cannot be opened or read.
-    #[error("{name}: {error}")]
-    Unreadable {
-        /// Path of the file.
-        name: String,
-        /// Reason given by the system.
-        #[source]
-        error: Error,
-    },
-    /// The text is not TOML, or a key is missing, unknown or of the wrong type.
-    #[error("{name}: line {line}: {reason}")]
-    Malformed {
-        /// Path of the file.
-        name: String,
-        /// Line number, from 1.
-        line: usize,
-        /// Reason, with the key.
-        reason: String,
-    },
+    /// The file cannot be read, is not TOML, or has a missing or unknown key.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// A value is out of its range.
     #[error("{name}: `{key}`: {reason}")]
+    #[hint(verbatim, "{KEYS}")]
     OutOfRange {
         /// Path of the file.
         name: String,
-        /// Key of the value. Keyframes count from 1.
+        /// Key of the value; keyframes count from 1.
         key: String,
         /// Reason, with the value.
         reason: String,
     },
-}
-
-impl Explain for CameraPathError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::verbatim(match self {
-            Self::Unreadable { .. } => "check the path",
-            Self::Malformed { .. } | Self::OutOfRange { .. } => {
-                "a path has `frames` and [[keyframe]] tables with `eye`, `target` and, if wanted, \
-                 `up` and `field_of_view_deg`"
-            }
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Unreadable { .. } => Fault::Environment,
-            _ => Fault::Input,
-        }
-    }
 }
 
 impl CameraPath {
@@ -469,14 +438,7 @@ impl CameraPath {
     /// # Errors
     /// [`CameraPathError`] with the path and the line or key.
     pub fn open(path: &Path) -> Result<Self, CameraPathError> {
-        let name = path.display().to_string();
-        let unreadable = |error| CameraPathError::Unreadable { name: name.clone(), error };
-        let bytes = documents::file::read(path).map_err(|error| {
-            unreadable(Error::new(error.reason.kind(), error.reason.to_string()))
-        })?;
-        let text = String::from_utf8(bytes)
-            .map_err(|error| unreadable(Error::new(ErrorKind::InvalidData, error)))?;
-        Self::from_text(&name, &text)
+        Self::from_text(&path.display().to_string(), &read_text(path)?)
     }
 
     /// Parses a camera path from the text of a TOML file. `name` stands for the path in errors.
@@ -484,13 +446,7 @@ impl CameraPath {
     /// # Errors
     /// [`CameraPathError`] with the line or key.
     pub fn from_text(name: &str, text: &str) -> Result<Self, CameraPathError> {
-        let path: Self = toml::from_str(text).map_err(|error| CameraPathError::Malformed {
-            name: name.to_owned(),
-            line: error.span().map_or(1, |span| {
-                text.as_bytes()[..span.start].iter().filter(|byte| **byte == b'\n').count() + 1
-            }),
-            reason: ParserReason::of(error.message()).to_string(),
-        })?;
+        let path: Self = Source::toml_with_hint(name, text, KEYS)?.typed()?;
         match path.fault() {
             None => Ok(path),
             Some((key, reason)) => {

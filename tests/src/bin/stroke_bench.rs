@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let table = report::table(&reports);
-    let json = serde_json::to_string_pretty(&report::json(&bench, &reports))?;
+    let json = serde_json::to_string_pretty(&report::json(bench.cell_mm, bench.small, &reports))?;
     documents::file::write_whole(&out.join("strokes.txt"), table.as_bytes())?;
     documents::file::write_whole(&out.join("strokes.json"), json.as_bytes())?;
     sheet::sheet(&reports)?.save(out.join("strokes.png"))?;

@@ -17,9 +17,9 @@ use paint::{BrushId, PaintEngine};
 use paint::{HeadShape, Sample};
 use spectra::color::{Lab, RgbSpace};
 
-use super::figure::{Curve, Panel};
 use super::heights::Heights;
-use super::measure::mark::extent_mm;
+use super::measure::extent_mm;
+use super::report::{Curve, Panel};
 
 /// Pigments of the bench by slot.
 const PIGMENTS: [&str; 3] = ["Ultramarine", "Chrome Yellow", "Zinc White"];

@@ -74,7 +74,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::near::assert_near;
+    use crate::golden::assert_near;
 
     #[test]
     fn a_hand_moves_evenly_through_its_points() {

@@ -11,9 +11,8 @@
 
 pub mod heights;
 pub mod measure;
-pub mod figure;
+pub mod report;
 pub mod hand;
 pub mod canvas;
 pub mod strokes;
-pub mod report;
 pub mod sheet;

@@ -1,11 +1,11 @@
 //! The table of figures as text and as JSON.
+//!
+//! Results of a case: figures with the bounds that are wanted, pictures and curves.
 
 use std::fmt::Write;
 
+use image::RgbImage;
 use serde_json::{Value, json};
-
-use super::canvas::Bench;
-use super::figure::{CaseReport, Figure, Wanted};
 
 /// A number with four significant digits, or `-` if it is none.
 #[must_use]
@@ -67,9 +67,9 @@ pub fn table(reports: &[CaseReport]) -> String {
     text
 }
 
-/// All figures as JSON. A value that is not a number is null.
+/// All figures of a bench with cells of `cell_mm`, as JSON. A value that is not a number is null.
 #[must_use]
-pub fn json(bench: &Bench, reports: &[CaseReport]) -> Value {
+pub fn json(cell_mm: f64, small: bool, reports: &[CaseReport]) -> Value {
     let figures: Vec<Value> = reports
         .iter()
         .flat_map(|report| report.figures.iter().map(move |figure| (report.name, figure)))
@@ -87,10 +87,112 @@ pub fn json(bench: &Bench, reports: &[CaseReport]) -> Value {
         .collect();
     json!({
         "format": "impasto-stroke-bench",
-        "cell_mm": bench.cell_mm,
-        "small": bench.small,
+        "cell_mm": cell_mm,
+        "small": small,
         "figures": figures,
     })
+}
+
+/// Bounds that a figure is wanted in, both inclusive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Wanted {
+    /// Lowest wanted value.
+    pub low: Option<f64>,
+    /// Highest wanted value.
+    pub high: Option<f64>,
+}
+
+/// One measured number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Name, unique within its case.
+    pub name: String,
+    /// Value; not a number where there was nothing to measure.
+    pub value: f64,
+    /// Unit, empty for a ratio.
+    pub unit: &'static str,
+    /// Bounds; none for a figure that is told for information.
+    pub wanted: Wanted,
+}
+
+impl Figure {
+    /// A figure without bounds.
+    #[must_use]
+    pub fn new(name: impl Into<String>, value: f64, unit: &'static str) -> Self {
+        Self { name: name.into(), value, unit, wanted: Wanted::default() }
+    }
+
+    /// A figure wanted at `low` or above.
+    #[must_use]
+    pub fn at_least(mut self, low: f64) -> Self {
+        self.wanted.low = Some(low);
+        self
+    }
+
+    /// A figure wanted at `high` or below.
+    #[must_use]
+    pub fn at_most(mut self, high: f64) -> Self {
+        self.wanted.high = Some(high);
+        self
+    }
+
+    /// Whether the value lies within its bounds; `None` without bounds. A value that is not a
+    /// number lies within none.
+    #[must_use]
+    pub fn is_met(&self) -> Option<bool> {
+        let Wanted { low, high } = self.wanted;
+        let above = low.is_none_or(|low| self.value >= low);
+        let below = high.is_none_or(|high| self.value <= high);
+        (low.is_some() || high.is_some()).then_some(above && below)
+    }
+}
+
+/// A section through the paint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Direction of the section: `across` or `along`.
+    pub caption: &'static str,
+    /// Distance of two heights in mm.
+    pub step_mm: f64,
+    /// Lines of heights in mm: at one place, and the mean over several.
+    pub lines: Vec<Vec<f64>>,
+}
+
+/// One stroke of the sheet: pictures of the same part of a canvas under several lights, with
+/// sections through its paint.
+#[derive(Debug, Clone)]
+pub struct Panel {
+    /// Description of the stroke.
+    pub caption: String,
+    /// Width and height of the part in mm.
+    pub size_mm: (f64, f64),
+    /// Magnification on the sheet; 1 for whole strokes.
+    pub zoom: f64,
+    /// Pictures from above, one pixel a cell.
+    pub pictures: Vec<RgbImage>,
+    /// Sections through the paint.
+    pub curves: Vec<Curve>,
+}
+
+impl Panel {
+    /// The panel with its pictures `zoom` times as large as those of whole strokes.
+    #[must_use]
+    pub fn zoomed(self, zoom: f64) -> Self {
+        Self { zoom, ..self }
+    }
+}
+
+/// Results of a case.
+#[derive(Debug, Clone)]
+pub struct CaseReport {
+    /// Name of the case, one word.
+    pub name: &'static str,
+    /// Title of the case: its strokes in a sentence.
+    pub title: &'static str,
+    /// Figures, in order.
+    pub figures: Vec<Figure>,
+    /// Strokes to show.
+    pub panels: Vec<Panel>,
 }
 
 #[cfg(test)]
@@ -119,9 +221,22 @@ mod tests {
         let report = CaseReport { name: "one", title: "One stroke", figures, panels: Vec::new() };
         let text = table(std::slice::from_ref(&report));
         assert!(text.contains("1 of 2 figures"), "{text}");
-        let json = json(&Bench::new(true), &[report]);
+        let json = json(0.25, true, &[report]);
         let told = |at: usize| json["figures"][at]["ok"].clone();
         assert_eq!([told(0), told(1), told(2)], [json!(true), json!(false), Value::Null]);
         assert_eq!(json["figures"][1]["value"], Value::Null);
+    }
+
+    #[test]
+    fn bounds_are_met_within_and_never_by_no_number() {
+        let figure = |value: f64| Figure::new("film", value, "mm");
+        assert_eq!(figure(0.1).is_met(), None);
+        assert_eq!(
+            [0.09, 0.1, 0.2, 0.21]
+                .map(|value: f64| figure(value).at_least(0.1).at_most(0.2).is_met()),
+            [false, true, true, false].map(Some)
+        );
+        assert_eq!(figure(f64::NAN).at_most(1.0).is_met(), Some(false));
+        assert_eq!(figure(3.0).at_least(1.0).is_met(), Some(true));
     }
 }

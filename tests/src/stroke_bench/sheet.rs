@@ -9,8 +9,7 @@ use reports::picture::{PictureError, png};
 use reports::style::{Color, FAINT, GRID, INK, PAPER, SERIES};
 use reports::svg::{escaped, opening};
 
-use super::figure::{CaseReport, Curve, Panel};
-use super::report::{bounds, number, verdict};
+use super::report::{CaseReport, Curve, Panel, bounds, number, verdict};
 
 /// Width of the sheet in units; the PNG has two pixels a unit.
 const WIDTH: f64 = 1180.0;
@@ -211,7 +210,7 @@ pub fn sheet(reports: &[CaseReport]) -> Result<RgbImage, PictureError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::figure::Figure;
+    use super::super::report::Figure;
     use super::*;
 
     #[test]

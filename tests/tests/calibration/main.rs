@@ -2,10 +2,5 @@
 //! unknowns that the data do not determine are reported.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
-
-mod absolute;
-mod cancelled;
 mod known_paint;
 mod oils;
-mod quadrature;
-mod swatches;

@@ -1,6 +1,14 @@
 //! Errors of the program: exit status 2 if it cannot run, 1 if it refuses the data.
+//!
+//! Exit status: the same fault has the same status in every verb, as docs/guide/command-line.md says.
+//!
+//! `impasto fit` on files with one fault each: exit status 1, an error with place and reason, and
+//! no output file.
+//!
+//! Files that could be read as something else than they are: each is told, none gives a wrong
+//! result in silence.
 
-use suite::program::{impasto, repository};
+use suite::program::{Run, impasto, repository};
 
 fn oils() -> String {
     repository("measurements/van-gogh-oils.csv")
@@ -233,4 +241,461 @@ fn samples_fitted_exactly_are_no_proof_and_this_is_said() {
     let run = impasto(&["validate", file.to_str().unwrap()]);
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("would not be identified (c)"), "{}", run.err);
+}
+
+/// Runs the commands, which all have one fault, and asserts one status and a message with `words`.
+fn all(status: u8, words: &[&str], commands: &[&[&str]]) {
+    for arguments in commands {
+        let run = impasto(arguments);
+        assert_eq!(run.status, status, "{arguments:?}: {}{}", run.out, run.err);
+        for word in words {
+            assert!(run.err.contains(word), "{arguments:?}: `{word}` is missing: {}", run.err);
+        }
+    }
+}
+
+#[test]
+fn the_same_fault_has_the_same_status_in_every_verb() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).display().to_string();
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    let oils = repository("measurements/van-gogh-oils.csv");
+    let photo = repository("docs/images/photograph.png");
+    let library = library.as_str();
+    let oils = oils.as_str();
+    let photo = photo.as_str();
+    let png = place("a.png");
+    let json = place("a.json");
+    let exr = place("a.exr");
+    let out = place("out");
+    let png = png.as_str();
+    let json = json.as_str();
+    let exr = exr.as_str();
+    let out = out.as_str();
+    let painted = place("painted.exr");
+    let painted = painted.as_str();
+    let script = place("script.json");
+    let text = r#"{"format": "strokes", "version": 1, "title": "A",
+        "canvas": {"width_mm": 4, "height_mm": 4, "cell_mm": 0.2}, "palette": {"W": "Lead White"},
+        "brushes": {}, "actions": []}"#;
+    std::fs::write(&script, text).unwrap();
+    assert_eq!(impasto(&["paint", &script, "-o", painted]).status, 0);
+
+    let absent = &["Viridan", "did you mean Viridian?"];
+    all(
+        1,
+        absent,
+        &[
+            &["mix", library, "Viridan=1"],
+            &["match", library, "50,0,0", "--only", "Viridan"],
+            &["library", "show", library, "Viridan"],
+            &["library", "subset", library, "Viridan", "-o", json],
+            &["library", "rename", library, "Viridan=Green", "-o", json],
+            &["library", "convert", library, "--white", "Viridan", "-o", json],
+            &["report", library, "--pair", "Viridan", "Minium", "-o", out],
+            &["plan", library, "Viridan", "--white", "Zinc White"],
+            &["fit", oils, "--white", "Viridan"],
+            &["relight", painted, "--swap", "all:Lead White=Viridan", "-o", png],
+            &["watercolor", photo, library, "--palette", "Viridan", "-o", png],
+            &["painterly", photo, library, "--palette", "Viridan", "-o", png],
+            &["paint", "--from", photo, "--palette", "Viridan", "-o", png],
+            &["stencil", photo, library, "--pour", "0.5,0.5,9", "--palette", "Viridan", "-o", png],
+        ],
+    );
+    all(
+        2,
+        &["F11", "did you mean FL11?"],
+        &[
+            &["mix", library, "Viridian=1", "--illuminant", "F11"],
+            &["match", library, "50,0,0", "--illuminant", "F11"],
+            &["color", oils, "--illuminant", "F11"],
+            &["fit", oils, "--illuminant", "F11"],
+            &["quadrature", "--illuminant", "F11"],
+            &["library", "list", library, "--illuminant", "F11"],
+            &["library", "diff", library, library, "--illuminant", "F11"],
+            &["report", library, "--illuminant", "F11", "-o", out],
+            &["relight", painted, "--illuminant", "F11", "-o", png],
+            &["watercolor", photo, library, "--illuminant", "F11", "-o", png],
+            &[
+                "stencil",
+                photo,
+                library,
+                "--pour",
+                "0.5,0.5,9",
+                "--paint",
+                "Viridian",
+                "--illuminant",
+                "F11",
+                "-o",
+                png,
+            ],
+        ],
+    );
+    all(
+        2,
+        &["missing."],
+        &[
+            &["fit", "missing.csv"],
+            &["mix", "missing.json", "Viridian=1"],
+            &["library", "list", "missing.json"],
+            &["library", "merge", library, "missing.json", "-o", json],
+            &["color", "missing.csv"],
+            &["relight", "missing.exr", "-o", png],
+            &["paint", "missing.json", "-o", png],
+            &["paint", "--from", "missing.png", "-o", png],
+            &["watercolor", "missing.png", "-o", png],
+            &["watercolor", photo, "--settings", "missing.toml", "-o", png],
+            &["painterly", "missing.obj", "-o", png],
+            &["painterly", photo, "--settings", "missing.toml", "-o", png],
+            &["stencil", photo, "--pour", "0.5,0.5,9", "--settings", "missing.toml", "-o", png],
+            &["stencil", "missing.toml", "-o", png],
+            &["artmap", "show", "missing.exr"],
+            &["artmap", "build", "missing.exr", "-o", exr],
+            &["artmap", "paint", "--style", "missing.toml", "-o", exr],
+        ],
+    );
+    all(
+        2,
+        &["scael"],
+        &[
+            &["watercolor", photo, "--set", "scael=1", "-o", png],
+            &["painterly", photo, "--set", "scael=1", "-o", png],
+            &["stencil", photo, "--pour", "0.5,0.5,9", "--set", "scael=1", "-o", png],
+        ],
+    );
+    all(
+        2,
+        &["unknown key `strenght`", "did you mean strength?"],
+        &[&["watercolor", photo, "--set", "edges.strenght=1", "-o", png]],
+    );
+    let nowhere = place("no/such/folder/a.json");
+    all(
+        2,
+        &["cannot be"],
+        &[
+            &["fit", oils, "-o", &nowhere],
+            &["library", "subset", library, "Zinc White", "-o", &nowhere],
+            &["plan", "Viridian", "--white", "W", "-o", &nowhere],
+        ],
+    );
+}
+
+#[test]
+fn presets_and_other_words_are_asked_after() {
+    for arguments in [
+        ["watercolor", "a.png", "--preset", "portrayt", "-o", "b.png"],
+        ["painterly", "a.png", "--preset", "impresionist", "-o", "b.png"],
+        ["stencil", "a.png", "--preset", "grisaile", "-o", "b.png"],
+    ] {
+        let run = impasto(&arguments);
+        assert_eq!(run.status, 2, "{arguments:?}: {}", run.err);
+        assert!(run.err.contains("a similar value exists"), "{arguments:?}: {}", run.err);
+    }
+}
+
+#[test]
+fn messages_hold_no_types_long_numbers_or_temporary_paths() {
+    let photo = repository("docs/images/photograph.png");
+    for (arguments, word) in [
+        (["watercolor", &photo, "--set", "edges=3", "-o", "a.png"], "expected a table of keys"),
+        (["painterly", &photo, "--set", "overlap=3", "-o", "a.png"], "expected a table of keys"),
+        (["watercolor", &photo, "--set", "edges.strength=1e300", "-o", "a.png"], "found `"),
+        (["watercolor", &photo, "--set", "edges.strength=much", "-o", "a.png"], "a number"),
+        (["watercolor", &photo, "--stages", "/proc/nowhere", "-o", "a.png"], "cannot be"),
+    ] {
+        let run = impasto(&arguments);
+        assert_eq!(run.status, 2, "{arguments:?}: {}", run.err);
+        assert!(run.err.contains(word), "{arguments:?}: {}", run.err);
+        for fault in ["struct ", "f32", "Settings", ".impasto", "000000000000"] {
+            assert!(!run.err.contains(fault), "{arguments:?}: {}", run.err);
+        }
+    }
+}
+
+/// A small valid file; each test changes it to make one fault.
+const SOUND: &str = "\
+sample,film,backing,White,Red,400,410,420
+a,paint,card,100,,90,91,92
+b,paint,card,,100,10,11,60
+c,paint,card,50,50,20,22,70
+d,paint,card,90,10,40,42,80
+";
+
+/// Runs `fit` on a file of these bytes. Asserts that only a successful run leaves a file, the
+/// library.
+fn fit(bytes: &[u8]) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bad.csv");
+    std::fs::write(&file, bytes).unwrap();
+    let output = folder.path().join("library.json");
+    let run = impasto(&["fit", file.to_str().unwrap(), "--output", output.to_str().unwrap()]);
+    let left: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .filter(|name| name != "bad.csv")
+        .collect();
+    if run.status == 0 {
+        assert_eq!(left, ["library.json"], "{}", run.err);
+    } else {
+        assert!(left.is_empty(), "half-written: {left:?}");
+    }
+    run
+}
+
+/// Asserts that the file is refused with an error that contains all of `words`.
+fn refused(bytes: &[u8], words: &[&str]) {
+    let run = fit(bytes);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.out.is_empty(), "{}", run.out);
+    assert!(run.err.contains("error: ") && run.err.contains("bad.csv"), "{}", run.err);
+    for word in words {
+        assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+    }
+}
+
+fn changed(from: &str, to: &str) -> Vec<u8> {
+    assert!(SOUND.contains(from), "the sound file holds `{from}`");
+    SOUND.replacen(from, to, 1).into_bytes()
+}
+
+#[test]
+fn the_sound_file_is_fitted() {
+    let run = fit(SOUND.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.err);
+}
+
+#[test]
+fn decimal_commas_unquoted() {
+    refused(&changed("10,11,60", "10,5,11,2,60,1"), &["row 3", "8 cells", "`11`", "decimal"]);
+}
+
+#[test]
+fn quoted_decimal_commas_among_decimal_points() {
+    refused(&changed("10,11,60", "\"10,5\",11.5,60"), &["row 3", "`410`", "`11.5`"]);
+    let plain = fit(SOUND.replace("10,11,60", "10.5,11,60").as_bytes());
+    let quoted = fit(SOUND.replace("10,11,60", "\"10,5\",11,60").as_bytes());
+    assert_eq!((quoted.status, &quoted.out), (0, &plain.out), "{}", quoted.err);
+}
+
+#[test]
+fn semicolons_without_a_sample_column() {
+    let file = SOUND.replace("sample", "paint").replace(',', ";");
+    refused(file.as_bytes(), &["row 1", "no column `sample`"]);
+}
+
+#[test]
+fn points_among_decimal_commas() {
+    let file = SOUND.replace(',', ";").replace("10;11;60", "10,5;1.011;60");
+    refused(file.as_bytes(), &["row 3", "`410`", "`1.011`"]);
+}
+
+#[test]
+fn semicolons_tabs_and_decimal_commas_are_read() {
+    let plain = fit(SOUND.replace("10,11,60", "10.5,11,60").as_bytes());
+    for separator in [";", "\t"] {
+        let file = SOUND.replace(',', separator);
+        let cells = ["10", "11", "60"].join(separator);
+        assert!(file.contains(&cells), "{file}");
+        let run = fit(file.replace(&cells, &cells.replace("10", "10,5")).as_bytes());
+        assert_eq!((run.status, &run.out), (0, &plain.out), "{}", run.err);
+    }
+}
+
+#[test]
+fn missing_sample_column() {
+    refused(&changed("sample,", "paint,"), &["row 1", "no column `sample`"]);
+}
+
+#[test]
+fn no_wavelengths_at_all() {
+    refused(b"sample,White\na,1\n", &["no column `400 (a wavelength in nm)`"]);
+}
+
+#[test]
+fn repeated_wavelength() {
+    refused(&changed("400,410,420", "400,410,410nm"), &["row 1", "410 nm occurs twice"]);
+}
+
+#[test]
+fn repeated_pigment() {
+    refused(&changed("White,Red", "Red,Red"), &["`Red` occurs twice", "4", "5"]);
+}
+
+#[test]
+fn wavelengths_in_no_order() {
+    refused(&changed("400,410,420", "420,400,410"), &["row 1", "410 nm after 400 nm", "hint"]);
+}
+
+#[test]
+fn percent_mixed_with_fractions() {
+    refused(&changed("20,22,70", "0.20,0.22,0.70"), &["row 4", "`0.7`", "hint", "--percent"]);
+}
+
+#[test]
+fn nan() {
+    refused(&changed("10,11,60", "10,NaN,60"), &["row 3", "`410`", "`NaN`"]);
+}
+
+#[test]
+fn infinite_reflectance() {
+    refused(&changed("10,11,60", "10,inf,60"), &["row 3", "`410`", "`inf`"]);
+}
+
+#[test]
+fn negative_reflectance() {
+    refused(&changed("10,11,60", "-10,11,60"), &["row 3", "`400`", "`-10`", "from 0 to 200 %"]);
+}
+
+#[test]
+fn negative_amount() {
+    refused(&changed("90,10,40", "90,-10,40"), &["row 5", "`Red`", "`-10`"]);
+}
+
+#[test]
+fn amount_that_is_no_number() {
+    refused(&changed("90,10,40", "90,some,40"), &["row 5", "`Red`", "`some`"]);
+}
+
+#[test]
+fn amount_beyond_any_measure() {
+    refused(&changed("90,10,40", "90,1.7e308,40"), &["row 5", "`Red`", "`1.7e308`"]);
+}
+
+#[test]
+fn bare_cards_alone() {
+    let run = fit(SOUND.replace("paint", "none").as_bytes());
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("no row is a film of paint"), "{}", run.err);
+}
+
+#[test]
+fn control_characters_in_a_name() {
+    refused(&changed("b,paint", "b\x1b[31m,paint"), &["row 3", "control characters"]);
+}
+
+#[test]
+fn paint_without_a_recipe() {
+    refused(&changed("50,50,20", ",,20"), &["row 4", "sample c"]);
+}
+
+#[test]
+fn unknown_film() {
+    refused(&changed("a,paint", "a,glass"), &["row 2", "`film`", "`glass`"]);
+}
+
+#[test]
+fn empty_file() {
+    refused(b"", &["holds no readings"]);
+    refused(b"\n\n", &["holds no readings"]);
+}
+
+#[test]
+fn header_alone() {
+    refused(b"sample,White,400\n", &["holds no readings"]);
+}
+
+#[test]
+fn truncated_row() {
+    refused(
+        &changed("d,paint,card,90,10,40,42,80\n", "d,paint,card,90,1"),
+        &["row 5", "8 cells", "`5`"],
+    );
+}
+
+#[test]
+fn latin_1_bytes_are_read_and_said() {
+    let mut bytes = changed("Red", "Gr?n");
+    let at = bytes.iter().position(|&b| b == b'?').unwrap();
+    bytes[at] = 0xfc;
+    let run = fit(&bytes);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("windows-1252"), "{}", run.err);
+}
+
+#[test]
+fn contradicting_recipes_of_one_sample() {
+    refused(&changed("d,paint,card,90,10", "c,paint,black,90,10"), &["row 5", "sample c", "row 4"]);
+}
+
+#[test]
+fn a_reading_below_a_k1_that_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("dark.csv");
+    std::fs::write(&file, SOUND.replace("10,11,60", "2,11,60")).unwrap();
+    let path = file.to_str().unwrap();
+    let run = impasto(&["fit", path, "--saunderson", "0.03,0.6"]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    for word in ["row 3", "sample b", "400 nm", "k1 = 0.03", "--saunderson 0.019,0.6"] {
+        assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+    }
+    let floored =
+        impasto(&["fit", path, "--saunderson", "0.03,0.6", "--below-surface", "floor", "--json"]);
+    assert_eq!(floored.status, 0, "{}", floored.err);
+    assert!(floored.out.contains("b (1)"), "the reading is named: {}", floored.out);
+}
+
+/// Runs impasto with `content` in a file, whose path replaces `FILE` among `arguments`.
+fn run(name: &str, content: &[u8], arguments: &[&str]) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, content).unwrap();
+    let path = path.display().to_string();
+    let arguments: Vec<String> = arguments.iter().map(|a| a.replace("FILE", &path)).collect();
+    impasto(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+/// Asserts that the run failed for its input, with all of `words` in the error.
+fn refused_by_name(run: &Run, words: &[&str]) {
+    assert_eq!(run.status, 1, "{}{}", run.out, run.err);
+    for word in words {
+        assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+    }
+}
+
+#[test]
+fn rows_are_those_of_the_file_with_crlf_and_blank_lines() {
+    let rows = ["sample,Red,White,400,500,600", "a,0,1,80,82,85", "", "", "b,1,0,10,x,60"];
+    for end in ["\n", "\r\n"] {
+        refused_by_name(
+            &run("rows.csv", rows.join(end).as_bytes(), &["fit", "FILE"]),
+            &["row 5", "`x`"],
+        );
+        let prices = ["pigment,price", "Viridian,3", "", "Zinc White,dear"].join(end);
+        let library = repository("measurements/van-gogh-oils.pigments.json");
+        let matching = ["match", library.as_str(), "50,0,0", "--cost", "FILE"];
+        refused_by_name(&run("prices.csv", prices.as_bytes(), &matching), &["row 4", "`dear`"]);
+    }
+}
+
+#[test]
+fn lamps_and_paint_are_not_taken_for_each_other() {
+    let grey = repository("spectra/examples/paints.csv");
+    let lamp = |name: &str, text: &str| {
+        run(name, text.as_bytes(), &["color", grey.as_str(), "--illuminant", "FILE"])
+    };
+    refused_by_name(
+        &lamp("narrow.csv", "nm,power\n500,1\n510,2\n"),
+        &["420 to 680 nm", "narrow.csv"],
+    );
+    refused_by_name(
+        &lamp("paint.csv", "nm,%R\n400,10\n700,20\n"),
+        &["found `reflectance`", "hint: "],
+    );
+    let irradiance = "Jaz Absolute Irradiance File\n>>>>>Begin Processed\nW\tD\tS\tP\n\
+        400\t1\t50\t0.5\n500\t1\t50\t0.5\n700\t1\t20\t0.7\n>>>>>End\n";
+    let paint = run("sun.JazIrrad", irradiance.as_bytes(), &["color", "FILE"]);
+    refused_by_name(&paint, &["the power of a light", "--illuminant"]);
+}
+
+#[test]
+fn pigments_can_be_named() {
+    let table = "sample,White,Red,No,L,a,b,400,500,600,700\n\
+        w,1,0,1,92,0,2,0.8,0.82,0.84,0.85\nr,0,1,2,40,50,30,0.05,0.06,0.5,0.6\n\
+        m,0.5,0.5,3,60,30,10,0.2,0.25,0.65,0.7\n";
+    let fitted = run("lab.csv", table.as_bytes(), &["fit", "FILE"]);
+    assert_eq!(fitted.status, 0, "{}", fitted.err);
+    assert!(fitted.out.contains("2 pigments from 3 samples"), "{}", fitted.out);
+    assert!(fitted.err.contains("ignored: No, L, a, b"), "{}", fitted.err);
+    let one = ["fit", "FILE", "--pigments", "White", "--pigments", "Blue"];
+    refused_by_name(&run("lab.csv", table.as_bytes(), &one), &["`Blue`", "heading of a column"]);
 }

@@ -1,4 +1,8 @@
 //! `impasto match`: targets, prices, limits, lights and films on the command line.
+//!
+//! `impasto correct`: batches, recipes and stock on the command line.
+//!
+//! `impasto match --by spectrum`: the table, its figures, and the case for which it is made.
 
 use serde_json::Value;
 use suite::program::{impasto, repository};
@@ -241,7 +245,7 @@ fn a_film_is_laid_over_the_ground_that_is_told() {
             value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
         };
         let told = numbers(&recipe["lab"]["D65"]);
-        suite::near::assert_near("Lab", &told, &numbers(&mixed["lab"]), 1e-6);
+        suite::golden::assert_near("Lab", &told, &numbers(&mixed["lab"]), 1e-6);
         recipe["thickness"].as_f64().unwrap()
     };
     let chosen = over("0.3", "0.2:3");
@@ -300,7 +304,7 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
         value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
     };
     let mixed = numbers(&impasto(&mix).json()["lab"]);
-    suite::near::assert_near("Lab", &numbers(&recipe["lab"]["D65"]), &mixed, 1e-6);
+    suite::golden::assert_near("Lab", &numbers(&recipe["lab"]["D65"]), &mixed, 1e-6);
     let grams = impasto(&["match", &path, "#c8b080", "--grams", "4"]);
     assert!(grams.status == 2 && grams.err.contains("absolute"), "{}", grams.err);
 }
@@ -356,4 +360,150 @@ fn amounts_at_their_measured_limit_are_told() {
     };
     assert!(amounts(&["--json"]).iter().all(|amount| *amount >= 0.2 - 1e-9));
     assert!(amounts(&["--json", "--beyond-measured"]).iter().any(|amount| *amount < 0.2));
+}
+
+/// A file with spectra of a standard and of a batch with less blue than was meant, both of zinc white and
+/// cobalt blue.
+fn spectra(folder: &tempfile::TempDir) -> String {
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    let mixed = |blue: &str| {
+        impasto(&["mix", &library, "Zinc White=88", &format!("Cobalt Blue={blue}"), "--json"])
+            .json()
+    };
+    let list = |json: &Value| -> String {
+        let values = json.as_array().unwrap().iter();
+        values.map(|value| format!(",{value}")).collect()
+    };
+    let standard = mixed("12");
+    let batch = mixed("8");
+    let csv = format!(
+        "sample{}\nstandard{}\nbatch{}\n",
+        list(&standard["wavelengths_nm"]),
+        list(&standard["reflectance"]),
+        list(&batch["reflectance"])
+    );
+    let file = folder.path().join("pot.csv");
+    std::fs::write(&file, csv).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_batch_that_lacks_blue_is_told_how_much() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = spectra(&folder);
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    let standard = format!("{file}#standard");
+    let batch = format!("{file}#batch");
+    let made = ["--made", "Zinc White=440", "Cobalt Blue=60"];
+    let all = [&["correct", &library, &standard, &batch], &made[..]].concat();
+    let run = impasto(&all);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.out.contains("500 g") && run.out.contains("Cobalt Blue"), "{}", run.out);
+    assert!(run.out.contains("the least addition first"), "{}", run.out);
+    let json = impasto(&[&all[..], &["--json", "--at-most", "1"]].concat()).json();
+    let first = &json["corrections"][0];
+    assert_eq!(first["additions"][0]["name"], "Cobalt Blue");
+    // 12 parts to 88 instead of 8 are 23 g more; less is within the tolerance.
+    let grams = first["grams"].as_f64().unwrap();
+    assert!((10.0..23.0).contains(&grams), "{grams}");
+    assert!(first["delta_e"]["D65"].as_f64().unwrap() <= 0.5, "{first}");
+    let spectral = impasto(&[&all[..], &["--by", "spectrum"]].concat()).out;
+    assert!(spectral.contains("within 0.5 % of reflectance of the target"), "{spectral}");
+    assert!(spectral.contains("; reflectance 0."), "{spectral}");
+    let short = ["--stock", "cobalt=5", "--only", "Cobalt Blue"];
+    let run = impasto(&[&all[..], &short].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.out.contains("no addition comes within 0.5 CIEDE2000"), "{}", run.out);
+    assert!(run.out.contains("(all that is in stock)"), "{}", run.out);
+    let near = [&["correct", &library, &standard, &standard], &made[..]].concat();
+    assert!(impasto(&near).out.contains("nothing to add"));
+}
+
+#[test]
+fn faults_name_the_option_and_the_way_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = spectra(&folder);
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    let standard = format!("{file}#standard");
+    let batch = format!("{file}#batch");
+    for (target, pot, options, status, words) in [
+        (standard.as_str(), file.as_str(), vec!["--made", "Zinc White=1"], 2, "holds 2"),
+        (&standard, "#808080", vec!["--made", "Zinc White=1"], 2, "a batch is a measured spectrum"),
+        (&standard, &batch, vec!["--made", "Zinc White"], 2, "--made takes PIGMENT=GRAMS"),
+        (&standard, &batch, vec!["--made", "Gold=1"], 1, "`Gold`"),
+        (&standard, &batch, vec!["--made", "Zinc White=1", "--grams", "0"], 2, "try --grams 500"),
+        (&standard, &batch, vec!["--made", "Zinc White=1", "--least", "0"], 2, "try --least 0.1"),
+    ] {
+        let all = [&["correct", &library, target, pot], &options[..]].concat();
+        let run = impasto(&all);
+        assert_eq!(run.status, status, "{options:?}: {}", run.err);
+        assert!(run.err.contains(words) && run.err.contains("hint: "), "{options:?}: {}", run.err);
+        assert!(run.out.is_empty(), "{}", run.out);
+    }
+}
+
+fn run(arguments: &[&str]) -> suite::program::Run {
+    let library = repository("measurements/van-gogh-oils.pigments.json");
+    impasto(&[&["match", library.as_str()], arguments].concat())
+}
+
+/// A measured yellow, whose paint is in the library with others that make the same colour.
+fn sample() -> String {
+    repository("measurements/van-gogh-oils.csv") + "#14B"
+}
+
+fn best(arguments: &[&str]) -> Value {
+    let found = run(&[arguments, &["--json", "--tolerance", "0", "--count", "1"]].concat());
+    assert_eq!(found.status, 0, "{}", found.err);
+    let told = found.json();
+    // The film over the black card.
+    let target = told.as_array().unwrap().iter().find(|t| t["target"] == "14B on black").unwrap();
+    target["recipes"][0].clone()
+}
+
+#[test]
+fn a_recipe_by_spectrum_is_less_metameric_than_one_by_colour() {
+    let lights = ["--illuminant", "D65", "--illuminant", "A=1e-6", "--illuminant", "FL11=1e-6"];
+    let by = |by: &str| best(&[&[sample().as_str(), "--by", by], &lights[..]].concat());
+    let color = by("color");
+    let spectrum = by("spectrum");
+    let index = |recipe: &Value, at: usize| recipe["metamerism"][at]["index"].as_f64().unwrap();
+    let rms = |recipe: &Value| recipe["rms_percent"].as_f64().unwrap();
+    let under = |recipe: &Value, light: &str| recipe["delta_e"][light].as_f64().unwrap();
+    // By colour the recipe is exact under daylight and far off under lamps.
+    assert!(under(&color, "D65") < 0.01 && index(&color, 0) > 1.0 && index(&color, 1) > 3.0);
+    assert!(index(&spectrum, 0) < 0.2 && index(&spectrum, 1) < 0.6, "{spectrum}");
+    assert!(under(&spectrum, "D65") < 0.7 && under(&spectrum, "FL11") < 0.7, "{spectrum}");
+    assert!(rms(&spectrum) < 0.3 * rms(&color), "{} {}", rms(&spectrum), rms(&color));
+    let told = &spectrum["metamerism"][1];
+    assert_eq!(told["kind"], "special metamerism index, change of illuminant");
+    assert_eq!((&told["from"], &told["to"]), (&"D65".into(), &"FL11".into()));
+    assert_eq!(told["unit"], "CIEDE2000");
+}
+
+#[test]
+fn the_table_says_what_is_matched_and_under_which_lights_it_is_told() {
+    let found = run(&[&sample(), "--by", "spectrum", "--count", "1"]);
+    for words in [
+        "by spectrum: rms of reflectance from 400 to 700 nm, each wavelength equally",
+        "equally near within 0.2 % of reflectance",
+        "special metamerism index, change of illuminant, in CIEDE2000",
+        "D65 to A",
+        "D65 to FL11",
+        "rms, %",
+    ] {
+        assert!(found.out.contains(words), "{words}: {}", found.out);
+    }
+    assert!(found.out.lines().all(|line| line.chars().count() <= 100), "{}", found.out);
+    let csv = run(&[&sample(), "--by", "weighted-spectrum", "--count", "1", "--csv"]);
+    let heading = csv.out.lines().next().unwrap();
+    for column in ["distance", "rms_percent", "delta_e_FL11", "metamerism_D65 to A"] {
+        assert!(heading.split(',').any(|one| one == column), "{heading}");
+    }
+    // A colour has no spectrum to compare.
+    let colour = run(&["#4a7d8c", "--count", "1"]);
+    assert!(colour.out.contains("(CIEDE2000)") && !colour.out.contains("rms"), "{}", colour.out);
+    let refused = run(&["#4a7d8c", "--by", "spectrum"]);
+    assert!(refused.status == 2 && refused.out.is_empty(), "{}", refused.out);
+    assert!(refused.err.contains("only a colour") && refused.err.contains("--by color"));
 }

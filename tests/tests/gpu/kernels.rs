@@ -1,9 +1,18 @@
 //! Checks of GPU kernels without an adapter: validity, bindings and layouts of structs.
+//!
+//! Errors of the graphics device: sizes beyond its limits, and a lost device.
+//!
+//! `impasto gpu`: the adapters that it lists, and the one that painting would use.
 
-use graphics::gpu::{Kernel, Layout, Storage};
+use documents::hint::Explain;
+use graphics::field::Field;
+use graphics::gpu::{BackendChoice, DeviceError, Kernel, Kind, Layout, Storage, adapters, best};
 use graphics::surface::{STENCIL_FACES, WEIGHED_FACES};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
+use paint::engine::PaintEngine;
+use paint::layer::Layer;
+use suite::program::impasto;
 
 /// The kernels of graphics, paint, watercolour, models in brushwork and paint volumes.
 fn kernels() -> Vec<&'static Kernel> {
@@ -103,4 +112,78 @@ fn shaders_that_count_faces_are_valid_and_bound_as_they_say() {
             assert_eq!((span as usize, found), (*bytes, own), "{name}");
         }
     }
+}
+
+#[test]
+fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
+    let Some(device) = crate::device() else { return };
+    let limit = device.adapter().limits.binding_bytes;
+    // A strip of cells whose pigments, 32 bytes a cell, exceed the limit; the floor has 4 bytes.
+    let cells = (limit / 32 + 1) as usize;
+    if cells > 1 << 26 {
+        return;
+    }
+    let error = PaintEngine::on_device(device, &Field::filled(cells, 1, 0)).unwrap_err();
+    let bytes = 32 * cells as u64;
+    assert_eq!(error, DeviceError::TooLarge { what: "the canvas", bytes, limit });
+    assert_eq!(error.hint().unwrap().to_string(), "paint on the processor: `backend = cpu`");
+}
+
+#[test]
+fn a_lost_device_is_an_error_of_every_call() {
+    let Some(device) = crate::device() else { return };
+    let mut engine = PaintEngine::on_device(device, &Field::filled(70, 70, 0)).unwrap();
+    let brush = engine.add_brush(4, 4).unwrap();
+    engine.device().unwrap().close();
+    let lost = |found: Result<(), DeviceError>| {
+        assert!(matches!(found, Err(DeviceError::Lost { .. })), "{found:?}");
+    };
+    lost(engine.set_wet(&Layer::empty(70, 70)));
+    lost(engine.set_brush_paint(brush, &Layer::empty(4, 4)));
+    lost(engine.wet().map(drop));
+    lost(engine.brush_paint(brush).map(drop));
+    lost(engine.dry(100));
+    lost(engine.floor().map(drop));
+    lost(engine.picture().map(drop));
+    lost(engine.add_brush(4, 4).map(drop));
+    lost(engine.finish());
+}
+
+#[test]
+fn a_buffer_beyond_the_limit_is_refused() {
+    let Some(device) = crate::device() else { return };
+    let limit = device.adapter().limits.binding_bytes;
+    let error = device.buffer("a test", limit + 1).unwrap_err();
+    assert_eq!(error, DeviceError::TooLarge { what: "a test", bytes: limit + 1, limit });
+}
+
+#[test]
+fn the_program_names_the_adapter_that_would_be_used() {
+    let found = adapters();
+    let run = impasto(&["gpu", "--json"]);
+    assert_eq!((run.status, run.err.as_str()), (0, ""));
+    let told = run.json();
+    let used = best(&found, BackendChoice::Auto).map(|adapter| adapter.name.as_str());
+    let forced = best(&found, BackendChoice::Gpu).map(|adapter| adapter.name.as_str());
+    assert_eq!(told["used"].as_str(), used);
+    assert_eq!(told["with_backend_gpu"].as_str(), forced);
+    let listed = told["adapters"].as_array().unwrap();
+    assert_eq!(listed.len(), found.len());
+    for (listed, adapter) in listed.iter().zip(&found) {
+        let cells = listed["largest_canvas_cells"].as_u64().unwrap();
+        let bytes = adapter.limits.binding_bytes;
+        assert!(cells * 32 <= bytes && (cells + 1) * 32 > bytes, "{cells} of {bytes}");
+    }
+    let words = impasto(&["gpu"]);
+    let first = words.out.lines().next().unwrap();
+    let name = used.unwrap_or("the processor");
+    assert!(first.starts_with(&format!("painting uses {name}: ")), "{first}");
+}
+
+#[test]
+fn software_is_used_only_when_asked_for() {
+    let found = adapters();
+    let used = best(&found, BackendChoice::Auto);
+    assert!(used.is_none_or(|adapter| adapter.kind != Kind::Software), "{used:?}");
+    assert!(best(&found, BackendChoice::Cpu).is_none(), "the processor is no adapter");
 }

@@ -8,11 +8,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod kernels;
-mod reference;
 mod motion;
-mod rest;
 mod light;
-mod device;
-mod program;
 
-use suite::adapter::device;
+use suite::program::device;

@@ -10,8 +10,7 @@ mod files;
 
 use std::path::Path;
 
-use suite::guides::{Command, commands};
-use suite::program::{impasto, repository};
+use suite::program::{Command, commands, impasto, repository};
 
 /// Pages, in the order in which a reader meets them.
 const PAGES: [&str; 12] = [

@@ -1,7 +1,20 @@
 //! `impasto library export`: palettes, CxF spectra and tables of K and S for other programs.
+//!
+//! Swatch files (ASE, ACO, GPL): a round trip of random palettes, and errors of faulty files.
+//!
+//! Pigments guessed from a colour: mixing gives the colour back, and the guess is marked.
 
-use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_cie76};
-use spectra::swatch_file::{SwatchColor, SwatchFile, d50_white, read_aco, read_ase, read_gpl};
+use calibrate::PigmentId;
+use calibrate::curation::{Body, guessed_pigment};
+use calibrate::evaluate::Viewing;
+use proptest::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, delta_e_cie76, delta_e_ciede2000};
+use spectra::swatch_file::{
+    SwatchColor, SwatchEntry, SwatchFile, d50_white, read_aco, read_ase, read_gpl, write_aco,
+    write_ase, write_gpl,
+};
 use suite::program::impasto;
 
 use crate::{Shelf, done, oils, read, refused};
@@ -53,7 +66,7 @@ fn lab_of_a_palette_is_the_same_color_under_d50() {
         }
     }
     // White of D50 in ISO 11664-2: 96.42, 100, 82.51.
-    suite::near::assert_near("D50", &d50_white().to_array(), &[96.42, 100.0, 82.51], 0.01);
+    suite::golden::assert_near("D50", &d50_white().to_array(), &[96.42, 100.0, 82.51], 0.01);
 }
 
 #[test]
@@ -90,7 +103,7 @@ fn cxf_holds_the_spectra_that_mix_predicts() {
         let name = if recipe.len() == 1 { "Viridian" } else { "Viridian 1:4" };
         let found = records.iter().find(|record| record.name == name).unwrap();
         let wanted = mix["reflectance"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap());
-        suite::near::assert_near(name, &found.values, &wanted.collect::<Vec<f64>>(), 1e-6);
+        suite::golden::assert_near(name, &found.values, &wanted.collect::<Vec<f64>>(), 1e-6);
     }
 }
 
@@ -155,4 +168,260 @@ fn a_faulty_table_is_refused_with_its_place() {
     let library = read(&json);
     assert_eq!(library.pigments[0].absorption, [0.5; 3]);
     assert!(!library.pigments[1].identified, "K/S alone");
+}
+
+/// Colours whose components are exact in 8 bits, in 16 bits and in 32-bit floats.
+fn color() -> impl Strategy<Value = SwatchColor> {
+    let step = || (0..=1u8).prop_map(f64::from);
+    let quarter = |from: i32, to: i32| (from * 4..=to * 4).prop_map(|q| f64::from(q) / 4.0);
+    prop_oneof![
+        [step(), step(), step()].prop_map(|rgb| SwatchColor::Rgb(Rgb(rgb))),
+        (step(), quarter(-128, 127), quarter(-128, 127))
+            .prop_map(|(l, a, b)| SwatchColor::Lab(Lab { lightness: 100.0 * l, a, b })),
+        [step(), step(), step(), step()].prop_map(SwatchColor::Cmyk),
+        step().prop_map(SwatchColor::Grey),
+    ]
+}
+
+fn palette(groups: &'static str) -> impl Strategy<Value = SwatchFile> {
+    let swatch = ("[^\u{0}]{0,9}", groups, color());
+    let swatch = swatch.prop_map(|(name, group, color)| SwatchEntry { name, group, color });
+    prop::collection::vec(swatch, 0..9)
+        .prop_map(|swatches| SwatchFile { name: String::new(), swatches })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn ase_is_read_as_written(palette in palette("[ab]{0,1}")) {
+        let bytes = write_ase(&palette).unwrap();
+        prop_assert_eq!(read_ase("p.ase", &bytes).unwrap(), palette);
+    }
+
+    #[test]
+    fn aco_is_read_as_written(palette in palette("")) {
+        let bytes = write_aco(&palette).unwrap();
+        prop_assert_eq!(read_aco("p.aco", &bytes).unwrap(), palette);
+    }
+
+    #[test]
+    fn gpl_is_read_as_written(rgbs in prop::collection::vec(any::<[u8; 3]>(), 0..9)) {
+        let swatches = rgbs.iter().map(|rgb: &[u8; 3]| SwatchEntry {
+            name: format!("Rot {rgb:?} \u{fc}"),
+            group: String::new(),
+            color: SwatchColor::Rgb(Rgb(rgb.map(|v| f64::from(v) / 255.0))),
+        }).collect();
+        let palette = SwatchFile { name: "Name: of # all".into(), swatches };
+        let text = write_gpl(&palette).unwrap();
+        prop_assert_eq!(read_gpl("p.gpl", text.as_bytes()).unwrap(), palette);
+    }
+
+    #[test]
+    fn no_bytes_make_a_reader_panic_and_every_refusal_has_a_place(
+        bytes in prop::collection::vec(any::<u8>(), 0..200),
+    ) {
+        all_say_where(&bytes)?;
+    }
+
+    #[test]
+    fn nor_do_files_with_a_byte_changed_or_cut_short(
+        palette in palette("[ab]{0,1}"),
+        at in any::<prop::sample::Index>(),
+        byte in any::<u8>(),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let files = [write_ase(&palette).unwrap(), write_aco(&palette).unwrap()];
+        for mut bytes in files {
+            let place = at.index(bytes.len());
+            bytes[place] = byte;
+            all_say_where(&bytes)?;
+            bytes.truncate(cut.index(bytes.len()));
+            all_say_where(&bytes)?;
+            let text = ["GIMP Palette\n".as_bytes(), &bytes].concat();
+            all_say_where(&text)?;
+        }
+    }
+}
+
+fn all_say_where(bytes: &[u8]) -> Result<(), TestCaseError> {
+    for read in [read_ase, read_aco, read_gpl] {
+        if let Err(error) = read("the file", bytes) {
+            let said = error.to_string();
+            prop_assert!(
+                said.starts_with("the file, byte ") || said.starts_with("the file, line ")
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_small_ase_is_byte_for_byte_as_other_programs_write_it() {
+    let swatch = SwatchEntry {
+        name: "Red".into(),
+        group: String::new(),
+        color: SwatchColor::Rgb(Rgb([1.0, 0.0, 0.0])),
+    };
+    let palette = SwatchFile { name: String::new(), swatches: vec![swatch] };
+    let mut wanted = b"ASEF\x00\x01\x00\x00\x00\x00\x00\x01".to_vec();
+    wanted.extend(b"\x00\x01\x00\x00\x00\x1c\x00\x04\x00R\x00e\x00d\x00\x00RGB ");
+    wanted.extend(b"\x3f\x80\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02");
+    assert_eq!(write_ase(&palette).unwrap(), wanted);
+    let mut wanted = b"\x00\x01\x00\x01\x00\x00\xff\xff\x00\x00\x00\x00\x00\x00".to_vec();
+    wanted.extend(b"\x00\x02\x00\x01\x00\x00\xff\xff\x00\x00\x00\x00\x00\x00");
+    wanted.extend(b"\x00\x00\x00\x04\x00R\x00e\x00d\x00\x00");
+    assert_eq!(write_aco(&palette).unwrap(), wanted);
+}
+
+#[test]
+fn errors_name_file_and_byte_or_line() {
+    let error = |result: Result<SwatchFile, spectra::swatch_file::SwatchFileError>| {
+        result.unwrap_err().to_string()
+    };
+    assert_eq!(
+        error(read_ase("a.ase", b"ASEX\x00\x01\x00\x00")),
+        "a.ase, byte 0: expected `ASEF`, found `ASEX`"
+    );
+    let wrong = b"ASEF\x00\x01\x00\x00\x00\x00\x00\x01\x00\x01\x00\x00\x00\x08\x00\x01\x00\x00HSV ";
+    assert_eq!(
+        error(read_ase("a.ase", wrong)),
+        "a.ase, byte 22: expected RGB, LAB, CMYK or Gray, found `HSV `"
+    );
+    assert_eq!(
+        error(read_aco("a.aco", b"\x00\x01\x00\x01\x00\x03\x00\x00\x00\x00\x00\x00\x00\x00")),
+        "a.aco, byte 4: expected RGB, HSB, CMYK, Lab or grey, found `3`"
+    );
+    let lines = b"GIMP Palette\nName: x\n#\n 10 20 300\tred\n";
+    let said = error(read_gpl("a.gpl", lines));
+    assert!(said.starts_with("a.gpl, line 4:") && said.contains("10 20 300"), "{said}");
+    assert!(error(read_gpl("a.gpl", b"RIFF")).starts_with("a.gpl, line 1:"));
+    assert!(error(read_gpl("a.gpl", b"GIMP Palette\n\xff")).contains("byte 13"));
+}
+
+#[test]
+fn hue_saturation_and_brightness_are_read_as_rgb() {
+    // A hue of 120 degrees with full saturation and brightness is green.
+    let bytes = b"\x00\x01\x00\x01\x00\x01\x55\x55\xff\xff\xff\xff\x00\x00";
+    let SwatchColor::Rgb(rgb) = read_aco("a.aco", bytes).unwrap().swatches[0].color else {
+        panic!("RGB")
+    };
+    assert_eq!(rgb.to_hex(), "#00ff00");
+}
+
+#[test]
+fn a_thousand_colors_come_back_from_mixing() {
+    let shelf = Shelf::new();
+    let start = shelf.path("white.json");
+    done(&["from-rgb", "#f4f4f0", "--name", "White", "--output", &start]);
+    let mut library = read(&start);
+    let weights = Viewing::default().weights(library.grid).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(20);
+    let mut met = 0;
+    let mut missed = 0;
+    for number in 0..1000 {
+        let rgb = Rgb(std::array::from_fn(|_| random.random_range(0.0..1.0)));
+        let wanted = RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
+        let body = if number % 2 == 0 { Body::Hiding } else { Body::Glaze };
+        let Ok(guess) = guessed_pigment(&library, ("x", "x"), wanted, body, false) else {
+            let least = rgb.linear().0.into_iter().fold(1.0, f64::min);
+            assert!(least < library.saunderson.k1, "{} was not met", rgb.to_hex());
+            missed += 1;
+            continue;
+        };
+        library.pigments.truncate(1);
+        library.pigments.push(guess.pigment);
+        let mixture = library.mix([(PigmentId(1), 1.0)]).unwrap();
+        let film = match body {
+            Body::Hiding => mixture.hiding(library.saunderson),
+            Body::Glaze => mixture.film(1.0, &[1.0; 31], library.film()),
+        };
+        let lab = |xyz| Lab::from_xyz(xyz, weights.white());
+        let off = delta_e_ciede2000(lab(wanted), lab(weights.xyz(&film)));
+        assert!(
+            off < 0.05 && film.iter().all(|r| *r > 0.03 && *r < 1.0),
+            "{}: {off}",
+            rgb.to_hex()
+        );
+        met += 1;
+    }
+    assert!(met > 850, "{met} met, {missed} below the surface's own reflection");
+}
+
+#[test]
+fn a_guess_joins_a_library_and_is_marked_everywhere() {
+    let shelf = Shelf::new();
+    let with = shelf.path("with.json");
+    let run = done(&["from-rgb", &oils(), "#2a5caa", "--name", "Sky", "--output", &with]);
+    assert!(run.out.contains("#2a5caa, 0.000 CIEDE2000"), "{}", run.out);
+    let library = read(&with);
+    assert_eq!(library.pigments.len(), 21);
+    assert_eq!(library.pigments[..20], read(&oils()).pigments);
+    assert!(library.pigments[20].guessed && library.pigments[20].identified);
+    let mix = impasto(&["mix", &with, "Sky=1"]);
+    assert!(
+        mix.out.contains("#2a5caa") && mix.err.contains("warning: Sky: guessed"),
+        "{}",
+        mix.err
+    );
+    let list = done(&["list", &with]).out;
+    assert!(
+        list.lines().any(|line| line.starts_with("Sky ") && line.ends_with("guessed")),
+        "{list}"
+    );
+    assert_eq!(done(&["list", &with, "--json"]).json()[20]["guessed"], true);
+    let show = done(&["show", &with, "Sky"]).out;
+    assert!(show.contains("Sky (guessed)") && show.contains("guessed from #2a5caa"), "{show}");
+    assert!(done(&["check", &with]).out.contains("Sky: guessed from a colour"));
+    let taken = ["from-rgb", &with, "#2a5caa", "--name", "Viridian", "--output", &oils()];
+    assert_eq!(crate::tried(&taken).status, 1);
+}
+
+#[test]
+fn a_glaze_shows_its_color_over_white_and_its_ground_elsewhere() {
+    let shelf = Shelf::new();
+    let with = shelf.path("with.json");
+    let glaze = ["from-rgb", &oils(), "lab(60, 40, 20)", "--name", "Rose", "--glaze"];
+    done(&[&glaze[..], &["--output", &with]].concat());
+    let lab = |over: &str| {
+        let mix = impasto(&["mix", &with, "Rose=1", "--thickness", "1", "--over", over, "--json"]);
+        mix.json()["lab"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let on_white: Vec<f64> = lab("white");
+    suite::golden::assert_near("over white", &on_white, &[60.0, 40.0, 20.0], 0.01);
+    let on_black: Vec<f64> = lab("black");
+    assert!(on_black[0] < 30.0, "{on_black:?}");
+}
+
+#[test]
+fn a_color_out_of_reach_is_refused_with_the_nearest() {
+    let shelf = Shelf::new();
+    let new = shelf.path("new.json");
+    let black = ["from-rgb", "#000000", "--name", "Black", "--output", &new];
+    refused(&black, 1, &["k1 = 0.03", "the nearest is 12.", "`#313131`", "--nearest"]);
+    assert!(!std::path::Path::new(&new).exists(), "nothing written");
+    let run = done(&[&black[..], &["--nearest"]].concat());
+    assert!(run.err.contains("warning: #000000 is out of reach"), "{}", run.err);
+    done(&[&black[..], &["--saunderson", "none", "--nearest"]].concat());
+    assert!(read(&new).saunderson.k1 == 0.0 && read(&new).reference.as_deref() == Some("Black"));
+    for color in ["red", "#12345", "lab(1,2)", "lab(101,0,0)", "lab(nan,0,0)"] {
+        refused(&["from-rgb", color, "--name", "X", "--output", &new], 2, &[color]);
+    }
+}
+
+#[test]
+fn options_may_stand_between_library_and_color() {
+    let shelf = Shelf::new();
+    let bare = shelf.path("bare.json");
+    let between = shelf.path("between.json");
+    done(&["from-rgb", &oils(), "40,5,-45", "--name", "Sky", "--output", &bare]);
+    done(&["from-rgb", &oils(), "--name", "Sky", "lab(40, 5, -45)", "--output", &between]);
+    let sky = |path: &str| read(path).pigments.pop().unwrap().absorption;
+    assert_eq!(sky(&bare), sky(&between));
+    let new = shelf.path("new.json");
+    done(&["from-rgb", "--name", "White", "--output", &new, "#f4f4f0"]);
+    let list = impasto(&["library", "list", &new]);
+    assert!(list.out.contains("S = 1 for White"), "{}", list.out);
+    let three = ["from-rgb", &oils(), "40,", "5", "--name", "X", "--output", &bare];
+    refused(&three, 2, &["found `3` arguments"]);
 }

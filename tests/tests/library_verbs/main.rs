@@ -3,10 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod exports;
-mod guesses;
-mod health;
 mod joins;
-mod swatch_files;
 
 use std::path::PathBuf;
 

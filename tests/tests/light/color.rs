@@ -1,14 +1,22 @@
 //! Colour of paint: eight wavelengths against the full spectrum, and mixtures of pigments against
 //! mixtures of lights.
+//!
+//! Colours of thin films that no screen shows.
+//!
+//! Light seen by an eye that adapted to it in part.
+//!
+//! Pictures with several pixels a cell.
 
 use calibrate::evaluate::{Summary, Viewing, percentile};
 use calibrate::{Curves, PigmentId};
-use paint::document::Document;
+use graphics::field::Field;
+use paint::document::{Document, Lighting, Slots};
+use paint::layer::SLOTS;
 use paint::light::{Light, Mixer};
-use paint::scene::{SpectralDocument, picture, scene};
+use paint::scene::{PixelsPerCell, SpectralDocument, fine_picture, picture, scene};
 use spectra::color::{Adaptation, Lab, Lch, Rgb, RgbSpace, Xyz, delta_e_ciede2000};
 
-use crate::made_up::{document, glazes_over_mixtures, lay, light, slots, viewing};
+use crate::made_up::{document, glazes_over_mixtures, lay, light, oils, slots, viewing};
 
 /// CIELAB of every cell of the flat picture of `document`, relative to the white of sRGB.
 fn labs(document: &Document, light: &Light) -> Vec<Lab> {
@@ -81,12 +89,12 @@ fn the_spectrum_at_the_nodes_has_the_color_of_the_picture() {
 #[test]
 fn a_perfect_diffuse_is_white_under_every_light() {
     for name in ["D65", "A", "FL11", "5600K"] {
-        let light = light(&crate::made_up::oils(), name);
+        let light = light(&oils(), name);
         for channel in 0..3 {
             let sum: f32 = light.rgb_from_nodes.iter().map(|rgb| rgb[channel]).sum();
             assert!((sum - 1.0).abs() < 2e-6, "{name}: {sum}");
         }
-        let full = viewing(name).weights(crate::made_up::oils().grid).unwrap().white();
+        let full = viewing(name).weights(oils().grid).unwrap().white();
         let ours = light.quadrature.rule.white;
         let near = full.to_array().into_iter().zip(ours.to_array()).all(|(a, b)| a == b);
         assert!(near, "{name}: {full:?} {ours:?}");
@@ -100,7 +108,7 @@ fn seen(rgb: [f32; 3]) -> Lch {
 
 #[test]
 fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
-    let library = crate::made_up::oils();
+    let library = oils();
     let light = light(&library, "D65");
     let [yellow, blue, white] = ["Chrome Yellow (Otero)", "Prussian Blue", "Lead White"]
         .map(|name| library.find(name).unwrap());
@@ -124,7 +132,7 @@ fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
 
 #[test]
 fn a_mixer_mixes_as_the_library_does() {
-    let library = crate::made_up::oils();
+    let library = oils();
     for name in ["D65", "A"] {
         let light = light(&library, name);
         for (first, second) in [(1, 15), (12, 10), (4, 7)] {
@@ -171,7 +179,7 @@ fn a_thin_glaze_shows_its_ground_and_a_thick_film_hides_it() {
 
 #[test]
 fn a_bare_ground_shows_its_measured_color() {
-    let library = crate::made_up::oils();
+    let library = oils();
     for pigment in ["Zinc White", "Vermilion", "Bone Black"] {
         let mut document = document(1, 1, &[]);
         let film = library.mix([(library.find(pigment).unwrap(), 1.0)]).unwrap();
@@ -231,4 +239,190 @@ fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
     let relit = errors(&bulb);
     let not_relit = errors(&day);
     assert!(relit < 0.3 && not_relit > 1.0, "relit {relit}, not relit {not_relit}");
+}
+
+/// Thicknesses of the films in mm.
+const FILMS_MM: [f64; 8] = [0.002, 0.004, 0.007, 0.01, 0.015, 0.02, 0.03, 0.05];
+
+fn lch(rgb: Rgb) -> Lch {
+    let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb.0);
+    Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white()).to_lch()
+}
+
+#[test]
+fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
+    let library = oils();
+    let light = light(&library, "D65");
+    let mut outside = 0;
+    let mut worst = (0.0, String::new());
+    let mut least = 1.0f64;
+    let mut cut_off = 0.0f64;
+    let pigments: Vec<_> = library.ids().collect();
+    for pigments in pigments.chunks(SLOTS) {
+        let mut films = document(FILMS_MM.len(), pigments.len(), &[]);
+        let slots: Slots = std::array::from_fn(|slot| pigments.get(slot).copied());
+        films.slots = slots;
+        for (slot, y) in (0..pigments.len()).enumerate() {
+            for (x, mm) in FILMS_MM.into_iter().enumerate() {
+                let mut amounts = [0.0; SLOTS];
+                amounts[slot] = mm;
+                lay(&mut films.wet, (x, y), &amounts);
+            }
+        }
+        let picture = picture(&films, &scene(&films, &light));
+        for (index, &[r, g, b, _]) in picture.values().iter().enumerate() {
+            let exact = Rgb([r, g, b].map(f64::from));
+            let shown = exact.mapped_into_gamut();
+            if exact.in_gamut() {
+                assert_eq!(shown, exact);
+                continue;
+            }
+            outside += 1;
+            let clipped = Rgb(exact.0.map(|value| value.clamp(0.0, 1.0)));
+            let [exact, shown, clipped] = [exact, shown, clipped].map(lch);
+            let pigment = &library[pigments[index / FILMS_MM.len()]].name;
+            let mm = FILMS_MM[index % FILMS_MM.len()];
+            let lightness = (shown.lightness - exact.lightness).abs();
+            assert!(lightness < 0.1, "{pigment} {mm} mm: {exact:?} shown as {shown:?}");
+            if exact.chroma.min(shown.chroma) > 5.0 {
+                let turned = |to: Lch| {
+                    let degrees = (to.hue_degrees - exact.hue_degrees).abs();
+                    degrees.min(360.0 - degrees)
+                };
+                println!(
+                    "{pigment} {mm} mm: {exact:?} shown as {shown:?}, turned {:.2}, cut off {:.2}",
+                    turned(shown),
+                    turned(clipped)
+                );
+                if turned(shown) > worst.0 {
+                    worst = (turned(shown), format!("{pigment} {mm} mm: {exact:?} {shown:?}"));
+                }
+                cut_off = cut_off.max(turned(clipped));
+                least = least.min(shown.chroma / exact.chroma);
+            }
+        }
+    }
+    println!("{outside} outside, turned {worst:?}, cut off {cut_off}, chroma {least}");
+    assert!(outside > 10, "only {outside} films are outside the gamut");
+    assert!(worst.0 < 0.5, "{worst:?}");
+    assert!(cut_off > 5.0, "cutting off channels turns hues by {cut_off} degrees at most");
+}
+
+/// Linear sRGB of the perfect diffuser.
+fn white(rgb: &[[f32; 3]]) -> [f64; 3] {
+    std::array::from_fn(|channel| rgb.iter().map(|rgb| f64::from(rgb[channel])).sum())
+}
+
+#[test]
+fn an_eye_that_adapted_in_part_keeps_some_of_the_color_of_the_light() {
+    for name in ["A", "3000K", "D65", "FL11"] {
+        let light = light(&oils(), name);
+        assert_eq!(light.rgb_at_degree(1.0), light.rgb_from_nodes, "{name}");
+        let chroma = |degree| {
+            let white = white(&light.rgb_at_degree(degree));
+            let greatest = white.into_iter().fold(0.0, f64::max);
+            assert!((greatest - 1.0).abs() < 1e-5, "{name} {degree}: {white:?}");
+            let xyz: Xyz = RgbSpace::Srgb.xyz_from_linear().apply(white).into();
+            Lab::from_xyz(xyz, RgbSpace::Srgb.white()).to_lch().chroma
+        };
+        let chromas = [1.0, 0.75, 0.5, 0.25, 0.0].map(chroma);
+        if name == "D65" {
+            assert!(chromas.iter().all(|chroma| *chroma < 0.1), "{chromas:?}");
+        } else {
+            assert!(chromas.windows(2).all(|pair| pair[0] < pair[1]), "{name}: {chromas:?}");
+        }
+        // Without adaptation, white has the chromaticity of the light itself.
+        let found: Xyz =
+            RgbSpace::Srgb.xyz_from_linear().apply(white(&light.rgb_at_degree(0.0))).into();
+        let wanted = light.quadrature.rule.white;
+        let [found, wanted] =
+            [found, wanted].map(|v| [v.x / (v.x + v.y + v.z), v.y / (v.x + v.y + v.z)]);
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-6, "{name}: {found} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn a_painting_is_shown_with_the_adaptation_of_its_light() {
+    let mut document = document(1, 1, &[]);
+    let bulb = light(&document.library, "A");
+    let mut shown = |adaptation| {
+        document.lighting = Lighting { adaptation, ..Lighting::default() };
+        picture(&document, &scene(&document, &bulb)).values()[0]
+    };
+    let [complete, half] = [1.0, 0.5].map(&mut shown);
+    assert!((complete[0] - complete[2]).abs() < 0.01, "a grey ground: {complete:?}");
+    assert!(half[0] > 1.5 * half[2], "yellow light: {half:?}");
+    let text = |lighting: &Lighting| serde_json::to_string(lighting).unwrap();
+    let before = text(&Lighting::default());
+    assert!(!before.contains("adaptation"), "files of complete adaptation stay: {before}");
+    for adaptation in [1.0, 0.5] {
+        let lighting = Lighting { adaptation, ..Lighting::default() };
+        let read: Lighting = serde_json::from_str(&text(&lighting)).unwrap();
+        assert_eq!(read, lighting);
+    }
+}
+
+fn pixels(count: u8) -> PixelsPerCell {
+    PixelsPerCell::new(count).unwrap()
+}
+
+fn both(document: &Document, count: u8) -> [Field<[f32; 4]>; 2] {
+    let scene = scene(document, &light(&document.library, "D65"));
+    [picture(document, &scene), fine_picture(document, &scene, pixels(count))]
+}
+
+#[test]
+fn even_paint_keeps_its_bits() {
+    let mut even = document(9, 7, &["Vermilion", "Lead White"]);
+    for cell in (0..7).flat_map(|y| (0..9).map(move |x| (x, y))) {
+        lay(&mut even.wet, cell, &[0.013, 0.02]);
+    }
+    even.lighting = Lighting { relief: 3.0, elevation_deg: 20.0, ..Lighting::default() };
+    for count in 1..=4 {
+        let [coarse, fine] = both(&even, count);
+        assert_eq!((fine.width(), fine.height()), (9 * usize::from(count), 7 * usize::from(count)));
+        assert!(fine.values().iter().all(|rgb| *rgb == coarse.values()[0]), "{count}");
+    }
+}
+
+#[test]
+fn a_picture_keeps_its_mean() {
+    let glazes = glazes_over_mixtures();
+    let mean = |picture: &Field<[f32; 4]>| -> f64 {
+        let sum: f64 = picture.values().iter().map(|rgb| f64::from(rgb[1])).sum();
+        sum / picture.values().len() as f64
+    };
+    for count in 1..=4 {
+        let [coarse, fine] = both(&glazes, count);
+        let coarse = mean(&coarse);
+        let fine = mean(&fine);
+        assert!((coarse - fine).abs() < 0.01 * coarse, "{count}: {coarse} {fine}");
+    }
+}
+
+#[test]
+fn the_edge_of_a_slanting_stroke_has_no_stairs() {
+    // Paint to the left of a line that moves a cell to the right with each row.
+    let edge = |y: f64| y - 0.5;
+    let mut slanting = document(40, 40, &["Bone Black"]);
+    for cell in (0..40).flat_map(|y| (0..40).map(move |x| (x, y))) {
+        let covered = (cell.0 as f64) + 0.5 <= edge(cell.1 as f64 + 0.5) + 0.25;
+        lay(&mut slanting.wet, cell, &[if covered { 0.2 } else { 0.0 }]);
+    }
+    let [coarse, fine] = both(&slanting, 4);
+    let middle = 0.5 * (coarse[(0, 39)][1] + coarse[(39, 0)][1]);
+    // Span of the distances between the line and the edge of the paint over quarters of a row.
+    let stairs = |lighter: &dyn Fn(usize, usize) -> bool| {
+        let ends = (32..128).map(|y| {
+            let x = (0..160).position(|x| lighter(x, y)).unwrap();
+            x as f64 / 4.0 - edge((y as f64 + 0.5) / 4.0)
+        });
+        let (least, most) = ends.fold((f64::MAX, f64::MIN), |(a, b), d| (a.min(d), b.max(d)));
+        most - least
+    };
+    let cells = stairs(&|x, y| coarse[(x / 4, y / 4)][1] > middle);
+    let pixels = stairs(&|x, y| fine[(x, y)][1] > middle);
+    assert!(cells > 0.7 && pixels < 0.3, "{cells} {pixels}");
 }

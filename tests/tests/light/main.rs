@@ -1,11 +1,6 @@
 //! Light on paint: colour from eight wavelengths, shading of relief and gloss, and grounds.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
-
-mod adaptation;
 mod color;
-mod fine;
-mod gamut;
-mod grounds;
 mod made_up;
 mod surface;

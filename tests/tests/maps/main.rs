@@ -2,9 +2,5 @@
 //! simulated scans with their truth.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
-
-mod scan;
-mod painted;
 mod program;
-mod residuals;
 mod simulated;

@@ -1,15 +1,29 @@
 //! Simulated scans: their truth, their bytes, and how near the maps of one come to it.
+//!
+//! Scans of known mixtures.
+//!
+//! Small paintings whose paint is laid by hand.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
+use calibrate::PigmentLibrary;
+use graphics::field::Field;
 use maps::cube::envi::WRITTEN_SCALE;
 use maps::truth::{PaintClass, Truth};
+use paint::amount::quanta_from_mm;
+use paint::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
+use paint::file;
+use paint::ground::Ground;
+use paint::layer::Layer;
+use paint::optics::Gloss;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal};
 use serde_json::Value;
 use suite::oils::library;
 use suite::program::{Run, impasto, repository};
-
-use crate::painted::{bare, dried, lay, patches, with_clear_viridian, written};
 
 fn simulate(painting: &Path, scan: &Path, more: &[&str]) -> Run {
     let [painting, scan] = [painting, scan].map(|path| path.display().to_string());
@@ -30,7 +44,7 @@ fn truth_is_what_is_known_by_hand() {
     // K d = 0.01 mm x 50 x 1, so that exp(-2 K d) of the contrast below remains.
     let hidden = 1.0 - (-1.0f64).exp();
     lay(&mut document.wet, (8..16, 0..6), &[("Viridian", 0.01)]);
-    let painting = written(&document, folder.path());
+    let painting = written_painting(&document, folder.path());
     let scan = folder.path().join("scan.hdr");
     let run = simulate(&painting, &scan, &CLEAR);
     assert_eq!(run.status, 0, "{}", run.err);
@@ -69,7 +83,7 @@ fn truth_is_what_is_known_by_hand() {
 #[test]
 fn blur_makes_edges_and_joins_the_truth_as_it_joins_light() {
     let folder = tempfile::tempdir().unwrap();
-    let painting = written(&patches(), folder.path());
+    let painting = written_painting(&patches(), folder.path());
     let scan = folder.path().join("scan.hdr");
     let run = simulate(&painting, &scan, &["--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
@@ -89,7 +103,7 @@ fn blur_makes_edges_and_joins_the_truth_as_it_joins_light() {
 #[test]
 fn the_same_seed_gives_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
-    let painting = written(&patches(), folder.path());
+    let painting = written_painting(&patches(), folder.path());
     let bytes = |name: &str, more: &[&str]| {
         let run = simulate(&painting, &folder.path().join(format!("{name}.hdr")), more);
         assert_eq!(run.status, 0, "{}", run.err);
@@ -118,7 +132,7 @@ fn figure(json: &Value, kind: &str, figure: &str) -> f64 {
 #[test]
 fn maps_of_a_simulated_scan_are_near_its_truth() {
     let folder = tempfile::tempdir().unwrap();
-    let painting = written(&patches(), folder.path());
+    let painting = written_painting(&patches(), folder.path());
     let path = |name: &str| folder.path().join(name).display().to_string();
     for bands in ["31", "204"] {
         let scan = folder.path().join("scan.hdr");
@@ -147,7 +161,7 @@ fn bare_ground_is_told_by_a_region_or_a_file_and_no_paint_is() {
     let mut document = bare(64, 48, library());
     lay(&mut document.wet, (24..64, 0..24), &[("Lead White", 2.0), ("Viridian", 1.0)]);
     lay(&mut document.wet, (24..64, 24..48), &[("Lead White", 3.0), ("Bone Black", 0.1)]);
-    let painting = written(&document, folder.path());
+    let painting = written_painting(&document, folder.path());
     let path = |name: &str| folder.path().join(name).display().to_string();
     assert_eq!(simulate(&painting, &folder.path().join("scan.hdr"), &[]).status, 0);
     let rows: Vec<String> = (0..31).map(|i| format!("{},0.6", 400 + 10 * i)).collect();
@@ -209,7 +223,7 @@ fn halves_of_the_mixtures_have_none_in_common() {
 #[test]
 fn what_cannot_be_simulated_or_compared_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let painting = written(&patches(), folder.path());
+    let painting = written_painting(&patches(), folder.path());
     let scan = folder.path().join("scan.hdr");
     for (more, word) in [
         (&["--bands", "1"][..], "2 to 2000"),
@@ -230,7 +244,7 @@ fn what_cannot_be_simulated_or_compared_is_told() {
     assert!(run.status == 2 && run.err.contains(".hdr"), "{}", run.err);
     let empty = folder.path().join("empty");
     std::fs::create_dir(&empty).unwrap();
-    let unpainted = written(&bare(4, 4, library()), &empty);
+    let unpainted = written_painting(&bare(4, 4, library()), &empty);
     let run = simulate(&unpainted, &scan, &[]);
     assert!(run.status == 1 && run.err.contains("no paint"), "{}", run.err);
     // Truth of a smaller scan.
@@ -238,7 +252,10 @@ fn what_cannot_be_simulated_or_compared_is_told() {
     std::fs::create_dir(&small).unwrap();
     let mut document = bare(4, 4, library());
     lay(&mut document.wet, (0..4, 0..4), &[("Lead White", 1.0)]);
-    assert_eq!(simulate(&written(&document, &small), &small.join("scan.hdr"), &[]).status, 0);
+    assert_eq!(
+        simulate(&written_painting(&document, &small), &small.join("scan.hdr"), &[]).status,
+        0
+    );
     assert_eq!(simulate(&painting, &scan, &[]).status, 0);
     let path = |name: &str| folder.path().join(name).display().to_string();
     let maps = |truth: &str, out: &str| {
@@ -251,4 +268,160 @@ fn what_cannot_be_simulated_or_compared_is_told() {
     std::fs::remove_file(folder.path().join("scan-truth.zarr/class/c/0/0")).unwrap();
     let run = maps("scan-truth.zarr", "maps-3");
     assert!(run.status == 1 && run.err.contains("is missing"), "{}", run.err);
+}
+
+/// Recipes of the patches, each four columns wide.
+pub(crate) const RECIPES: [&[(&str, f64)]; 6] = [
+    &[("Lead White", 0.9), ("Ultramarine", 0.1)],
+    &[("Lead White", 0.5), ("Viridian", 0.5)],
+    &[("Chrome Yellow", 1.0)],
+    &[("Chrome Yellow", 0.7), ("Vermilion", 0.3)],
+    &[("Vermilion", 1.0)],
+    &[("Lead White", 1.0)],
+];
+
+/// Writes an ENVI scan of `rows` x 24 pixels of patches with noise, of each pixel's value times `scale`.
+pub(crate) fn written_scan(folder: &Path, rows: usize, scale: f64) -> PathBuf {
+    let oils = PigmentLibrary::van_gogh_oils();
+    let noise = Normal::new(0.0, 0.002).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let mut data = Vec::new();
+    for _ in 0..rows {
+        for column in 0..24 {
+            let mixture =
+                oils.mix(oils.recipe(RECIPES[column / 4].iter().copied()).unwrap()).unwrap();
+            for value in mixture.hiding(oils.saunderson) {
+                let value = (scale * (value + noise.sample(&mut random))) as f32;
+                data.extend_from_slice(&value.to_le_bytes());
+            }
+        }
+    }
+    let mut nm = String::new();
+    for (index, wavelength) in oils.grid.wavelengths_nm().enumerate() {
+        write!(nm, "{}{wavelength}", if index == 0 { "" } else { ", " }).unwrap();
+    }
+    let header = format!(
+        "ENVI\nsamples = 24\nlines = {rows}\nbands = {}\nheader offset = 0\ndata type = 4\n\
+         interleave = bip\nbyte order = 0\nwavelength units = Nanometers\nwavelength = {{{nm}}}\n",
+        oils.grid.count()
+    );
+    std::fs::write(folder.join("scan.bip"), data).unwrap();
+    let path = folder.join("scan.hdr");
+    std::fs::write(&path, header).unwrap();
+    path
+}
+
+const CELL_MM: f64 = 0.1;
+
+/// Pigments of all paintings here, by slot.
+pub(crate) const NAMES: [&str; 8] = [
+    "Lead White",
+    "Vermilion",
+    "Viridian",
+    "Chrome Yellow",
+    "Ultramarine",
+    "Prussian Blue",
+    "Bone Black",
+    "Emerald Green",
+];
+
+/// A painting without paint on a grey ground.
+pub(crate) fn bare(width: usize, height: usize, library: PigmentLibrary) -> Document {
+    let slots: Slots = NAMES.map(|name| Some(library.find(name).unwrap()));
+    Document {
+        title: "laid by hand".to_owned(),
+        cell_mm: CELL_MM,
+        ground: Ground {
+            name: "even".to_owned(),
+            height: Field::filled(width, height, 0),
+            reflectance: vec![0.6; library.grid.count()],
+            gloss: Gloss { strength: 0.0, exponent: 1.0 },
+        },
+        library,
+        // One mm of white has S d = 50.
+        medium: Medium { scattering_per_mm: 50.0, ..Medium::default() },
+        dry: Vec::new(),
+        next_layer: LayerId::FIRST,
+        slots,
+        wet: Layer::empty(width, height),
+        lighting: Lighting { relief: 0.0, ..Lighting::default() },
+    }
+}
+
+/// Lays paint on all cells of `columns` and `rows`: heights of pigments in mm.
+pub(crate) fn lay(
+    layer: &mut Layer,
+    (columns, rows): (std::ops::Range<usize>, std::ops::Range<usize>),
+    recipe: &[(&str, f64)],
+) {
+    for y in rows {
+        for x in columns.clone() {
+            for (name, mm) in recipe {
+                let slot = NAMES.iter().position(|known| known == name).unwrap();
+                layer.pigments[(x, y)][slot] = quanta_from_mm(*mm, CELL_MM);
+            }
+        }
+    }
+}
+
+/// The wet paint as a dry layer below an empty wet one.
+pub(crate) fn dried(mut document: Document) -> Document {
+    let width = document.wet.width();
+    let height = document.wet.height();
+    let paint = std::mem::replace(&mut document.wet, Layer::empty(width, height));
+    document.dry.push(DryLayer {
+        id: LayerId::FIRST,
+        name: String::new(),
+        visible: true,
+        slots: document.slots,
+        opacity: 1.0,
+        paint,
+    });
+    document.next_layer = LayerId(2);
+    document
+}
+
+pub(crate) fn written_painting(document: &Document, folder: &Path) -> PathBuf {
+    let path = folder.join("painting.exr");
+    std::fs::write(&path, file::write(document).unwrap()).unwrap();
+    path
+}
+
+/// The oils with a viridian that only absorbs: K = 1 and hardly any S at all wavelengths.
+pub(crate) fn with_clear_viridian() -> PigmentLibrary {
+    let mut library = library();
+    let viridian = library.find("Viridian").unwrap().index();
+    let pigment = &mut library.pigments[viridian];
+    pigment.absorption.fill(1.0);
+    pigment.scattering.fill(1e-6);
+    library
+}
+
+/// Recipes of the patches of [`patches`]: pigments and shares, of all tones.
+pub(crate) const PATCHES: [&[(&str, f64)]; 12] = [
+    &[("Lead White", 1.0)],
+    &[("Lead White", 0.8), ("Ultramarine", 0.2)],
+    &[("Lead White", 0.7), ("Viridian", 0.3)],
+    &[("Lead White", 0.5), ("Vermilion", 0.5)],
+    &[("Chrome Yellow", 1.0)],
+    &[("Chrome Yellow", 0.6), ("Vermilion", 0.4)],
+    &[("Chrome Yellow", 0.8), ("Prussian Blue", 0.2)],
+    &[("Lead White", 0.5), ("Prussian Blue", 0.5)],
+    &[("Vermilion", 1.0)],
+    &[("Viridian", 1.0)],
+    &[("Ultramarine", 0.7), ("Vermilion", 0.3)],
+    &[("Ultramarine", 1.0)],
+];
+
+/// A painting of thick patches of 16 x 16 cells, one a recipe, in three rows of four.
+pub(crate) fn patches() -> Document {
+    let mut document = bare(64, 48, library());
+    for (index, recipe) in PATCHES.iter().enumerate() {
+        let column = 16 * (index % 4);
+        let row = 16 * (index / 4);
+        let mm: Vec<(&str, f64)> =
+            recipe.iter().map(|(name, share)| (*name, 4.0 * share)).collect();
+        lay(&mut document.wet, (column..column + 16, row..row + 16), &mm);
+    }
+    document
 }

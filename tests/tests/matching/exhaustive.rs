@@ -1,14 +1,20 @@
 //! Recipe search compared with an exhaustive search over a grid of shares.
+//!
+//! Which recipes are shown, and in which order.
+//!
+//! Limits of a recipe search: allowed and required pigments, their number, shares, whole parts.
 
 use calibrate::evaluate::lab;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{FilmKind, MatchRequest, Target, recipes};
+use calibrate::matching::{
+    FilmKind, MatchError, MatchRequest, RecipeMatch, RequiredPigment, Target, recipes,
+};
 use calibrate::{PigmentId, Recipe};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::color::{Lab, delta_e_cie76, delta_e_ciede2000};
 
-use super::{conditions, oils};
+use super::{conditions, oils, target_of};
 
 const PIGMENTS: usize = 12;
 const STEPS: usize = 20;
@@ -136,5 +142,268 @@ fn whole_parts_are_as_near_as_every_whole_recipe() {
             "{wanted:?}: {} for {nearest}",
             found[0].distance
         );
+    }
+}
+
+fn sorted(recipe: &RecipeMatch) -> Vec<PigmentId> {
+    let mut pigments: Vec<PigmentId> = recipe.shares.iter().map(|(pigment, _)| *pigment).collect();
+    pigments.sort_unstable();
+    pigments
+}
+
+#[test]
+fn a_mixture_is_found_again_from_its_color_under_three_lights() {
+    let library = oils();
+    let conditions = conditions(&["D65", "A", "FL11"]);
+    for names in [
+        ["Zinc White", "Cobalt Blue", "Vermilion"],
+        ["Lead White", "Viridian", "Bone Black"],
+        ["Zinc White", "Chrome Yellow", "Prussian Blue"],
+    ] {
+        let pigments = names.map(|name| library.find(name).unwrap());
+        let recipe: Recipe = pigments.into_iter().zip([0.6, 0.3, 0.1]).collect();
+        let mixed = library.mix(&recipe).unwrap().hiding(library.saunderson);
+        let target = target_of(&library, &mixed, &conditions);
+        let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+        request.tolerance = 1e-3;
+        let found = &recipes(&library, &target, &request).unwrap()[0];
+        let mut wanted = pigments.to_vec();
+        wanted.sort_unstable();
+        assert_eq!(sorted(found), wanted, "{names:?}");
+        for &(pigment, share) in &recipe {
+            let told = found.shares.iter().find(|(p, _)| *p == pigment).unwrap().1;
+            assert!((told - share).abs() < 1e-3, "{names:?}: {told} for {share}");
+        }
+    }
+}
+
+#[test]
+fn lights_that_count_rank_metameric_recipes_lower() {
+    let library = oils();
+    let three = conditions(&["D65", "A", "FL11"]);
+    let blue = library.find("Ultramarine").unwrap();
+    let white = library.find("Zinc White").unwrap();
+    let tint = library.mix([(blue, 1.0), (white, 4.0)]).unwrap().hiding(library.saunderson);
+    let target = target_of(&library, &tint, &three);
+    // Errors of the best recipe without ultramarine: under D65, and root mean square of the three
+    // lights.
+    let apart = |weights: [f64; 3]| {
+        let mut conditions = three.clone();
+        conditions
+            .iter_mut()
+            .zip(weights)
+            .for_each(|(condition, weight)| condition.weight = weight);
+        let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
+        request.allowed.retain(|&pigment| pigment != blue);
+        let best = recipes(&library, &target, &request).unwrap().remove(0);
+        let squares: f64 = best.delta_e.iter().map(|difference| difference * difference).sum();
+        (best.delta_e[0], (squares / 3.0).sqrt())
+    };
+    let daylight = apart([1.0, 1e-9, 1e-9]);
+    let all = apart([1.0, 1.0, 1.0]);
+    assert!(daylight.0 < all.0, "under daylight: {daylight:?} {all:?}");
+    assert!(all.1 < 0.9 * daylight.1, "over three lights: {all:?} for {daylight:?}");
+}
+
+#[test]
+fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_priced() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    let target = Target::from_lab("", Lab { lightness: 60.0, a: 5.0, b: 20.0 }, &conditions);
+    let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
+    (request.tolerance, request.count) = (0.5, 10);
+    let nearest =
+        |found: &[RecipeMatch]| found.iter().map(|r| r.distance).fold(f64::INFINITY, f64::min);
+    let found = recipes(&library, &target, &request).unwrap();
+    let equal = |found: &[RecipeMatch]| -> Vec<RecipeMatch> {
+        let most = nearest(found) + 0.5;
+        found.iter().filter(|recipe| recipe.distance <= most).cloned().collect()
+    };
+    let equals = equal(&found);
+    let smallest = |recipe: &RecipeMatch| recipe.shares.iter().map(|s| s.1).fold(1.0, f64::min);
+    let steps = |recipe: &RecipeMatch| ((recipe.distance - nearest(&found)) / 0.05).floor();
+    assert!(
+        equals.len() > 1
+            && equals.is_sorted_by(|a: &RecipeMatch, b: &RecipeMatch| {
+                let key = |r: &RecipeMatch| (r.shares.len() as f64, steps(r), -smallest(r));
+                key(a) <= key(b)
+            }),
+        "{equals:?}"
+    );
+
+    request.costs = (0..library.pigments.len()).map(|index| (index * 7 % 11) as f64).collect();
+    let priced = recipes(&library, &target, &request).unwrap();
+    let costs: Vec<f64> = equal(&priced).iter().map(|recipe| recipe.cost.unwrap()).collect();
+    assert!(costs.len() > 1 && costs.is_sorted(), "{costs:?}");
+    assert!(found.iter().all(|recipe| recipe.cost.is_none()));
+}
+
+#[test]
+fn a_pigment_that_brings_nothing_is_not_shown() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    let target = Target::from_lab("", Lab { lightness: 60.0, a: 5.0, b: 20.0 }, &conditions);
+    let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
+    let names = ["Zinc White", "Minium", "Chrome Yellow", "Cobalt Blue", "Viridian", "Bone Black"];
+    request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
+    // More than the 56 sets of one to four of six pigments.
+    request.count = 100;
+    let found = recipes(&library, &target, &request).unwrap();
+    assert!((2..56).contains(&found.len()), "{} recipes", found.len());
+    for (place, recipe) in found.iter().enumerate() {
+        assert!(recipe.shares.parts().is_sorted_by(|a, b| a.1 >= b.1), "{recipe:?}");
+        for before in &found[..place] {
+            let larger = sorted(before).iter().all(|p| sorted(recipe).contains(p));
+            assert!(!larger || recipe.distance < before.distance - 0.05, "{before:?}\n{recipe:?}");
+        }
+    }
+}
+
+#[test]
+fn the_same_request_gives_the_same_recipes() {
+    let library = oils();
+    let conditions = conditions(&["D65", "FL11"]);
+    let target = Target::from_lab("", Lab { lightness: 35.0, a: -20.0, b: -5.0 }, &conditions);
+    let request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
+    let first = recipes(&library, &target, &request).unwrap();
+    assert_eq!(first, recipes(&library, &target, &request).unwrap());
+}
+
+fn required_pigment(&(pigment, share): &(PigmentId, Option<f64>)) -> RequiredPigment {
+    RequiredPigment { pigment, share }
+}
+
+fn two(first: Option<f64>, second: Option<f64>) -> Vec<RequiredPigment> {
+    [(PigmentId(0), first), (PigmentId(1), second)].iter().map(required_pigment).collect()
+}
+
+fn colors_within_limits() -> Vec<Lab> {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut within = |least: f64, most: f64| least + (most - least) * random.random::<f64>();
+    (0..12)
+        .map(|_| Lab {
+            lightness: within(20.0, 90.0),
+            a: within(-40.0, 50.0),
+            b: within(-50.0, 60.0),
+        })
+        .collect()
+}
+
+#[test]
+fn every_recipe_keeps_every_limit() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    let white = library.find("Lead White").unwrap();
+    let black = library.find("Bone Black").unwrap();
+    let viridian = library.find("Viridian").unwrap();
+    for required in [vec![], vec![(white, None)], vec![(white, Some(0.4)), (black, None)]] {
+        for (at_most, least) in [(2, 0.02), (3, 0.1), (4, 0.2)] {
+            let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+            request.allowed.retain(|&pigment| pigment != viridian && pigment.index() < 16);
+            request.required = required.iter().map(required_pigment).collect();
+            (request.at_most, request.least_share, request.count) = (at_most, least, 20);
+            for wanted in colors_within_limits() {
+                let target = Target::from_lab("", wanted, &conditions);
+                let found = recipes(&library, &target, &request).unwrap();
+                assert!(!found.is_empty(), "no recipe for {wanted:?}");
+                for recipe in found {
+                    let sum: f64 = recipe.shares.iter().map(|(_, share)| share).sum();
+                    assert!((sum - 1.0).abs() < 1e-9, "{sum}");
+                    assert!(recipe.shares.len() <= at_most, "{recipe:?}");
+                    for &(pigment, share) in &recipe.shares {
+                        assert!(request.allowed.contains(&pigment), "{pigment:?} was not allowed");
+                        assert!(share >= least - 1e-9, "{share} of {pigment:?}");
+                    }
+                    for (pigment, told) in &required {
+                        let share = recipe.shares.iter().find(|(p, _)| p == pigment).unwrap().1;
+                        assert!(told.is_none_or(|told| (told - share).abs() < 1e-9), "{share}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wider_choice_is_never_farther() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    for wanted in colors_within_limits() {
+        let target = Target::from_lab("", wanted, &conditions);
+        let mut before = f64::INFINITY;
+        for at_most in 1..=4 {
+            let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+            (request.at_most, request.tolerance) = (at_most, 0.0);
+            let nearest = recipes(&library, &target, &request).unwrap()[0].distance;
+            assert!(nearest <= before + 1e-9, "{at_most} pigments: {nearest} after {before}");
+            before = nearest;
+        }
+    }
+}
+
+#[test]
+fn an_unidentified_pigment_takes_no_part_unless_it_is_asked_for() {
+    let library = oils();
+    let request = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
+    let unknown: Vec<PigmentId> = library.ids().filter(|&id| !library[id].identified).collect();
+    assert_eq!(unknown.len(), 2);
+    assert!(unknown.iter().all(|index| !request.allowed.contains(index)));
+}
+
+#[test]
+fn what_no_recipe_can_meet_is_refused() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    let wanted = Target::from_lab("", Lab { lightness: 50.0, a: 0.0, b: 0.0 }, &conditions);
+    let good = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+    let refusal = |change: &dyn Fn(&mut MatchRequest)| {
+        let mut request = good.clone();
+        change(&mut request);
+        recipes(&library, &wanted, &request).unwrap_err()
+    };
+    assert_eq!(refusal(&|r| r.allowed.clear()), MatchError::NoPigments);
+    assert_eq!(refusal(&|r| r.conditions.clear()), MatchError::NoLight);
+    let number = |error: MatchError| matches!(error, MatchError::Number { .. });
+    assert!(number(refusal(&|r| r.at_most = 0)));
+    assert!(number(refusal(&|r| r.at_most = 9)));
+    assert!(number(refusal(&|r| r.least_share = f64::NAN)));
+    assert!(number(refusal(&|r| r.tolerance = -1.0)));
+    assert!(number(refusal(&|r| r.conditions[0].weight = 0.0)));
+    assert!(number(refusal(&|r| r.costs = vec![-1.0; 20])));
+    assert!(number(refusal(&|r| r.whole_parts = Some(0))));
+    let too_many = MatchError::TooManyRequired { required: 2, at_most: 1 };
+    assert_eq!(refusal(&|r| (r.required, r.at_most) = (two(None, None), 1)), too_many);
+    let shares = |error: MatchError| matches!(error, MatchError::Shares { .. });
+    assert!(shares(refusal(&|r| r.required = two(Some(0.7), Some(0.7)))));
+    assert!(shares(refusal(&|r| r.required = two(Some(1.0), None))));
+    assert_eq!(
+        refusal(&|r| (r.required, r.whole_parts) =
+            (vec![required_pigment(&(PigmentId(0), Some(0.5)))], Some(9))),
+        MatchError::SharesInParts
+    );
+}
+
+#[test]
+fn a_least_share_that_leaves_no_room_gives_no_recipe_of_that_size() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    let wanted = Target::from_lab("", Lab { lightness: 50.0, a: 0.0, b: 0.0 }, &conditions);
+    let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
+    request.least_share = 0.4;
+    let found = recipes(&library, &wanted, &request).unwrap();
+    assert!(found.iter().all(|recipe| recipe.shares.len() <= 2), "{found:?}");
+}
+
+#[test]
+fn whole_parts_keep_the_least_share() {
+    let library = oils();
+    let conditions = conditions(&["D65"]);
+    let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+    (request.least_share, request.whole_parts) = (0.2, Some(12));
+    for wanted in colors_within_limits() {
+        let target = Target::from_lab("", wanted, &conditions);
+        for recipe in recipes(&library, &target, &request).unwrap() {
+            assert!(recipe.shares.iter().all(|(_, share)| *share >= 0.2 - 1e-9), "{recipe:?}");
+        }
     }
 }

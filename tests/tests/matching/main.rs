@@ -1,14 +1,9 @@
 //! Search of recipes for a colour: distance, films, limits, order, progress and cancelling.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
-
-mod corrections;
 mod exhaustive;
 mod films;
-mod limits;
-mod order;
 mod spectrum;
-mod watched;
 
 use calibrate::evaluate::{Viewing, lab};
 use calibrate::library::PigmentLibrary;

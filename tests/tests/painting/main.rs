@@ -7,22 +7,9 @@
 
 mod studio;
 mod conservation;
-mod backends;
 mod undo;
-mod pieces;
 mod views;
-mod places;
-mod tubes;
-mod adjusting;
-mod keeping;
-mod changes;
 mod expected_behavior;
-mod stiffness;
 mod program;
-mod timelapse;
-mod hostile;
-mod killed;
-mod painted_sessions;
 mod surfaces;
 mod recording;
-mod script_surfaces;

@@ -1,11 +1,30 @@
 //! `impasto paint`, `relight` and `gpu` from end to end.
+//!
+//! Timelapses, layers and TIFF of `impasto paint`.
+//!
+//! `impasto paint` of scripts that mix on a palette or continue a painting.
+//!
+//! `impasto paint` with invalid or extreme scripts: exit status, the location of the fault in
+//! the error message, and no files left behind.
+//!
+//! The program in a child process: killed while it saves, and without a graphics driver.
+//!
+//! A test cannot locate the program of another package, so the child is this test binary, which
+//! runs one ignored test that calls the program.
 
 use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use calibrate::PigmentId;
-use paint::amount::mm_from_quanta;
-use paint::layer::SLOTS;
+use image::AnimationDecoder;
+use image::codecs::gif::GifDecoder;
 use suite::program::{Run, impasto};
+
+use paint::amount::mm_from_quanta;
+use paint::document::Document;
+use paint::file;
+use paint::layer::SLOTS;
 
 /// A script with most actions, on a canvas of 120 x 80 cells.
 pub(crate) const SCRIPT: &str = r##"{
@@ -179,7 +198,7 @@ fn pigment_maps_sum_all_layers() {
     assert!(names.iter().any(|name| name.ends_with(".csv")), "{names:?}");
     assert!(names.iter().all(|name| !name.starts_with('.')), "{names:?}");
 
-    let document = paint::file::read("a.exr", &std::fs::read(&painting).unwrap()).unwrap();
+    let document = file::read("a.exr", &std::fs::read(&painting).unwrap()).unwrap();
     let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
     let layers: Vec<_> = dry.chain([(&document.slots, &document.wet)]).collect();
     assert!(layers.len() > 1, "no dry layer to sum");
@@ -210,4 +229,476 @@ fn pigment_maps_sum_all_layers() {
 fn what_the_adapter_is_can_be_read_by_programs() {
     let told = impasto(&["gpu", "--json"]).json();
     assert!(told["adapters"].is_array() && told["why"].is_string(), "{told}");
+}
+
+fn refused(arguments: &[&str], wanted: &str) {
+    let run = impasto(arguments);
+    assert_eq!(run.status, 2, "{arguments:?}: {}", run.err);
+    assert!(run.err.contains(wanted), "{arguments:?}: {}", run.err);
+}
+
+#[test]
+fn a_timelapse_ends_with_the_picture_and_is_continued() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let script = script(folder, "", "");
+    let [gif, png, frames] = ["film.gif", "picture.png", "film.frames"].map(|n| place(folder, n));
+    let every = ["--timelapse", &gif, "--timelapse-every", "1", "--timelapse-hold", "1"];
+    let base = ["paint", &script, "--backend", "cpu"];
+    let run = impasto(&[&base[..], &every, &["--picture", &png, "--json"]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    let told = run.json();
+    assert_eq!((told["frames"].as_u64(), told["frames_found"].as_u64()), (Some(6), Some(0)));
+    assert_eq!(told["size"], serde_json::json!([120, 80]));
+    assert_eq!(told["actions"].as_u64(), Some(9), "the picture is painted too");
+    let whole = std::fs::read(&gif).unwrap();
+    let decoder = GifDecoder::new(std::io::Cursor::new(&whole)).unwrap();
+    let decoded = decoder.into_frames().collect_frames().unwrap();
+    assert_eq!(decoded.len(), 6, "start, two strokes, drying, a stroke done again, the light");
+    assert_eq!(decoded[5].delay().numer_denom_ms(), (1000, 1));
+    let last = image::open(Path::new(&frames).join("frame-0006.png")).unwrap().into_rgb8();
+    assert!(last == image::open(&png).unwrap().into_rgb8(), "the end is the picture");
+
+    std::fs::remove_file(&gif).unwrap();
+    std::fs::remove_file(Path::new(&frames).join("frame-0003.png")).unwrap();
+    let run = impasto(&[&base[..], &every].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.out.contains("6 frames of 120 x 80 pixels, 5 found"), "{}", run.out);
+    assert!(std::fs::read(&gif).unwrap() == whole, "the same bytes");
+}
+
+#[test]
+fn timelapses_are_checked_before_anything_is_painted() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let script = script(folder, "", "");
+    let png = place(folder, "a.png");
+    let base = ["paint", &script, "--backend", "cpu", "--timelapse"];
+    for (more, wanted) in [
+        (&["a.mp4"][..], "ends in .gif, .png or .apng"),
+        (&[&png, "--picture", &png], "two outputs have this file name"),
+        (&[&png, "--timelapse-every", "0"], "every takes 1 action and up"),
+        (&[&png, "--timelapse-seconds", "-1"], "seconds takes 0.01 to 86400 s"),
+        (&[&png, "--timelapse-size", "3"], "size takes 16 to 16384 px"),
+        (&[&png, "--timelapse-hold", "1000"], "hold takes 0 to 60 s"),
+        (&[&png, "--timelapse-rate", "0"], "--timelapse-rate"),
+        (&[&png, "--timelapse-every", "2", "--timelapse-count", "9"], "cannot be used with"),
+        (&["/no/such/folder/a.gif"], "cannot be written"),
+    ] {
+        refused(&[&base[..], more].concat(), wanted);
+        assert!(!Path::new(&png).exists(), "{more:?} left a file");
+    }
+}
+
+#[test]
+fn layers_and_tiff_agree_with_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let script = script(folder, "", "");
+    let [ora, png, tif, painting] = ["a.ora", "a.png", "a.tif", "a.exr"].map(|n| place(folder, n));
+    let base = ["paint", &script, "--backend", "cpu", "--layers", &ora];
+    let run = impasto(&[&base[..], &["--picture", &png, "--bits", "16"]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    let run =
+        impasto(&["paint", &script, "--backend", "cpu", "--picture", &tif, "--output", &painting]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let [ora, png, tif] = [&ora, &png, &tif].map(|path| std::fs::read(path).unwrap());
+    assert_eq!(&ora[30..54], b"mimetypeimage/openraster");
+    assert!(ora.windows(png.len()).any(|part| part == png), "the merged picture");
+    assert_eq!(&tif[..4], b"II*\0");
+    let again = place(folder, "b.ora");
+    let run = impasto(&["relight", &painting, "--backend", "cpu", "--layers", &again]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(std::fs::read(&again).unwrap() == ora, "relight writes the same layers");
+    refused(&["paint", &script, "--layers", "a.png"], "that ends in .ora");
+}
+
+const HEADER: &str = r#""format": "strokes", "version": 1, "title": "A session",
+  "canvas": {"width_mm": 24, "height_mm": 16, "cell_mm": 0.2},
+  "palette": {"W": "Lead White", "Y": "Chrome Yellow", "B": "Prussian Blue"},
+  "brushes": {"flat": {"shape": "flat", "size_mm": 5}, "knife": {"shape": "knife", "size_mm": 6}},"#;
+
+/// Yellow and blue are squeezed onto the palette, mixed, and painted on the canvas.
+const MIXED: &str = r#"
+  "mixing": {"width_mm": 20, "height_mm": 16, "cell_mm": 0.2, "ground": {"kind": "panel"}},
+  "actions": [
+    {"squeeze": {"on": "palette", "recipe": {"Y": 1}, "x_mm": 7, "y_mm": 8, "volume_mm3": 30}},
+    {"squeeze": {"on": "palette", "recipe": {"B": 1}, "x_mm": 12, "y_mm": 8, "volume_mm3": 8}},
+    {"stroke": {"brush": "knife", "on": "palette",
+      "samples": [[0, 4, 8, 0.6, 0, 0, 90], [1, 16, 8, 0.6, 0, 0, 90], [2, 4, 8, 0.6, 0, 0, 90]]}},
+    {"stroke": {"brush": "flat", "on": "palette",
+      "samples": [[0, 5, 8, 0.7, 0, 0, 90], [1, 17, 8, 0.7, 0, 0, 90], [2, 5, 8, 0.7, 0, 0, 90],
+        [3, 17, 8, 0.7, 0, 0, 90], [4, 5, 8, 0.7, 0, 0, 90]]}},
+    {"stroke": {"brush": "flat", "samples": [[0, 4, 8, 0.5, 0, 0, 90], [1, 20, 9, 0.5, 0, 0, 90]]}}"#;
+
+const DRY: &str = r#"{"dry": {"fraction": 0.7}}"#;
+
+const OVER: &str = r#"{"load": {"brush": "flat", "recipe": {"W": 1}, "amount_mm": 0.3}},
+    {"stroke": {"brush": "flat", "samples": [[0, 12, 2, 0.5], [1, 12, 14, 0.5]]}}"#;
+
+fn written(folder: &Path, name: &str, text: &str) -> String {
+    let path = place(folder, name);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+fn paint(script: &str, more: &[&str]) -> Run {
+    let start = ["paint", script, "--backend", "cpu", "--json"];
+    impasto(&[start.as_slice(), more].concat())
+}
+
+fn painted(script: &str, output: &str) -> Document {
+    let run = paint(script, &["--output", output]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.lines().all(|line| line.starts_with("Wrote ")), "{}", run.err);
+    file::read(output, &std::fs::read(output).unwrap()).unwrap()
+}
+
+#[test]
+fn paint_that_was_mixed_on_the_palette_comes_to_the_canvas() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let script = written(folder, "mixed.json", &format!("{{{HEADER}{MIXED}]}}"));
+    let document = painted(&script, &place(folder, "mixed.exr"));
+    assert_eq!((document.wet.width(), document.wet.height()), (120, 80), "the canvas alone");
+    let mm3 = document.wet.totals().map(|quanta| quanta as f64 * mm_from_quanta(1, 0.2) * 0.04);
+    assert!(mm3[1] > 0.01 && mm3[2] > 0.001, "yellow and blue of the heaps: {mm3:?} mm3");
+    assert_eq!(document.wet.totals()[0], 0, "white was never loaded");
+}
+
+#[test]
+fn a_script_goes_on_with_what_another_one_painted() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let first = written(folder, "first.json", &format!("{{{HEADER}\"actions\": [{OVER}, {DRY}]}}"));
+    // The second script starts with clean brushes, so the whole script washes its brush.
+    let wash = r#"{"wash": {"brush": "flat"}}"#;
+    let whole = format!("{{{HEADER}\"actions\": [{OVER}, {DRY}, {wash},\n{OVER}]}}");
+    let whole = written(folder, "whole.json", &whole);
+    std::fs::create_dir(folder.join("before")).unwrap();
+    let _ = painted(&first, &place(folder, "before/first.exr"));
+    let second = format!("{{{HEADER}\"start\": \"before/first.exr\", \"actions\": [{OVER}]}}");
+    let second = written(folder, "second.json", &second);
+    let wanted = painted(&whole, &place(folder, "whole.exr"));
+    let found = painted(&second, &place(folder, "second.exr"));
+    assert!(wanted.dry.len() == 1 && wanted == found, "differs from painting at once");
+
+    let run = paint(&second, &["--output", &place(folder, "no.exr"), "--library", &second]);
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(
+        run.err.contains("has its own library") && run.err.contains("leave LIBRARY out"),
+        "{}",
+        run.err
+    );
+    let run = paint(&second, &["--output", &place(folder, "before/first.exr")]);
+    assert_eq!(run.status, 2, "the painting is not written over: {}", run.err);
+    for (from, to, wanted) in [
+        ("before/first.exr", "before/none.exr", "none.exr"),
+        (
+            "\"width_mm\": 24",
+            "\"width_mm\": 20",
+            "canvas: as many cells as the painting has, 120 x 80, found `100 x 80`",
+        ),
+        (
+            "\"Chrome Yellow\"",
+            "\"Viridian\"",
+            "palette: that of the painting, Lead White, Chrome Yellow",
+        ),
+    ] {
+        let text = std::fs::read_to_string(&second).unwrap();
+        assert_eq!(text.matches(from).count(), 1, "`{from}` stands once");
+        let other = written(folder, "other.json", &text.replace(from, to));
+        let run = paint(&other, &["--output", &place(folder, "no.exr")]);
+        assert!(run.status != 0 && run.err.contains(wanted), "{}", run.err);
+        assert!(!folder.join("no.exr").exists(), "nothing is written");
+    }
+}
+
+/// Runs `impasto paint` on the script with `from` replaced by `to`.
+fn paint_script(folder: &Path, from: &str, to: &str) -> Run {
+    let script = script(folder, from, to);
+    impasto(&["paint", &script, "--backend", "cpu", "--picture", &place(folder, "out.png")])
+}
+
+const STROKE: &str = "[0, 9, 9, 1]";
+const UNDO: &str = r#"{"undo": {}}"#;
+const CANVAS: &str = r#""width_mm": 24, "height_mm": 16, "cell_mm": 0.2"#;
+const YELLOW: &str = r#""recipe": {"Y": 1}"#;
+
+#[test]
+fn what_is_wrong_is_told_with_its_place_and_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let outside = r#"{"save": {"path": "../x.exr"}}"#;
+    for (from, to, wanted) in [
+        (STROKE, "[0, NaN, 9, 1]", vec!["script.json", "line"]),
+        (STROKE, "[0, 9, Infinity, 1]", vec!["script.json", "line"]),
+        (STROKE, "[0, 9, 1e999, 1]", vec!["script.json", "line"]),
+        (STROKE, "[0, 9, 1e300, 1]", vec!["action 5", "stroke", "sample 0", "y", "1e300"]),
+        (STROKE, "[0, 9, 9, 1.5]", vec!["action 5", "sample 0", "pressure", "`1.5`"]),
+        (STROKE, "[1, 9, 9, 1], [0, 9, 9, 1]", vec!["action 5", "sample 1", "seconds"]),
+        (STROKE, "", vec!["action 5", "samples"]),
+        (STROKE, "[9, 9]", vec!["script.json", "line"]),
+        (
+            YELLOW,
+            r#""recipe": {"Chrome Yelow": 1}"#,
+            vec!["action 3", "Chrome Yelow", "hint:", "Chrome Yellow"],
+        ),
+        (YELLOW, r#""recipe": {"Viridian": 1}"#, vec!["action 3", "Viridian", "hint:", "palette"]),
+        (YELLOW, r#""recipe": {}"#, vec!["action 3", "recipe"]),
+        (
+            r#"{"brush": "knife", "recipe""#,
+            r#"{"brush": "knive", "recipe""#,
+            vec!["action 3", "brush", "knive", "hint:", "knife"],
+        ),
+        (UNDO, outside, vec!["action 6", "save", "path", "../x.exr"]),
+        (
+            CANVAS,
+            r#""width_mm": 1e6, "height_mm": 1e6, "cell_mm": 0.2"#,
+            vec!["canvas", "cells", "hint:"],
+        ),
+        (CANVAS, r#""width_mm": 24, "height_mm": 16, "cell_mm": 0"#, vec!["canvas.cell_mm"]),
+        (
+            UNDO,
+            r#"{"merge": {"layer": 1}}"#,
+            vec!["script.json", "action 6 (merge)", "dry layer", "`1`"],
+        ),
+        (UNDO, r#"{"merge": {"layer": 7}}"#, vec!["action 6 (merge)", "dry layer", "`7`"]),
+        (UNDO, r#"{"opacity": {"layer": 3, "value": 1}}"#, vec!["action 6 (opacity)", "`3`"]),
+        (UNDO, r#"{"opacity": {"layer": "wet", "value": 1}}"#, vec!["action 6 (opacity)", "hint:"]),
+        (UNDO, r#"{"palette": ["Viridian"]}"#, vec!["action 6 (palette)", "still wet", "hint:"]),
+        (
+            UNDO,
+            r#"{"swap": {"layer": 0, "from": "Viridian", "to": "Minium"}}"#,
+            vec!["action 6 (swap)", "Viridian"],
+        ),
+        (
+            UNDO,
+            r#"{"light": {"illuminant": "D999", "observer": "1931-2", "azimuth_deg": 90, "elevation_deg": 30, "ambient": 0.5, "relief": 1}}"#,
+            vec!["action 6", "D999", "hint:"],
+        ),
+        (
+            UNDO,
+            r#"{"load": {"brush": "flat", "recipe": {"W": 1}, "amount_mm": 99}}"#,
+            vec!["action 6 (load)", "`99`", "hint:"],
+        ),
+        (r#""version": 1"#, r#""version": 2"#, vec!["script.json", "version"]),
+    ] {
+        let run = paint_script(folder, from, to);
+        assert_eq!(run.status, 1, "{to}: {}", run.err);
+        for wanted in wanted {
+            assert!(run.err.contains(wanted), "{to}: no `{wanted}` in {}", run.err);
+        }
+        assert!(!folder.join("out.png").exists(), "{to} left a picture");
+        assert!(!folder.parent().unwrap().join("x.exr").exists(), "{to} wrote beyond its folder");
+    }
+}
+
+#[test]
+fn odd_scripts_are_painted() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (from, to, remark) in [
+        (STROKE, "[0, 9, 9, 0]", ""),
+        (STROKE, "[0, 9, 9, 0], [1, 20, 9, 0]", ""),
+        (STROKE, "[0, -9000, 9, 1], [1, -9000, 20, 1]", ""),
+        (STROKE, "[0, 9, 9, 1, 90, 90, 3600], [1, 9, 9, 1, -90, -90, -3600]", ""),
+        (
+            r#"{"redo": {}}"#,
+            r#"{"redo": {}}, {"redo": {}}, {"redo": {}}"#,
+            "2 undo or redo actions had nothing",
+        ),
+        (CANVAS, r#""width_mm": 0.2, "height_mm": 0.2, "cell_mm": 0.2"#, ""),
+        (CANVAS, r#""width_mm": 0.2, "height_mm": 16, "cell_mm": 0.2"#, ""),
+        (YELLOW, r#""recipe": {}, "vehicle": 1"#, ""),
+        (UNDO, r#"{"dry": {}}, {"dry": {}}"#, ""),
+    ] {
+        let run = paint_script(folder, from, to);
+        assert_eq!(run.status, 0, "{to}: {}", run.err);
+        assert!(
+            run.err.contains(remark)
+                && run.err.lines().all(|line: &str| {
+                    ["outside sRGB", "undo or redo", "Wrote "]
+                        .iter()
+                        .any(|part| line.contains(part))
+                }),
+            "{to}: {}",
+            run.err
+        );
+        std::fs::remove_file(folder.join("out.png")).unwrap();
+    }
+}
+
+#[test]
+fn a_recipe_of_a_pigment_that_left_the_palette_is_refused_when_it_is_needed() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = r#"{"wash": {"brush": "flat"}}, {"wash": {"brush": "knife"}}, {"dry": {}},
+      {"palette": ["Viridian"]},
+      {"load": {"brush": "flat", "recipe": {"Y": 1}, "amount_mm": 0.1}}"#;
+    let run = paint_script(folder.path(), UNDO, to);
+    assert_eq!(run.status, 1, "{}", run.err);
+    for wanted in ["action 10 (load)", "Chrome Yellow is not on the palette now", "hint:"] {
+        assert!(run.err.contains(wanted), "{}", run.err);
+    }
+}
+
+#[test]
+fn nesting_and_counts_without_end_are_refused_quickly() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deep = format!("{}{}", "[".repeat(200_000), "]".repeat(200_000));
+    let run = paint_script(folder, STROKE, &deep);
+    assert_eq!(run.status, 1, "{}", run.err.len());
+    assert!(run.err.len() < 2000, "{} bytes of error", run.err.len());
+    // A stroke of 8 m, mostly off the canvas, is painted; one of 5.5 km has too many sub-steps.
+    let run = paint_script(folder, STROKE, "[0, -2000, 9, 1], [1, 2000, 9, 1], [2, -2000, 9, 1]");
+    assert_eq!(run.status, 0, "{}", run.err);
+    let many = "[0, -23000, 9, 1], [0, 23000, 9, 1], ".repeat(60);
+    let run = paint_script(folder, STROKE, &format!("{many}[0, 9, 9, 1]"));
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("action 5 (stroke)") && run.err.contains("sub-steps"), "{}", run.err);
+    assert!(run.err.contains("hint:"), "{}", run.err);
+}
+
+#[test]
+fn what_a_script_saves_is_checked_before_it_paints() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("taken"), "a file").unwrap();
+    let save = r#"{"save": {"path": "first.png"}}, {"save": {"path": "taken/a.exr"}}"#;
+    let run = paint_script(folder, UNDO, save);
+    assert_eq!(run.status, 2, "{}", run.err);
+    for wanted in ["script.json", "action 7 (save)", "taken"] {
+        assert!(run.err.contains(wanted), "{}", run.err);
+    }
+    assert!(!folder.join("first.png").exists(), "the first save was carried out");
+    let good = r#"{"save": {"path": "sub/a.exr"}}, {"save": {"path": "sub/a.png"}}"#;
+    let run = paint_script(folder, UNDO, good);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let bytes = std::fs::read(folder.join("sub/a.exr")).unwrap();
+    let document = file::read("a.exr", &bytes).unwrap();
+    assert_eq!((document.title.as_str(), document.dry.len()), ("A trial", 1));
+    assert!(folder.join("sub/a.png").exists(), "no picture");
+    assert!(SCRIPT.contains(document.title.as_str()));
+}
+
+#[test]
+fn a_ground_made_from_a_picture_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let picture = folder.join("out.png");
+    image::GrayImage::from_fn(16, 16, |x, _| image::Luma([(x * 16) as u8])).save(&picture).unwrap();
+    let before = std::fs::read(&picture).unwrap();
+    let to =
+        format!(r#"{CANVAS}, "ground": {{"kind": "image", "path": "out.png", "depth_mm": 0.2}}"#);
+    let run = paint_script(folder, CANVAS, &to);
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("is an input file, which is never overwritten"), "{}", run.err);
+    assert!(std::fs::read(&picture).unwrap() == before, "written over");
+}
+
+const ARGUMENTS: &str = "IMPASTO_CHILD_ARGUMENTS";
+
+/// Runs `impasto` with the arguments in [`ARGUMENTS`]; without them it does nothing.
+#[test]
+#[ignore = "the child of the tests below"]
+fn child() {
+    let Ok(arguments) = std::env::var(ARGUMENTS) else { return };
+    let arguments: Vec<&str> = arguments.split('\n').collect();
+    let run = impasto(&arguments);
+    super::studio::tell(&format!("{}\nstatus {}\n{}", run.out, run.status, run.err));
+}
+
+/// A command that runs `impasto` with `arguments` in a child process.
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(["--exact", "killed::child", "--ignored", "--nocapture", "--test-threads=1"]);
+    command.env(ARGUMENTS, arguments.join("\n")).stdout(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+/// Runs `command` and returns its stderr: output, exit status and errors of the program.
+fn told(mut command: Command) -> String {
+    String::from_utf8_lossy(&command.output().unwrap().stderr).into_owned()
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+#[test]
+fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // The script saves after every stroke, so most kills fall into a save.
+    let mut text: serde_json::Value = serde_json::from_str(SCRIPT).unwrap();
+    let actions = text["actions"].as_array_mut().unwrap();
+    actions.pop();
+    let stroke = actions[1].clone();
+    for _ in 0..500 {
+        actions.push(serde_json::json!({"save": {"path": "saved.exr"}}));
+        actions.push(stroke.clone());
+    }
+    let endless = place(folder, "endless.json");
+    std::fs::write(&endless, text.to_string()).unwrap();
+    let saved = folder.join("saved.exr");
+    let short = script(folder, "", "");
+    let saved_name = saved.to_str().unwrap();
+    assert!(
+        told(program(&["paint", &short, "--backend", "cpu", "--output", saved_name]))
+            .contains("status 0")
+    );
+    let old = std::fs::read(&saved).unwrap();
+    let mut kept = 0;
+    let mut new = 0;
+    for moment in 0..12 {
+        std::fs::write(&saved, &old).unwrap();
+        let mut child = program(&["paint", &endless, "--backend", "cpu"]).spawn().unwrap();
+        // The first four children may die before their first save, the others die after it.
+        while moment > 3 && std::fs::read(&saved).unwrap() == old {
+            assert!(child.try_wait().unwrap().is_none(), "it ended without a save");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        // After its first save, every second child is killed at once.
+        let wait = if moment > 3 && moment % 2 == 0 { 0 } else { 7 * moment };
+        std::thread::sleep(Duration::from_millis(wait));
+        child.kill().unwrap();
+        let _ = child.wait().unwrap();
+        let found = std::fs::read(&saved).unwrap();
+        if found == old {
+            kept += 1;
+        } else {
+            new += 1;
+            let document = file::read("saved.exr", &found).unwrap();
+            assert_eq!(document.title, "A trial");
+        }
+    }
+    assert!(kept > 0 && new > 0, "{kept} times the old file, {new} times a new one");
+    let left = files(folder);
+    let strange = |name: &&String| !name.ends_with(".json") && *name != "saved.exr";
+    let strange: Vec<_> = left.iter().filter(strange).collect();
+    assert!(strange.iter().all(|name| name.starts_with(".impasto-")), "{strange:?}");
+}
+
+#[test]
+fn without_a_driver_the_processor_paints_unless_a_device_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let script = script(folder, "", "");
+    let picture = place(folder, "a.png");
+    let without = |backend: &str| {
+        let mut run = program(&["paint", &script, "--backend", backend, "--picture", &picture]);
+        for variable in ["VK_ICD_FILENAMES", "VK_DRIVER_FILES"] {
+            run.env(variable, "/nowhere/driver.json");
+        }
+        told(run)
+    };
+    let refused = without("gpu");
+    assert!(refused.contains("status 2"), "{refused}");
+    assert!(refused.contains("hint: paint on the processor: --backend cpu"), "{refused}");
+    assert!(!Path::new(&picture).exists(), "refused, but a picture was written");
+    let painted = without("auto");
+    assert!(painted.contains("status 0") && painted.contains("on the processor"), "{painted}");
+    assert!(Path::new(&picture).exists(), "no picture");
 }

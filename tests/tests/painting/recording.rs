@@ -11,11 +11,10 @@ use paint::session::{PaintingSession, ReplayReport};
 use paint::strokes::{Action, LayerRef, Load, StrokeScript, SurfaceId};
 use rand::RngExt;
 
-use super::painted_sessions::{
-    BACKENDS, Backend, Whole, header, live, load, loaded, seeded, set_up, something, spec, squeeze,
-    surface, whole,
+use super::studio::{
+    BACKENDS, Backend, PALETTE, Whole, header, live, load, loaded_session as loaded, oils, on_cpu,
+    seeded, set_up, something, spec, squeeze, surface, whole,
 };
-use super::studio::{PALETTE, oils, on_cpu};
 
 /// The recording of a session, written as JSON and read back.
 fn read(session: &PaintingSession) -> StrokeScript {

@@ -11,11 +11,10 @@ use paint::painting::PaintingError;
 use paint::session::{Outcome, PaintingSession, SessionError};
 use paint::strokes::{Action, LayerRef, PaletteSpec, SurfaceId};
 
-use super::painted_sessions::{
-    BACKENDS, header, live, load, loaded, seeded, sessions, set_up, something, spec, squeeze,
-    wander, whole,
+use super::studio::{
+    BACKENDS, CELL_MM, PALETTE, RED, along, header, live, load, loaded_session as loaded, pigment,
+    seeded, sessions, set_up, something, spec, squeeze, wander, whole,
 };
-use super::studio::{CELL_MM, PALETTE, RED, along, pigment};
 
 #[test]
 fn whatever_was_done_on_either_surface_is_undone_and_redone_to_the_bit() {

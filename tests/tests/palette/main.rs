@@ -6,9 +6,5 @@
 mod charts;
 mod figures;
 mod gamut;
-mod graded;
 mod hiding;
-mod lights;
 mod made;
-mod tinting;
-mod washes;

@@ -18,7 +18,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use spectra::optics::absorption_over_scattering;
 
-use crate::painted::oils;
+use crate::program::oils;
 
 const NOISE: f64 = 0.004;
 

@@ -2,8 +2,5 @@
 //! filled in.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
-
-mod painted;
 mod designs;
-mod page;
 mod program;

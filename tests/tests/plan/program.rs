@@ -1,12 +1,18 @@
 //! The verb `plan`: recipes, measurement file, prior, and the fit of the filled-in file.
+//!
+//! The commands of docs/guide/measuring.md, run in order.
+//!
+//! Simulated readings of planned swatches, computed from K and S of the oils.
 
-use calibrate::PigmentId;
 use calibrate::fit::ExpectedNoise;
+use calibrate::library::PigmentLibrary;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
 use calibrate::plan::{Information, PaintSet, candidates, usual};
-use suite::program::{impasto, repository};
-
-use crate::painted::{OILS, filled, oils};
+use calibrate::{PigmentId, Recipe};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use suite::program::{commands, impasto, repository};
 
 const PAINTS: [&str; 7] =
     ["Cobalt Blue", "Viridian", "Vermilion", "--white", "Zinc White", "--black", "Bone Black"];
@@ -134,7 +140,7 @@ fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     assert!(!run.err.contains("identified"), "{}", run.err);
 
     let found = std::fs::read_to_string(&found).unwrap();
-    let found = calibrate::library::PigmentLibrary::from_json("found", &found).unwrap();
+    let found = PigmentLibrary::from_json("found", &found).unwrap();
     let colors = PAINTS[..3].iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
     let paints = PaintSet::new(&colors, "Zinc White", Some("Bone Black")).unwrap();
     let pigments: Vec<PigmentId> = paints.names.iter().map(|n| truth.find(n).unwrap()).collect();
@@ -224,4 +230,141 @@ fn what_cannot_be_planned_is_refused_with_a_way_out() {
         assert!(run.err.contains(hint), "{arguments:?}: {}", run.err);
         assert!(run.out.is_empty(), "{arguments:?}: {}", run.out);
     }
+}
+
+/// Splits a filled measurement file into a file of spectra and a file of recipes.
+fn parted(full: &str) -> (String, String) {
+    let header: Vec<&str> = full.lines().next().unwrap().split(',').collect();
+    let first_nm = header.iter().position(|name| *name == "400").unwrap();
+    let mut spectra = String::new();
+    let mut amounts = String::new();
+    let mut last = "";
+    for line in full.lines() {
+        let cells: Vec<&str> = line.split(',').collect();
+        spectra += &format!("{},{}\n", cells[..3].join(","), cells[first_nm..].join(","));
+        if cells[0] != last && cells[1] != "none" {
+            amounts += &format!("{},{}\n", cells[0], cells[4..first_nm].join(","));
+        }
+        last = cells[0];
+    }
+    (spectra, amounts)
+}
+
+/// Readings of bare paper and of washes of two paints with invented K and S on it.
+fn washes() -> String {
+    let nm: Vec<f64> = (0..16).map(|step| 400.0 + 20.0 * f64::from(step)).collect();
+    let band = |nm: f64, center: f64| (-((nm - center) / 70.0).powi(2)).exp();
+    let paper = |nm: f64| 0.8 + 0.1 * (nm - 400.0) / 300.0;
+    let wash = |amounts: [f64; 2], nm: f64| {
+        let k = amounts[0] * (1.5 + 100.0 * band(nm, 590.0))
+            + amounts[1] * (6.0 + 90.0 * band(nm, 430.0));
+        let s = amounts[0] * 4.0 + amounts[1] * 12.0;
+        if s == 0.0 {
+            return paper(nm);
+        }
+        // Kubelka (1948), a layer on a ground.
+        let a = 1.0 + k / s;
+        let b = (a * a - 1.0).sqrt();
+        let b_coth = b / (b * s).tanh();
+        (1.0 - paper(nm) * (a - b_coth)) / (a - paper(nm) + b_coth)
+    };
+    let header = nm.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let mut text = format!("sample,film,Ultramarine,Burnt Sienna,{header}\n");
+    let ladder = [0.01, 0.02, 0.04, 0.08];
+    let alone = ladder.iter().flat_map(|&amount| [[amount, 0.0], [0.0, amount]]);
+    for amounts in std::iter::once([0.0, 0.0]).chain(alone).chain([[0.02, 0.02], [0.04, 0.01]]) {
+        let (name, film) = match amounts {
+            [0.0, 0.0] => ("paper".to_owned(), "none"),
+            [first, second] => (format!("U {first} S {second}"), "paint"),
+        };
+        let values: Vec<String> =
+            nm.iter().map(|&nm| format!("{:.4}", wash(amounts, nm))).collect();
+        let [first, second] = amounts;
+        text += &format!("{name},{film},{first},{second},{}\n", values.join(","));
+    }
+    text
+}
+
+#[test]
+fn every_command_of_the_page_on_measuring_runs() {
+    let page = std::fs::read_to_string(repository("docs/guide/measuring.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let oils = oils();
+    for (name, light) in [("white.txt", 20_000.0), ("dark.txt", 200.0), ("swatch.txt", 9_000.0)] {
+        let text: String = (0..31)
+            .map(|step: u32| format!("{} {}\n", 400 + 10 * step, light + f64::from(step)))
+            .collect();
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    std::fs::write(folder.path().join("washes.csv"), washes()).unwrap();
+    let mut ran = 0;
+    for command in commands(&page) {
+        let in_folder = |word: &String| {
+            // A spectrum of a file stands behind its name.
+            let file = word.split('#').next().unwrap_or_default();
+            let is_file = [".csv", ".json", ".txt"].iter().any(|end| file.ends_with(end));
+            if is_file { folder.path().join(word).display().to_string() } else { word.clone() }
+        };
+        let words: Vec<String> = command.words.iter().skip(1).map(in_folder).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let run = impasto(&words);
+        assert_eq!(run.status, 0, "{}\n{}", command.line, run.err);
+        assert!(!run.err.contains("left out: card"), "the cards are lost\n{}", run.err);
+        ran += 1;
+        // The file of a plan is filled in before the next command reads it.
+        if let Some(at) = words.iter().position(|word| *word == "-o")
+            && words[0] == "plan"
+        {
+            let empty = std::fs::read_to_string(words[at + 1]).unwrap();
+            let full = filled(&empty, &oils, 0.002, 3);
+            std::fs::write(words[at + 1], &full).unwrap();
+            let (spectra, amounts) = parted(&full);
+            std::fs::write(folder.path().join("spectra.csv"), spectra).unwrap();
+            std::fs::write(folder.path().join("amounts.csv"), amounts).unwrap();
+        }
+    }
+    assert!(ran >= 11, "{ran} commands");
+}
+
+/// Reflectances of the bare cards, equal at all wavelengths.
+const WHITE_CARD: f64 = 0.85;
+const BLACK_CARD: f64 = 0.05;
+/// Thickness of the films, in units in which zinc white has S d = 1. Such films nearly hide.
+const THICKNESS: f64 = 8.0;
+
+pub(crate) const OILS: &str = "measurements/van-gogh-oils.pigments.json";
+
+pub(crate) fn oils() -> PigmentLibrary {
+    let text = std::fs::read_to_string(repository(OILS)).unwrap();
+    PigmentLibrary::from_json(OILS, &text).unwrap()
+}
+
+/// Fills in the empty file of a plan with readings predicted from `oils` plus normal noise of
+/// standard deviation `sd`. The file must have the wavelengths of `oils`.
+pub(crate) fn filled(empty: &str, oils: &PigmentLibrary, sd: f64, seed: u64) -> String {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let header: Vec<&str> = empty.lines().next().unwrap().split(',').collect();
+    let first_nm = header.iter().position(|name| *name == "400").unwrap();
+    let mut text = format!("{}\n", header.join(","));
+    for line in empty.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert!(cells[first_nm..].iter().all(|cell| cell.is_empty()), "{line}");
+        let card = if cells[2] == "white" { WHITE_CARD } else { BLACK_CARD };
+        let card = vec![card; oils.grid.count()];
+        let recipe: Recipe = (4..first_nm)
+            .filter(|&column| !cells[column].is_empty())
+            .map(|column| (oils.find(header[column]).unwrap(), cells[column].parse().unwrap()))
+            .collect();
+        let read = match cells[1] {
+            "none" => card,
+            _ => oils.mix(&recipe).unwrap().film(THICKNESS, &card, oils.film()),
+        };
+        text.push_str(&cells[..first_nm].join(","));
+        for value in read {
+            let error: f64 = StandardNormal.sample(&mut random);
+            text.push_str(&format!(",{:.5}", (value + sd * error).max(0.0305)));
+        }
+        text.push('\n');
+    }
+    text
 }

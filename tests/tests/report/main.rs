@@ -1,9 +1,6 @@
 //! `impasto report`: figures, their files, and the page.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
-
-mod browser;
-mod figures;
 mod inputs;
 mod made;
 mod page;

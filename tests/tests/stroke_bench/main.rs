@@ -5,8 +5,7 @@
 use std::collections::BTreeSet;
 
 use suite::stroke_bench::canvas::Bench;
-use suite::stroke_bench::figure::CaseReport;
-use suite::stroke_bench::report::table;
+use suite::stroke_bench::report::{CaseReport, table};
 use suite::stroke_bench::sheet::picture;
 use suite::stroke_bench::strokes::CASES;
 

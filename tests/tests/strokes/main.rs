@@ -4,9 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod hostile;
-mod pigments;
 mod round_trip;
-mod surfaces;
 
 use documents::hint::Explain;
 use paint::strokes::{Action, ScriptError, StrokeScript};

@@ -6,8 +6,6 @@
 //! its adapter, or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
-
-mod cameras;
 mod meshes;
 mod seen;
 mod shading;

@@ -10,7 +10,7 @@ use graphics::mesh::{Material, Mesh, Texture};
 use graphics::surface::{Model, NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
 use graphics::tones::ToneRamp;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use suite::adapter::device;
+use suite::program::device;
 use watercolor::{ModelPainter, Settings, ShadowMap, Toon, shade_toon};
 
 use super::seen::{inside_them, random_triangles};

@@ -11,15 +11,13 @@ use serde_json::{Map, Value, json};
 use spectra::color::Lab;
 use spectra::{Reflectance, Spectrum};
 
-use super::match_by::MatchBy;
+use super::recipe_search::MatchBy;
 use crate::console::Console;
-use crate::decimals;
+use crate::csv_rows;
 use crate::failure::{Failure, Result};
-use crate::input::{condition, srgb};
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::waited;
-use crate::readings::ReadingOptions;
-use crate::targets::targets;
+use crate::readings::{ReadingOptions, condition, srgb, targets};
 
 /// Most names that an error lists.
 const NAMES: usize = 8;
@@ -198,7 +196,7 @@ impl Report<'_> {
             srgb(lab.to_xyz(white), white)
         };
         let line = |name: &str, lab: Lab, console: &Console<'_>| {
-            format!("{name:8} {}  Lab {}", console.srgb(color(lab)), decimals::lab(lab))
+            format!("{name:8} {}  Lab {}", console.srgb(color(lab)), csv_rows::lab(lab))
         };
         console.line(line("target", found.target.lab[0], console))?;
         let batch = line("batch", found.batch[0], console);

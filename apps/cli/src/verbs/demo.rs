@@ -10,7 +10,7 @@ use calibrate::{Fit, FitOptions, Readings};
 use clap::Args;
 use spectra::optics::{Specular, Surface};
 
-use super::{fit_report, library};
+use super::{fit, library};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::output::OutputFolder;
@@ -55,10 +55,10 @@ impl Demo {
         }
         let seconds = start.elapsed().as_secs_f64();
         if self.csv {
-            return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));
+            return console.csv_rows(&fit::rows(&fit.evidence().per_sample));
         }
         if self.json {
-            return console.json(&fit_report::timed(fit.errors_json(), seconds));
+            return console.json(&fit::timed(fit.errors_json(), seconds));
         }
         console.line(format!("{} ({})", library.title, library.licence))?;
         console.line("")?;

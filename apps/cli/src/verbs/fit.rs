@@ -1,16 +1,27 @@
 //! `impasto fit`: fits a pigment library to measurements.
+//!
+//! Options that `fit` and `validate` share: measurement files and settings of the fit.
+//!
+//! JSON of `fit` and `validate`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::Args;
+use calibrate::evaluate::Viewing;
+use calibrate::fit::{FitStage, Method, Smoothness, Watch};
+use calibrate::library::{AmountKind, SampleEvidence};
+use calibrate::observation::BelowSurface;
+use calibrate::{Fit as CalibrationOptionsFit, FitOptions, PreparedFit, Readings};
+use clap::{Args, ValueEnum};
+use serde_json::{Map, Value, json};
+use spectra::instrument::split_file_and_name;
 
-use super::calibration_options::{CalibrationOptions, prepare_fit, watched_fit};
-use super::fit_report;
 use crate::console::Console;
-use crate::failure::Result;
-use crate::input::ViewingOptions;
+use crate::failure::{Failure, Result};
 use crate::output::Output;
+use crate::progress::{Progress, Waiting};
+use crate::readings::{ReadingOptions, ViewingOptions, measurements};
+use crate::surface::SurfaceOptions;
 
 /// Fit K and S of every pigment to measured mixtures, and write the library
 ///
@@ -74,11 +85,10 @@ impl Fit {
         }
         if self.csv {
             console.warnings(fit.warnings())?;
-            return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));
+            return console.csv_rows(&rows(&fit.evidence().per_sample));
         }
         if self.json {
-            return console
-                .json(&fit_report::timed(fit.errors_json(), start.elapsed().as_secs_f64()));
+            return console.json(&timed(fit.errors_json(), start.elapsed().as_secs_f64()));
         }
         console.warnings(fit.warnings())?;
         console.line(fit.report().to_string())?;
@@ -87,4 +97,214 @@ impl Fit {
         }
         Ok(())
     }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// The published quadratic program, unweighted (Baxter, Wendt and Lin 2004)
+    Qp,
+    /// The quadratic program, its rows weighted to approximate errors of reflectance
+    Weighted,
+    /// Robust nonlinear refinement of `weighted`, in measured reflectance
+    Refined,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Amounts {
+    /// Shares of a mixture, for films that hide or are read over two backings
+    Relative,
+    /// Amounts (mL, g) spread on a fixed area of a known backing
+    Absolute,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Below {
+    /// Fail with an error that names sample and wavelength
+    Refuse,
+    /// Treat the reading as black
+    Floor,
+}
+
+/// Measurement files and settings of the fit.
+#[derive(Debug, Args)]
+pub(super) struct CalibrationOptions {
+    /// Measurement files: CSV or .xlsx (columns sample, film, backing, one per pigment, then
+    /// wavelengths), or an instrument's files with --recipes
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Recipes of samples whose files hold none (CSV): columns sample, one per pigment
+    ///
+    /// Joined to the readings by name. Further columns: film, backing, thickness_mm as in the
+    /// measurement CSV, and `reading`, the name in the measurement file, where one sample was read
+    /// several times (over white, over black, bare).
+    #[arg(long, value_name = "FILE")]
+    recipes: Option<PathBuf>,
+    /// Heading of a column that is a pigment (may be repeated): the others are ignored
+    ///
+    /// [default: every column that is not known as something else and holds amounts]
+    #[arg(long, value_name = "NAME")]
+    pigments: Vec<String>,
+    /// Method of the fit
+    #[arg(long, value_enum, default_value = "refined")]
+    method: MethodName,
+    /// Meaning of the amounts
+    #[arg(long, value_enum, default_value = "relative")]
+    amounts: Amounts,
+    /// The white whose S is 1 [default: the pigment called white that occurs in most samples]
+    // It was the option of a white reading once: a file is still taken for one.
+    #[arg(long, alias = "reference", value_name = "PIGMENT")]
+    white: Vec<String>,
+    #[command(flatten)]
+    surface: SurfaceOptions,
+    /// Treatment of a reading below k1 [default: refuse]; without --saunderson, k1 stays 0.03
+    #[arg(long, value_enum)]
+    below_surface: Option<Below>,
+    /// Smoothness of K and S over wavelength: auto, none, or a weight such as 10
+    #[arg(long, value_name = "WEIGHT", default_value = "auto", allow_hyphen_values = true)]
+    smoothness: String,
+    /// Unevenness of films of absolute amounts: auto, or the standard deviation of log thickness
+    /// such as 0.25
+    #[arg(long, value_name = "DEVIATION", default_value = "auto", allow_hyphen_values = true)]
+    unevenness: String,
+    /// A sample to leave out (may be repeated)
+    #[arg(long, value_name = "SAMPLE")]
+    exclude: Vec<String>,
+    #[command(flatten)]
+    reading: ReadingOptions,
+}
+
+impl CalibrationOptions {
+    /// Paths of all files that are read.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        let reading = self.reading.with_white_reading(self.old_white_reading());
+        self.files.iter().chain(&self.recipes).cloned().chain(reading.files()).collect()
+    }
+
+    /// The file of a white reading by the option that named it before.
+    fn old_white_reading(&self) -> Option<String> {
+        self.white.iter().find(|text| is_reading(text)).cloned()
+    }
+
+    /// The pigment whose S is 1, if one is named.
+    fn reference(&self) -> Result<Option<String>> {
+        let mut named = self.white.iter().filter(|text| !is_reading(text));
+        match (named.next(), named.next()) {
+            (Some(first), Some(second)) => Err(Failure::usage(
+                format!("--white takes one pigment, found `{first}` and `{second}`"),
+                "leave one of them out",
+            )),
+            (first, _) => Ok(first.cloned()),
+        }
+    }
+
+    /// Reads the measurement files and prints remarks on them.
+    pub(super) fn readings(&self, console: &mut Console<'_>) -> Result<Readings> {
+        let white = self.old_white_reading();
+        if let Some(file) = &white {
+            console
+                .remark(format!("{file} is read as --white-reading; --white names a pigment"))?;
+        }
+        let reading = self.reading.with_white_reading(white);
+        measurements(&self.files, self.recipes.as_deref(), &self.pigments, &reading, console)
+    }
+
+    /// Options of the fit; colour errors are computed under `viewing`.
+    pub(super) fn fit_options(&self, viewing: Viewing) -> Result<FitOptions> {
+        Ok(FitOptions {
+            amounts: match self.amounts {
+                Amounts::Relative => AmountKind::Relative,
+                Amounts::Absolute => AmountKind::Absolute,
+            },
+            method: match self.method {
+                MethodName::Qp => Method::Qp,
+                MethodName::Weighted => Method::Weighted,
+                MethodName::Refined => Method::Refined,
+            },
+            reference: self.reference()?,
+            surface: self.surface.surface()?,
+            specular: self.surface.specular(),
+            below_surface: self.below_surface.map(|below| match below {
+                Below::Refuse => BelowSurface::Refuse,
+                Below::Floor => BelowSurface::Floor,
+            }),
+            smoothness: self.smoothness()?,
+            unevenness: self.unevenness()?,
+            exclude: self.exclude.clone(),
+            viewing,
+            ..FitOptions::default()
+        })
+    }
+
+    fn smoothness(&self) -> Result<Smoothness> {
+        Ok(match self.smoothness.as_str() {
+            "auto" => Smoothness::Auto,
+            "none" => Smoothness::None,
+            text => Smoothness::Fixed(at_least_zero("--smoothness", text)?),
+        })
+    }
+
+    fn unevenness(&self) -> Result<Option<f64>> {
+        Ok(match self.unevenness.as_str() {
+            "auto" => None,
+            text => Some(at_least_zero("--unevenness", text)?),
+        })
+    }
+}
+
+/// Chooses the options of a fit that were left open, and prints the choices.
+pub(super) fn prepare_fit(
+    readings: &Readings,
+    options: &FitOptions,
+    console: &mut Console<'_>,
+) -> Result<PreparedFit> {
+    let chooses_model = options.amounts == AmountKind::Absolute
+        && options.surface.is_none()
+        && options.unevenness.is_none();
+    let steps = if chooses_model { PreparedFit::MODEL_FITS } else { 0 };
+    let progress =
+        Progress::new(steps, "choosing the film model", console.shows_progress() && chooses_model);
+    let told = |_| progress.step();
+    let prepared = PreparedFit::new(readings, options, Watch::new(&told))?;
+    progress.done();
+    console.remarks(&prepared.remarks)?;
+    Ok(prepared)
+}
+
+/// Fits all samples, and shows the stages of the fit.
+pub(super) fn watched_fit(
+    prepared: &PreparedFit,
+    console: &Console<'_>,
+) -> Result<CalibrationOptionsFit> {
+    let waiting = Waiting::new("fitting", console.shows_progress());
+    let told = |stage: FitStage| waiting.say(format!("fitting: {stage}"));
+    Ok(prepared.fit_watched(Watch::new(&told))?)
+}
+
+/// Parses a finite number of 0 and up.
+fn at_least_zero(option: &str, text: &str) -> Result<f64> {
+    text.parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0).ok_or_else(|| {
+        Failure::usage(
+            format!("{option} takes a word or a number not below 0, found `{text}`"),
+            format!("try {option} auto"),
+        )
+    })
+}
+
+/// Whether the value of `--white` is the file of a reading, FILE or FILE#NAME, and no pigment.
+fn is_reading(text: &str) -> bool {
+    Path::new(split_file_and_name(text).0).is_file()
+}
+
+/// Completes the errors of a fit or validation by the `seconds` that it took, rounded to 1 ms.
+pub(super) fn timed(mut errors: Map<String, Value>, seconds: f64) -> Value {
+    errors.insert("seconds".to_owned(), json!((seconds * 1e3).round() / 1e3));
+    Value::Object(errors)
+}
+
+/// Samples with their colour errors, one row each.
+pub(super) fn rows(per_sample: &[SampleEvidence]) -> Vec<Value> {
+    per_sample
+        .iter()
+        .map(|s: &SampleEvidence| json!({"sample": s.sample, "ciede2000": s.delta_e}))
+        .collect()
 }

@@ -5,8 +5,7 @@ use graphics::gpu::{Adapter, BackendChoice, adapters, best};
 use paint::engine::max_canvas_cells;
 use serde_json::{Map, Value, json};
 
-use crate::console::Console;
-use crate::driver_noise::without_noise;
+use crate::console::{Console, without_noise};
 use crate::failure::Result;
 
 /// Show which graphics adapter painting would use, and why

@@ -6,11 +6,11 @@ use clap::Args;
 use serde_json::json;
 
 use crate::console::Console;
-use crate::decimals;
+use crate::csv_rows;
 use crate::failure::{Failure, Result};
-use crate::ground::ground;
-use crate::input::ViewingOptions;
 use crate::library_choice::{ChosenLibrary, chosen, split};
+use crate::readings::ViewingOptions;
+use crate::surface::ground;
 
 /// Predict a mixture: reflectance, XYZ, Lab and sRGB
 ///
@@ -100,7 +100,7 @@ impl Mix {
         console.line(format!("XYZ {x:.3} {y:.3} {z:.3}"))?;
         console.line(format!(
             "Lab {}  ({}, observer {})",
-            decimals::lab(lab),
+            csv_rows::lab(lab),
             viewing.illuminant.name(),
             viewing.observer
         ))?;

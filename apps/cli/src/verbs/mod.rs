@@ -1,27 +1,18 @@
 //! Verbs of the command line, one file each.
-
-mod calibration_options;
-mod fit_report;
 mod fit;
 mod validate;
 mod mix;
-mod color_table;
 mod color;
 mod light;
 mod quadrature;
-mod match_by;
-mod recipe_columns;
-mod recipe_report;
 mod recipe_search;
 mod correct;
 mod library;
-mod plan_report;
 mod plan;
 mod report;
 mod map;
 mod simulate_scan;
 mod demo;
-mod paint_photograph;
 mod paint;
 mod relight;
 mod watercolor;

@@ -1,20 +1,22 @@
 //! `impasto plan`: plans the swatches to prepare.
+//!
+//! Report of a plan as text.
 
 use std::path::PathBuf;
 
 use calibrate::fit::ExpectedNoise;
-use calibrate::plan::{MeasurementForm, PaintSet, PlanOptions};
+use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanOptions};
+use calibrate::{PigmentId, Recipe};
 use clap::Args;
 use spectra::Grid;
 
-use super::plan_report;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::grid_option::{grid, numbers};
-use crate::input::library;
 use crate::library_choice::split;
 use crate::output::Output;
 use crate::progress::waited;
+use crate::readings::library;
+use crate::surface::{grid, numbers};
 
 /// Maximum number of wavelengths of a measurement file.
 const MAX_WAVELENGTHS: usize = 5001;
@@ -132,8 +134,8 @@ impl Plan {
         if self.json {
             return console.json(&plan.to_json());
         }
-        plan_report::print_swatches(&plan, console)?;
-        plan_report::print_totals(&plan, console)?;
+        print_swatches(&plan, console)?;
+        print_totals(&plan, console)?;
         console.line("")?;
         console.line(format!(
             "{} for {} per wavelength; every pigment is identified",
@@ -141,7 +143,7 @@ impl Plan {
             documents::counted(plan.paints.unknowns(), "unknown")
         ))?;
         if let Some(forecast) = &plan.forecast {
-            plan_report::print_forecast(&plan.paints, forecast, console)?;
+            print_forecast(&plan.paints, forecast, console)?;
         }
         match &self.output {
             Some(path) => console.remark(format!(
@@ -196,4 +198,62 @@ impl Plan {
             )),
         }
     }
+}
+
+pub(super) fn print_swatches(plan: &PlanReportPlan, console: &mut Console<'_>) -> Result<()> {
+    let part =
+        |&(paint, grams): &(PigmentId, f64)| format!("{grams} g {}", plan.paints.name(paint));
+    let recipe = |grams: &Recipe| grams.iter().map(part).collect::<Vec<_>>().join(" + ");
+    let recipes: Vec<String> = plan.swatches.iter().map(|swatch| recipe(&swatch.grams)).collect();
+    let width = plan.swatches.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
+    let recipe_width = recipes.iter().map(|text| text.chars().count()).max().unwrap_or(0);
+    for (swatch, recipe) in plan.swatches.iter().zip(&recipes) {
+        let name = &swatch.name;
+        let purpose = swatch.recipe.purpose;
+        console.line(format!("{name:width$}  {recipe:recipe_width$}  {}", purpose.why()))?;
+    }
+    Ok(())
+}
+
+pub(super) fn print_totals(plan: &PlanReportPlan, console: &mut Console<'_>) -> Result<()> {
+    console.line("")?;
+    console.line("Paint for all of them:")?;
+    for (name, total) in plan.paints.names.iter().zip(plan.totals_g()) {
+        console.line(format!("{total:9.2} g {name}"))?;
+    }
+    Ok(())
+}
+
+pub(super) fn print_forecast(
+    paints: &PaintSet,
+    forecast: &Forecast,
+    console: &mut Console<'_>,
+) -> Result<()> {
+    console.line(format!(
+        "the usual plan with as many swatches has {:.0} % of the information of this one (D-efficiency)",
+        100.0 * forecast.usual_efficiency
+    ))?;
+    console.line("")?;
+    console.line(format!(
+        "Predicted standard deviations, in percent of K and S, median over wavelength (noise {}, {:.3}):",
+        forecast.noise.constant, forecast.noise.even
+    ))?;
+    let width = paints.names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    console.line(format!("{:width$}       K       S   usual K  usual S", ""))?;
+    let percent = |value: f64| match 100.0 * value {
+        large if large > 999.0 => ">999".to_owned(),
+        value => format!("{value:.1}"),
+    };
+    let unit = || "unit".to_owned();
+    let pairs = forecast.deviations.iter().zip(&forecast.usual_deviations);
+    for (name, (own, usual)) in paints.names.iter().zip(pairs) {
+        console.line(format!(
+            "{name:width$} {:>7} {:>7}  {:>8} {:>8}",
+            percent(own.absorption),
+            own.scattering.map_or_else(unit, percent),
+            percent(usual.absorption),
+            usual.scattering.map_or_else(unit, percent),
+        ))?;
+    }
+    Ok(())
 }

@@ -13,9 +13,9 @@ use spectra::TristimulusWeights;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, color_weights};
 use crate::library_choice::named_or_default;
 use crate::progress::waited;
+use crate::readings::{ViewingOptions, color_weights};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {

@@ -1,21 +1,29 @@
 //! `impasto match`: finds recipes for a target colour or spectrum.
+//!
+//! The choice of what recipes and corrections are matched by.
+//!
+//! Report of the recipes that `match` found: text and rows.
+//!
+//! Columns of figures in the table of recipes: differences under each light, metamerism, reflectance.
 
+use calibrate::IlluminantChange;
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{MatchOptions, RequiredName, Thickness};
-use clap::Args;
-use serde_json::Value;
+use calibrate::matching::{
+    AmountLimit, MatchOptions, Metric, RecipeMatch, RecipeMatches, RecipeSearch, RequiredName,
+    SpectrumWeights, Thickness, ToleranceOrigin,
+};
+use clap::{Args, ValueEnum};
+use serde_json::{Map, Value, json};
+use spectra::color::{Lab, Rgb, RgbSpace};
 
-use super::match_by::MatchBy;
-use super::recipe_report::RecipeReport;
 use crate::console::Console;
-use crate::costs::prices;
+use crate::csv_rows::{self, TableColors, at_most};
 use crate::failure::{Failure, Result};
-use crate::ground::ground;
-use crate::input::condition;
 use crate::library_choice::{ChosenLibrary, chosen, split};
+use crate::palette::prices;
 use crate::progress::Progress;
-use crate::readings::ReadingOptions;
-use crate::targets::targets;
+use crate::readings::{ReadingOptions, condition, srgb, targets};
+use crate::surface::ground;
 
 /// Find recipes for a colour or a measured spectrum
 ///
@@ -229,4 +237,272 @@ fn share(option: &str, text: &str) -> Result<f64> {
             ),
         )
     })
+}
+
+/// Measures by which recipes are matched.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum MatchBy {
+    /// CIEDE2000 under the lights
+    Color,
+    /// Root mean square of the differences of reflectance, each wavelength equally
+    Spectrum,
+    /// Root mean square too, each wavelength as much as the observer sees of it under the lights
+    WeightedSpectrum,
+}
+
+impl MatchBy {
+    pub(super) fn metric(self) -> Metric {
+        match self {
+            Self::Color => Metric::Ciede2000,
+            Self::Spectrum => Metric::Spectrum(SpectrumWeights::Even),
+            Self::WeightedSpectrum => Metric::Spectrum(SpectrumWeights::Observer),
+        }
+    }
+}
+
+/// Library and settings that all recipes of a run share.
+pub(super) struct RecipeReport<'a> {
+    pub(super) library: &'a PigmentLibrary,
+    pub(super) search: &'a RecipeSearch<'a>,
+    /// Mass of the mixture in grams.
+    pub(super) grams: Option<f64>,
+}
+
+impl RecipeReport<'_> {
+    /// Encoded sRGB of `lab`, seen adapted to its light.
+    fn display_color(&self, lab: Lab) -> Rgb {
+        // Lab is relative to its white, so any white serves for the round trip.
+        let white = RgbSpace::Srgb.white();
+        srgb(lab.to_xyz(white), white)
+    }
+
+    /// Whether the library holds absolute amounts.
+    fn is_absolute(&self) -> bool {
+        self.library.amounts == AmountKind::Absolute
+    }
+
+    pub(super) fn print(&self, matched: &RecipeMatches, console: &mut Console<'_>) -> Result<()> {
+        let target = &matched.target;
+        let lab = target.lab[0];
+        let rgb = self.display_color(lab);
+        let patch = console.patch(rgb);
+        let outside = match rgb.in_gamut() {
+            true => String::new(),
+            false => format!("  {}", RgbSpace::Srgb.outside_note()),
+        };
+        let light = self.search.lights().next().unwrap_or_default();
+        let lab = csv_rows::lab(lab);
+        console.line(format!("{patch}{}  Lab {lab} ({light}){outside}", target.name))?;
+        let nearest = matched.nearest();
+        let unit = self.search.request.metric.unit();
+        if !matched.is_reached() {
+            console.line(format!(
+                "out of reach of these pigments: the nearest is {nearest:.2} {unit} away"
+            ))?;
+        }
+        if let Some(measure) = self.spectrum_measure(matched) {
+            console.line(format!("     {measure}"))?;
+        }
+        console.line(format!("     {}", self.equally_near()))?;
+        if let Some(free) = matched.beyond_measured() {
+            console.line(format!(
+                "     amounts stay within those measured; without that limit (--beyond-measured) \
+                 the nearest is {free:.2} away instead of {nearest:.2}"
+            ))?;
+        }
+        let columns = RecipeColumns::of(self.search.lights(), target.spectrum.is_some());
+        let mut colors = TableColors::of(RgbSpace::Srgb);
+        for line in columns.headings() {
+            console.line(line)?;
+        }
+        for (rank, recipe) in matched.recipes.iter().enumerate() {
+            self.print_recipe(&(rank + 1).to_string(), recipe, (&columns, &mut colors), console)?;
+        }
+        if !matched.by_cie1976.is_empty() {
+            console.line("     CIEDE2000 misleads at this distance; the nearest by CIE 1976 is")?;
+        }
+        for recipe in &matched.by_cie1976 {
+            self.print_recipe("", recipe, (&columns, &mut colors), console)?;
+        }
+        colors.note("     ", console)
+    }
+
+    /// The tolerance of the search and its reason.
+    fn equally_near(&self) -> String {
+        let tolerance = self.search.request.tolerance;
+        let reason = match self.search.tolerance_origin {
+            ToleranceOrigin::Given => "as --tolerance says",
+            ToleranceOrigin::Library => "the mean error of this library's fit",
+            ToleranceOrigin::Usual => "the usual tolerance",
+        };
+        format!(
+            "equally near within {} {}, {reason}: the plainest first",
+            at_most(tolerance, 3),
+            self.search.request.metric.unit()
+        )
+    }
+
+    /// How differences of spectra are measured, for a search by spectrum.
+    fn spectrum_measure(&self, matched: &RecipeMatches) -> Option<String> {
+        let weights = match self.search.request.metric.spectrum_weights()? {
+            SpectrumWeights::Even => "each wavelength equally",
+            SpectrumWeights::Observer => "each wavelength as the observer sees it",
+        };
+        let [first, last] = matched.target.spectrum.as_ref()?.band_nm();
+        Some(format!("by spectrum: rms of reflectance from {first} to {last} nm, {weights}"))
+    }
+
+    fn print_recipe(
+        &self,
+        rank: &str,
+        recipe: &RecipeMatch,
+        (columns, colors): (&RecipeColumns, &mut TableColors),
+        console: &mut Console<'_>,
+    ) -> Result<()> {
+        let figures = columns.row(recipe);
+        let shown = colors.cell(self.display_color(recipe.lab[0]), console);
+        let mut line = format!("{rank:>3}  {figures}  {shown}");
+        if let Some(thickness) = recipe.thickness {
+            let label = if self.is_absolute() { "total" } else { "thickness" };
+            line += &format!("  {label} {thickness:.4}");
+        }
+        if let Some(cost) = recipe.cost {
+            line += &format!("  costs {:.2}", cost * self.grams.unwrap_or(1.0));
+        }
+        console.line(line.trim_end())?;
+        for part in self.parts(recipe) {
+            console.line(format!("       {part}"))?;
+        }
+        Ok(())
+    }
+
+    /// Returns one line per pigment of a recipe.
+    fn parts(&self, recipe: &RecipeMatch) -> Vec<String> {
+        let names = recipe.shares.iter().map(|(id, _)| &self.library[*id]);
+        let width = names.clone().map(|p| p.name.chars().count()).max().unwrap_or(0);
+        let mut lines = Vec::new();
+        for (place, ((id, share), pigment)) in recipe.shares.iter().zip(names).enumerate() {
+            let mut line = match &recipe.parts {
+                Some(parts) => format!("{:4}  {:width$}", parts[place], pigment.name),
+                None => format!("{:6.2} %  {:width$}", 100.0 * share, pigment.name),
+            };
+            match self.search.amount(recipe, *share, self.grams) {
+                Some(amount) if self.is_absolute() => line += &format!("  {amount:.5}"),
+                Some(grams) => line += &format!("  {grams:8.2} g"),
+                None => {}
+            }
+            if pigment.guessed {
+                line += "  (guessed, not measured)";
+            }
+            match recipe.at_limit.iter().find(|(limited, _)| limited == id) {
+                Some((_, AmountLimit::Least)) => line += "  (the least that was measured)",
+                Some((_, AmountLimit::Greatest)) => line += "  (the most that was measured)",
+                None => {}
+            }
+            lines.push(line.trim_end().to_owned());
+        }
+        lines
+    }
+
+    /// One row for each pigment of each recipe.
+    pub(super) fn rows(&self, matched: &RecipeMatches) -> Vec<Value> {
+        let mut rows = Vec::new();
+        for (rank, recipe) in (1..).zip(&matched.recipes) {
+            let whole = self.search.recipe_json(recipe, self.grams);
+            for pigment in whole["pigments"].as_array().into_iter().flatten() {
+                let mut row = Map::new();
+                row.insert("target".to_owned(), json!(matched.target.name));
+                row.insert("recipe".to_owned(), json!(rank));
+                row.extend(pigment.as_object().into_iter().flatten().map(|(key, value)| {
+                    let key = if key == "name" { "pigment" } else { key };
+                    (key.to_owned(), value.clone())
+                }));
+                for key in ["delta_e", "thickness", "cost", "hex", "distance", "rms_percent"] {
+                    row.extend(whole.get(key).map(|value| (key.to_owned(), value.clone())));
+                }
+                for index in whole["metamerism"].as_array().into_iter().flatten() {
+                    let heading = format!("metamerism_{}", index["change"].as_str().unwrap_or(""));
+                    row.insert(heading, index["index"].clone());
+                }
+                rows.push(Value::Object(row));
+            }
+        }
+        rows
+    }
+}
+
+/// Least width of a column.
+const WIDTH: usize = 8;
+/// Between the indices, whose headings are several words.
+const GAP: &str = "  ";
+/// Title and headings of the difference of reflectance.
+const REFLECTANCE: [&str; 2] = ["reflectance", "rms, %"];
+
+/// Headings and widths of the figures of a recipe.
+#[derive(Debug)]
+pub(super) struct RecipeColumns {
+    /// Names of the lights, in the order of the options.
+    lights: Vec<String>,
+    /// Changes of light that have a metamerism index.
+    changes: Vec<String>,
+    /// Whether the target was measured, so that spectra are compared.
+    is_measured: bool,
+}
+
+impl RecipeColumns {
+    pub(super) fn of<'a>(lights: impl Iterator<Item = &'a str>, is_measured: bool) -> Self {
+        let lights: Vec<String> = lights.map(str::to_owned).collect();
+        let later = if is_measured { &lights[1..] } else { &[] };
+        let changes = later.iter().map(|test| {
+            let change = IlluminantChange { reference: &lights[0], test };
+            change.heading()
+        });
+        Self { changes: changes.collect(), lights, is_measured }
+    }
+
+    /// Lines above the recipes.
+    pub(super) fn headings(&self) -> Vec<String> {
+        let joined = |names: &[String], gap: &str| -> String {
+            let each: Vec<String> = names.iter().map(|name| format!("{name:>WIDTH$}")).collect();
+            each.join(gap)
+        };
+        let lights = joined(&self.lights, " ");
+        if !self.is_measured {
+            return vec![format!("     {lights}  (CIEDE2000)")];
+        }
+        let mut groups = vec![("CIEDE2000", lights)];
+        if !self.changes.is_empty() {
+            groups.push(("metamerism", joined(&self.changes, GAP)));
+        }
+        let [title, rms] = REFLECTANCE;
+        groups.push((title, rms.to_owned()));
+        let mut lines = [String::from("   "), String::from("   ")];
+        for (title, below) in groups {
+            let width = title.len().max(below.chars().count());
+            lines[0] += &format!("  {title:>width$}");
+            lines[1] += &format!("  {below:>width$}");
+        }
+        let legend =
+            (!self.changes.is_empty()).then(|| format!("     {}", IlluminantChange::LEGEND));
+        legend.into_iter().chain(lines).collect()
+    }
+
+    /// Figures of a recipe below the headings.
+    pub(super) fn row(&self, recipe: &RecipeMatch) -> String {
+        // As wide as the light's name, which may be the path of a lamp's file.
+        let cell = |(value, name): (Option<f64>, &String)| {
+            let width = name.chars().count().max(WIDTH);
+            value.map_or_else(|| format!("{:>width$}", "-"), |value| format!("{value:width$.2}"))
+        };
+        let delta_e = recipe.delta_e.iter().copied().map(Some).zip(&self.lights);
+        let delta_e = delta_e.map(cell).collect::<Vec<String>>().join(" ");
+        let Some(rms) = recipe.rms_percent.filter(|_| self.is_measured) else { return delta_e };
+        let mut line = format!("{delta_e:>width$}", width = "CIEDE2000".len());
+        if !self.changes.is_empty() {
+            let indices = recipe.metamerism.iter().copied().zip(&self.changes);
+            let indices = indices.map(cell).collect::<Vec<String>>().join(GAP);
+            line += &format!("  {indices:>width$}", width = "metamerism".len());
+        }
+        line + &format!("  {rms:width$.2}", width = REFLECTANCE[0].len())
+    }
 }

@@ -9,12 +9,12 @@ use paint::painting::{DryLayerState, LayerRef, Painting};
 use serde_json::json;
 
 use crate::console::Console;
-use crate::decimals::at_most;
+use crate::csv_rows::at_most;
 use crate::engine::EngineOptions;
 use crate::failure::{Failure, Result};
-use crate::input::viewing;
 use crate::pictures::Exports;
 use crate::progress::waited;
+use crate::readings::viewing;
 
 /// Show a painting under another light, or as if painted with other pigments
 ///

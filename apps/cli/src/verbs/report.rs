@@ -15,11 +15,10 @@ use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, color_weights};
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::output::{Output, OutputFolder};
 use crate::progress::Progress;
-use crate::readings::{ReadingOptions, measurements};
+use crate::readings::{ReadingOptions, ViewingOptions, color_weights, measurements};
 
 /// Draw a library and its measurements: one page, and each figure as SVG, PNG and CSV
 ///

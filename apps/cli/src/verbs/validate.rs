@@ -10,13 +10,13 @@ use calibrate::{FittingError, ValidationOptions};
 use clap::Args;
 use serde_json::json;
 
-use super::calibration_options::{CalibrationOptions, prepare_fit, watched_fit};
-use super::fit_report;
+use super::fit;
+use super::fit::{CalibrationOptions, prepare_fit, watched_fit};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::ViewingOptions;
 use crate::output::Output;
 use crate::progress::Progress;
+use crate::readings::ViewingOptions;
 
 /// Leave each mixture out in turn, refit, and predict it
 ///
@@ -87,11 +87,11 @@ impl Validate {
         let warnings = validation.warnings();
         if self.csv {
             console.warnings(&warnings)?;
-            return console.csv_rows(&fit_report::rows(&validation.errors.per_sample));
+            return console.csv_rows(&fit::rows(&validation.errors.per_sample));
         }
         if self.json {
             let seconds = start.elapsed().as_secs_f64();
-            let mut told = fit_report::timed(validation.errors_json(), seconds);
+            let mut told = fit::timed(validation.errors_json(), seconds);
             told["strength_free"] = json!(validation.errors.strength_free);
             told["by_pigment"] = json!(validation.errors.by_pigment);
             return console.json(&told);

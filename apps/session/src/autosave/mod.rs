@@ -5,31 +5,29 @@
 //! after the first autosave the folder always holds a complete generation, and the newest one
 //! counts. The recording lies beside them in a file that only grows. The file `lock` is locked
 //! while the program runs; the system unlocks it however the program ends.
+//!
+//! The lock by which programs know whether a session still runs.
 
-use documents::file::disk;
-use documents::file::disk::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use web_time::{SystemTime, UNIX_EPOCH};
 
-use documents::file::sync_folder;
+use documents::file::disk::File;
+use documents::file::{disk, sync_folder};
 use paint::document::Document;
 use serde::{Deserialize, Serialize};
+use web_time::{SystemTime, UNIX_EPOCH};
 
 use crate::event::KeptPainting;
 use crate::failure::FileFailure;
-use recording_file::RecordingFile;
-use session_lock::SessionLock;
-use work::{WorkFile, describe};
+use work::{RecordingFile, WorkFile, describe};
+
+mod work;
+
+#[cfg(test)]
+mod tests;
 
 pub use work::RecoveredWork;
-
-mod brush_paint;
-mod mask_bits;
-mod recording_file;
-mod session_lock;
-mod work;
 
 const PARTIAL: &str = ".partial";
 const CANVAS: &str = "canvas.exr";
@@ -381,8 +379,55 @@ fn remove(folder: &Path) {
     let _ = disk::remove_dir_all(folder);
 }
 
-#[cfg(test)]
-mod tests;
+const LOCK: &str = "lock";
+
+/// Lock of a session, held while this value exists.
+#[derive(Debug)]
+struct SessionLock(File);
+
+impl SessionLock {
+    /// Makes and locks the file of the session in `folder`.
+    ///
+    /// # Errors
+    /// If the file cannot be made, or another program locked it.
+    fn create(folder: &Path) -> std::io::Result<Self> {
+        Self::of(File::create(folder.join(LOCK))?)
+    }
+
+    /// Locks the file of the session in `folder`.
+    ///
+    /// # Errors
+    /// If there is none, or the program of the session still runs.
+    fn open(folder: &Path) -> std::io::Result<Self> {
+        Self::of(File::options().read(true).write(true).open(folder.join(LOCK))?)
+    }
+
+    fn of(file: File) -> std::io::Result<Self> {
+        file.try_lock()?;
+        Ok(Self(file))
+    }
+}
+
+impl Drop for SessionLock {
+    fn drop(&mut self) {
+        // Closing the file would not do: a process that is being started by another thread holds
+        // copies of all open files until it runs its own program, and the lock with them.
+        let _ = self.0.unlock();
+    }
+}
 
 #[cfg(test)]
-mod work_tests;
+mod session_lock_tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_of_the_open_file_does_not_keep_the_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let lock = SessionLock::create(folder.path()).unwrap();
+        assert!(SessionLock::open(folder.path()).is_err(), "it is held");
+        let copy = lock.0.try_clone().unwrap();
+        drop(lock);
+        assert!(SessionLock::open(folder.path()).is_ok(), "it was given up");
+        drop(copy);
+    }
+}

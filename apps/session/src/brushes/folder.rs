@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use documents::file::disk;
 use documents::file::{read, write_whole};
 
-use super::error::BrushFileError;
+use super::reading::BrushFileError;
 use super::set::BrushSet;
 use crate::failure::FileFailure;
 

@@ -7,11 +7,11 @@ use documents::file::write_whole;
 use graphics::encoding::encoded_from_linear;
 use graphics::export::{Apng, ColorTable, Frame, FrameError, FrameRate, Gif, frame_of};
 
+use super::command::Subject;
 use super::event::SceneRecording;
-use super::pacer::STEPS_A_SECOND;
 use super::painters::Sight;
 use super::scene::Scene;
-use super::subject::Subject;
+use super::timeline::STEPS_A_SECOND;
 use crate::failure::FileFailure;
 
 /// Frames a second.

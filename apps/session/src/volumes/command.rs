@@ -1,12 +1,14 @@
 //! Commands of the front end to a scene.
+//!
+//! The tools of a hand in a scene.
+//!
+//! Subjects that a scene is opened from.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use graphics::camera::Camera;
 
 use super::look::Look;
-use super::subject::Subject;
-use super::tool::{Grip, ScenePen};
 
 /// A request to the worker of scenes. Commands are carried out in their order, between steps.
 #[derive(Debug, Clone)]
@@ -71,5 +73,141 @@ impl VolumeCommand {
                 | (Self::Seek(_), Self::Seek(_))
                 | (Self::PenMove(_), Self::PenMove(_))
         )
+    }
+}
+
+/// A tool of the pen in a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SceneTool {
+    /// Pours paint of a tube on the surface.
+    #[default]
+    Pour,
+    /// Blows at volumes and paint along the drag.
+    Push,
+    /// Takes paint up, as a sponge does.
+    Lift,
+    /// Dries the volumes below it, paint and shape.
+    Dry,
+}
+
+impl SceneTool {
+    /// All tools, in the order of the toolbar.
+    pub const ALL: [Self; 4] = [Self::Pour, Self::Push, Self::Lift, Self::Dry];
+
+    /// Its name in menus and lists.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pour => "Pour",
+            Self::Push => "Push",
+            Self::Lift => "Lift",
+            Self::Dry => "Dry",
+        }
+    }
+}
+
+/// A tool and how it is set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grip {
+    /// The tool in hand.
+    pub tool: SceneTool,
+    /// Tube that is poured, by its number from 0.
+    pub tube: usize,
+    /// Paint poured a second at full pressure, in mm3.
+    pub rate_mm3_s: f64,
+    /// Radius of the reach of the other tools, in mm.
+    pub radius_mm: f64,
+    /// Strength of the other tools, 0 to 1.
+    pub strength: f64,
+}
+
+impl Default for Grip {
+    fn default() -> Self {
+        let tool = SceneTool::Pour;
+        Self { tool, tube: 0, rate_mm3_s: 40.0, radius_mm: 20.0, strength: 0.5 }
+    }
+}
+
+/// The pen over the picture of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScenePen {
+    /// Place as a share of the picture's width and height, 0 to 1 from the upper left corner.
+    pub at: [f32; 2],
+    /// Pressure, 0 to 1; 1 for a mouse.
+    pub pressure: f32,
+}
+
+/// Prefix of the names of the models that come with the program.
+pub const SHAPE: &str = "shape:";
+
+/// A subject that a scene is opened from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Subject {
+    /// A model that comes with the program, such as `village`.
+    Shape(String),
+    /// A model or a photograph in a file.
+    File(PathBuf),
+    /// A script in a file.
+    Script(PathBuf),
+    /// The text of a script that was recovered, and the folder of the files that it names.
+    Text {
+        /// Text of the script.
+        text: String,
+        /// Folder that its subject lies in.
+        folder: PathBuf,
+    },
+}
+
+impl Subject {
+    /// The subject that the text of a command line names, if it names one of a scene: `shape:NAME`,
+    /// or a file whose ending is that of a model or of a script of paint volumes. Pictures are not
+    /// told apart from those that are pinned beside a painting: [`Subject::of_file`] takes them.
+    #[must_use]
+    pub fn from_text(text: &str) -> Option<Self> {
+        if let Some(name) = text.strip_prefix(SHAPE) {
+            return Some(Self::Shape(name.to_owned()));
+        }
+        let path = Path::new(text);
+        match ending(path).as_str() {
+            "glb" | "gltf" | "obj" | "ply" => Some(Self::File(path.to_owned())),
+            "toml" => Some(Self::Script(path.to_owned())),
+            _ => None,
+        }
+    }
+
+    /// The subject in a file that the painter chose for a scene.
+    #[must_use]
+    pub fn of_file(path: &Path) -> Self {
+        match ending(path).as_str() {
+            "toml" => Self::Script(path.to_owned()),
+            _ => Self::File(path.to_owned()),
+        }
+    }
+}
+
+/// Ending of a file's name in small letters.
+fn ending(path: &Path) -> String {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    ending.unwrap_or_default().to_ascii_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_line_names_shapes_models_and_scripts() {
+        let village = Some(Subject::Shape("village".to_owned()));
+        assert_eq!(Subject::from_text("shape:village"), village);
+        let model = Some(Subject::File(PathBuf::from("a/Jug.GLB")));
+        assert_eq!(Subject::from_text("a/Jug.GLB"), model);
+        let script = Some(Subject::Script(PathBuf::from("wakes.toml")));
+        assert_eq!(Subject::from_text("wakes.toml"), script);
+        for other in ["still.png", "oils.json", "painting.exr", "village"] {
+            assert_eq!(Subject::from_text(other), None, "{other} is not of a scene alone");
+        }
+        let photograph = Path::new("still.png");
+        assert_eq!(Subject::of_file(photograph), Subject::File(photograph.to_owned()));
     }
 }

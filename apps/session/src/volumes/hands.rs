@@ -2,11 +2,10 @@
 
 use volumes::script::{Action, Dry, Recipe};
 
-use super::gesture::{Hand, Timed};
+use super::command::{Grip, ScenePen};
+use super::gesture::{Hand, Hit, Timed, surface_at};
 use super::painters::Sight;
-use super::ray::{Hit, surface_at};
 use super::scene::Scene;
-use super::tool::{Grip, ScenePen};
 use crate::failure::FileFailure;
 
 impl Scene {

@@ -7,7 +7,7 @@ use volumes::performance::FirstView;
 use volumes::script::{self, CameraTable, KeyframeTable, Row, Script, ScriptCamera};
 use volumes::world::Tally;
 
-use super::state::SceneTally;
+use super::event::SceneTally;
 
 /// Size of the picture in which scripts pick places, as the command line makes it.
 const FIRST_PICTURE: (usize, usize) = (1000, 750);

@@ -88,7 +88,7 @@ mod tests {
     use super::*;
     use VolumeCommand::{PenMove, PenUp, Play, Quit, Seek};
 
-    use crate::volumes::tool::ScenePen;
+    use crate::volumes::command::ScenePen;
 
     #[test]
     fn commands_keep_their_order_and_the_last_of_a_drag_wins() {

@@ -12,10 +12,10 @@ use pigment::library::PigmentLibrary;
 use volumes::painter::VolumePigments;
 use volumes::script::{Script, ScriptError, is_light};
 
-use super::state::SceneTube;
-use crate::colors::Colors;
-use crate::defaults::tubes_of;
+use super::event::SceneTube;
 use crate::failure::FileFailure;
+use crate::prepare::tubes_of;
+use crate::report::Colors;
 
 /// Letters of the tubes of a new scene.
 const LETTERS: &str = "ABCDEFGH";

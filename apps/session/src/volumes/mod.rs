@@ -11,48 +11,31 @@
 //! the script that is saved agree to the bit.
 
 mod look;
-mod tool;
-mod subject;
-mod state;
-mod image;
 mod event;
 mod command;
-mod pacer;
-mod ray;
 mod gesture;
 mod recorded;
 mod inbox;
 mod materials;
-mod opened;
 mod header;
 mod timeline;
-mod inspect;
-mod making;
 mod painters;
 mod scene;
 mod hands;
 mod pictures;
-mod paints;
-mod saving;
 mod animation;
-mod picture_share;
 mod worker;
-mod thread;
-
-#[cfg(test)]
-mod scene_tests;
 
 #[cfg(test)]
 mod paint_tests;
 
 pub use animation::animation;
-pub use command::VolumeCommand;
-pub use event::{Here, ScenePicture, SceneRecording, VolumeEvent};
-pub use image::SceneImage;
+pub use command::{Grip, SHAPE, ScenePen, SceneTool, Subject, VolumeCommand};
+pub use event::{
+    Here, SceneEvent, SceneImage, ScenePicture, SceneRecording, SceneState, SceneTally, SceneTime,
+    SceneTube, VolumeEvent,
+};
 pub use look::{Inside, Look, SceneLight};
-pub use pacer::STEPS_A_SECOND;
-pub use state::{SceneEvent, SceneState, SceneTally, SceneTime, SceneTube};
-pub use subject::{SHAPE, Subject};
-pub use thread::VolumeWorker;
-pub use tool::{Grip, ScenePen, SceneTool};
+pub use timeline::STEPS_A_SECOND;
 pub use volumes::painter::Show;
+pub use worker::VolumeWorker;

@@ -1,15 +1,20 @@
 //! Pigments of scenes: libraries, tubes, lights, and what is saved of them.
+//!
+//! Scenes by hand against their scripts played.
 
 use std::path::{Path, PathBuf};
 
+use graphics::camera::Camera;
 use pigment::library::PigmentLibrary;
 use tempfile::TempDir;
+use volumes::performance::{FirstView, Performance};
 use volumes::script::Script;
+use volumes::volume::Volume;
+use web_time::{Duration, Instant};
 
-use super::painters::Sight;
+use super::command::{Grip, ScenePen, SceneTool, Subject};
+use super::painters::{Quality, Sight};
 use super::scene::Scene;
-use super::subject::Subject;
-use super::tool::{Grip, ScenePen};
 
 /// A still life with paint of the sixth tube in the middle.
 fn poured() -> Scene {
@@ -135,4 +140,218 @@ fn a_script_is_saved_with_its_library_beside_it() {
     // Beside the library nothing is copied.
     recording.save(&folder.path().join("v.toml")).unwrap();
     assert_eq!(read(&folder.path().join("v.toml")), read(&file("s.toml")));
+}
+
+const SIZE: [usize; 2] = [120, 90];
+
+fn still_life() -> Scene {
+    Scene::open(&Subject::Shape("still-life".to_owned())).unwrap()
+}
+
+fn sight(scene: &Scene) -> Sight {
+    Sight { camera: scene.usual_camera(), size: SIZE }
+}
+
+fn pen(x: f32, y: f32) -> ScenePen {
+    ScenePen { at: [x, y], pressure: 1.0 }
+}
+
+/// Holds a tool down for 30 steps along a line, and goes on for 20 more.
+fn gesture(scene: &mut Scene, grip: Grip, from: [f32; 2], to: [f32; 2]) {
+    let sight = sight(scene);
+    assert!(scene.pen_down(&sight, grip, pen(from[0], from[1])).unwrap(), "there is a surface");
+    for step in 0..30_u8 {
+        let share = f32::from(step) / 29.0;
+        let between = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
+        scene.pen_move(&sight, pen(between(0), between(1)));
+        scene.step().unwrap();
+    }
+    scene.pen_up().unwrap();
+    (0..20).for_each(|_| scene.step().unwrap());
+}
+
+fn pour(tube: usize) -> Grip {
+    Grip { tube, rate_mm3_s: 200.0, ..Grip::default() }
+}
+
+fn settle(scene: &mut Scene) {
+    while scene.is_behind() {
+        scene.catch_up(Instant::now() + Duration::from_secs(1)).unwrap();
+    }
+}
+
+fn picture(scene: &mut Scene) -> Vec<[u8; 4]> {
+    let sight = sight(scene);
+    scene.pixels(&sight, Quality { fine: false, share: 1.0, waits: true }).unwrap()
+}
+
+/// The volumes that the saved script of a scene leads to at its present moment.
+fn played(scene: &Scene, camera: Option<Camera>) -> Vec<Volume> {
+    let recording = scene.recording(camera).unwrap();
+    let script = Script::from_text("recording", &recording.text).unwrap();
+    let mesh = scene.mesh();
+    let view = FirstView::new(mesh, &scene.usual_camera(), (4, 3));
+    let settings = script.settings().unwrap();
+    let mut performance = Performance::new(&script, mesh, &settings, &view).unwrap();
+    performance.advance_to(scene.moment()).unwrap();
+    performance.world().volumes().to_vec()
+}
+
+#[test]
+fn what_hands_do_is_what_the_saved_script_plays() {
+    let mut scene = still_life();
+    gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
+    gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    let push = Grip { tool: SceneTool::Push, strength: 1.0, ..Grip::default() };
+    gesture(&mut scene, push, [0.4, 0.5], [0.6, 0.5]);
+    assert_eq!(played(&scene, None), scene.volumes(), "poured and pushed");
+    let before: u64 = scene.on_scene();
+    let lift = Grip { tool: SceneTool::Lift, ..Grip::default() };
+    gesture(&mut scene, lift, [0.5, 0.5], [0.5, 0.5]);
+    assert!(scene.on_scene() < before, "paint was taken up");
+    gesture(&mut scene, Grip { tool: SceneTool::Dry, ..lift }, [0.5, 0.5], [0.5, 0.5]);
+    let dry = |scene: &Scene| scene.volumes().iter().filter(|volume| volume.dry).count();
+    let count = scene.volumes().len();
+    assert!((1..count).contains(&dry(&scene)), "{} of {count} are dry", dry(&scene));
+    scene.dry_all().unwrap();
+    assert_eq!(dry(&scene), scene.volumes().len(), "all is dry");
+    gesture(&mut scene, pour(0), [0.5, 0.5], [0.5, 0.5]);
+    let labels: Vec<String> = scene.events().into_iter().map(|event| event.label).collect();
+    let wanted = [
+        "pour Ultramarine",
+        "pour Chrome Yellow",
+        "push",
+        "lift",
+        "dry",
+        "dry all paint",
+        "pour Zinc White",
+    ];
+    assert_eq!(labels, wanted);
+    assert_eq!(played(&scene, Some(scene.usual_camera())), scene.volumes(), "all of it");
+}
+
+#[test]
+fn a_moment_that_is_gone_to_has_the_bytes_that_it_had() {
+    let mut scene = still_life();
+    let empty = picture(&mut scene);
+    gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
+    let moment = scene.moment();
+    let then = picture(&mut scene);
+    assert_ne!(then, empty, "colour appears");
+    gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    (0..100).for_each(|_| scene.step().unwrap());
+    let last = scene.moment();
+    let end = picture(&mut scene);
+    assert_ne!(end, then);
+    for (step, wanted) in [(moment, &then), (last, &end), (0, &empty), (moment, &then)] {
+        scene.go_to(step).unwrap();
+        settle(&mut scene);
+        assert_eq!((scene.moment(), &picture(&mut scene)), (step, wanted), "step {step}");
+    }
+}
+
+#[test]
+fn an_event_that_is_taken_back_leaves_what_there_was_without_it() {
+    let mut scene = still_life();
+    gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
+    (0..50).for_each(|_| scene.step().unwrap());
+    let wanted = picture(&mut scene);
+    scene.go_to(50).unwrap();
+    settle(&mut scene);
+    // Between events that are there already.
+    gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    assert_eq!((scene.moment(), scene.end()), (100, 100));
+    let with_both = picture(&mut scene);
+    assert_ne!(with_both, wanted);
+    assert_eq!(played(&scene, None), scene.volumes());
+    scene.undo().unwrap();
+    settle(&mut scene);
+    assert_eq!(scene.moment(), 100, "the moment stays");
+    assert_eq!(picture(&mut scene), wanted);
+    scene.remove(0).unwrap();
+    settle(&mut scene);
+    assert!(scene.volumes().is_empty() && scene.events().is_empty());
+    scene.undo().unwrap();
+    scene.remove(3).unwrap();
+    assert_eq!(scene.moment(), 100, "there is nothing to take back");
+}
+
+#[test]
+fn paint_that_is_poured_in_the_past_joins_what_follows() {
+    let mut scene = still_life();
+    gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
+    // There is a snapshot each second.
+    (0..220).for_each(|_| scene.step().unwrap());
+    let before = picture(&mut scene);
+    scene.go_to(60).unwrap();
+    settle(&mut scene);
+    gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    scene.go_to(270).unwrap();
+    settle(&mut scene);
+    assert_ne!(picture(&mut scene), before);
+    assert_eq!(played(&scene, None), scene.volumes());
+    scene.undo().unwrap();
+    settle(&mut scene);
+    assert_eq!(picture(&mut scene), before);
+}
+
+#[test]
+fn a_recording_that_is_opened_again_goes_on_the_same() {
+    let mut scene = still_life();
+    gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
+    let text = scene.recording(Some(scene.usual_camera())).unwrap();
+    let folder = text.folder.clone();
+    let mut again = Scene::open(&Subject::Text { text: text.text.to_string(), folder }).unwrap();
+    assert_eq!((again.moment(), again.end()), (0, 50));
+    again.go_to(50).unwrap();
+    settle(&mut again);
+    assert_eq!((again.volumes(), again.events()), (scene.volumes(), scene.events()));
+    gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    gesture(&mut again, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    assert_eq!(again.volumes(), scene.volumes());
+}
+
+#[test]
+fn beside_the_subject_nothing_is_poured_and_nothing_recorded() {
+    let mut scene = still_life();
+    let sight = sight(&scene);
+    assert!(!scene.pen_down(&sight, pour(5), pen(0.01, 0.01)).unwrap(), "there is only paper");
+    scene.step().unwrap();
+    scene.pen_up().unwrap();
+    assert!(scene.events().is_empty());
+    let here = scene.here(&sight, [0.01, 0.01]);
+    assert_eq!((here.place, here.volumes), (None, 0));
+}
+
+#[test]
+fn a_place_tells_its_paint_and_its_colour() {
+    let mut scene = still_life();
+    let dry = scene.here(&sight(&scene), [0.5, 0.5]);
+    assert!(dry.place.is_some() && dry.paint.is_none() && dry.volumes == 0, "{dry:?}");
+    gesture(&mut scene, pour(5), [0.5, 0.5], [0.5, 0.5]);
+    picture(&mut scene);
+    let wet = scene.here(&sight(&scene), [0.5, 0.5]);
+    let paint = wet.paint.as_ref().unwrap();
+    let name = |slot: usize| scene.materials.library[paint.slots[slot].unwrap()].name.clone();
+    let poured: Vec<usize> = (0..9).filter(|&slot| paint.amounts_mm[slot] > 0.0).collect();
+    assert_eq!((&poured[..], name(5).as_str()), (&[5][..], "Ultramarine"), "{wet:?}");
+    assert!((0.001..1.0).contains(&paint.amounts_mm[5]), "{wet:?}");
+    assert!(wet.volumes > 0 && wet.lab[0] > 0.0, "{wet:?}");
+}
+
+#[test]
+fn places_picked_on_a_photograph_are_those_of_the_command_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wide.png");
+    image::RgbImage::from_pixel(64, 16, image::Rgb([90, 120, 60])).save(&path).unwrap();
+    let text = "format = \"paint-volumes\"\nversion = 1\nsubject = \"wide.png\"\nseconds = 1.0\n\
+                [[pour]]\npicked = [0.75, 0.25]\nfor_s = 0.5\namount_mm3 = 1.0\n";
+    let subject = Subject::Text { text: text.to_owned(), folder: folder.path().to_owned() };
+    let scene = Scene::open(&subject).unwrap();
+    let script = scene.script();
+    let at = script.pours[0].at.unwrap().0;
+    // The picture is 1 x 0.25 around the origin, with y upwards.
+    let wanted = [0.25, 0.0625, 0.0];
+    let near = at.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-3);
+    assert!(near, "{at:?}");
 }

@@ -1,7 +1,10 @@
 //! Pictures of a scene: a drawing, and paintings in pigments, whose painters are made beside the
 //! thread of the scene when they are first needed.
+//!
+//! Something that is made beside the window.
 
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use graphics::camera::Camera;
 use graphics::field::Field;
@@ -13,8 +16,8 @@ use volumes::settings::Settings;
 use volumes::world::World;
 
 use super::look::{Inside, Look};
-use super::making::Making;
 use crate::failure::FileFailure;
+use crate::thread;
 
 /// Size of a picture in pixels, and what sees it.
 #[derive(Debug, Clone, Copy)]
@@ -257,5 +260,59 @@ impl Painters {
         let painter = self.painter(Kind::Painting(look.inside), true, &settings)?;
         let painting = painter.painting(world, &sight.camera, sight.size.into(), title);
         painting.map_err(|error| FileFailure::explained(&error))
+    }
+}
+
+/// Something that is made beside the window.
+#[derive(Debug)]
+pub(super) struct Making<T> {
+    receiver: Receiver<T>,
+    /// The value, once it was received; the inner `None` if the thread has panicked.
+    made: Option<Option<T>>,
+}
+
+impl<T: Send + 'static> Making<T> {
+    /// Begins to make it.
+    pub(super) fn begin(make: impl FnOnce() -> T + Send + 'static) -> Self {
+        let (sender, receiver) = channel();
+        thread::start(move || {
+            let _ = sender.send(make());
+        });
+        Self { receiver, made: None }
+    }
+
+    /// Whether it is made.
+    pub(super) fn is_ready(&mut self) -> bool {
+        if self.made.is_none() {
+            self.made = match self.receiver.try_recv() {
+                Ok(made) => Some(Some(made)),
+                Err(TryRecvError::Empty) => None,
+                Err(TryRecvError::Disconnected) => Some(None),
+            };
+        }
+        self.made.is_some()
+    }
+
+    /// Waits for it. None if its thread has panicked.
+    pub(super) fn result(mut self) -> Option<T> {
+        while !self.is_ready() && thread::next() {}
+        self.made.unwrap_or_else(|| self.receiver.recv().ok())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn it_is_ready_when_its_thread_has_ended() {
+        let (send, receive) = channel::<u32>();
+        let mut making = Making::begin(move || receive.recv().unwrap() + 1);
+        assert!(!making.is_ready(), "it waits");
+        send.send(4).unwrap();
+        assert_eq!(making.result(), Some(5));
+        let failed = Making::<u32>::begin(|| std::panic::resume_unwind(Box::new("a fault")));
+        assert_eq!(failed.result(), None);
     }
 }

@@ -1,11 +1,18 @@
 //! The recording of a scene: its script, sorted by gestures.
+//!
+//! Saving the script of a scene, beside its subject and its library.
 
+use std::path::{Path, PathBuf};
+
+use documents::file::{disk, write_whole};
+use documents::hint::Hint;
 use glam::DVec3;
 use volumes::script::{Action, Ball, Dry, Event, Recipe, Recorder, Script};
 
+use super::command::SceneTool;
+use super::event::{SceneEvent, SceneRecording};
 use super::gesture::Timed;
-use super::state::SceneEvent;
-use super::tool::SceneTool;
+use crate::failure::FileFailure;
 
 /// Most steps between two actions of a dryer that is drawn over the surface.
 const DRYING: u32 = 24;
@@ -196,11 +203,64 @@ fn are_near(one: &Dry, other: &Dry) -> bool {
     radius == other.radius && apart <= radius
 }
 
+impl SceneRecording {
+    /// Writes the script in a file, which lies beside the file of its subject. A library of the
+    /// painter's own is copied beside it, unless it lies there already.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for a file beside another subject, one that cannot be written, and another
+    /// library of the same name.
+    pub fn save(&self, path: &Path) -> Result<(), FileFailure> {
+        if let Some(subject) =
+            self.subject.as_deref().filter(|own| folder_of(own) != folder_of(path))
+        {
+            let what = format!("{}: a script lies beside its subject", path.display());
+            let folder = subject.parent().unwrap_or(Path::new(".")).display();
+            let hint = Some(Hint::new(format!("save it in {folder}")));
+            return Err(FileFailure { what, hint });
+        }
+        let text = match &self.library {
+            None => self.text.to_string(),
+            Some(library) => {
+                let name = library.file_name().unwrap_or_default();
+                copied(library, &path.with_file_name(name))?;
+                let script = Script::from_own_text("the scene", &self.text);
+                let mut script = script.map_err(|error| FileFailure::explained(&error))?;
+                script.library = Some(name.to_string_lossy().into_owned());
+                script.to_text().map_err(|error| FileFailure::explained(&error))?
+            }
+        };
+        write_whole(path, text.as_bytes()).map_err(|error| FileFailure::explained(&error))
+    }
+}
+
+/// The folder that a file lies in.
+fn folder_of(path: &Path) -> Option<PathBuf> {
+    let path = disk::absolute(path).unwrap_or_else(|_| path.to_owned());
+    path.parent().and_then(|folder| disk::canonicalize(folder).ok())
+}
+
+/// Copies a library to `to`, unless it is there.
+fn copied(library: &Path, to: &Path) -> Result<(), FileFailure> {
+    let read =
+        |path: &Path| disk::read(path).map_err(|error| FileFailure::io(path, "read", &error));
+    let bytes = read(library)?;
+    if disk::exists(to) {
+        if read(to)? == bytes {
+            return Ok(());
+        }
+        let what = format!("{}: another library has this name", to.display());
+        let hint = Some(Hint::new("save the script in another folder"));
+        return Err(FileFailure { what, hint });
+    }
+    write_whole(to, &bytes).map_err(|error| FileFailure::explained(&error))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::volumes::command::Grip;
     use crate::volumes::gesture::Hand;
-    use crate::volumes::tool::Grip;
 
     /// A recording with a pour of 0.2 s from step 12 on, another at the same time, and a dry.
     fn recorded() -> Recorded {

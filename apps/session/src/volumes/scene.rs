@@ -1,26 +1,33 @@
 //! A scene at work: what was opened, its recording, the present moment, and its painters.
+//!
+//! Opens what a scene is made from.
+//!
+//! Changes of the pigments of a scene, and of the light on them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use web_time::Instant;
 
+use documents::file::disk;
+use documents::hint::Hint;
 use graphics::camera::Camera;
 use graphics::field::Field;
 use graphics::mesh::Mesh;
+use graphics::picture::Photograph;
+use pigment::library::PigmentLibrary;
 use volumes::performance::FirstView;
-use volumes::script::{Event, Script, ScriptError};
+use volumes::script::{self, Event, Script, ScriptError};
 use volumes::settings::{self, Settings};
 use volumes::toml_text::KeyPath;
+use web_time::Instant;
 
+use super::command::{SHAPE, Subject};
+use super::event::{SceneState, SceneTime};
 use super::gesture::{Hand, Timed};
 use super::header::{first_camera, first_size, framed, resolve_picks, script_steps, tally};
 use super::look::{Inside, Look};
-use super::materials::Materials;
-use super::opened::OpenedScene;
+use super::materials::{Materials, fill_tubes, light_for_script};
 use super::painters::Painters;
 use super::recorded::Recorded;
-use super::state::{SceneState, SceneTime};
-use super::subject::Subject;
 use super::timeline::Timeline;
 use crate::failure::FileFailure;
 
@@ -229,12 +236,227 @@ impl Scene {
     }
 
     /// All events by time.
-    pub(super) fn events(&self) -> Vec<super::state::SceneEvent> {
+    pub(super) fn events(&self) -> Vec<super::event::SceneEvent> {
         self.recorded.events()
     }
 
     /// The camera of the first picture.
     pub(super) fn usual_camera(&self) -> Camera {
         first_camera(self.recorded.base(), &self.mesh, self.flat)
+    }
+}
+
+/// Number of triangles of a model that comes with the program, as the command line makes it.
+const TRIANGLES: usize = 60_000;
+
+/// A scene that was read.
+#[derive(Debug)]
+pub(super) struct OpenedScene {
+    /// The script; with no events for a subject alone.
+    pub(super) script: Script,
+    /// Name and text of the script, for messages.
+    pub(super) source: (String, String),
+    /// Its pigments.
+    pub(super) materials: Materials,
+    /// The surfaces of the subject.
+    pub(super) mesh: Mesh,
+    /// Whether the subject is a photograph.
+    pub(super) flat: bool,
+    /// Folder that the subject lies in.
+    pub(super) folder: PathBuf,
+    /// File of the subject; `None` for a model that comes with the program.
+    pub(super) file: Option<PathBuf>,
+}
+
+impl OpenedScene {
+    /// Reads `subject` and all that it names.
+    ///
+    /// # Errors
+    /// [`FileFailure`] that names the file, and the place in a script.
+    pub(super) fn read(subject: &Subject) -> Result<Self, FileFailure> {
+        match subject {
+            Subject::Shape(name) => Self::of_script(
+                new_script(&format!("{SHAPE}{name}"), name)?,
+                (format!("{SHAPE}{name}"), String::new()),
+                Path::new(""),
+            ),
+            Subject::File(path) => {
+                let path = absolute(path);
+                let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+                let title = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+                let folder = path.parent().unwrap_or(Path::new(""));
+                let source = (path.display().to_string(), String::new());
+                Self::of_script(new_script(name, title)?, source, folder)
+            }
+            Subject::Script(path) => {
+                let path = absolute(path);
+                let script = Script::open(&path).map_err(|error| FileFailure::explained(&error))?;
+                let text = disk::read_to_string(&path).unwrap_or_default();
+                let folder = path.parent().unwrap_or(Path::new(""));
+                Self::of_script(script, (path.display().to_string(), text), folder)
+            }
+            Subject::Text { text, folder } => {
+                let name = "the recovered scene";
+                let script = Script::from_own_text(name, text);
+                let script = script.map_err(|error| FileFailure::explained(&error))?;
+                Self::of_script(script, (name.to_owned(), text.clone()), folder)
+            }
+        }
+    }
+
+    fn of_script(
+        script: Script,
+        source: (String, String),
+        folder: &Path,
+    ) -> Result<Self, FileFailure> {
+        let subject = script.subject_in(folder).map_err(|fault| {
+            FileFailure::explained(&ScriptError::located(&source.0, &source.1, fault))
+        })?;
+        let (mesh, flat, file) = match subject {
+            script::Subject::Shape(shape) => (shape.mesh(TRIANGLES), false, None),
+            script::Subject::File(path) if is_mesh(&path) => {
+                let mesh = Mesh::open(&path).map_err(|error| FileFailure::explained(&error))?;
+                (mesh, false, Some(path))
+            }
+            script::Subject::File(path) => (photograph(&path)?, true, Some(path)),
+        };
+        let materials = Materials::of(&script, (&source.0, &source.1), folder)?;
+        let mut script = script;
+        if flat {
+            script.light_of_its_own();
+        }
+        // What is shown is what is saved.
+        let script = script.rounded();
+        Ok(Self { script, source, materials, mesh, flat, folder: folder.to_owned(), file })
+    }
+}
+
+/// The script of a scene in which nothing has happened.
+fn new_script(subject: &str, title: &str) -> Result<Script, FileFailure> {
+    let mut script = Script::new(subject, 0.0);
+    script.title = title.to_owned();
+    let library = PigmentLibrary::van_gogh_oils();
+    fill_tubes(&mut script, &library)?;
+    script.library = Some(library.title);
+    Ok(script)
+}
+
+/// Whether a file's name has the ending of a model.
+fn is_mesh(path: &Path) -> bool {
+    let endings = ["glb", "gltf", "obj", "ply"];
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    ending.is_some_and(|ending| endings.contains(&ending.to_ascii_lowercase().as_str()))
+}
+
+/// A photograph as a flat model, with as many pixels as the command line gives it.
+fn photograph(path: &Path) -> Result<Mesh, FileFailure> {
+    let photograph = Photograph::open(path).map_err(|error| FileFailure::explained(&error))?;
+    let (width, height) = photograph.size();
+    let columns = photograph.usual_width_px();
+    let rows = (columns as f64 * height as f64 / width as f64).round() as usize;
+    Ok(Mesh::of_picture(&photograph.with_opacity(columns, rows.max(1))))
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    disk::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+impl Scene {
+    /// Sees pigments under another light.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for a light that a script cannot name.
+    pub(super) fn set_illuminant(&mut self, illuminant: &str) -> Result<(), FileFailure> {
+        let mut script = self.recorded.base().clone();
+        script.illuminant = light_for_script(illuminant)?;
+        let materials = self.materials.again(&script)?;
+        self.take_up(script, materials);
+        Ok(())
+    }
+
+    /// Fills the tubes from a library of the painter's own. Paint that was poured from a tube is
+    /// that of its new pigment.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for a file that is no library, or has too few pigments.
+    pub(super) fn set_library(&mut self, path: &Path) -> Result<(), FileFailure> {
+        let library = PigmentLibrary::open(path);
+        let library = library.map_err(|error| FileFailure::explained(&error))?;
+        let mut script = self.recorded.base().clone();
+        let is_bare = script.palette.is_empty();
+        if is_bare && !self.recorded.events().is_empty() {
+            let what = "paint was poured in this scene that has no pigments".to_owned();
+            let hint = Some(Hint::new("begin a new scene for the library"));
+            return Err(FileFailure { what, hint });
+        }
+        fill_tubes(&mut script, &library)?;
+        let path = disk::absolute(path).unwrap_or_else(|_| path.to_owned());
+        // Below the folder of the subject by its name there.
+        let named = path.strip_prefix(&self.folder).unwrap_or(&path);
+        script.library = Some(named.to_string_lossy().into_owned());
+        let materials = self.materials.with_library(&script, Arc::new(library), Some(path))?;
+        self.take_up(script, materials);
+        // Paint keeps its slots, as the letters stay.
+        if is_bare { self.replay_from(0) } else { Ok(()) }
+    }
+
+    /// Puts another pigment of the library into a tube, by its number from 0. Paint that was poured
+    /// from it is that of the new pigment.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for a pigment that the library does not have, or another tube has.
+    pub(super) fn set_tube(&mut self, number: usize, pigment: &str) -> Result<(), FileFailure> {
+        let mut script = self.recorded.base().clone();
+        if let Some(name) = script.palette.values_mut().nth(number) {
+            pigment.clone_into(name);
+        }
+        let materials = self.materials.again(&script)?;
+        self.take_up(script, materials);
+        Ok(())
+    }
+
+    /// Goes on with another palette or light.
+    fn take_up(&mut self, script: Script, materials: Materials) {
+        self.painters.set_pigments(materials.painted(&script));
+        self.materials = materials;
+        self.recorded.change_base(|base| *base = script);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_scene_has_the_tubes_of_the_easel() {
+        let opened = OpenedScene::read(&Subject::Shape("sphere".to_owned())).unwrap();
+        assert_eq!((opened.script.title.as_str(), opened.script.palette.len()), ("sphere", 8));
+        assert!(opened.mesh.triangles.len() > 50_000 && opened.file.is_none());
+    }
+
+    #[test]
+    fn what_cannot_be_opened_is_named_with_a_way_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).unwrap();
+            path
+        };
+        let future = "format = \"paint-volumes\"\nversion = 9\nsubject = \"shape:village\"\n";
+        let wrong = "format = \"paint-volumes\"\nversion = 1\nsubject = \"shape:vilage\"\n\
+                     seconds = 1.0\n";
+        for (subject, wanted) in [
+            (Subject::Shape("vilage".to_owned()), "vilage"),
+            (Subject::File(file("a.ply", "no ply")), "a.ply"),
+            (Subject::File(file("b.png", "no picture")), "b.png"),
+            (Subject::File(folder.path().join("missing.glb")), "missing.glb"),
+            (Subject::Script(file("c.toml", "seconds = ")), "c.toml"),
+            (Subject::Script(file("d.toml", future)), "line 2"),
+            (Subject::Script(file("e.toml", wrong)), "line 3"),
+        ] {
+            let failure = OpenedScene::read(&subject).unwrap_err();
+            assert!(failure.what.contains(wanted), "{subject:?}: {failure:?}");
+            assert!(failure.hint.is_some(), "{subject:?}: {failure:?}");
+        }
     }
 }

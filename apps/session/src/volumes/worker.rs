@@ -1,20 +1,27 @@
 //! The loop of the thread of a scene: carries out commands, lets time run, draws.
+//!
+//! The worker of scenes as the front end sees it.
+//!
+//! How large pictures of moving scenes are drawn, so that they come in time.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration as PictureShareDuration;
+
+use documents::hint::Hint;
+use graphics::camera::Camera;
 use web_time::{Duration, Instant};
 
-use graphics::camera::Camera;
-
 use super::command::VolumeCommand;
-use super::event::{ScenePicture, VolumeEvent};
-use super::inbox::Inbox;
-use super::pacer::{Pacer, STEPS_A_SECOND};
+use super::event::{ScenePicture, SceneState, SceneTime, VolumeEvent};
+use super::inbox::{Inbox, Input};
 use super::painters::{Quality, Sight};
-use super::picture_share::share_in_time;
 use super::scene::Scene;
-use super::state::{SceneState, SceneTime};
+use super::timeline::{Pacer, STEPS_A_SECOND};
 use crate::failure::FileFailure;
 use crate::inbox::Wait;
+use crate::thread::{Awaited, Works};
 
 /// Most pictures that the front end may not have received yet.
 const MOST_UNCONFIRMED: usize = 2;
@@ -376,5 +383,113 @@ impl<'a> SceneLoop<'a> {
             speed: if self.playing { self.pacer.speed(Instant::now()) } else { 0.0 },
         };
         Some(Arc::new(scene.state(time)))
+    }
+}
+
+/// Handle of the worker that owns a scene. Dropping it ends its thread and waits for that, at most
+/// five seconds.
+#[derive(Debug)]
+pub struct VolumeWorker {
+    inputs: Sender<Input>,
+    events: Receiver<VolumeEvent>,
+    works: Works<SceneLoop<'static>>,
+}
+
+impl VolumeWorker {
+    /// Starts the thread. It has no scene until [`VolumeCommand::Open`]. `wake` is called on the
+    /// thread after each event, so that a window can be drawn again.
+    #[must_use]
+    pub fn start(wake: impl Fn() + Send + 'static) -> Self {
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
+        let thread = Awaited::spawn(move || {
+            let send = move |event| {
+                // Sending fails only if the front end has dropped the receiver.
+                let _ = sender.send(event);
+                wake();
+            };
+            if catch_unwind(AssertUnwindSafe(|| SceneLoop::new(Inbox::new(receiver), &send).run()))
+                .is_err()
+            {
+                send(VolumeEvent::Message {
+                    text: "the scene has stopped by a fault of the program".to_owned(),
+                    hint: Some(Hint::new("start it again; it takes up what was saved last")),
+                    failed: true,
+                });
+            }
+        });
+        Self { inputs, events, works: Works::OnThread { _thread: thread } }
+    }
+
+    /// A worker without a thread, which works only while the front end calls
+    /// [`VolumeWorker::turn`]: for a page in a browser. `wake` is called after each event.
+    #[must_use]
+    pub fn in_turns(wake: impl Fn() + 'static) -> Self {
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
+        let work = SceneLoop::new(Inbox::new(receiver), move |event| {
+            let _ = sender.send(event);
+            wake();
+        });
+        Self { inputs, events, works: Works::in_turns(work) }
+    }
+
+    /// Lets a worker of [`VolumeWorker::in_turns`] work until `deadline`, or until it must wait; a step
+    /// or a picture that it has begun by then it finishes. Returns how long it may wait for the
+    /// next turn; [`Wait::Forever`] is until the next command. A worker on a thread does nothing here.
+    pub fn turn(&self, deadline: Instant) -> Wait {
+        self.works.turn(|work| work.turn(deadline))
+    }
+
+    /// Sends a command. Has no effect after the worker has ended.
+    pub fn ask(&self, command: VolumeCommand) {
+        let _ = self.inputs.send(Input::Command(Box::new(command)));
+    }
+
+    /// Events since the last call.
+    pub fn events(&self) -> impl Iterator<Item = VolumeEvent> + '_ {
+        let events: Vec<VolumeEvent> = self.events.try_iter().collect();
+        let received = events
+            .iter()
+            .filter(|event: &&VolumeEvent| matches!(event, VolumeEvent::Picture(_)))
+            .count();
+        if received > 0 {
+            let _ = self.inputs.send(Input::Confirmed(received));
+        }
+        events.into_iter()
+    }
+}
+
+impl Drop for VolumeWorker {
+    fn drop(&mut self) {
+        self.ask(VolumeCommand::Quit);
+    }
+}
+
+/// Time for a picture of a scene that moves. It is drawn smaller if it would take longer.
+const MOVING: PictureShareDuration = PictureShareDuration::from_millis(40);
+
+/// Smallest share of width and height at which moving scenes are drawn.
+const SMALLEST: f64 = 0.5;
+
+/// Share of width and height, in eighths, at which a picture of `size` takes no longer than
+/// [`MOVING`], at least [`SMALLEST`].
+pub(super) fn share_in_time([width, height]: [usize; 2], pixel_seconds: f64) -> f64 {
+    let whole = pixel_seconds * (width * height) as f64;
+    let share = (MOVING.as_secs_f64() / whole.max(1e-9)).sqrt();
+    ((8.0 * share).floor() / 8.0).clamp(SMALLEST, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moving_picture_is_as_large_as_there_is_time_for() {
+        assert_eq!(
+            [0.0, 39.0, 41.0, 71.0, 170.0, 1e9]
+                .map(|milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5)),
+            [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]
+        );
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use super::problem::Problem;
-use session::background;
+use session::thread;
 
 /// The reason why a job has no result.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl<T: Send + 'static> Job<T> {
         let (sender, result) = channel();
         let progress = Progress::default();
         let reporter = progress.clone();
-        background::start(move || {
+        thread::start(move || {
             let _waking = OnDrop(Some(wake));
             // If the work panics, the channel is closed, and `poll` reports it.
             let result = work(&reporter);
@@ -115,7 +115,7 @@ impl<T: Send + 'static> Job<T> {
         loop {
             match self.poll() {
                 Some(result) => return result,
-                None if background::next() => {}
+                None if thread::next() => {}
                 None => break,
             }
         }

@@ -106,7 +106,7 @@ impl Page {
         let shown = framed.frames > 0;
         drop(framed);
         // Work that may ask for the window, with the window free.
-        if !waits && session::background::next() {
+        if !waits && session::thread::next() {
             return 0.0;
         }
         let idle = wait != session::Wait::None && !waits && shown;

@@ -14,7 +14,6 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
-pub mod text_file;
 pub mod texel_file;
 pub mod sample;
 mod relief;

@@ -3,8 +3,8 @@
 //! A head leaves a film nearly in proportion to the paint that it holds. How much depends on its
 //! shape, its size and its pressure, so it is measured, not modelled.
 
-use super::plan::Plan;
-use super::planned::{COVER, poses};
+use super::planned_strokes::{COVER, poses};
+use super::settings::Plan;
 use graphics::field::Field;
 use paint::BrushId;
 use paint::amount::{mm_from_quanta, quanta_from_mm};

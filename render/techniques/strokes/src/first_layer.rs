@@ -1,6 +1,6 @@
 //! A photograph as the first, thin dry layer of a painting.
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use graphics::picture::Photograph;
 use graphics::tile::Rect;
 use paint::amount::quanta_from_mm;
@@ -11,7 +11,7 @@ use paint::separation::{
     FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings,
 };
 
-use super::tones::black_compensated;
+use super::stroke_painter::black_compensated;
 
 /// Thin films through which the ground shows, from a coarse table: the layer is a start to
 /// paint over, not a copy of the photograph.
@@ -24,23 +24,15 @@ const THIN: SeparationSettings = SeparationSettings {
 };
 
 /// Why a photograph cannot become a layer.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum FirstLayerError {
     /// The light of the painting is not known.
     #[error(transparent)]
+    #[fault(Input)]
     Light(#[from] PaintLightError),
     /// The pigments of the painting give no separation.
     #[error(transparent)]
     Separation(#[from] SeparationError),
-}
-
-impl Explain for FirstLayerError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Light(error) => error.hint(),
-            Self::Separation(error) => error.hint(),
-        }
-    }
 }
 
 /// Paint of a dry layer that shows `photograph` on the ground of `document` in paint of its wet

@@ -7,17 +7,12 @@
 //! [`StrokePainter`] does all of it. [`plan_layer`] plans the strokes of one brush along the
 //! structure of the picture; [`Painter`] paints them, coarse to fine.
 
-mod tones;
-mod first_layer;
-mod plan;
-mod trace;
-mod level_target;
-mod planned;
+mod settings;
+mod planned_strokes;
 mod deposit_curve;
 mod painter;
-mod stroke_settings;
 mod stroke_painter;
-mod separated_files;
+mod first_layer;
 
 pub use first_layer::{FirstLayerError, first_layer};
 pub use graphics::orientation::OrientationField;
@@ -27,9 +22,8 @@ pub use paint::separation::{
     SeparationError, SeparationSettings, choose_palette, rebuild_picture,
 };
 pub use painter::{LevelReport, PaintProgress, Painter, PainterError};
-pub use plan::{Order, Plan, PlanError};
-pub use planned::{PlannedStroke, plan_layer};
-pub use separated_files::SeparatedFiles;
-pub use stroke_painter::{PaintedPhotograph, StrokePainter, StrokePainterError};
-pub use stroke_settings::{StrokeSettings, StrokeSettingsError};
-pub use tones::black_compensated;
+pub use planned_strokes::{PlannedStroke, plan_layer};
+pub use settings::{Order, Plan, PlanError, StrokeSettings, StrokeSettingsError};
+pub use stroke_painter::{
+    PaintedPhotograph, SeparatedFiles, StrokePainter, StrokePainterError, black_compensated,
+};

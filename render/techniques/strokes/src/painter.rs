@@ -6,10 +6,9 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use super::deposit_curve::DepositCurve;
-use super::level_target::{BLUR_SIZES, LevelTarget};
-use super::plan::Plan;
-use super::planned::{PlannedStroke, plan_strokes};
-use documents::hint::{Explain, Fault, Hint};
+use super::planned_strokes::{BLUR_SIZES, LevelTarget, PlannedStroke, plan_strokes};
+use super::settings::Plan;
+use documents::hint::Explain;
 use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -277,33 +276,14 @@ fn play(
 }
 
 /// A photograph cannot be painted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PainterError {
     /// The picture of the canvas cannot be computed, or the brush cannot be measured.
     #[error("the painting could not go on")]
+    #[hint(inner)]
     Painting(#[from] PaintingError),
     /// A stroke cannot be painted.
     #[error("a stroke could not be painted")]
+    #[hint(inner)]
     Stroke(#[from] ReplayError<Infallible>),
-}
-
-impl PainterError {
-    fn cause(&self) -> &dyn Explain {
-        match self {
-            Self::Painting(error) => error,
-            Self::Stroke(ReplayError::Script(error)) => error,
-            Self::Stroke(ReplayError::Action { error, .. }) => error.as_ref(),
-            Self::Stroke(ReplayError::Save { error, .. }) => match *error {},
-        }
-    }
-}
-
-impl Explain for PainterError {
-    fn hint(&self) -> Option<Hint> {
-        self.cause().hint()
-    }
-
-    fn fault(&self) -> Fault {
-        self.cause().fault()
-    }
 }

@@ -1,26 +1,32 @@
-//! Painting of a photograph in strokes, with all its set-up.
+//! A photograph painted in strokes, or separated into a map of each pigment, with all the set-up:
+//! canvas, palette, light and tones that paint reaches.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
+use graphics::export::{ExportError, png8};
+use graphics::field::Field;
 use graphics::gpu::{BackendChoice, DeviceError};
 use graphics::picture::{Photograph, Picture};
 use paint::document::{Lighting, Medium, Slots};
 use paint::engine::PaintEngine;
-use paint::ground::{Ground, GroundError};
+use paint::export::{NamedFile, PigmentMap, pigment_maps};
+use paint::ground::{ColorPrimer, Ground, GroundError, Primer};
 use paint::light::{Light, PaintLightError};
 use paint::painting::{Painting, PaintingError};
 use paint::palette::{PaletteError, palette_slots};
 use paint::separation::{
     ColorErrors, FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings,
-    choose_palette,
+    choose_palette, rebuild_picture,
 };
 use paint::session::{PaintingSession, SessionError};
 use paint::strokes::{PaletteSpec, Resolved, ScriptError, StrokeScript};
 use pigment::PigmentLibrary;
+use pigment::library::to_text;
+use rayon::prelude::*;
+use serde_json::json;
+use spectra::color::Rgb;
 
 use super::painter::{LevelReport, PaintProgress, Painter, PainterError};
-use super::plan::Plan;
-use super::stroke_settings::{StrokeSettings, StrokeSettingsError};
-use super::tones::{black_compensated, toned_priming};
+use super::settings::{Plan, StrokeSettings, StrokeSettingsError};
 
 /// Heights of the films of a painted photograph in mm (chosen by eye: the thinnest still
 /// hides with most pigments, the thickest shows relief at the default cell size).
@@ -218,7 +224,7 @@ fn separation(
 }
 
 /// A photograph cannot be painted in strokes.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum StrokePainterError {
     /// The settings are invalid.
     #[error(transparent)]
@@ -252,29 +258,81 @@ pub enum StrokePainterError {
     Strokes(#[from] PainterError),
 }
 
-impl StrokePainterError {
-    fn cause(&self) -> &dyn Explain {
-        match self {
-            Self::Settings(error) => error,
-            Self::Palette(error) => error,
-            Self::Light(error) => error,
-            Self::Ground(error) => error,
-            Self::Separation(error) => error,
-            Self::Script(error) => error,
-            Self::Device(error) => error,
-            Self::Painting(error) => error,
-            Self::Session(error) => error,
-            Self::Strokes(error) => error,
-        }
+/// Start of the file names.
+const STEM: &str = "separation";
+
+/// A photograph separated into pigments, as files in memory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeparatedFiles {
+    /// The files of [`pigment_maps`]; `separation.rebuilt.png`, the picture that the
+    /// pigments make together; and `separation.errors.json`, its colour error.
+    pub files: Vec<NamedFile>,
+    /// Colour error of the rebuilt picture.
+    pub error: ColorErrors,
+}
+
+impl StrokePainter {
+    /// Separates the photograph into a map of each pigment. Write the files with
+    /// [`save_files`](paint::export::save_files).
+    ///
+    /// # Errors
+    /// [`ExportError`] if a file cannot be encoded.
+    pub fn separate(&self) -> Result<SeparatedFiles, ExportError> {
+        let separation = self.separation();
+        let target = self.target();
+        let heights = separation.separate(target);
+        let width = target.width();
+        let height = target.height();
+        let map = |(slot, name): (usize, &String)| {
+            let values = heights.values().iter().map(|cell| cell[slot]).collect();
+            PigmentMap { name: name.clone(), height_mm: Field::from_values(width, height, values) }
+        };
+        let maps: Vec<PigmentMap> = self.pigments().iter().enumerate().map(map).collect();
+        let picture = rebuild_picture(separation.film(), &heights);
+        let error = ColorErrors::between(separation, target, &picture);
+        let opaque = picture.values().iter().map(|&[red, green, blue]| [red, green, blue, 1.0]);
+        let opaque = Field::from_values(width, height, opaque.collect());
+        let mut files = pigment_maps(STEM, &maps, self.cell_mm())?;
+        let errors = to_text(&json!({"palette": self.pigments(), "error": error}));
+        files.extend([
+            NamedFile {
+                name: format!("{STEM}.rebuilt.png"),
+                bytes: png8(&opaque, self.cell_mm())?.bytes,
+            },
+            NamedFile { name: format!("{STEM}.errors.json"), bytes: errors.into_bytes() },
+        ]);
+        Ok(SeparatedFiles { files, error })
     }
 }
 
-impl Explain for StrokePainterError {
-    fn hint(&self) -> Option<Hint> {
-        self.cause().hint()
-    }
+/// Linear tone of the priming relative to the mean of the picture (chosen by eye).
+const TONE: f64 = 0.4;
 
-    fn fault(&self) -> Fault {
-        self.cause().fault()
+/// Raises the black of a photograph in linear sRGB to the luminance `black` (0..1) and keeps
+/// its white, so that differences in shadows survive: black point compensation (ISO
+/// 18619:2015).
+///
+/// The surface of paint alone reflects about 3 %, so no palette reaches a photograph's darkest
+/// tones. `black` is [`Separation::black`](paint::separation::Separation::black) or, before
+/// there is a palette, the surface reflection of the library.
+#[must_use]
+pub fn black_compensated(picture: &Picture, black: f32) -> Picture {
+    let values = picture
+        .values()
+        .par_iter()
+        .with_min_len(4096)
+        .map(|rgb: &[f32; 3]| rgb.map(|value| black + (1.0 - black) * value))
+        .collect();
+    Field::from_values(picture.width(), picture.height(), values)
+}
+
+/// Priming in a dark tone of the mean colour of `picture`: what strokes leave open looks like a
+/// shadow of the picture.
+pub(super) fn toned_priming(picture: &Picture) -> Primer {
+    let mut sum = [0.0; 3];
+    for color in picture.values() {
+        sum.iter_mut().zip(color).for_each(|(sum, value)| *sum += f64::from(*value));
     }
+    let tone = Rgb(sum.map(|sum| TONE * sum / picture.values().len() as f64)).encoded();
+    Primer::Color(ColorPrimer { rgb: tone.to_hex() })
 }

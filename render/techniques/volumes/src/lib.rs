@@ -30,7 +30,13 @@ pub mod world;
 pub mod hatching;
 pub mod drawing;
 pub mod pigments;
-pub mod toml_text;
+pub mod toml_text {
+    //! Texts of TOML under the names that this crate uses.
+
+    pub use documents::text::{
+        Checked, KeyPath, KeyStep, Source, TextError, ValueFault as Fault, read_text,
+    };
+}
 pub mod settings;
 pub mod script;
 pub mod performance;

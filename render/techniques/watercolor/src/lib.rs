@@ -11,13 +11,8 @@
 //! about equal.
 
 mod settings;
-mod wash;
-mod abstraction;
 mod shadow_map;
 mod toon;
-
-#[cfg(test)]
-mod shadow_tests;
 mod textures;
 mod effects;
 mod photograph;
@@ -25,20 +20,20 @@ mod pipeline;
 mod photograph_painter;
 mod model_painter;
 mod glaze;
-mod kernels;
 
-pub use abstraction::{
-    AbstractedPhotograph, AbstractionError, RegionSettings, abstract_photograph,
-};
 pub use effects::{
     ColorRange, DensityLayer, DryBrushReach, PaperShading, apply_density, apply_dry_brush,
     color_mask, edges, shade_paper, wobble,
 };
 pub use glaze::{GlazeError, GlazePainter, Glazes};
-pub use kernels::kernels;
 pub use model_painter::{ModelPainter, ModelPainterError};
-pub use photograph_painter::{PhotographPainter, PhotographPainterError, PreparedPhotograph};
-pub use pipeline::{FrameTextures, Stage, StageObserver, paint};
+pub use photograph_painter::{
+    AbstractedPhotograph, AbstractionError, PhotographPainter, PhotographPainterError,
+    PreparedPhotograph, RegionSettings, abstract_photograph,
+};
+pub use pipeline::{
+    Controls, FrameTextures, Masks, Stage, StageObserver, Wash, WashImages, kernels, paint,
+};
 pub use settings::{
     AbstractionSettings, BackRunSettings, CoherenceMethod, CoherenceSettings, DispersionSettings,
     DryBrushSettings, EdgeSettings, FlowSettings, MarginSettings, PaperSettings, Preset, Settings,
@@ -50,4 +45,3 @@ pub use textures::{
     Textures, back_runs, dispersion, turbulent_flow,
 };
 pub use toon::{Toon, shade_toon};
-pub use wash::{Controls, Masks, Wash, WashImages};

@@ -3,13 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::pipeline::{FrameTextures, StageObserver, paint};
+use super::pipeline::{Controls, FrameTextures, StageObserver, Wash, WashImages, paint};
 use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
 use super::shadow_map::ShadowMap;
 use super::textures::{BrushTouch, PaperTexture, PaperTextureError, TextureImages, Textures};
 use super::toon::{Toon, shade_toon};
-use super::wash::{Controls, Wash, WashImages};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{
@@ -337,7 +336,7 @@ impl Noise {
 }
 
 /// Why a mesh cannot be painted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum ModelPainterError {
     /// The paper cannot be made.
     #[error(transparent)]
@@ -348,22 +347,4 @@ pub enum ModelPainterError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-}
-
-impl Explain for ModelPainterError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Paper(error) => error.hint(),
-            Self::ToneRamp(error) => error.hint(),
-            Self::Device(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Paper(error) => error.fault(),
-            Self::ToneRamp(error) => error.fault(),
-            Self::Device(error) => error.fault(),
-        }
-    }
 }

@@ -1,8 +1,15 @@
 //! `impasto artmap sample` of pictures by marks, and `impasto artmap show`.
+//!
+//! `impasto artmap sample` of paintings that impasto made.
+//!
+//! Marks that `impasto artmap sample --propose` writes.
+//!
+//! Refusals of `impasto artmap sample`: exit status, place and way out.
 
 use graphics::export::png8;
 use graphics::field::Field;
 use serde_json::{Value, json};
+use suite::program::impasto;
 
 use super::{Folder, MARKS, artmap, done};
 
@@ -171,4 +178,299 @@ fn marks_of_another_picture_are_used_with_a_warning() {
     let output = folder.file("s.exr");
     let run = done(&["sample", &picture, "--marks", &marks, "--output", &output]);
     assert!(run.err.contains("marks the picture orchard.jpg, not strokes.png"), "{}", run.err);
+}
+
+/// Pigments of the crowded painting, one more than a table of samples holds.
+const NINE: [&str; 9] = [
+    "Zinc White",
+    "Lead White",
+    "Chrome Yellow",
+    "Vermilion",
+    "Minium",
+    "Cobalt Blue",
+    "Ultramarine",
+    "Viridian",
+    "Bone Black",
+];
+
+impl Folder {
+    /// A painting of 80 x 60 cells: upright strokes 4 mm (8 cells) apart in two pigments; with
+    /// `crowded`, a touch of seven further ones below.
+    fn painting(&self, crowded: bool) -> String {
+        let load = |pigment: &str, mm: f64| json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}});
+        let stroke = |samples: Value| json!({"stroke": {"brush": "flat", "samples": samples}});
+        let wash = json!({"wash": {"brush": "flat"}});
+        let mut actions: Vec<Value> = Vec::new();
+        for (index, pigment) in NINE[2..].iter().enumerate().filter(|_| crowded) {
+            let at = 5.0 + 4.0 * index as f64;
+            actions.extend([load(pigment, 0.1), stroke(json!([[0, at, 5, 0.6]])), wash.clone()]);
+            if index == 5 {
+                actions
+                    .extend([json!({"dry": {}}), json!({"palette": [NINE[0], NINE[1], NINE[8]]})]);
+            }
+        }
+        for (index, pigment) in NINE[..2].iter().cycle().take(9).enumerate() {
+            let x = 4.0 + 4.0 * index as f64;
+            actions.push(load(pigment, 0.4));
+            actions.push(stroke(json!([[0, x, 2, 0.6], [1, x, 28, 0.6]])));
+            actions.push(wash.clone());
+        }
+        let palette = if crowded { &NINE[..8] } else { &NINE[..2] };
+        let script = json!({
+            "format": "strokes", "version": 1, "title": "rows",
+            "canvas": {"width_mm": 40, "height_mm": 30, "cell_mm": 0.5},
+            "palette": palette,
+            "brushes": {"flat": {"shape": "flat", "size_mm": 3}},
+            "actions": actions,
+        });
+        let script = self.write("p.json", script.to_string());
+        let painting = self.file("p.exr");
+        let run = impasto(&["paint", &script, "--backend", "cpu", "--output", &painting]);
+        assert_eq!(run.status, 0, "{}", run.err);
+        painting
+    }
+}
+
+#[test]
+fn samples_of_a_painting_carry_its_pigments_and_relief() {
+    let folder = Folder::new();
+    let painting = folder.painting(false);
+    let output = folder.file("s.exr");
+    let run = ["sample", &painting, "--spacing", "8", "--output", &output, "--json"];
+    let told = done(&run).json();
+    assert_eq!(told["pigments"], json!(["Zinc White", "Lead White"]));
+    assert_eq!(told["provenance"], "painting `rows`");
+    let whole = &told["samples"][0];
+    assert_eq!((&whole["name"], &whole["spacing_source"]), (&json!("p"), &json!("set")));
+    assert_eq!((&whole["mm_per_texel"], &whole["guessed_relief"]), (&json!(0.5), &json!(false)));
+    let degrees = whole["direction"]["degrees"].as_f64().unwrap();
+    assert!((degrees - 90.0).abs() < 3.0, "{degrees}");
+    let seen = whole["direction"]["seen_in"].as_str();
+    assert!([Some("colour"), Some("relief")].contains(&seen), "{seen:?}");
+
+    // Marks on a painting count its cells.
+    let marks = folder.write(
+        "m.toml",
+        "[[sample]]\nname = \"half\"\nrectangle = [0, 0, 40, 60]\nspacing = [[4, 9], [12, 9]]\n",
+    );
+    let sheet = folder.file("s.png");
+    let run = ["sample", &painting, "--marks", &marks, "--output", &output, "--sheet", &sheet];
+    let told = done(&[&run[..], &["--json"]].concat()).json();
+    let half = &told["samples"][0];
+    assert_eq!(half["bounds"], json!([0, 0, 40, 60]));
+    let [mean, most] = ["mean", "greatest"].map(|of| half["height_mm"][of].as_f64().unwrap());
+    assert!(0.01 < mean && mean < most, "{mean} {most}");
+    let shown = done(&["show", &output]).out;
+    assert!(shown.contains("strokes 8.0 texels (4 mm) apart; Zinc White, Lead White"), "{shown}");
+}
+
+#[test]
+fn more_than_eight_pigments_are_refused_unless_minor_ones_are_merged() {
+    let folder = Folder::new();
+    let painting = folder.painting(true);
+    let output = folder.file("s.exr");
+    let run = ["sample", &painting, "--spacing", "8", "--output", &output];
+    let refused = artmap(&run);
+    assert_eq!(refused.status, 1, "{}", refused.err);
+    assert!(refused.err.contains("9 pigments, samples hold 8"), "{}", refused.err);
+    assert!(refused.err.contains("--merge-minor"), "{}", refused.err);
+    assert!(!folder.names().contains(&"s.exr".to_owned()), "nothing was written");
+    let merged = done(&[&run[..], &["--merge-minor", "--json"]].concat());
+    assert!(merged.err.contains(" is below 1 % of the pigment and counts as "), "{}", merged.err);
+    let told = merged.json();
+    assert!(told["pigments"].as_array().unwrap().len() <= 8, "{told}");
+}
+
+#[test]
+fn files_that_hold_no_painting_are_refused() {
+    let folder = Folder::new();
+    let painting = folder.painting(false);
+    let output = folder.file("s.exr");
+    done(&["sample", &painting, "--spacing", "8", "--output", &output]);
+    let again = folder.file("again.exr");
+    let run = artmap(&["sample", &output, "--output", &again]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("s.exr: not a painting of impasto"), "{}", run.err);
+    let run = artmap(&["show", &painting]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("p.exr: no samples of impasto"), "{}", run.err);
+    let bytes = folder.bytes("s.exr");
+    let cut = folder.write("cut.exr", &bytes[..bytes.len() / 2]);
+    let run = artmap(&["show", &cut]);
+    assert!(run.status == 1 && run.err.contains("cut.exr: "), "{}", run.err);
+    assert!(run.err.contains("hint: "), "{}", run.err);
+    let at = bytes.windows(11).position(|part| part == b"\"version\":1").unwrap();
+    let mut later = bytes;
+    later[at + 10] = b'7';
+    let run = artmap(&["show", &folder.write("later.exr", later)]);
+    assert!(run.status == 1 && run.err.contains("samples of version `7`"), "{}", run.err);
+}
+
+#[test]
+fn proposed_marks_can_be_sampled() {
+    let folder = Folder::new();
+    let picture = folder.strokes();
+    let [marks, marked, output] = ["m.toml", "m.png", "s.exr"].map(|name| folder.file(name));
+    let run =
+        done(&["sample", &picture, "--propose", "2", "--output", &marks, "--marked", &marked]);
+    assert!(run.out.contains("2 proposed samples"), "{}", run.out);
+    assert!(run.out.contains("orange") && run.out.contains("sky blue"), "{}", run.out);
+    assert!(run.err.contains("--marks"), "the next command: {}", run.err);
+    let text = String::from_utf8(folder.bytes("m.toml")).unwrap();
+    assert!(text.starts_with("# Marks of samples"), "{text}");
+    assert!(text.contains("painting = \"strokes.png\""), "{text}");
+    let told = done(&["sample", &picture, "--marks", &marks, "--output", &output, "--json"]).json();
+    let samples = told["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 2, "{told}");
+    // One scribble lies on each side.
+    let left = |index: usize| samples[index]["bounds"][0].as_f64().unwrap();
+    assert!(left(0) > 80.0 && left(1) < 10.0, "{told}");
+    assert!(image::open(&marked).unwrap().width() == 200, "the picture with its marks");
+    let told = done(&["sample", &picture, "--propose", "2", "--output", &marks, "--json"]).json();
+    assert_eq!(told["samples"].as_array().unwrap().len(), 2, "{told}");
+    assert_eq!(told["without_spacing"], serde_json::json!([]));
+}
+
+#[test]
+fn passages_whose_spacing_must_be_marked_are_told() {
+    let folder = Folder::new();
+    // Blotches of 5 px without any order.
+    let color = |i: usize| {
+        let column = i % 200 / 5;
+        let row = i / 200 / 5;
+        let mixed = (column * 7919 + row * 104_729) as u32;
+        let mixed = (mixed ^ (mixed >> 7)).wrapping_mul(0x9E37_79B1) >> 24;
+        let grey = 0.3 + 0.1 * mixed as f32 / 255.0;
+        [grey, grey, grey, 1.0]
+    };
+    let picture = Field::from_values(200, 120, (0..200 * 120).map(color).collect());
+    let picture = folder.write("blotches.png", png8(&picture, 1.0).unwrap().bytes);
+    let marks = folder.file("m.toml");
+    let run = done(&["sample", &picture, "--propose", "1", "--output", &marks]);
+    assert!(run.err.contains("cannot be seen in passage 1: mark their spacing"), "{}", run.err);
+}
+
+#[test]
+fn fewer_passages_than_asked_for_are_told() {
+    let folder = Folder::new();
+    let picture = folder.strokes();
+    let marks = folder.file("m.toml");
+    let run = done(&["sample", &picture, "--propose", "60", "--output", &marks]);
+    assert!(run.err.contains("only "), "{}", run.err);
+}
+
+#[test]
+fn proposals_go_to_a_file_of_marks() {
+    let folder = Folder::new();
+    let picture = folder.strokes();
+    let output = folder.file("s.exr");
+    let run = artmap(&["sample", &picture, "--propose", "2", "--output", &output]);
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("s.exr: expected a file name that ends in .toml"), "{}", run.err);
+    assert_eq!(folder.names(), ["strokes.png"]);
+}
+
+#[test]
+fn bad_marks_name_file_sample_and_way_out_and_leave_no_files() {
+    let folder = Folder::new();
+    let picture = folder.strokes();
+    let output = folder.write("s.exr", "mine");
+    let scribble = "scribble = [[20, 30], [70, 90]]";
+    let rectangle = "rectangle = [106, 6, 88, 108]";
+    for (from, to, words) in [
+        (
+            scribble,
+            "scribble = [[20, 30], [70, 300]]",
+            &[
+                "sample `wall`, scribble: [70, 300] lies off the picture of 200 x 120",
+                "[column, row]",
+            ][..],
+        ),
+        (
+            rectangle,
+            "scribble = [[20, 80], [70, 40]]",
+            &["sample `shade`, scribble: crosses the line of sample `wall` at", "shorten"],
+        ),
+        (rectangle, "rectangle = [106, 6, 88, 208]", &["sample `shade`, rectangle", "lies off"]),
+        (
+            "spacing",
+            "spaceing",
+            &["line 10: [[sample]] 2, spaceing: unknown key", "did you mean spacing?"],
+        ),
+        (
+            "[150, 68]]",
+            "[150, 60]]",
+            &["sample `shade`, spacing: both points", "leave spacing out"],
+        ),
+        (
+            "[150, 68]]",
+            "[150, 110]]",
+            &["sample `shade` is", "less than four times", "mark a wider"],
+        ),
+        ("\"shade\"", "\"wall\"", &["sample `wall`, name: another sample"]),
+        (MARKS, "painting = \"x.png\"", &["there are no samples", "--propose"]),
+    ] {
+        assert!(MARKS.contains(from), "`{from}` is in the marks");
+        let marks = folder.write("marks.toml", MARKS.replace(from, to));
+        let run = artmap(&["sample", &picture, "--marks", &marks, "--output", &output]);
+        assert_eq!(run.status, 1, "{to}: {}", run.err);
+        assert!(run.out.is_empty() && run.err.contains("hint: "), "{to}: {}", run.err);
+        for word in words {
+            assert!(run.err.contains(word), "{to}: `{word}` is not in {}", run.err);
+        }
+    }
+    assert_eq!(folder.bytes("s.exr"), b"mine", "the file that was there stays");
+    let run = artmap(&["sample", "none.png", "--output", &output]);
+    assert_ne!(run.status, 0, "{}", run.out);
+    assert!(run.err.contains("none.png"), "{}", run.err);
+}
+
+#[test]
+fn flat_colors_show_no_strokes() {
+    let folder = Folder::new();
+    let flat = Field::filled(60, 40, [0.3, 0.3, 0.3, 1.0]);
+    let picture = folder.write("flat.png", png8(&flat, 1.0).unwrap().bytes);
+    let output = folder.file("s.exr");
+    let run = artmap(&["sample", &picture, "--output", &output]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("the distance of strokes cannot be seen in flat"), "{}", run.err);
+    let hint =
+        "spacing = [[x, y], [x, y]], or give one distance in pixels for all samples with --spacing";
+    assert!(run.err.contains(hint), "{}", run.err);
+    let marks = folder.file("m.toml");
+    let run = artmap(&["sample", &picture, "--propose", "3", "--output", &marks]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("no passage of the picture has strokes"), "{}", run.err);
+    assert_eq!(folder.names(), ["flat.png"]);
+}
+
+#[test]
+fn wrong_settings_and_files_could_not_run() {
+    let folder = Folder::new();
+    let picture = folder.strokes();
+    let marks = folder.write("marks.toml", MARKS);
+    let output = folder.file("s.exr");
+    let sample = ["sample", &picture, "--output", &output];
+    for (arguments, words) in [
+        (
+            [&sample[..], &["--marks", &marks, "--reach", "11"]].concat(),
+            "reach takes 0 to 10, found `11`",
+        ),
+        ([&sample[..], &["--spacing", "0"]].concat(), "spacing takes 1 to 1000, found `0`"),
+        ([&sample[..], &["--marks", &marks, "--propose", "3"]].concat(), "cannot be used with"),
+        ([&sample[..], &["--propose", "0"]].concat(), "0 is not in 1..=64"),
+        ([&sample[..], &["--over", "jpeg"]].concat(), "jseg, mean-shift"),
+        ([&sample[..], &["--marks", "none.toml"]].concat(), "none.toml: cannot be read"),
+        ([&sample[..], &["--sheet", &picture]].concat(), "is an input file"),
+        ([&sample[..], &["--sheet", &output]].concat(), "two outputs have this file name"),
+        ([&sample[..], &["--marked", &output]].concat(), "two outputs have this file name"),
+        (vec!["sample", &picture, "--output", "s.png"], "expected a file name that ends in .exr"),
+        (vec!["sample", &picture], "--output"),
+        (vec!["show", "none.exr"], "none.exr: cannot be read"),
+    ] {
+        let run = artmap(&arguments);
+        assert_eq!(run.status, 2, "{arguments:?}: {}", run.err);
+        assert!(run.err.contains(words), "{arguments:?}: `{words}` is not in {}", run.err);
+    }
+    assert_eq!(folder.names(), ["marks.toml", "strokes.png"], "nothing was written");
 }

@@ -117,10 +117,15 @@ fn looks_that_are_none() {
     let torn = file("torn.toml", "[paper\n");
     let none = folder.file("none.toml");
     let scan = file("scan.toml", "[paper]\nscan = \"none.png\"\n");
-    let preset = "start from a preset's file";
     for (option, value, status, what, hint) in [
         ("--settings", none.as_str(), 2, "none.toml: cannot be read", "check that the file"),
-        ("--settings", &key, 1, "key.toml, line 3: unknown key `stronger`", "it takes the keys"),
+        (
+            "--settings",
+            &key,
+            1,
+            "key.toml, line 3: edges.stronger: unknown key `stronger`",
+            "it takes the keys",
+        ),
         (
             "--settings",
             &range,
@@ -132,10 +137,10 @@ fn looks_that_are_none() {
             "--settings",
             &color,
             1,
-            "colour.toml, line 2: paper.colour is written #rrggbb, found `red`",
-            "a warm white",
+            "colour.toml, line 2: paper.colour takes a colour written #rrggbb, found `red`",
+            "#fbf9f4 is usual",
         ),
-        ("--settings", &torn, 1, "torn.toml, line 1: ", preset),
+        ("--settings", &torn, 1, "torn.toml, line 1: ", "a line of TOML"),
         ("--settings", &scan, 1, "none.png", "paper.scan names a picture (PNG"),
         (
             "--set",
@@ -162,20 +167,20 @@ fn looks_that_are_none() {
             "--set",
             "edges.stronger=1",
             2,
-            "--set edges.stronger=1, line 1: unknown key `stronger`",
+            "--set edges.stronger=1, line 1: edges.stronger: unknown key `stronger`",
             "it takes the keys",
         ),
         ("--set", "edge.strength=1", 2, "unknown key `edge`", "did you mean edges?"),
-        ("--set", "edges.strength=much", 2, "invalid type: text \"much\"", preset),
-        ("--set", "edges.strength=", 2, "invalid type: text \"\"", preset),
-        ("--set", "flow.seed=-1", 2, "--set flow.seed=-1, line 1: ", preset),
+        ("--set", "edges.strength=much", 2, "invalid type: text \"much\"", "3 is usual"),
+        ("--set", "edges.strength=", 2, "invalid type: text \"\"", "3 is usual"),
+        ("--set", "flow.seed=-1", 2, "--set flow.seed=-1, line 1: ", "1 is usual"),
         ("--set", "paper.kind=velvet", 2, "unknown word `velvet`", "it takes the words"),
         (
             "--set",
             "dry_brush.colour=blue",
             2,
-            "dry_brush.colour is written #rrggbb, found `blue`",
-            "a warm white",
+            "dry_brush.colour takes a colour written #rrggbb, found `blue`",
+            "#506a8c is usual",
         ),
         ("--set", "coherence.method=none", 2, "unknown word `none`", ""),
     ] {

@@ -9,13 +9,12 @@ use artmap::sheet::sheet;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use super::files::FileAndSheet;
-use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
+use super::{FileAndSheet, pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
-use crate::input::is_toml;
 use crate::library_choice::quietly_chosen;
 use crate::progress::Waiting;
+use crate::readings::is_toml;
 
 /// Paint samples with the engine: tones of one hue, from dark to light, in the strokes of a style
 ///

@@ -1,22 +1,32 @@
 //! `impasto library convert`: converts a library to another grid, white or kind of amounts, or
 //! makes one from a table of K and S.
+//!
+//! Options of `merge` and `convert` for resampling curves to another grid.
+//!
+//! `impasto library merge`: merges libraries into one.
+//!
+//! `impasto library rename`: renames pigments.
+//!
+//! `impasto library subset`: keeps some pigments of a library.
 
 use std::path::{Path, PathBuf};
 
-use calibrate::curation::{LibraryFrame, from_csv, on_grid, with_reference};
+use calibrate::curation::{
+    LibraryFrame, MergeSettings, Prefer, Source, from_csv, merged, on_grid, renamed, subset,
+    with_color_indices, with_reference,
+};
 use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
 use documents::counted;
-use spectra::Interpolation;
+use serde_json::json;
+use spectra::{Extrapolation, Interpolation};
 
-use super::resampling::ResamplingOptions;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::grid_option::grid;
-use crate::input::text;
-use crate::library_choice::{chosen, default_path};
+use crate::library_choice::{chosen, default_path, split};
 use crate::output::Output;
-use crate::surface::SurfaceOptions;
+use crate::readings::{ViewingOptions, library, remark_repeated, text};
+use crate::surface::{SurfaceOptions, grid};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Amounts {
@@ -177,4 +187,262 @@ fn remark_reference(
     let kept: Vec<String> =
         stand_ins.map(|pigment| format!("{}: S is not known and stays 1", pigment.name)).collect();
     console.warnings(if before.amounts == AmountKind::Relative { &kept } else { &[] })
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum InterpolationName {
+    /// Straight lines, which never overshoot
+    Linear,
+    /// Sprague's polynomial, for smooth curves; clipped at 0
+    Sprague,
+}
+
+/// Options for resampling K and S to another grid.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct ResamplingOptions {
+    /// Interpolation of K and S on another grid [default: sprague, linear below six wavelengths]
+    #[arg(long, value_enum)]
+    interpolation: Option<InterpolationName>,
+    /// Continue the end values beyond a library's band instead of failing
+    #[arg(long)]
+    hold_ends: bool,
+}
+
+impl ResamplingOptions {
+    /// Interpolation given by the option; `None` if it is absent.
+    pub(super) fn method(self) -> Option<Interpolation> {
+        self.interpolation.map(|name| match name {
+            InterpolationName::Linear => Interpolation::Linear,
+            InterpolationName::Sprague => Interpolation::Sprague,
+        })
+    }
+
+    /// Treatment of wavelengths beyond a library's band.
+    pub(super) fn ends(self) -> Extrapolation {
+        if self.hold_ends { Extrapolation::Hold } else { Extrapolation::Refuse }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum PreferName {
+    First,
+    Last,
+}
+
+/// Merge libraries into one
+///
+/// K and S of relative libraries are converted to one reference white, that of the first library:
+/// those of each later library are divided by its own S of this white, found there by name or by
+/// --as. This keeps the K/S of every mixture. Pigments that two libraries share are compared.
+/// Libraries with different surfaces, or one of shares and one of amounts, cannot be merged.
+#[derive(Debug, Args)]
+pub(super) struct Merge {
+    /// The pigment libraries (JSON); grid and surface are those of the first
+    #[arg(required = true, num_args = 2.., value_name = "LIBRARY")]
+    libraries: Vec<PathBuf>,
+    /// The library file to write (JSON)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The white that all libraries share, by its name in the first [default: its reference]
+    #[arg(long, alias = "reference", value_name = "PIGMENT")]
+    white: Option<String>,
+    /// Name of that white in another library (may be repeated)
+    #[arg(long = "as", value_name = "PIGMENT")]
+    aliases: Vec<String>,
+    /// Which of two different pigments with the same name to keep [default: an error; for the
+    /// white, the first]
+    #[arg(long, value_enum)]
+    prefer: Option<PreferName>,
+    /// Title of the new library [default: all titles]
+    #[arg(long)]
+    title: Option<String>,
+    #[command(flatten)]
+    resampling: ResamplingOptions,
+    /// Accept pigments fitted under another surface as if it were the first's
+    #[arg(long)]
+    any_surface: bool,
+    /// Confirm that the absolute amounts of all libraries have the same unit and area
+    #[arg(long)]
+    same_unit: bool,
+    #[command(flatten)]
+    viewing: ViewingOptions,
+    /// Print JSON: pigments, common, warnings
+    #[arg(long)]
+    json: bool,
+    /// Print the pigments that several libraries have as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+}
+
+impl Merge {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        remark_repeated(&self.libraries, console)?;
+        let output = Output::open(&self.output, &self.libraries)?;
+        let sources = self
+            .libraries
+            .iter()
+            .map(|path| Ok(Source { file: path.display().to_string(), library: library(path)? }))
+            .collect::<Result<Vec<Source>>>()?;
+        let settings = MergeSettings {
+            reference: self.white,
+            aliases: self.aliases,
+            prefer: self.prefer.map(|prefer| match prefer {
+                PreferName::First => Prefer::First,
+                PreferName::Last => Prefer::Last,
+            }),
+            interpolation: self.resampling.method(),
+            ends: self.resampling.ends(),
+            any_surface: self.any_surface,
+            same_unit: self.same_unit,
+            viewing: self.viewing.viewing()?,
+        };
+        let mut found = merged(&sources[0], &sources[1..], &settings)?;
+        if let Some(title) = self.title {
+            found.library.title = title;
+        }
+        if sources.iter().any(|source| source.library.evidence.is_some()) {
+            found.warnings.push(
+                "the evidence of each fit is left out; its errors are in the notes of the pigments"
+                    .into(),
+            );
+        }
+        console.warnings(&found.warnings)?;
+        output.write(found.library.to_json(), console)?;
+        let common = found.common.iter().map(|(name, file, delta_e)| {
+            json!({ "name": name, "file": file, "masstone_ciede2000": delta_e })
+        });
+        if self.csv {
+            return console.csv_rows(&common.collect::<Vec<_>>());
+        }
+        if self.json {
+            return console.json(&json!({
+                "pigments": found.library.pigments.len(),
+                "reference": found.library.reference,
+                "common": common.collect::<Vec<_>>(),
+                "warnings": found.warnings,
+            }));
+        }
+        for (name, file, delta_e) in &found.common {
+            console.line(format!("{name}: that of {file} differs by {delta_e:.2} CIEDE2000"))?;
+        }
+        console.line(format!(
+            "{}: {} of {} libraries",
+            self.output.display(),
+            counted(found.library.pigments.len(), "pigment"),
+            sources.len()
+        ))
+    }
+}
+
+/// Rename pigments; everything else stays the same, byte for byte
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto library rename [OPTIONS] --output <FILE> [LIBRARY] [OLD=NEW]..."
+)]
+pub(super) struct Rename {
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship], then names to change, all at once; the old name may be
+    /// abbreviated
+    #[arg(value_name = "[LIBRARY] OLD=NEW")]
+    words: Vec<String>,
+    /// Set a Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it
+    #[arg(long = "colour-index", value_name = "NAME=INDEX")]
+    color_index: Vec<String>,
+    /// The library file to write (JSON)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+impl Rename {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let (path, names) = split(&self.words, true);
+        if names.is_empty() && self.color_index.is_empty() {
+            return Err(Failure::usage("nothing to rename", "give OLD=NEW, or --colour-index"));
+        }
+        let chosen = chosen(path.as_deref(), console)?;
+        let output = Output::open(&self.output, &chosen.inputs())?;
+        let file = chosen.name();
+        let before = chosen.library;
+        let indexed = with_color_indices(&file, &before, &pairs(&self.color_index)?)?;
+        let after = renamed(&file, &indexed, &pairs(names)?)?;
+        output.write(after.to_json(), console)?;
+        for (old, new) in before.pigments.iter().zip(&after.pigments) {
+            if old.name != new.name {
+                console.line(format!("{} is now {}", old.name, new.name))?;
+            }
+            if old.color_index != new.color_index {
+                let index = new.color_index.as_deref().unwrap_or("without a Colour Index name");
+                console.line(format!("{} is {index}", new.name))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Parses texts `NAME=CHANGE`.
+fn pairs(texts: &[String]) -> Result<Vec<(String, String)>> {
+    let pair = |text: &String| {
+        let parts = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
+        let (name, value) = parts.ok_or_else(|| {
+            Failure::usage(
+                format!("a change takes NAME=CHANGE, found `{text}`"),
+                "try \"Viridian=Viridian (batch 2)\"",
+            )
+        })?;
+        Ok((name.to_owned(), value.to_owned()))
+    };
+    texts.iter().map(pair).collect()
+}
+
+/// Keep some pigments of a library; their K and S do not change
+///
+/// The reference white must be among them. --white chooses another, and all K and S are then
+/// divided by its S. Only the summary of the evidence is kept, marked as that of the whole fit.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto library subset [OPTIONS] --output <FILE> [LIBRARY] [PIGMENT]..."
+)]
+pub(super) struct Subset {
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship], then the pigments to keep; a name may be abbreviated
+    /// [default: all]
+    #[arg(value_name = "[LIBRARY] PIGMENT")]
+    words: Vec<String>,
+    /// A pigment to leave out (may be repeated)
+    #[arg(long, value_name = "PIGMENT")]
+    without: Vec<String>,
+    /// The pigment whose S becomes 1 [default: the library's reference]
+    #[arg(long, alias = "reference", value_name = "PIGMENT")]
+    white: Option<String>,
+    /// The library file to write (JSON)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+impl Subset {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let (path, keep) = split(&self.words, true);
+        if keep.is_empty() && self.without.is_empty() {
+            return Err(Failure::usage(
+                "nothing to leave out",
+                "name pigments to keep, or give --without",
+            ));
+        }
+        let chosen = chosen(path.as_deref(), console)?;
+        let output = Output::open(&self.output, &chosen.inputs())?;
+        let file = chosen.name();
+        let mut before = chosen.library;
+        if let Some(reference) = &self.white {
+            before = with_reference(&file, &before, reference)?;
+        }
+        let after = subset(&file, &before, keep, &self.without)?;
+        if after.pigments.len() < before.pigments.len() && before.evidence.is_some() {
+            console.remark(
+                "evidence: kept the summary of the whole fit, left out the errors of samples",
+            )?;
+        }
+        output.write(after.to_json(), console)?;
+        let names: Vec<&str> = after.pigments.iter().map(|p| p.name.as_str()).collect();
+        console.line(format!("{}: {}", self.output.display(), names.join(", ")))
+    }
 }

@@ -1,26 +1,35 @@
 //! `impasto map`: which pigments of a library are where in a spectral scan.
+//!
+//! Options of a map: which pigments take part, and how far the library may err.
+//!
+//! Options for how a scan is read.
+//!
+//! Text, JSON and CSV of maps beside the truth of a simulated scan.
+//!
+//! Text of a survey and its maps.
 
-mod pigment_options;
-mod scan_options;
-mod told;
 mod page;
-mod truth;
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use calibrate::remark::Remark;
+use calibrate::{PigmentLibrary, Residuals};
 use clap::Args;
+use maps::cube::{CubeOptions, CubeScale, DarkReading};
 use maps::pictures::Overview;
-use maps::truth::{Truth, compare};
-use maps::{Book, Region, Spot, StoreMode, StoredMaps, SurveyedScan};
+use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
+use maps::{
+    Book, Cube, FoundColumn, Ground, MapSettings, ModelError, PigmentGroup, Region, Spot,
+    StoreMode, StoredMaps, SurveyedScan,
+};
+use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::failure::{Context, Failure, Result};
 use crate::library_choice::chosen;
 use crate::output::OutputFolder;
 use crate::progress::{Progress, Waiting};
-use pigment_options::{PigmentOptions, rectangle};
-use scan_options::ScanOptions;
 
 /// Squares along the longer side of the pictures.
 const PICTURE: usize = 1600;
@@ -103,7 +112,7 @@ impl Map {
         let known = self.survey.as_ref().filter(|path| path.exists());
         let scan = match known {
             Some(path) => {
-                let book = Book::from_json(&crate::input::text(path)?)
+                let book = Book::from_json(&crate::readings::text(path)?)
                     .context(|| format!("{} cannot be used", path.display()))?;
                 SurveyedScan::with_book(cube, &library, &settings, region, book)?
             }
@@ -135,20 +144,20 @@ impl Map {
         }
         if self.csv {
             return console.csv_rows(&match &compared {
-                Some(compared) => truth::rows(compared),
+                Some(compared) => rows(compared),
                 None => scan.palette_json(mapped.as_ref()),
             });
         }
         if self.json {
             let mut json = scan.to_json(mapped.as_ref(), &spots);
-            json["truth"] = compared.as_ref().map(truth::json).into();
+            json["truth"] = compared.as_ref().map(self::json).into();
             return console.json(&json);
         }
-        told::print(&scan, mapped.as_ref(), console)?;
+        print_survey(&scan, mapped.as_ref(), console)?;
         if let Some(compared) = &compared {
-            truth::print(compared, console)?;
+            print(compared, console)?;
         }
-        told::print_spots(&spots, console)?;
+        print_spots(&spots, console)?;
         if self.output.is_none() {
             console.remark("Wrote no maps; give --output maps.zarr to map every pixel")?;
         }
@@ -204,4 +213,295 @@ fn spot(text: &str) -> Result<Region> {
             "try --spot 120,40 or --spot 120..124,40..44",
         )
     })
+}
+
+/// Which pigments take part, and how they are told.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Pigments")]
+struct PigmentOptions {
+    /// Most pigments of one pixel, 1 to 4 [default: 3]
+    #[arg(long, value_name = "N")]
+    at_most: Option<usize>,
+    /// A pigment that may take part; may be repeated [default: all whose S is known]
+    #[arg(long, value_name = "NAME")]
+    palette: Vec<String>,
+    /// Pigments that are mapped as one, such as `whites=Lead White,Zinc White`; may be repeated
+    #[arg(long, value_name = "NAME=PIGMENT,..")]
+    group: Vec<String>,
+    /// Map each pigment by itself, also those that the bands cannot tell apart
+    #[arg(long)]
+    apart: bool,
+    /// Standard deviation of the noise of a band, as a fraction [default: that of the white reading, else
+    /// 0.003]
+    #[arg(long, value_name = "SD")]
+    noise: Option<f64>,
+    /// Errors of mixtures that the library had not seen, from `impasto validate READINGS --residuals FILE`
+    /// [default: for the oils that ship their own]
+    #[arg(long, value_name = "FILE")]
+    residuals: Option<PathBuf>,
+    /// How far K and S of the library may be off, as a fraction [default: 0.1 for a library without
+    /// residuals]
+    #[arg(long, value_name = "0.05", conflicts_with = "residuals")]
+    model_error: Option<f64>,
+    /// The bare ground, whose pixels are told as ground rather than mapped as paint: rows and columns of the scan,
+    /// such as 0..20,0..100, or a file with its reflectance
+    #[arg(long, value_name = "ROWS,COLUMNS|FILE")]
+    ground: Option<String>,
+    /// Amount by which a pigment that the survey does not find in the palette must lower chi-square to be told
+    /// [default: 2]
+    #[arg(long, value_name = "N")]
+    penalty: Option<f64>,
+}
+
+impl PigmentOptions {
+    /// Settings of a map of the scan `cube` with `library`.
+    fn settings(&self, cube: &Cube, library: &PigmentLibrary) -> Result<MapSettings> {
+        let usual = MapSettings::default();
+        let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
+        let of_white = cube.noise_of_white().map(|noise| noise.max(usual.sensor_noise));
+        let residuals = self.residuals.as_ref().map(|path| -> Result<ModelError> {
+            Ok(ModelError::Residuals(Residuals::open(path)?))
+        });
+        let stated = self.model_error.map(ModelError::Stated);
+        let settings = MapSettings {
+            at_most: self.at_most.unwrap_or(usual.at_most),
+            palette: self.palette.clone(),
+            groups,
+            group_alike: !self.apart,
+            sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
+            penalty: self.penalty.unwrap_or(usual.penalty),
+            model_error: residuals.transpose()?.or(stated),
+            ground: self.ground.as_deref().map(|text| ground(text, cube)).transpose()?,
+        };
+        if let (Err(error), Some(path)) = (settings.model_error_of(library), &self.residuals) {
+            return Err(Failure::from(error).within(format!("{} cannot be used", path.display())));
+        }
+        Ok(settings)
+    }
+
+    /// Remark on a library about whose errors nothing is known.
+    fn remark(&self, scan: &SurveyedScan) -> Option<Remark> {
+        let assumed = self.model_error.is_none()
+            && matches!(scan.mapper().model_error(), ModelError::Stated(_));
+        assumed.then(|| {
+            let words = scan.mapper().model_error().words();
+            Remark::note(format!("this library is taken to have {words}")).with_hint(
+                "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] gives them to the map",
+            )
+        })
+    }
+}
+
+/// The ground of a map: the mean of a region of the scan, or the reflectance in a file.
+fn ground(text: &str, cube: &Cube) -> Result<Ground> {
+    if let Some(region) = rectangle(text) {
+        return Ok(region.ground(cube)?);
+    }
+    let opened = spectra::read_spectrum(text)
+        .map_err(|error| Failure::from(error).within("--ground takes a region or a file"))?;
+    let reflectance = opened.spectrum.reflectance().map_err(Failure::from)?;
+    let nm = reflectance.grid().wavelengths_nm().collect();
+    Ok(Ground::new(nm, reflectance.values().to_vec())?)
+}
+
+/// Parses `ROWS,COLUMNS`, each `FIRST..END`; `None` for any other text.
+fn rectangle(text: &str) -> Option<Region> {
+    let range = |part: &str| {
+        let (first, end) = part.split_once("..")?;
+        Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
+    };
+    let (rows, columns) = text.split_once(',')?;
+    Some(Region { rows: range(rows)?, columns: range(columns)? })
+}
+
+/// Parses a group, `NAME=PIGMENT,..`.
+fn group(text: &str) -> Result<PigmentGroup> {
+    let found = text.split_once('=').map(|(name, pigments)| PigmentGroup {
+        name: name.trim().to_owned(),
+        pigments: pigments.split(',').map(|name| name.trim().to_owned()).collect(),
+    });
+    found
+        .filter(|group: &PigmentGroup| {
+            !group.name.is_empty() && group.pigments.iter().all(|name| !name.is_empty())
+        })
+        .ok_or_else(|| {
+            Failure::usage(
+                format!("--group takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
+                "try --group \"whites=Lead White,Zinc White\"",
+            )
+        })
+}
+
+/// How the scan is read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reading the scan")]
+struct ScanOptions {
+    /// Values are in percent [default: by the file]
+    #[arg(long, conflicts_with = "fraction")]
+    percent: bool,
+    /// Values are fractions, a white near 1
+    #[arg(long)]
+    fraction: bool,
+    /// A scan of a white, for scans of raw counts
+    #[arg(long, value_name = "SCAN")]
+    white_reading: Option<PathBuf>,
+    /// A scan with the shutter closed; 0 if it is subtracted already
+    #[arg(long, value_name = "SCAN", requires = "white_reading")]
+    dark_reading: Option<PathBuf>,
+    /// The white's own reflectance [default: 1]
+    #[arg(long, value_name = "0.99", requires = "white_reading")]
+    tile: Option<f64>,
+    /// Largest count of the detector, such as 4095 [default: guessed]
+    #[arg(long, value_name = "COUNT")]
+    full_scale: Option<f64>,
+    /// File with the wavelength of each band in nm, for scans that name none
+    #[arg(long, value_name = "FILE")]
+    wavelengths: Option<PathBuf>,
+    /// Name of the array of a Zarr group that holds several
+    #[arg(long, value_name = "NAME")]
+    variable: Option<String>,
+}
+
+impl ScanOptions {
+    /// Opens the scan at `path`.
+    fn cube(&self, path: &Path) -> Result<Cube> {
+        if self.tile.is_some_and(|tile| !(tile > 0.0 && tile <= 1.2)) {
+            return Err(Failure::usage(
+                "--tile takes the reflectance of the white, above 0 and up to 1.2",
+                "leave it out for a white that reflects everything",
+            ));
+        }
+        let dark_reading = match &self.dark_reading {
+            None => DarkReading::Missing,
+            Some(path) if path.as_os_str() == "0" => DarkReading::Subtracted,
+            Some(path) => DarkReading::File(path.clone()),
+        };
+        let options = CubeOptions {
+            white_reading: self.white_reading.clone(),
+            dark_reading,
+            tile: self.tile.unwrap_or(1.0),
+            scale: match (self.percent, self.fraction) {
+                (true, _) => CubeScale::Percent,
+                (_, true) => CubeScale::Fraction,
+                _ => CubeScale::ByFile,
+            },
+            full_scale: self.full_scale,
+            wavelengths: self.wavelengths.clone(),
+            variable: self.variable.clone(),
+            scratch: None,
+        };
+        Ok(Cube::open_with(path, &options)?)
+    }
+}
+
+/// Part of the pixels below which a pigment is not named in the text.
+const NAMED: f64 = 0.001;
+
+/// A row for each kind of pixels.
+fn rows(compared: &Comparison) -> Vec<Value> {
+    let row = |row: &maps::truth::ComparisonRow| {
+        json!({
+            "kind": row.kind,
+            "pixels": row.pixels,
+            "mapped": row.mapped,
+            "precision": row.scores.precision,
+            "recall": row.scores.recall,
+            "share_error": row.scores.share_error,
+            "within_sd": row.within_sd,
+            "chi2_risen": row.chi2_risen,
+        })
+    };
+    compared.rows.iter().map(row).collect()
+}
+
+fn json(compared: &Comparison) -> Value {
+    let pigments = compared.pigments.iter().map(|pigment| {
+        json!({
+            "pigment": pigment.name,
+            "there": pigment.there,
+            "told": pigment.told,
+            "right": pigment.right,
+        })
+    });
+    json!({ "kinds": rows(compared), "pigments": pigments.collect::<Vec<Value>>() })
+}
+
+/// Prints a line for each kind of pixels, then one for each pigment that is there or told.
+fn print(compared: &Comparison, console: &mut Console<'_>) -> Result<()> {
+    console.line(format!(
+        "{:14}  {:>8}  precision  recall  share error  within sd  chi-square above {CHI2_RISEN}",
+        "truth", "pixels"
+    ))?;
+    for row in compared.rows.iter().filter(|row| row.pixels > 0) {
+        console.line(format!(
+            "{:14}  {:8}       {:.2}    {:.2}         {:.2}       {:.2}  {:>16.0} %",
+            row.kind,
+            row.pixels,
+            row.scores.precision,
+            row.scores.recall,
+            row.scores.share_error,
+            row.within_sd,
+            100.0 * row.chi2_risen
+        ))?;
+    }
+    let named = compared.pigments.iter().filter(|p| p.there >= NAMED || p.told >= NAMED);
+    let named: Vec<_> = named.collect();
+    let width = named.iter().map(|pigment| pigment.name.chars().count()).max().unwrap_or(0).max(7);
+    console.line(format!("{:width$}  there  told  rightly told (% of the pixels)", "pigment"))?;
+    for pigment in named {
+        let [there, told, right] =
+            [pigment.there, pigment.told, pigment.right].map(|part| 100.0 * part);
+        let name = &pigment.name;
+        console.line(format!("{name:width$}  {there:5.1} {told:5.1} {right:5.1}"))?;
+    }
+    Ok(())
+}
+
+/// Part of the surveyed pixels below which a pigment is not named in the text.
+const MOST_NAMED: f64 = 0.001;
+
+/// Place of a pigment in the maps.
+fn place<'a>(found: &FoundColumn, mapped: Option<&'a Overview>) -> Option<(&'a Overview, usize)> {
+    let overview = mapped?;
+    let place = overview.pigments.iter().position(|name| *name == found.column.name)?;
+    Some((overview, place))
+}
+
+/// Pigments and residual of each spot, a line each.
+fn print_spots(spots: &[Spot], console: &mut Console<'_>) -> Result<()> {
+    for spot in spots {
+        console.line(spot.words())?;
+    }
+    Ok(())
+}
+
+fn print_survey(
+    scan: &SurveyedScan,
+    mapped: Option<&Overview>,
+    console: &mut Console<'_>,
+) -> Result<()> {
+    console.line(scan.words())?;
+    for line in scan.group_words() {
+        console.line(line)?;
+    }
+    let palette = scan.palette();
+    let named: Vec<&FoundColumn> =
+        palette.iter().filter(|found| found.part >= MOST_NAMED).collect();
+    let width = named.iter().map(|found| found.column.name.chars().count()).max().unwrap_or(0);
+    let width = width.max("pigment".len());
+    let headings = if mapped.is_some() { "  survey  present  mean share" } else { "  survey" };
+    console.line(format!("{:width$}{headings}", "pigment"))?;
+    for found in named {
+        let mut line = format!("{:width$}  {:4.1} %", found.column.name, 100.0 * found.part);
+        if let Some((overview, place)) = place(found, mapped) {
+            let [present, share] = [overview.present[place], overview.mean_share[place]];
+            line += &format!("   {:4.1} %      {:4.1} %", 100.0 * present, 100.0 * share);
+        }
+        console.line(line)?;
+    }
+    let Some(overview) = mapped else { return Ok(()) };
+    for line in overview.unmapped_words() {
+        console.line(line)?;
+    }
+    Ok(())
 }

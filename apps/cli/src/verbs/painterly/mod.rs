@@ -1,31 +1,30 @@
 //! `impasto painterly`: paints 3D models and pictures in the brushwork of art maps.
+//!
+//! Options for directions of strokes and the depth of a picture.
+//!
+//! Options for settings: a preset, a file, single settings.
 
-mod brushwork;
-mod form;
-mod exr_frames;
-mod settings;
-mod pigments;
 mod job;
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
 use graphics::camera::{Camera, PictureView};
-use painterly::{Preset, Settings};
+use graphics::mesh::{Guide, Mesh};
+use painterly::guides::Guides;
+use painterly::{FlowPicture, PictureForm, Preset, Settings};
 
 use crate::animation::{Animation, AnimationOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
+use crate::output::StageFolder;
 use crate::pictures::Exports;
-use crate::stages::StageFolder;
+use crate::readings::{is_toml, text};
+use crate::setting_changes::changes;
 use crate::subject::{PictureViews, Subject, SubjectOptions};
-use brushwork::BrushworkOptions;
-use exr_frames::ExrFrames;
-use form::FormOptions;
-use job::{Job, Scene, SceneSubject};
-use pigments::PigmentOptions;
-use settings::{SettingsOptions, preset_names};
+use job::{BrushworkOptions, ExrFrames, Job, PigmentOptions, Scene, SceneSubject};
 
 /// Paint a 3D model or a photograph in the brushwork of a painting
 ///
@@ -181,4 +180,113 @@ impl Painterly {
         }
         Ok(vec![first; frames as usize])
     }
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Subject")]
+struct FormOptions {
+    /// Directions of strokes: guides drawn as lines (.toml); or of a picture a PNG whose red (to the
+    /// right) and green (upwards) point about one half, and whose blue is the strength of flow
+    #[arg(long, value_name = "FILE")]
+    directions: Option<PathBuf>,
+    /// Depth of a picture, which makes a relief of it, before which --camera and --turntable move:
+    /// white is near, black is far (.png, .jpg, .tif, .webp)
+    #[arg(long, value_name = "FILE")]
+    depth: Option<PathBuf>,
+}
+
+impl FormOptions {
+    /// Files of the form.
+    fn inputs(&self) -> impl Iterator<Item = PathBuf> {
+        self.directions.iter().chain(&self.depth).cloned()
+    }
+
+    /// Whether a camera may turn a picture.
+    fn has_depth(&self) -> bool {
+        self.depth.is_some()
+    }
+
+    /// The form of a picture.
+    fn of_picture(&self) -> Result<PictureForm> {
+        let depth = self.depth.as_deref().map(PictureForm::depth_of).transpose()?;
+        let mut form = PictureForm { depth, ..PictureForm::default() };
+        match &self.directions {
+            Some(path) if is_toml(path) => form.guides = PictureForm::guides_of(path)?,
+            Some(path) => form.flow = Some(FlowPicture::open(path)?),
+            None => {}
+        }
+        Ok(form)
+    }
+
+    /// The guides of a model.
+    fn of_model(&self, mesh: &Mesh) -> Result<Vec<Guide>> {
+        if let Some(path) = &self.depth {
+            return Err(Failure::usage(
+                format!("--depth {} is for pictures, and this is a model", path.display()),
+                "leave out --depth: a model has its own",
+            ));
+        }
+        let Some(path) = &self.directions else { return Ok(Vec::new()) };
+        if !is_toml(path) {
+            return Err(Failure::usage(
+                format!("--directions {} is for pictures, and this is a model", path.display()),
+                "draw guides over a view of the model: guides.toml",
+            ));
+        }
+        let guides = Guides::open(path)?;
+        let Some(camera) = guides.camera_around(&mesh.positions) else {
+            return Err(Failure::data(
+                format!("{}: the guides do not tell the camera of their view", path.display()),
+                "add camera = [30.0, 20.0, 30.0] with the degrees of --camera",
+            ));
+        };
+        Ok(guides.on_mesh(mesh, &camera)?)
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Style")]
+struct SettingsOptions {
+    /// Preset of settings that ships with impasto [default: settings of their own]
+    #[arg(long, value_name = "NAME", value_parser = preset_names())]
+    preset: Option<Preset>,
+    /// Settings from a file (TOML); others keep the values of the preset
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
+    /// Change one setting, such as `overlap.sharpness=8` or `colour.from=model`; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+impl SettingsOptions {
+    /// Path of the file, if there is one.
+    fn input(&self) -> Option<&PathBuf> {
+        self.settings.as_ref()
+    }
+
+    /// Name of the style that suits the preset.
+    fn style(&self) -> &'static str {
+        self.preset.unwrap_or(Preset::Impressionist).style()
+    }
+
+    /// Reads the settings.
+    fn settings(&self) -> Result<Settings> {
+        let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
+        if let Some(path) = &self.settings {
+            let name = path.display().to_string();
+            let text = text(path)?;
+            settings = settings.changed(&name, &text)?;
+        }
+        for change in changes(&self.set, "overlap.sharpness=8")? {
+            let changed = settings.changed(&change.name, &change.toml);
+            settings = changed.map_err(|error| Failure::from(error).of_option())?;
+        }
+        Ok(settings)
+    }
+}
+
+/// Parses the name of a preset; an error lists the names.
+fn preset_names() -> impl TypedValueParser<Value = Preset> {
+    let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
+    names.try_map(|name| name.parse::<Preset>())
 }

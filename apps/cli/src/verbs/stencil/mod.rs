@@ -1,18 +1,8 @@
 //! `impasto stencil`: pours paint over a scene drawn as a grey sketch, which turns to colour where
 //! the paint spreads.
-
-mod settings;
-mod pigments;
-mod pours;
-mod cameras;
 mod scene;
-mod outputs;
 mod options;
-mod times;
-mod snapshots;
 mod film;
-mod stills;
-mod summary;
 mod job;
 
 pub(crate) use options::Stencil;

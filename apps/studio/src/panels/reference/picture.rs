@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use eframe::egui::ColorImage;
 use paint::file::MEMORY_LIMIT;
-use session::background;
+use session::thread;
 use spectra::color::RgbSpace;
 use strokes::Picture as Linear;
 
@@ -111,7 +111,7 @@ impl PendingPicture {
     pub(super) fn start(path: &Path, wake: impl FnOnce() + Send + 'static) -> Self {
         let (sender, receiver) = channel();
         let path = path.to_owned();
-        background::start(move || {
+        thread::start(move || {
             let _ = sender.send(Picture::open(&path));
             wake();
         });

@@ -3,14 +3,13 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use documents::ParserReason;
+use documents::text::{Source, read_text};
 use paint::BrushSpec;
 use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
 
 use super::shipped::{NAMES, SHIPPED};
 use super::style_error::StyleError;
-use crate::text_file::read_text;
 
 /// Order of the strokes of a coat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -164,12 +163,7 @@ impl Style {
     /// # Errors
     /// [`StyleError`] for text that is no TOML, unknown or missing keys, and numbers out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, StyleError> {
-        let style: Self = toml::from_str(text).map_err(|error| {
-            let start = error.span().map_or(0, |span| span.start.min(text.len()));
-            let line = 1 + text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count();
-            let reason = ParserReason::of(error.message()).to_string();
-            StyleError::Line { file: file.to_owned(), line, reason }
-        })?;
+        let style: Self = Source::toml(file, text)?.typed()?;
         style.check()?;
         Ok(style)
     }

@@ -1,31 +1,26 @@
 //! Faults of styles.
 
-use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Fault};
+use documents::text::TextError;
 
 use super::shipped::NAMES;
 
 /// A style cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum StyleError {
-    /// The file cannot be read.
+    /// The file cannot be read, is no TOML, or has an unknown or missing key.
     #[error(transparent)]
-    File(#[from] FileError),
+    #[hint(if matches!(_0, TextError::File(_)), inner)]
+    #[hint("begin with the text of a style that ships: [show_style=oil-flat]")]
+    #[fault(with = if matches!(_0, TextError::File(_)) { _0.fault() } else { Fault::Setting })]
+    Text(#[from] TextError),
     /// No style that ships has this name.
     #[error("there is no style called `{name}`")]
+    #[hint("choose [style] among {}", NAMES.join(", "))]
     Unknown {
         /// Name that was looked up.
         name: String,
-    },
-    /// The text is no TOML, or has an unknown or missing key.
-    #[error("{file}, line {line}: {reason}")]
-    Line {
-        /// Name of the file.
-        file: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Reason given by the parser.
-        reason: String,
     },
     /// A number is out of its range.
     #[error("style {style}: {key} is {least} to {most}, found `{value}`")]
@@ -42,6 +37,7 @@ pub enum StyleError {
         most: f64,
     },
     /// A swatch would take too much memory or time.
+    #[hint("take larger cells, wider spacing or shorter strokes")]
     #[error("style {style}: a swatch has at most {most} {what}, found `{found:.0}`")]
     TooLarge {
         /// Name of the style.
@@ -53,29 +49,4 @@ pub enum StyleError {
         /// Greatest number allowed.
         most: f64,
     },
-}
-
-impl Explain for StyleError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Unknown { .. } => {
-                Some(Hint::new(format!("choose [style] among {}", NAMES.join(", "))))
-            }
-            Self::Line { .. } => {
-                Some(Hint::new("begin with the text of a style that ships: [show_style=oil-flat]"))
-            }
-            Self::Number { .. } => None,
-            Self::TooLarge { .. } => {
-                Some(Hint::new("take larger cells, wider spacing or shorter strokes"))
-            }
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            _ => Fault::Setting,
-        }
-    }
 }

@@ -2,25 +2,17 @@
 
 use documents::file::FileError;
 use documents::hint::{Explain, Fault, Hint};
+use documents::text::TextError;
 
 /// Guides cannot be read, or do not fit their picture or model.
 #[derive(Debug, thiserror::Error)]
 pub enum GuidesError {
-    /// The file cannot be read or written.
+    /// The file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is not TOML, or has an unknown or repeated key or a value of a wrong type.
-    #[error("{file}, line {line}{}: {reason}", guide.map_or(String::new(), |at| format!(", guide {at}")))]
-    Syntax {
-        /// Name of the file.
-        file: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Number, from 1, of the guide that the line belongs to.
-        guide: Option<usize>,
-        /// Message of the parser.
-        reason: String,
-    },
+    /// The text cannot be read.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// The picture has no pixel, or too many.
     #[error("{file}, size_px: a picture of {} x {} pixels", found[0], found[1])]
     Size {
@@ -120,9 +112,7 @@ impl Explain for GuidesError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::verbatim(match self {
             Self::File(error) => return error.hint(),
-            Self::Syntax { .. } => {
-                "keys are picture, size_px and camera, and points in each [[guide]]"
-            }
+            Self::Text(error) => return error.hint(),
             Self::Size { .. } => {
                 "write [800, 600] for a width and height of 1 to 16384, at most 67108864 pixels"
             }
@@ -138,6 +128,7 @@ impl Explain for GuidesError {
     fn fault(&self) -> Fault {
         match self {
             Self::File(error) => error.fault(),
+            Self::Text(error) => error.fault(),
             _ => Fault::Input,
         }
     }

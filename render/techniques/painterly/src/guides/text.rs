@@ -1,16 +1,17 @@
 //! Files of guides in TOML.
 
-use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-use documents::ParserReason;
-use documents::file::{FileAction, FileError, read, write_whole};
+use documents::file::write_whole;
+use documents::text::{Source, line_of, read_text};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::error::GuidesError;
 use super::lines::Guides;
-use documents::settings_text::line_of;
+
+/// The way out where the parser knows none.
+const KEYS: &str = "keys are picture, size_px and camera, and points in each [[guide]]";
 
 /// The whole file, with the places of its points.
 #[derive(Deserialize)]
@@ -69,12 +70,7 @@ impl Guides {
     /// # Errors
     /// [`GuidesError`] with file, line, guide and point.
     pub fn open(path: &Path) -> Result<Self, GuidesError> {
-        let text = String::from_utf8(read(path)?).map_err(|_| FileError {
-            path: path.to_owned(),
-            action: FileAction::Read,
-            reason: Error::from(ErrorKind::InvalidData).into(),
-        })?;
-        Self::from_toml(&path.display().to_string(), &text)
+        Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
     /// Parses the text of a file of guides. Errors call the file `file`.
@@ -82,15 +78,7 @@ impl Guides {
     /// # Errors
     /// [`GuidesError`] with line, guide and point.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, GuidesError> {
-        let whole: FileOfGuides = toml::from_str(text).map_err(|error| {
-            let place = error.span().map_or(0, |span| span.start);
-            GuidesError::Syntax {
-                file: file.to_owned(),
-                line: line_of(text, place),
-                guide: guide_at(text, place),
-                reason: ParserReason::of(error.message()).to_string(),
-            }
-        })?;
+        let whole: FileOfGuides = Source::toml_with_hint(file, text, KEYS)?.typed()?;
         let FileOfGuides { picture, size_px, camera, guide: entries } = whole;
         let points = |entry: &EntryOfGuide| {
             entry.points.get_ref().iter().map(|point| point.get_ref().0).collect()
@@ -132,13 +120,6 @@ impl Guides {
     }
 }
 
-/// Number, from 1, of the guide whose entry holds the byte `place`.
-fn guide_at(text: &str, place: usize) -> Option<usize> {
-    let lines = text.lines().take(line_of(text, place));
-    let heads = lines.filter(|line| line.trim() == "[[guide]]").count();
-    (heads > 0).then_some(heads)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -176,11 +157,20 @@ mod tests {
             (swap("799.9", "inf"), "g.toml, line 10, guide 2: point 2: `inf` is no place"),
             (swap(", [799.9, 599]", ""), "g.toml, line 10, guide 2: a line needs at least two"),
             (swap("[799.9, 599]", "[0, 0]"), "g.toml, line 10, guide 2: all points are at"),
-            (swap("[799.9, 599]", "[1, 2, 3]"), "g.toml, line 10, guide 2: expected 2 numbers"),
-            (swap("800, 600", "800, 600, 3"), "g.toml, line 2: expected 2 numbers, found 3"),
-            (swap("[0, 0]", "\"x\""), "g.toml, line 10, guide 2: invalid type"),
-            (swap("picture", "pictures"), "g.toml, line 1: unknown key `pictures`"),
-            (swap("points = [[0", "points = []\npoint = [[0"), "g.toml, line 11, guide 2: unknown"),
+            (
+                swap("[799.9, 599]", "[1, 2, 3]"),
+                "g.toml, line 10: [[guide]] 2, points 2: expected 2 numbers",
+            ),
+            (
+                swap("800, 600", "800, 600, 3"),
+                "g.toml, line 2: size_px: expected 2 numbers, found 3",
+            ),
+            (swap("[0, 0]", "\"x\""), "g.toml, line 10: [[guide]] 2, points 1: invalid type"),
+            (swap("picture", "pictures"), "g.toml, line 1: pictures: unknown key `pictures`"),
+            (
+                swap("points = [[0", "points = []\npoint = [[0"),
+                "g.toml, line 11: [[guide]] 2, point: unknown",
+            ),
             (swap("800, 600", "800, 0"), "g.toml, size_px: a picture of 800 x 0"),
             (swap("800, 600", "16384, 16384"), "g.toml, size_px: a picture of 16384 x"),
             (swap("800, 600", "800, -6"), "g.toml, line 2: "),

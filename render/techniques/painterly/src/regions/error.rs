@@ -1,29 +1,20 @@
 //! Faults of regions.
 
-use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
+use documents::text::TextError;
 use graphics::picture::PhotographError;
 
 /// Regions cannot be read, or do not fit the subject.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum RegionsError {
-    /// The file cannot be read.
+    /// The text cannot be read.
     #[error(transparent)]
-    File(#[from] FileError),
+    Text(#[from] TextError),
     /// The picture of labels cannot be read.
     #[error(transparent)]
     Labels(#[from] PhotographError),
-    /// The text is not TOML, or has an unknown or repeated key or a value of a wrong type.
-    #[error("{file}, line {line}: {reason}")]
-    Syntax {
-        /// Name of the file.
-        file: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Message of the parser.
-        reason: String,
-    },
     /// A region has a fault.
+    #[hint("{hint}")]
     #[error("{file}, region `{region}`: {fault}")]
     Region {
         /// Name of the file.
@@ -42,26 +33,5 @@ impl RegionsError {
         let file = file.to_owned();
         let region = region.to_owned();
         Self::Region { file, region, fault, hint: hint.to_owned() }
-    }
-}
-
-impl Explain for RegionsError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Labels(error) => error.hint(),
-            Self::Syntax { .. } => Some(Hint::new(
-                "a region has a name and one of polygon, label and material; docs/guide/painterly.md lists all keys",
-            )),
-            Self::Region { hint, .. } => Some(Hint::new(hint.clone())),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Labels(error) => error.fault(),
-            _ => Fault::Input,
-        }
     }
 }

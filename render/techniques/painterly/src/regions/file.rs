@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use artmap::text_file::read_text;
-use documents::ParserReason;
 use documents::counted;
+use documents::text::{Source, read_text};
 use graphics::field::Field;
 use graphics::picture::Photograph;
 use serde::Deserialize;
@@ -12,6 +11,10 @@ use spectra::color::Rgb;
 
 use super::error::RegionsError;
 use super::region::{Region, RegionArea, Regions};
+
+/// The way out where the parser knows none.
+const KEYS: &str = "a region has a name and one of polygon, label and material; \
+    docs/guide/painterly.md lists all keys";
 
 /// The whole file.
 #[derive(Deserialize)]
@@ -112,12 +115,7 @@ impl Regions {
 
 /// The regions, not checked, and the file of their labels.
 fn parsed(name: &str, text: &str) -> Result<(Regions, Option<String>), RegionsError> {
-    let whole: FileOfRegions = toml::from_str(text).map_err(|error| {
-        let place = error.span().map_or(0, |span| span.start).min(text.len());
-        let line = 1 + text.as_bytes()[..place].iter().filter(|byte| **byte == b'\n').count();
-        let reason = ParserReason::of(error.message()).to_string();
-        RegionsError::Syntax { file: name.to_owned(), line, reason }
-    })?;
+    let whole: FileOfRegions = Source::toml_with_hint(name, text, KEYS)?.typed()?;
     let list: Result<Vec<Region>, RegionsError> =
         whole.region.into_iter().map(|entry| entry.region(name)).collect();
     let own = Regions { name: name.to_owned(), list: list?, size_px: whole.size_px, labels: None };
@@ -218,7 +216,7 @@ mod tests {
         let region = |text: &str| format!("[[region]]\nname = \"a\"\n{text}");
         let polygon = "polygon = [[0, 0], [9, 0], [9, 9]]\n";
         for (text, wanted) in [
-            (region("colour = 1"), "r.toml, line 3: unknown key `colour`"),
+            (region("colour = 1"), "r.toml, line 3: [[region]] 1, colour: unknown key `colour`"),
             (region(""), "r.toml, region `a`: it needs exactly one of"),
             (region(&format!("{polygon}material = \"b\"")), "r.toml, region `a`: it needs"),
             (region("polygon = [[0, 0], [9, 0]]"), "r.toml, region `a`: polygon has 2 points"),

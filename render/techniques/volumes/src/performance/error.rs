@@ -58,7 +58,7 @@ impl PerformanceError {
     /// table in its `text`.
     #[must_use]
     pub fn located(mut self, file: &str, text: &str) -> Self {
-        let Ok(source) = Source::parse(file, text) else { return self };
+        let Ok(source) = Source::toml(file, text) else { return self };
         if let Self::Setting { place, fault } = &mut self {
             *place = format!("{file}, line {}: ", source.line(&fault.key));
         }

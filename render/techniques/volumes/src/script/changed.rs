@@ -14,7 +14,7 @@ impl Script {
     pub fn change_settings(&mut self, name: &str, text: &str) -> Result<(), SettingsError> {
         let settings = self.settings().map_err(crate::toml_text::TextError::from)?;
         settings.changed(name, text)?;
-        let mut changes: Table = Source::parse(name, text)?.typed()?;
+        let mut changes: Table = Source::toml(name, text)?.typed()?;
         if let Some(Value::Table(grid)) = changes.remove("grid") {
             let own = match self.grid.is_empty() {
                 true => group(&mut self.settings, "grid"),

@@ -74,7 +74,7 @@ impl ScriptError {
     /// in the script's `text`, which it calls `name`.
     #[must_use]
     pub fn located(name: &str, text: &str, fault: Box<Fault>) -> Self {
-        match Source::parse(name, text) {
+        match Source::toml(name, text) {
             Ok(source) => source.located(fault).into(),
             Err(_) => TextError::Invalid(fault).into(),
         }
@@ -83,7 +83,7 @@ impl ScriptError {
 
 fn parsed<'t>(name: &'t str, text: &'t str) -> Result<(Script, Source<'t>), ScriptError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = Source::parse(name, text)?;
+    let source = Source::toml(name, text)?;
     check_format(name, &source)?;
     let script: Script = source.typed()?;
     source.typed::<OwnSettings>()?;
@@ -95,15 +95,18 @@ fn parsed<'t>(name: &'t str, text: &'t str) -> Result<(Script, Source<'t>), Scri
 fn check_format(name: &str, source: &Source<'_>) -> Result<(), ScriptError> {
     let file = name.to_owned();
     let line = |key: &str| source.line(&KeyPath::of(key)).max(1);
-    let found = source.value_of("format").unwrap_or_else(|| "nothing".to_owned());
+    let found = source.value_of("format").unwrap_or("nothing").to_owned();
     if found.trim_matches(['"', '\'']) != "paint-volumes" {
         return Err(ScriptError::Format { file, line: line("format"), found });
     }
     let newest = FormatVersion::NUMBER;
     match source.value_of("version") {
-        Some(found) if found.parse() != Ok(newest) => {
-            Err(ScriptError::Version { file, line: line("version"), found, newest })
-        }
+        Some(found) if found.parse() != Ok(newest) => Err(ScriptError::Version {
+            file,
+            line: line("version"),
+            found: found.to_owned(),
+            newest,
+        }),
         _ => Ok(()),
     }
 }

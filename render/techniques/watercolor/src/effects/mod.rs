@@ -5,21 +5,15 @@
 
 mod density;
 mod edges;
-mod wobble;
-mod color_mask;
 mod dry_brush;
 mod paper_shading;
 
-pub use color_mask::{ColorRange, color_mask};
 pub use density::{DensityLayer, apply_density};
-pub use dry_brush::{DryBrushReach, apply_dry_brush};
-pub use edges::edges;
+pub use dry_brush::{ColorRange, DryBrushReach, apply_dry_brush, color_mask};
+pub use edges::{edges, wobble};
 pub use paper_shading::{PaperShading, shade_paper};
-pub use wobble::wobble;
 
-pub(super) use color_mask::COLOR_MASK;
 pub(super) use density::DENSITY;
-pub(super) use dry_brush::DRY_BRUSH;
-pub(super) use edges::{EDGE_BLUR, EDGES, edges_on_cpu};
+pub(super) use dry_brush::{COLOR_MASK, DRY_BRUSH};
+pub(super) use edges::{EDGE_BLUR, EDGES, WOBBLE, edges_on_cpu};
 pub(super) use paper_shading::PAPER_SHADING;
-pub(super) use wobble::WOBBLE;

@@ -2,26 +2,18 @@
 
 use documents::file::FileError;
 use documents::hint::{Explain, Fault, Hint};
+use documents::text::TextError;
 use graphics::picture::PhotographError;
 
 /// Marks cannot be read, or do not fit the picture.
 #[derive(Debug, thiserror::Error)]
 pub enum MarksError {
-    /// The file cannot be read or written.
+    /// The file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is not TOML, or has an unknown or repeated key or a value of a wrong type.
-    #[error("{file}, line {line}{}: {reason}", in_sample(sample))]
-    Syntax {
-        /// Name of the file.
-        file: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Name or number of the sample that the line belongs to.
-        sample: Option<String>,
-        /// Message of the parser.
-        reason: String,
-    },
+    /// The text cannot be read.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// There is no sample.
     #[error("{file}: there are no samples")]
     NoSamples {
@@ -64,10 +56,6 @@ pub enum MarksError {
         /// Number of different opaque colours.
         colors: usize,
     },
-}
-
-fn in_sample(sample: &Option<String>) -> String {
-    sample.as_ref().map_or(String::new(), |name| format!(", sample {name}"))
 }
 
 /// Fault of one sample.
@@ -128,10 +116,8 @@ impl Explain for MarksError {
     fn hint(&self) -> Option<Hint> {
         let words = match self {
             Self::File(error) => return error.hint(),
+            Self::Text(error) => return error.hint(),
             Self::Overlay(error) => return error.hint(),
-            Self::Syntax { .. } => {
-                "keys are painting, and in each sample name, spacing, and scribble, rectangle or pixels"
-            }
             Self::NoSamples { .. } => {
                 "add a sample with a name and a scribble, or let marks be proposed with [propose]"
             }
@@ -149,6 +135,7 @@ impl Explain for MarksError {
     fn fault(&self) -> Fault {
         match self {
             Self::File(error) => error.fault(),
+            Self::Text(error) => error.fault(),
             Self::Overlay(error) => error.fault(),
             _ => Fault::Input,
         }

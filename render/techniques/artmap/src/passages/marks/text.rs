@@ -2,13 +2,16 @@
 
 use std::path::Path;
 
-use documents::ParserReason;
 use documents::file::write_whole;
+use documents::text::{Source, read_text};
 use serde::{Deserialize, Serialize};
 
 use super::error::{MarkFault, MarksError};
 use super::mark::{Mark, MarkedArea, Marks};
-use crate::text_file::read_text;
+
+/// The way out where the parser knows none.
+const KEYS: &str =
+    "keys are painting, and in each sample name, spacing, and scribble, rectangle or pixels";
 
 /// The whole file.
 #[derive(Serialize, Deserialize)]
@@ -49,15 +52,7 @@ impl Marks {
     /// # Errors
     /// [`MarksError`] with line, sample and key.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, MarksError> {
-        let whole: FileOfMarks = toml::from_str(text).map_err(|error| {
-            let place = error.span().map_or(0, |span| span.start);
-            MarksError::Syntax {
-                file: file.to_owned(),
-                line: lines_before(text, place).count().max(1),
-                sample: sample_at(text, place),
-                reason: ParserReason::of(error.message()).to_string(),
-            }
-        })?;
+        let whole: FileOfMarks = Source::toml_with_hint(file, text, KEYS)?.typed()?;
         if whole.sample.is_empty() {
             return Err(MarksError::NoSamples { file: file.to_owned() });
         }
@@ -165,30 +160,6 @@ fn rectangle(numbers: [f64; 4]) -> Result<MarkedArea, MarkFault> {
     Ok(MarkedArea::Rectangle { x, y, width, height })
 }
 
-/// The lines of `text` up to and with that of the byte `place`.
-fn lines_before(text: &str, place: usize) -> impl Iterator<Item = &str> {
-    let end = text.len().min(place);
-    let rest = text.as_bytes()[end..].iter().position(|&byte| byte == b'\n');
-    // Line ends are single bytes, so the text can be cut there.
-    text[..rest.map_or(text.len(), |more| end + more)].lines()
-}
-
-/// Name, or else number, of the sample whose entry holds the byte `place`.
-fn sample_at(text: &str, place: usize) -> Option<String> {
-    let is_head = |line: &&str| line.trim() == "[[sample]]";
-    let number = lines_before(text, place).filter(is_head).count();
-    let entry = text.lines().skip_while(|line| !is_head(line));
-    let mut seen = 0;
-    let own = entry.filter(|line| {
-        seen += usize::from(is_head(line));
-        seen == number
-    });
-    let mut names =
-        own.filter_map(|line| line.trim().strip_prefix("name")?.trim().strip_prefix('='));
-    let name = names.next().map(|name| name.trim().trim_matches('"'));
-    (number > 0).then(|| name.map_or(number.to_string(), |name| format!("`{name}`")))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -219,12 +190,12 @@ mod tests {
         let cases = [
             (
                 TEXT.replace("spacing", "spaceing"),
-                "m.toml, line 6, sample `sky`: unknown key `spaceing`",
+                "m.toml, line 6: [[sample]] 1, spaceing: unknown key `spaceing`",
             ),
-            (TEXT.replace("rectangle", "name"), "m.toml, line 10, sample `grass`: duplicate key"),
+            (TEXT.replace("rectangle", "name"), "m.toml, line 10: duplicate key"),
             (
                 TEXT.replace("[20, 300, 120, 90]", "\"x\""),
-                "m.toml, line 10, sample `grass`: invalid type",
+                "m.toml, line 10: [[sample]] 2, rectangle: invalid type",
             ),
             (TEXT.replace("grass", "sky"), "m.toml, sample `sky`, name: another sample"),
             (TEXT.replace("[93, 44]", "[90, 40]"), "m.toml, sample `sky`, spacing: both points"),
@@ -238,7 +209,7 @@ mod tests {
                 "m.toml, sample `a`, scribble: a sample has one of",
             ),
             (String::new(), "m.toml: there are no samples"),
-            ("painting = 3".to_owned(), "m.toml, line 1: invalid type"),
+            ("painting = 3".to_owned(), "m.toml, line 1: painting: invalid type"),
         ];
         for (text, message) in cases {
             let error = Marks::from_toml("m.toml", &text).unwrap_err();

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::script::Script;
-use crate::settings::Setting;
 
 /// Settings of forces and cells, each other than usual.
 const OF_WORLDS: [&str; 18] = [
@@ -75,7 +74,8 @@ fn every_setting_is_among_those_that_do_something() {
         [&OF_WORLDS, &OF_PICTURES, &OF_SAMPLES, &OF_REGIONS, &OF_FILMS, &UNDER_FILMS];
     let mut listed: Vec<&str> =
         lists.concat().iter().filter_map(|change| change.split(' ').next()).collect();
-    let mut all: Vec<&str> = Settings::all().map(|setting: &Setting| setting.key).collect();
+    let rows = documents::settings::rows::<Settings>();
+    let mut all: Vec<&str> = rows.iter().map(|(key, _)| key.as_str()).collect();
     listed.sort_unstable();
     all.sort_unstable();
     assert_eq!(listed, all);

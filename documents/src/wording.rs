@@ -1,0 +1,276 @@
+//! Words of messages: names that are spelt like another, numbers with their nouns, lists of names,
+//! and messages of parsers of TOML and JSON in words of the file, not of the program.
+
+use std::fmt::{self, Display};
+
+/// Most names that a suggestion holds.
+const MOST: usize = 3;
+
+/// Up to three of `known` that are spelt like `name`, the most similar first.
+///
+/// ```
+/// use documents::similar_names;
+/// assert_eq!(similar_names("viridan", ["Viridian", "Zinc White"]), ["Viridian"]);
+/// ```
+#[must_use]
+pub fn similar_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let name: Vec<char> = name.to_lowercase().chars().take(100).collect();
+    let mut ranked: Vec<_> = known
+        .into_iter()
+        .map(|other| {
+            let letters: Vec<char> = other.to_lowercase().chars().collect();
+            (edit_distance(&name, &letters), other)
+        })
+        .filter(|(edits, other)| *edits <= (name.len().max(other.len()) / 3).max(1))
+        .collect();
+    ranked.sort_unstable();
+    ranked.into_iter().take(MOST).map(|(_, other)| other).collect()
+}
+
+/// The question "did you mean A or B?" with the names of `known` that are spelt like `name`;
+/// `None` if there are none.
+///
+/// ```
+/// use documents::did_you_mean;
+/// let question = did_you_mean("Zink White", ["Viridian", "Zinc White"]);
+/// assert_eq!(question.as_deref(), Some("did you mean Zinc White?"));
+/// ```
+#[must_use]
+pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let similar = similar_names(name, known);
+    (!similar.is_empty()).then(|| format!("did you mean {}?", similar.join(" or ")))
+}
+
+/// Edit distance between `a` and `b` (Levenshtein 1966): insertions, deletions and
+/// substitutions of letters.
+fn edit_distance(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, left) in a.iter().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, right) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(left != right);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// A number with its noun, in the plural unless it is one: `1 pigment`, `3 pigments`.
+///
+/// ```
+/// use documents::counted;
+/// assert_eq!([counted(1, "pigment"), counted(0, "pigment")], ["1 pigment", "0 pigments"]);
+/// ```
+#[must_use]
+pub fn counted<N: Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
+    counted_as(number, noun, &format!("{noun}s"))
+}
+
+/// A number with a noun whose plural is `many`.
+///
+/// ```
+/// assert_eq!(documents::counted_as(2, "swatch", "swatches"), "2 swatches");
+/// ```
+#[must_use]
+pub fn counted_as<N: Display + PartialEq + From<u8>>(number: N, one: &str, many: &str) -> String {
+    let noun = if number == N::from(1) { one } else { many };
+    format!("{number} {noun}")
+}
+
+/// The first `most` of `names`, and how many more there are: `a, b and 3 more`.
+///
+/// ```
+/// use documents::name_list;
+///
+/// assert_eq!(name_list(&["a", "b", "c"], 2, ", "), "a, b and 1 more");
+/// assert_eq!(name_list(&["a", "b"], 2, " or "), "a or b");
+/// ```
+#[must_use]
+pub fn name_list<S: AsRef<str>>(names: &[S], most: usize, separator: &str) -> String {
+    let shown: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
+    let shown = shown.join(separator);
+    match names.len().saturating_sub(most) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+/// Most known keys that a hint lists.
+const MOST_KEYS: usize = 30;
+
+/// Names of types and the words for them, longest first where one begins another.
+const TYPES: [(&str, &str); 16] = [
+    ("a sequence", "a list"),
+    ("a map", "a table"),
+    ("a boolean", "true or false"),
+    ("a string", "a text"),
+    ("usize", "a whole number, 0 or more"),
+    ("u64", "a whole number, 0 or more"),
+    ("u32", "a whole number, 0 or more"),
+    ("u16", "a whole number, 0 or more"),
+    ("u8", "a whole number, 0 or more"),
+    ("isize", "a whole number"),
+    ("i64", "a whole number"),
+    ("i32", "a whole number"),
+    ("i16", "a whole number"),
+    ("i8", "a whole number"),
+    ("f64", "a number"),
+    ("f32", "a number"),
+];
+
+/// Reason and way out of an error of a parser.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ParserReason {
+    /// The reason on one line, without names of types.
+    pub reason: String,
+    /// The way out, where the message gives one.
+    pub hint: Option<String>,
+}
+
+impl ParserReason {
+    /// The reason that the `message` of a parser (serde, TOML or JSON) gives.
+    ///
+    /// ```
+    /// use documents::ParserReason;
+    /// let message = "unknown field `strenght`, expected one of `strength`, `reach`";
+    /// let told = ParserReason::of(message);
+    /// assert_eq!(told.reason, "unknown key `strenght`");
+    /// assert_eq!(told.hint.as_deref(), Some("did you mean strength?"));
+    /// ```
+    #[must_use]
+    pub fn of(message: &str) -> Self {
+        let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+        let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+        for (begins, kind) in [("unknown field", "key"), ("unknown variant", "word")] {
+            let [name, known @ ..] = &quoted[..] else { continue };
+            if message.starts_with(begins) {
+                let similar = did_you_mean(name, known.iter().copied());
+                let hint = similar.or_else(|| {
+                    (!known.is_empty()).then(|| {
+                        format!("it takes the {kind}s {}", name_list(known, MOST_KEYS, ", "))
+                    })
+                });
+                return Self { reason: format!("unknown {kind} `{name}`"), hint };
+            }
+        }
+        if let Some(key) = message.strip_prefix("missing field ") {
+            let hint = Some(format!("add a line {key} = ..."));
+            return Self { reason: format!("the key {key} is missing"), hint };
+        }
+        Self { reason: plain_parser_message(&message), hint: None }
+    }
+}
+
+impl Display for ParserReason {
+    /// Writes the reason, and the way out after a semicolon.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.hint {
+            Some(hint) => write!(f, "{}; {hint}", self.reason),
+            None => f.write_str(&self.reason),
+        }
+    }
+}
+
+/// The message of a parser without names of types; what it says of keys and places stays.
+///
+/// ```
+/// let message = "invalid type: integer `3`, expected struct Surface at line 2 column 9";
+/// let plain = "invalid type: number `3`, expected a table of keys at line 2 column 9";
+/// assert_eq!(documents::plain_parser_message(message), plain);
+/// ```
+#[must_use]
+pub fn plain_parser_message(message: &str) -> String {
+    let Some((before, wanted)) = message.split_once("expected ") else { return message.to_owned() };
+    let wanted = match type_and_rest(wanted) {
+        Some((word, rest)) => format!("{word}{rest}"),
+        None => wanted.to_owned(),
+    };
+    // `before` tells what was found by the same names.
+    let mut before = before.to_owned();
+    for (from, to) in [
+        ("floating point ", "number "),
+        ("integer ", "number "),
+        ("boolean ", ""),
+        ("string ", "text "),
+        ("sequence", "a list"),
+        ("map", "a table"),
+    ] {
+        before = before.replace(&format!("invalid type: {from}"), &format!("invalid type: {to}"));
+        before = before.replace(&format!("invalid value: {from}"), &format!("invalid value: {to}"));
+    }
+    format!("{before}expected {wanted}")
+}
+
+/// The words for a type at the start of `wanted`, and the text after it.
+fn type_and_rest(wanted: &str) -> Option<(&str, &str)> {
+    for named in ["struct ", "enum ", "tuple struct ", "unit struct ", "variant "] {
+        if let Some(rest) = wanted.strip_prefix(named) {
+            let end = rest.find([' ', ',']).unwrap_or(rest.len());
+            let word = if named == "struct " { "a table of keys" } else { "one of its words" };
+            return Some((word, &rest[end..]));
+        }
+    }
+    TYPES.into_iter().find_map(|(name, word)| Some((word, wanted.strip_prefix(name)?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_pigment_finds_its_name() {
+        let known = ["Zinc White", "Prussian Blue", "Viridian", "Cobalt Blue"];
+        assert_eq!(similar_names("prusian blue", known), ["Prussian Blue"]);
+        assert_eq!(similar_names("Viridan", known), ["Viridian"]);
+        assert!(similar_names("Octarine", known).is_empty(), "no similar name");
+        let series = ["FL3.1", "FL3.2", "FL3.3", "FL3.4", "FL3"];
+        assert_eq!(similar_names("fl3.4", series), ["FL3.4", "FL3.1", "FL3.2"], "three at most");
+        assert_eq!(edit_distance(&['a', 'b'], &['b', 'a', 'c']), 2);
+    }
+
+    #[test]
+    fn types_are_told_in_words_of_the_file() {
+        for (message, reason) in [
+            (
+                "invalid type: integer `3`, expected struct EdgeSettings",
+                "invalid type: number `3`, expected a table of keys",
+            ),
+            (
+                "invalid type: string \"much\", expected f64",
+                "invalid type: text \"much\", expected a number",
+            ),
+            (
+                "invalid type: string \"a\", expected a sequence at line 3",
+                "invalid type: text \"a\", expected a list at line 3",
+            ),
+            (
+                "invalid value: integer `-3`, expected u32",
+                "invalid value: number `-3`, expected a whole number, 0 or more",
+            ),
+            (
+                "invalid type: string \"on\", expected enum Paper",
+                "invalid type: text \"on\", expected one of its words",
+            ),
+            ("expected\nnewline", "expected newline"),
+        ] {
+            assert_eq!(
+                ParserReason::of(message),
+                ParserReason { reason: reason.to_owned(), hint: None }
+            );
+        }
+    }
+
+    #[test]
+    fn unknown_and_missing_keys_have_a_way_out() {
+        let told = ParserReason::of("unknown field `wide`, expected `a` or `b`");
+        assert_eq!(told.hint.as_deref(), Some("it takes the keys a, b"));
+        let told = ParserReason::of("unknown variant `rogh`, expected one of `rough`, `smooth`");
+        assert_eq!(told.reason, "unknown word `rogh`");
+        assert_eq!(told.hint.as_deref(), Some("did you mean rough?"));
+        assert_eq!(told.to_string(), "unknown word `rogh`; did you mean rough?");
+        let told = ParserReason::of("missing field `k`");
+        assert_eq!(told.to_string(), "the key `k` is missing; add a line `k` = ...");
+        assert_eq!(ParserReason::of("expected a newline").to_string(), "expected a newline");
+    }
+}

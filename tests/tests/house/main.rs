@@ -1,9 +1,0 @@
-//! Rules for the files of this repository: dependencies, imports, length, sources, wording.
-
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
-mod files;
-mod crates;
-mod modules;
-mod sources;
-mod words;

@@ -1,0 +1,515 @@
+//! Meshes: reading their files, normals, and checks.
+//!
+//! Reading meshes from OBJ, PLY and glTF: geometry, materials, textures and transforms.
+//!
+//! Invalid mesh files: errors with the location, the reason and a hint.
+//!
+//! Normals, closed surfaces, faults of meshes, and the sample models.
+
+use documents::hint::Explain;
+use glam::Vec3;
+use graphics::mesh::{GridSize, Material, Mesh, MeshError, MeshFault, SampleModel, Texture};
+use serde_json::json;
+
+/// Writes files of these names and contents, opens the first as a mesh and checks the mesh.
+fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        std::fs::write(folder.path().join(name), content).unwrap();
+    }
+    let opened = Mesh::open(&folder.path().join(files[0].0));
+    if let Ok(mesh) = &opened {
+        mesh.check().unwrap();
+        let lengths = mesh.normals.iter().map(|n| n.iter().map(|v| v * v).sum::<f32>());
+        assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-5), "unit normals");
+    }
+    opened
+}
+
+/// A PNG of two texels, red and blue.
+fn two_texels() -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let picture = image::RgbImage::from_raw(2, 1, vec![255, 0, 0, 0, 0, 255]).unwrap();
+    picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+/// The glTF document `rest` with its version and with `buffer` declared as `data.bin`.
+fn gltf(buffer: &[u8], mut rest: serde_json::Value) -> Vec<u8> {
+    rest["asset"] = serde_json::json!({ "version": "2.0" });
+    rest["buffers"] = serde_json::json!([{ "uri": "data.bin", "byteLength": buffer.len() }]);
+    rest.to_string().into_bytes()
+}
+
+/// Positions of the corners of a square in the plane z = 0.
+const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// The buffer of [`SQUARE`] for glTF: positions (48 bytes) and indices as u16 (12 bytes).
+fn square_bytes() -> Vec<u8> {
+    let corners: [u16; 6] = [0, 1, 2, 0, 2, 3];
+    let places = SQUARE.iter().flatten().flat_map(|value| value.to_le_bytes());
+    places.chain(corners.iter().flat_map(|corner| corner.to_le_bytes())).collect()
+}
+
+/// A glTF document with one node of [`SQUARE`].
+fn square_document() -> serde_json::Value {
+    serde_json::json!({
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 48 },
+            { "buffer": 0, "byteOffset": 48, "byteLength": 12 }
+        ],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+              "min": [0, 0, 0], "max": [1, 1, 0] },
+            { "bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR" }
+        ],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "nodes": [{ "mesh": 0 }],
+        "scenes": [{ "nodes": [0] }],
+        "scene": 0
+    })
+}
+
+/// Positions of the corners of every triangle.
+fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
+    mesh.triangles
+        .iter()
+        .map(|triangle| triangle.corners.map(|corner: u32| mesh.positions[corner as usize]))
+        .collect()
+}
+
+/// The two triangles of the square.
+fn square() -> Vec<[[f32; 3]; 3]> {
+    let [a, b, c, d] = SQUARE;
+    vec![[a, b, c], [a, c, d]]
+}
+
+#[test]
+fn obj_with_materials_textures_and_groups() {
+    let obj = b"# a square\r
+mtllib my colours.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0.25 1
+vt 0.75 0
+vt 1 0.5
+vn 0 0 2
+o left
+usemtl wood
+f 1/1/1 2/2/1 3/3/1 4/3/1
+l 1 2
+o right
+usemtl plain one
+f -4 -3 -2
+";
+    let mtl = b"newmtl wood\nKd 1 0.5 0.25\nmap_Kd -s 1 1 1 two texels.png\nnewmtl plain one\nKd 0.1 0.2 0.3\n";
+    let files: [(&str, &[u8]); 3] =
+        [("a.obj", obj), ("my colours.mtl", mtl), ("two texels.png", &two_texels())];
+    let mesh = opened(&files).unwrap();
+    let [a, b, c, _] = SQUARE;
+    assert_eq!(corners(&mesh), [&square()[..], &[[a, b, c]]].concat());
+    let materials: Vec<u32> = mesh.triangles.iter().map(|triangle| triangle.material).collect();
+    assert_eq!(materials, [0, 0, 1]);
+    assert_eq!(mesh.materials[1], Material::named("plain one", [0.1, 0.2, 0.3]));
+    let texture = mesh.materials[0].texture.as_ref().unwrap();
+    assert_eq!((texture.width, texture.height), (2, 1));
+    assert_eq!(texture.texels.map_bytes(), [[255, 0, 0, 255], [0, 0, 255, 255]]);
+    // The vertical texture coordinate runs upwards in the file and downwards in `Mesh`.
+    assert_eq!(mesh.texture_coordinates[..3], [[0.25, 0.0], [0.75, 1.0], [1.0, 0.5]]);
+    assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
+}
+
+trait Bytes {
+    fn map_bytes(&self) -> Vec<[u8; 4]>;
+}
+
+impl Bytes for Vec<u32> {
+    fn map_bytes(&self) -> Vec<[u8; 4]> {
+        self.iter().map(|texel| texel.to_le_bytes()).collect()
+    }
+}
+
+#[test]
+fn obj_with_colors_of_vertices_and_nothing_else() {
+    let obj = b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 2\nf 1 2 3\n";
+    let mesh = opened(&[("a.OBJ", obj)]).unwrap();
+    assert_eq!(mesh.colors, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 3]);
+    assert_eq!(mesh.materials, [Material::plain([1.0; 3])]);
+    // A fourth coordinate divides the position.
+    let mesh = opened(&[("a.obj", b"v 0 0 0\nv 2 0 0 2\nv 0 1 0\nf 1 2 3\n")]).unwrap();
+    assert_eq!(mesh.positions[1], [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn ply_as_text_and_in_both_binaries() {
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment a square\nelement vertex 4\nproperty float x\n\
+             property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n\
+             property uchar blue\nelement thing 1\nproperty list uchar short of\n\
+             element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+        .into_bytes()
+    };
+    let mut text = header("ascii");
+    let [mut low, mut high] = ["binary_little_endian", "binary_big_endian"].map(header);
+    for ([x, y, z], red) in SQUARE.iter().zip([0u8, 51, 102, 255]) {
+        text.extend(format!("{x} {y} {z} {red} 0 255\n").into_bytes());
+        for value in [x, y, z] {
+            low.extend(value.to_le_bytes());
+            high.extend(value.to_be_bytes());
+        }
+        low.extend([red, 0, 255]);
+        high.extend([red, 0, 255]);
+    }
+    text.extend(b"2 7 8\n4 0 1 2 3\n");
+    low.extend([2, 7, 0, 8, 0, 4, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0]);
+    high.extend([2, 0, 7, 0, 8, 4, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3]);
+    for content in [text, low, high] {
+        let mesh = opened(&[("a.ply", &content)]).unwrap();
+        assert_eq!(corners(&mesh), square());
+        assert_eq!(mesh.colors[1], [0.2, 0.0, 1.0]);
+        assert_eq!(mesh.materials, [Material::plain([1.0; 3])]);
+        assert_eq!(mesh.normals, [[0.0, 0.0, 1.0]; 4]);
+    }
+}
+
+#[test]
+fn gltf_with_transforms_materials_and_textures() {
+    let mut document = square_document();
+    // The parent translates; the child mirrors and stretches along x.
+    document["nodes"] = json!([
+        { "translation": [10, 0, 0], "children": [1] },
+        { "mesh": 0, "scale": [-2, 1, 1] },
+        { "mesh": 0, "translation": [0, 0, 99] }
+    ]);
+    document["meshes"][0]["primitives"][0]["material"] = json!(0);
+    document["materials"] = json!([{ "name": "painted", "pbrMetallicRoughness": {
+        "baseColorFactor": [0.21404114, 1, 0, 1], "baseColorTexture": { "index": 0 } } }]);
+    document["textures"] = json!([{ "source": 0 }]);
+    document["images"] = json!([{ "uri": "two%20texels.png" }]);
+    let buffer = square_bytes();
+    let files: [(&str, &[u8]); 3] = [
+        ("a.gltf", &gltf(&buffer, document)),
+        ("data.bin", &buffer),
+        ("two texels.png", &two_texels()),
+    ];
+    let mesh = opened(&files).unwrap();
+    let [a, b, c, d] = SQUARE.map(|[x, y, z]: [f32; 3]| [10.0 - 2.0 * x, y, z]);
+    // A mirrored triangle has two corners swapped, so that it runs counter-clockwise.
+    assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
+    assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
+    let Material { name, color: [r, g, b], texture } = &mesh.materials[0];
+    assert_eq!(name, "painted");
+    assert!((r - 0.5).abs() < 1e-4 && *g > 0.9999 && *b < 1e-6, "{r} {g} {b}");
+    assert_eq!(texture.as_ref().unwrap().texels.map_bytes()[1], [0, 0, 255, 255]);
+}
+
+#[test]
+fn binary_gltf_and_strips_and_fans() {
+    let buffer = square_bytes();
+    for (mode, wanted) in [(4, 2), (5, 4), (6, 4)] {
+        let mut document = square_document();
+        document["meshes"][0]["primitives"][0]["mode"] = json!(mode);
+        document["asset"] = json!({ "version": "2.0" });
+        document["buffers"] = json!([{ "byteLength": buffer.len() }]);
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut glb = b"glTF\x02\0\0\0".to_vec();
+        glb.extend(((12 + 8 + text.len() + 8 + buffer.len()) as u32).to_le_bytes());
+        glb.extend((text.len() as u32).to_le_bytes());
+        glb.extend(b"JSON");
+        glb.extend(&text);
+        glb.extend((buffer.len() as u32).to_le_bytes());
+        glb.extend(b"BIN\0");
+        glb.extend(&buffer);
+        let mesh = opened(&[("a.glb", &glb)]).unwrap();
+        // Of the indices 0 1 2 0 2 3; a strip and a fan of them have four triangles.
+        assert_eq!(mesh.triangles.len(), wanted, "mode {mode}");
+        assert_eq!(corners(&mesh)[0], square()[0], "mode {mode}");
+        if mode == 4 {
+            assert_eq!(corners(&mesh), square());
+        }
+    }
+}
+
+/// Asserts that the first file is refused with a hint and a message of one line that names the file
+/// and contains all of `wanted`.
+#[track_caller]
+fn refused(files: &[(&str, &[u8])], wanted: &[&str]) {
+    let error = opened(files).unwrap_err();
+    let told = error.to_string();
+    for words in wanted.iter().chain(&[files[0].0]) {
+        assert!(told.contains(words), "no `{words}` in: {told}");
+    }
+    assert!(!told.contains('\n') && error.hint().is_some(), "{told}");
+}
+
+const POSITIONS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+#[test]
+fn obj_files() {
+    let with = |rest: &str| format!("{POSITIONS}{rest}\n").into_bytes();
+    for (rest, wanted) in [
+        ("f 1 2 4", &["line 4", "no position `4`, there are 3"][..]),
+        ("f 1 2 0", &["line 4", "no position `0`"]),
+        ("f 1 2 -4", &["line 4", "no position `-4`"]),
+        ("f 1 2", &["line 4", "2 corners"]),
+        ("f 1 2 x", &["line 4", "`x`"]),
+        ("f 1/1 2/1 3/1", &["line 4", "no texture coordinate `1`, there are 0"]),
+        ("f 1//1 2//1 3//1", &["line 4", "no normal `1`"]),
+        ("f 1/1/1/1 2 3", &["line 4", "`1/1/1/1`"]),
+        ("f 1 2 99999999999999999999", &["line 4", "99999"]),
+        ("v nan 0 0\nf 1 2 3", &["line 4", "`nan`"]),
+        ("v 1e99 0 0\nf 1 2 3", &["line 4", "`1e99`"]),
+        ("v 0 0\nf 1 2 3", &["line 4", "2 numbers"]),
+        ("v 0 0 0 0\nf 1 2 3", &["line 4", "divided by 0"]),
+        ("v 0 0 0 1 0 0\nf 1 2 3", &["line 4", "colours"]),
+        ("vn 0 1\nf 1 2 3", &["line 4", "`vn 0 1`"]),
+        ("vt 0\nf 1 2 3", &["line 4", "`vt 0`"]),
+        ("usemtl\nf 1 2 3", &["line 4", "usemtl"]),
+        ("", &["no triangle"]),
+        ("l 1 2\np 1", &["no triangle"]),
+    ] {
+        refused(&[("a.obj", &with(rest))], wanted);
+    }
+    refused(&[("a.obj", b"")], &["no triangle"]);
+    refused(&[("a.obj", b"\xff\xfe\0\x01garbage")], &["no triangle"]);
+}
+
+#[test]
+fn materials_and_textures_of_obj_files() {
+    let obj = format!("mtllib a.mtl\n{POSITIONS}usemtl red\nf 1 2 3\n").into_bytes();
+    let error = opened(&[("a.obj", &obj)]).unwrap_err();
+    assert!(matches!(&error, MeshError::Unreadable { name, .. } if name.ends_with("a.mtl")));
+    let with = |mtl: &str| opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
+    for (mtl, wanted) in [
+        ("newmtl red\nKd 1 0\n", "a.mtl: line 2: no colour of 3 numbers: `Kd 1 0`"),
+        ("newmtl red\nKd spectral x.rfl\n", "a.mtl: line 2: not a finite number: `spectral`"),
+        ("newmtl red\nd x\n", "a.mtl: materials"),
+        ("newmtl blue\nKd 0 0 1\n", "a.obj: line 5: no material `red`"),
+        ("newmtl red\nmap_Kd no.png\n", "the texture `no.png`"),
+        ("newmtl red\nmap_Kd a.mtl\n", "the texture `a.mtl`"),
+    ] {
+        let told = with(mtl).to_string();
+        assert!(told.contains(wanted), "no `{wanted}` in: {told}");
+    }
+}
+
+#[test]
+fn ply_files() {
+    let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                  property float z\nelement face 1\nproperty list uchar int vertex_index\n\
+                  end_header\n";
+    let with = |rest: &str| format!("{header}{rest}").into_bytes();
+    let places = "0 0 0\n1 0 0\n0 1 0\n";
+    for (rest, wanted) in [
+        ("3 0 1 3\n", &["triangle 0 has vertex 3, of 3"][..]),
+        ("3 0 1 -1\n", &["triangle 0 has vertex 4294967295"]),
+        ("2 0 1\n", &["no triangle"]),
+        ("3 0 1\n", &["line 13"]),
+        ("3 0 1 x\n", &["line 13", "x"]),
+        ("", &["line 13", "end of file"]),
+    ] {
+        refused(&[("a.ply", &with(&format!("{places}{rest}")))], wanted);
+    }
+    let mut endless = header.replace("ascii", "binary_little_endian").into_bytes();
+    for value in [0.0f32, 0.0, 0.0, 1.0, f32::INFINITY, 0.0, 0.0, 1.0, 0.0] {
+        endless.extend(value.to_le_bytes());
+    }
+    endless.extend([3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+    refused(&[("a.ply", &endless)], &["vertex 1", "position", "inf"]);
+    refused(&[("a.ply", &endless[..endless.len() - 2])], &["element `face`"]);
+    refused(&[("a.ply", &with("0 0 0\n1 0\n0 1 0\n3 0 1 2\n"))], &["line 11"]);
+    refused(&[("a.ply", b"")], &["header"]);
+    refused(&[("a.ply", b"ply\nformat ascii 1.0\nend_header\n")], &["`vertex`", "`x`"]);
+    let binary =
+        header.replace("ascii", "binary_little_endian").replace("vertex 3", "vertex 4000000000");
+    refused(&[("a.ply", binary.as_bytes())], &["element `vertex`"]);
+}
+
+#[test]
+fn gltf_files() {
+    let buffer = square_bytes();
+    let with = |change: &dyn Fn(&mut serde_json::Value)| {
+        let mut document = square_document();
+        change(&mut document);
+        gltf(&buffer, document)
+    };
+    type Change = Box<dyn Fn(&mut serde_json::Value)>;
+    let cases: Vec<(Change, &[&str])> = vec![
+        (Box::new(|d| d["accessors"][0]["count"] = json!(5)), &["accessor 0", "5 values"]),
+        (Box::new(|d| d["accessors"][0]["count"] = json!(0)), &["no values"]),
+        (Box::new(|d| d["accessors"][0]["count"] = json!(1u64 << 62)), &["accessor 0"]),
+        (Box::new(|d| d["accessors"][0]["type"] = json!("VEC4")), &["POSITION", "Vec4"]),
+        (Box::new(|d| d["accessors"][0]["componentType"] = json!(5121)), &["POSITION", "U8"]),
+        (Box::new(|d| d["accessors"][1]["componentType"] = json!(5126)), &["indices", "F32"]),
+        (
+            Box::new(|d| d["accessors"][0]["bufferView"] = json!(null)),
+            &["document", "accessors[0].bufferView"],
+        ),
+        (Box::new(|d| d["accessors"][0]["bufferView"] = json!(9)), &["document"]),
+        (Box::new(|d| d["bufferViews"][0]["byteOffset"] = json!(40)), &["buffer view 0"]),
+        (Box::new(|d| d["bufferViews"][0]["byteOffset"] = json!(u64::MAX)), &["buffer view 0"]),
+        (Box::new(|d| d["accessors"][0]["count"] = json!(2)), &["it has vertex 2, of 2"]),
+        (Box::new(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(1)), &["no triangle"]),
+        (Box::new(|d| d["nodes"][0]["children"] = json!([0])), &["node 0", "two parents"]),
+        (Box::new(|d| d["scenes"][0]["nodes"] = json!([])), &["no triangle"]),
+        (
+            Box::new(|d| d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(1)),
+            &["NORMAL"],
+        ),
+        (
+            Box::new(|d| {
+                d["materials"] = json!([{ "pbrMetallicRoughness": {
+                    "baseColorTexture": { "index": 0 } } }]);
+                d["textures"] = json!([{ "source": 0 }]);
+                d["images"] = json!([{ "uri": "no%20such.png" }]);
+            }),
+            &["the texture `no such.png`"],
+        ),
+    ];
+    for (change, wanted) in &cases {
+        refused(&[("a.gltf", &with(&**change)), ("data.bin", &buffer)], wanted);
+    }
+    let whole = with(&|_| {});
+    refused(&[("a.gltf", &whole)], &["buffer 0"]);
+    refused(&[("a.gltf", &whole), ("data.bin", &buffer[..40])], &["buffer 0", "40 bytes of 60"]);
+    let odd = String::from_utf8(whole.clone()).unwrap().replace("data.bin", "%ff");
+    refused(&[("a.gltf", odd.as_bytes())], &["buffer 0", "%ff"]);
+    refused(&[("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\x7f")], &["the document"]);
+    refused(&[("a.gltf", b"{")], &["the document"]);
+    assert!(opened(&[("a.gltf", &whole), ("data.bin", &buffer)]).is_ok());
+}
+
+#[test]
+fn names_and_paths() {
+    refused(&[("a.stl", b"solid")], &["`stl`"]);
+    refused(&[("model", b"")], &["``"]);
+    let error = Mesh::open(std::path::Path::new("no/such/model.obj")).unwrap_err();
+    assert!(error.to_string().contains("no/such/model.obj"), "{error}");
+}
+
+/// Largest angle between `normals` and the radii of a ball, in degrees.
+fn worst(mesh: &Mesh, normals: &[[f32; 3]]) -> f32 {
+    let angles = mesh.positions.iter().zip(normals).map(|(&place, &normal)| {
+        Vec3::from(place).normalize().dot(normal.into()).clamp(-1.0, 1.0).acos().to_degrees()
+    });
+    angles.fold(0.0, f32::max)
+}
+
+#[test]
+fn a_ball_has_its_radii_as_normals() {
+    let ball = Mesh::sphere(5000);
+    ball.check().unwrap();
+    assert!(worst(&ball, &ball.normals) < 0.2, "{}", worst(&ball, &ball.normals));
+    let made = ball.vertex_normals();
+    assert!(worst(&ball, &made) < 0.5, "{}", worst(&ball, &made));
+}
+
+#[test]
+fn smoothing_keeps_a_ball_and_evens_bumps() {
+    let mut ball = Mesh::sphere(5000);
+    let kept = ball.smoothed_normals(20);
+    // Around the poles triangles are uneven, so averaged normals deviate.
+    assert!(worst(&ball, &kept) < 4.0, "{}", worst(&ball, &kept));
+    let smooth = ball.normals.clone();
+    // Perturbs each normal by its position, equally on both sides of the seam.
+    for (normal, place) in ball.normals.iter_mut().zip(&ball.positions) {
+        let [x, y, z] = place.map(|at| (at * 977.0).sin() * 0.4);
+        *normal = (Vec3::from(*normal) + Vec3::new(x, y, z)).normalize().into();
+    }
+    let bumpy = ball.normals.clone();
+    let rounds = [0, 1, 4, 16].map(|rounds| {
+        let normals = ball.smoothed_normals(rounds);
+        let off = normals.iter().zip(&smooth).map(|(&a, &b)| Vec3::from(a).distance(b.into()));
+        off.sum::<f32>() / smooth.len() as f32
+    });
+    assert!(rounds.is_sorted_by(|a, b| b < a) && rounds[3] < rounds[0] / 8.0, "{rounds:?}");
+    assert_eq!(ball.smoothed_normals(0), bumpy);
+    // Vertices at the same position keep equal normals.
+    let normals = ball.smoothed_normals(3);
+    let GridSize { columns, rows } = GridSize::for_triangles(5000, 2.0);
+    let width = columns + 1;
+    assert_eq!(ball.positions.len(), width * (rows + 1));
+    for row in 0..=rows {
+        assert_eq!(ball.positions[row * width], ball.positions[row * width + width - 1]);
+        assert_eq!(normals[row * width], normals[row * width + width - 1], "row {row}");
+    }
+}
+
+#[test]
+fn closed_surfaces_are_told_from_open_and_inverted_ones() {
+    let mut ball = Mesh::sphere(500);
+    assert!(ball.is_closed() && Mesh::torus_knot(3000).is_closed());
+    ball.triangles.iter_mut().for_each(|triangle| triangle.corners.swap(0, 1));
+    assert!(!ball.is_closed(), "inside out");
+    let mut open = Mesh::sphere(500);
+    open.triangles.pop();
+    assert!(!open.is_closed(), "a hole");
+    assert!(!Mesh::default().is_closed());
+}
+
+#[test]
+fn what_cannot_be_drawn_is_found() {
+    let fault = |change: &dyn Fn(&mut Mesh)| {
+        let mut mesh = Mesh::sphere(100);
+        change(&mut mesh);
+        mesh.check().unwrap_err()
+    };
+    let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
+    let found = [
+        fault(&|mesh| mesh.triangles.clear()),
+        fault(&|mesh| mesh.colors.truncate(1)),
+        fault(&|mesh| mesh.positions[3][1] = f32::NAN),
+        fault(&|mesh| mesh.triangles[2].corners[1] = 4000),
+        fault(&|mesh| mesh.triangles[2].material = 1),
+        fault(&|mesh| mesh.materials[0].color[2] = 1.5),
+        fault(&|mesh| mesh.materials[0].texture = Some(texture.clone())),
+    ];
+    assert_eq!(found[0], MeshFault::NoTriangle);
+    for (fault, words) in found.iter().zip([
+        "no triangle",
+        "1 colours for",
+        "vertex 3 has the position",
+        "triangle 2 has vertex 4000",
+        "triangle 2 has material 1, of 1",
+        "material 0 has the colour",
+        "3 texels for 2 x 2",
+    ]) {
+        assert!(fault.to_string().contains(words), "{fault}");
+        assert!(fault.hint().is_some());
+    }
+}
+
+#[test]
+fn shapes_are_whole_and_as_fine_as_asked() {
+    for shape in SampleModel::ALL {
+        assert_eq!(SampleModel::from_name(shape.name()), Some(shape));
+        for triangles in [3000, 25_000, 60_000] {
+            let mesh = shape.mesh(triangles);
+            mesh.check().unwrap();
+            let found = mesh.triangles.len();
+            let near = triangles * 85 / 100..triangles * 115 / 100;
+            assert!(near.contains(&found), "{}: {found} for {triangles}", shape.name());
+            let lengths = mesh.normals.iter().map(|&normal| Vec3::from(normal).length());
+            assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-4));
+            let colors = mesh.colors.iter().flatten();
+            assert!(colors.into_iter().all(|value| (0.0..=1.0).contains(value)));
+            // Normals point to the side from which corners run counter-clockwise.
+            let agree = mesh.triangles.iter().filter(|triangle| {
+                let at = triangle.corners.map(|at| Vec3::from(mesh.positions[at as usize]));
+                let normal: Vec3 =
+                    triangle.corners.iter().map(|&at| Vec3::from(mesh.normals[at as usize])).sum();
+                (at[1] - at[0]).cross(at[2] - at[0]).dot(normal) > 0.0
+            });
+            let share = agree.count() as f64 / found as f64;
+            assert!(share > 0.995, "{} of {triangles}: {share}", shape.name());
+        }
+    }
+    assert_eq!(SampleModel::from_name("teapot"), None);
+    assert_eq!(SampleModel::Village.mesh(3000), SampleModel::Village.mesh(3000));
+}

@@ -1,0 +1,83 @@
+//! Source files: ASCII, no unfinished code, every shader in a kernel. Data files: each
+//! names its source.
+
+use std::path::Path;
+
+use xtask::files::{files_below, text, texts};
+
+#[test]
+fn sources_are_ascii() {
+    for (path, text) in texts(&[".rs", ".wgsl", ".py", ".toml"]) {
+        for (line, number) in text.lines().zip(1..) {
+            assert!(line.is_ascii(), "{path}:{number}: {line}");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_to_do() {
+    // Joined from two parts, so that this file does not contain the forbidden macros.
+    let needles = ["todo", "unimplemented", "dbg"].map(|word| [word, "!("].concat());
+    for (path, text) in texts(&[".rs"]) {
+        for needle in &needles {
+            assert!(!text.contains(needle), "{path}: {needle}");
+        }
+    }
+}
+
+#[test]
+fn every_shader_is_part_of_a_kernel() {
+    let sources: String = texts(&[".rs"]).into_values().collect();
+    for (path, _) in texts(&[".wgsl"]) {
+        let name = Path::new(&path).file_name().unwrap().to_str().unwrap();
+        assert!(sources.contains(&format!("{name}\"")), "{path} is in no kernel");
+    }
+}
+
+#[test]
+fn every_shipped_table_has_its_source() {
+    let sources = text("spectra/data/SOURCES.md");
+    for path in files_below("spectra/data") {
+        let inside = path.strip_prefix("spectra/data/").unwrap();
+        let told = inside == "SOURCES.md" || sources.contains(&format!("`{inside}`"));
+        assert!(told, "{path} is not in SOURCES.md");
+    }
+}
+
+#[test]
+fn every_measurement_has_its_source() {
+    for path in files_below("measurements").iter().filter(|path| !path.ends_with(".md")) {
+        let name = path.strip_prefix("measurements/").unwrap();
+        let stem = name.split('.').next().unwrap();
+        let page = text(&format!("measurements/{stem}.md"));
+        // A library is made from the table of the same stem and shares its page.
+        let told = name.ends_with(".pigments.json") || page.contains(name);
+        assert!(told, "measurements/{stem}.md does not name {name}");
+    }
+}
+
+#[test]
+fn every_painting_has_its_source() {
+    let page = text("paintings/README.md");
+    for path in files_below("paintings").iter().filter(|path| !path.ends_with("README.md")) {
+        let name = path.strip_prefix("paintings/").unwrap();
+        assert!(page.contains(&format!("`{name}`")), "paintings/README.md does not name {name}");
+    }
+}
+
+#[test]
+fn every_golden_file_says_how_it_was_made_and_is_compared() {
+    let tests: String = texts(&[".rs"]).into_values().collect();
+    let golden = files_below("tests/golden");
+    for path in golden.iter().filter(|path| path.ends_with(".json")) {
+        let file: serde_json::Value = serde_json::from_str(&text(path)).unwrap();
+        for key in ["command", "package", "method"] {
+            let told = file[key].as_str().is_some_and(|words| !words.is_empty());
+            assert!(told, "{path}: {key}");
+        }
+        let tolerance = file["tolerance"].as_f64();
+        assert!(tolerance.is_some_and(|t| t > 0.0 && t < 1e-3), "{path}: {tolerance:?}");
+        let stem = Path::new(path).file_stem().unwrap().to_str().unwrap();
+        assert!(tests.contains(&format!("read(\"{stem}\")")), "{path} is compared nowhere");
+    }
+}
