@@ -1,15 +1,17 @@
 //! A style of painting as data: brush, strokes, paint and canvas of a swatch.
+//!
+//! Faults of styles.
+//!
+//! Styles that ship, as text.
 
 use std::path::Path;
 use std::str::FromStr;
 
-use documents::text::{Source, read_text};
+use documents::hint::{Explain, Fault};
+use documents::text::{Source, TextError, read_text};
 use paint::BrushSpec;
 use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
-
-use super::shipped::{NAMES, SHIPPED};
-use super::style_error::StyleError;
 
 /// Order of the strokes of a coat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -255,11 +257,77 @@ impl FromStr for Style {
     }
 }
 
+/// A style cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
+pub enum StyleError {
+    /// The file cannot be read, is no TOML, or has an unknown or missing key.
+    #[error(transparent)]
+    #[hint(if matches!(_0, TextError::File(_)), inner)]
+    #[hint("begin with the text of a style that ships: [show_style=oil-flat]")]
+    #[fault(with = if matches!(_0, TextError::File(_)) { _0.fault() } else { Fault::Setting })]
+    Text(#[from] TextError),
+    /// No style that ships has this name.
+    #[error("there is no style called `{name}`")]
+    #[hint("choose [style] among {}", NAMES.join(", "))]
+    Unknown {
+        /// Name that was looked up.
+        name: String,
+    },
+    /// A number is out of its range.
+    #[error("style {style}: {key} is {least} to {most}, found `{value}`")]
+    Number {
+        /// Name of the style.
+        style: String,
+        /// Group and key of the number.
+        key: &'static str,
+        /// Value of the number.
+        value: f64,
+        /// Least value allowed.
+        least: f64,
+        /// Greatest value allowed.
+        most: f64,
+    },
+    /// A swatch would take too much memory or time.
+    #[hint("take larger cells, wider spacing or shorter strokes")]
+    #[error("style {style}: a swatch has at most {most} {what}, found `{found:.0}`")]
+    TooLarge {
+        /// Name of the style.
+        style: String,
+        /// Items that are too many.
+        what: &'static str,
+        /// Number of the items.
+        found: f64,
+        /// Greatest number allowed.
+        most: f64,
+    },
+}
+
+/// Names and TOML files of the styles, in the order in which programs list them.
+pub(super) const SHIPPED: [(&str, &str); 6] = [
+    ("oil-flat", include_str!("styles/oil-flat.toml")),
+    ("oil-long", include_str!("styles/oil-long.toml")),
+    ("dabs", include_str!("styles/dabs.toml")),
+    ("knife", include_str!("styles/knife.toml")),
+    ("hatching", include_str!("styles/hatching.toml")),
+    ("dry-brush", include_str!("styles/dry-brush.toml")),
+];
+
+/// Names of the styles.
+pub(super) const NAMES: [&str; SHIPPED.len()] = {
+    let mut names = [""; SHIPPED.len()];
+    let mut at = 0;
+    while at < names.len() {
+        names[at] = SHIPPED[at].0;
+        at += 1;
+    }
+    names
+};
+
 #[cfg(test)]
 mod tests {
-    use documents::hint::Explain;
-
     use super::*;
+    use documents::hint::Explain;
 
     #[test]
     fn shipped_styles_are_valid_have_their_names_and_come_back_from_toml() {

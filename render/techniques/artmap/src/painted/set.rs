@@ -9,8 +9,7 @@ use paint::painting::PaintingError;
 use pigment::{PigmentLibrary, Viewing};
 use rayon::prelude::*;
 
-use super::plan::Style;
-use super::style_error::StyleError;
+use super::plan::{Style, StyleError};
 use super::swatch::{Workplace, ground, spread, strokes};
 use super::tones::{ToneLadder, TonesError};
 use crate::sample::{PaintOfSamples, SampleSet};

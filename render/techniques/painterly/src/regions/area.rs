@@ -5,8 +5,7 @@ use graphics::field::Field;
 use graphics::mesh::Mesh;
 
 use super::super::settings::Settings;
-use super::error::RegionsError;
-use super::region::{Region, RegionArea, Regions};
+use super::{Region, RegionArea, Regions, RegionsError};
 
 /// Pixels along the longer side within which regions of a picture are told apart.
 const MOST_PX: f32 = 2048.0;
