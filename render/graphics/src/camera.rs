@@ -505,11 +505,14 @@ impl CameraPath {
         .map(|values| spline(values, share));
         // Interpolated eye and target may coincide, and up may become parallel to the viewing
         // direction: then the last keyframe decides.
-        let last = |of: fn(&Keyframe) -> [f32; 3]| Vec3::from(of(around[1]));
+        fn last(of: fn(&Keyframe) -> [f32; 3], around: [&Keyframe; 4]) -> Vec3 {
+            Vec3::from(of(around[1]))
+        }
         let forward = (target - eye).try_normalize();
-        let forward = forward.unwrap_or((last(|at| at.target) - last(|at| at.eye)).normalize());
+        let forward = forward
+            .unwrap_or((last(|at| at.target, around) - last(|at| at.eye, around)).normalize());
         let target = if eye == target { eye + forward } else { target };
-        let up = [up, last(|at| at.up), Vec3::Y]
+        let up = [up, last(|at| at.up, around), Vec3::Y]
             .into_iter()
             .find(|up: &Vec3| up.normalize_or_zero().cross(forward).length() > LEAST_SINE)
             .unwrap_or(Vec3::Z);

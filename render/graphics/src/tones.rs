@@ -65,16 +65,19 @@ impl ToneRamp {
     /// # Errors
     /// [`ToneRampError::NoPicture`] with the path.
     pub fn open(path: &Path) -> Result<Self, ToneRampError> {
-        let rejected =
-            |reason: String| ToneRampError::NoPicture { name: path.display().to_string(), reason };
+        fn rejected(reason: String, path: &Path) -> ToneRampError {
+            ToneRampError::NoPicture { name: path.display().to_string(), reason }
+        }
         let bytes =
-            documents::file::disk::read(path).map_err(|error| rejected(error.to_string()))?;
+            documents::file::disk::read(path).map_err(|error| rejected(error.to_string(), path))?;
         if is_cut_off_jpeg(&bytes) {
-            return Err(rejected(CUT_OFF.to_owned()));
+            return Err(rejected(CUT_OFF.to_owned(), path));
         }
         let reader = image::ImageReader::new(std::io::Cursor::new(bytes));
-        let reader = reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
-        let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_rgb16();
+        let reader =
+            reader.with_guessed_format().map_err(|error| rejected(error.to_string(), path))?;
+        let picture =
+            reader.decode().map_err(|error| rejected(error.to_string(), path))?.into_rgb16();
         let y = picture.height() / 2;
         Self::from_greys(
             &(0..picture.width())

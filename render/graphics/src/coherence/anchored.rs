@@ -290,8 +290,12 @@ impl Particles {
             .map(|face| (face.corners.iter().sum::<Vec3>() / 3.0, face.area))
             .collect();
         while positions.len() < count {
-            let away = |at: Vec3| nearest_of(&positions, at).1;
-            let farthest = points.iter().max_by(|a, b| away(a.0).total_cmp(&away(b.0)));
+            fn away(at: Vec3, positions: &[Vec3]) -> f32 {
+                nearest_of(positions, at).1
+            }
+            let farthest = points
+                .iter()
+                .max_by(|a, b| away(a.0, &positions).total_cmp(&away(b.0, &positions)));
             positions.extend(farthest.map(|point| point.0));
         }
         for _ in 0..LLOYD_ROUNDS {
@@ -398,7 +402,7 @@ mod tests {
     #[test]
     fn the_zoom_is_continuous_at_every_distance() {
         let particles = Particles::new(&Hierarchy::new(&Mesh::sphere(300)), 6);
-        let at = |distance: f32| {
+        fn at(distance: f32, particles: &Particles) -> Anchor {
             let camera = Camera {
                 eye: Vec3::Z * distance,
                 target: Vec3::ZERO,
@@ -408,7 +412,7 @@ mod tests {
                 far: 1e4,
             };
             particles.anchors(&Projection::new(&camera, 100, 100), NOISE).each[0]
-        };
+        }
         // What the texture shows ten pixels to the right of the particle.
         fn shown(anchor: Anchor) -> Vec<(f32, f32, f32)> {
             let mut octaves: Vec<(f32, f32, f32)> = (0..4)
@@ -423,8 +427,8 @@ mod tests {
         }
         for step in 0..2000 {
             let distance = 2.0 + 0.01 * step as f32;
-            let before = shown(at(distance));
-            let after = shown(at(distance * 1.0005));
+            let before = shown(at(distance, &particles));
+            let after = shown(at(distance * 1.0005, &particles));
             let squares: f32 = before.iter().map(|octave| octave.2 * octave.2).sum();
             assert!((squares - 1.0).abs() < 1e-3, "{squares}");
             for (right, texels, weight) in before {

@@ -225,8 +225,15 @@ impl<'a> InSight<'a> {
         let [right, up] = projection.axes();
         let slope = |size: usize| (size as f32 / 2.0 + margin_px) / projection.focal_px;
         let [across, down] = [slope(projection.width), slope(projection.height)];
-        let side = |axis: Vec3, slope: f32| (forward * slope - axis).normalize_or_zero();
-        let sides = [side(right, across), side(-right, across), side(up, down), side(-up, down)];
+        fn side(axis: Vec3, slope: f32, forward: Vec3) -> Vec3 {
+            (forward * slope - axis).normalize_or_zero()
+        }
+        let sides = [
+            side(right, across, forward),
+            side(-right, across, forward),
+            side(up, down, forward),
+            side(-up, down, forward),
+        ];
         Self { projection, density, end, forward, sides, beyond, surfaces: None }
     }
 

@@ -151,20 +151,25 @@ impl Hierarchy {
 /// Sorts faces along the coordinate (of position or normal) in which they spread most.
 /// Returns the index that divides them into halves of nearly equal area.
 fn halve(faces: &mut [Face], area: f64, radius: f32) -> usize {
-    let value = |face: &Face, axis: usize| match axis {
-        0..3 => face.center()[axis],
-        _ => face.normal[axis - 3] * radius * FACING,
-    };
+    fn value(face: &Face, axis: usize, radius: f32) -> f32 {
+        match axis {
+            0..3 => face.center()[axis],
+            _ => face.normal[axis - 3] * radius * FACING,
+        }
+    }
     let spreads = [0, 1, 2, 3, 4, 5].map(|axis: usize| {
         let mean =
-            faces.iter().map(|face| face.area * f64::from(value(face, axis))).sum::<f64>() / area;
+            faces.iter().map(|face| face.area * f64::from(value(face, axis, radius))).sum::<f64>()
+                / area;
         faces
             .iter()
-            .map(|face: &Face| face.area * (f64::from(value(face, axis)) - mean).powi(2))
+            .map(|face: &Face| face.area * (f64::from(value(face, axis, radius)) - mean).powi(2))
             .sum::<f64>()
     });
     let axis = (0..6).max_by(|&a, &b| spreads[a].total_cmp(&spreads[b])).unwrap_or(0);
-    faces.sort_by(|a, b| value(a, axis).total_cmp(&value(b, axis)).then(a.number.cmp(&b.number)));
+    faces.sort_by(|a, b| {
+        value(a, axis, radius).total_cmp(&value(b, axis, radius)).then(a.number.cmp(&b.number))
+    });
     let mut before = 0.0;
     let cut = faces.iter().position(|face| {
         before += face.area;

@@ -69,13 +69,17 @@ impl Octaves {
         let first = 4.0 / 3.0 * coverage / std::f32::consts::PI / (largest_px * largest_px);
         let radii = (0..count).map(|octave| largest_px / (1u32 << octave) as f32);
         let mut octaves = Self { each: radii.map(|radius| [radius, 1.0]).collect(), first };
-        let strength = |octave: usize| persistence.powi(octave as i32);
-        let all = (0..count).map(|octave| strength(octave).powi(2)).sum::<f32>().sqrt();
+        fn strength(octave: usize, persistence: f32) -> f32 {
+            persistence.powi(octave as i32)
+        }
+        let all =
+            (0..count).map(|octave| strength(octave, persistence).powi(2)).sum::<f32>().sqrt();
         for octave in 0..count {
             let radius = octaves.each[octave][0];
             // Features are placed at random, so their squares add (Campbell 1909).
             let variance = octaves.features(octave) * squared_profile_integral() * radius * radius;
-            octaves.each[octave][1] = SPREAD * strength(octave) / all / variance.sqrt();
+            octaves.each[octave][1] =
+                SPREAD * strength(octave, persistence) / all / variance.sqrt();
         }
         octaves
     }
@@ -96,9 +100,11 @@ impl Octaves {
     /// The share of a feature, 0 to 1, that belongs to `octave`. `level` is the logarithm of
     /// the rank: 0 where octave 0 ends, 1 where octave 1 ends.
     fn share(&self, octave: usize, level: f32) -> f32 {
-        let passed = |end: f32| profile((level - end) / FADE + 0.5);
-        let entered = if octave == 0 { 1.0 } else { passed(octave as f32 - 1.0) };
-        entered * (1.0 - passed(octave as f32))
+        fn passed(end: f32, level: f32) -> f32 {
+            profile((level - end) / FADE + 0.5)
+        }
+        let entered = if octave == 0 { 1.0 } else { passed(octave as f32 - 1.0, level) };
+        entered * (1.0 - passed(octave as f32, level))
     }
 
     /// Features of this rank and above belong to no octave.
@@ -261,12 +267,14 @@ mod tests {
     #[test]
     fn the_texture_repeats_without_a_seam() {
         let texture = repeating_noise(32, 5);
-        let step = |a: (usize, usize), b: (usize, usize)| (texture[a] - texture[b]).abs();
+        fn step(a: (usize, usize), b: (usize, usize), texture: &Field<f32>) -> f32 {
+            (texture[a] - texture[b]).abs()
+        }
         let most = |inside: &dyn Fn(usize, usize) -> f32, at: usize| {
             (0..SIDE).map(|i| inside(at, i)).fold(0.0, f32::max)
         };
-        let across = |x: usize, y: usize| step((x, y), ((x + 1) % SIDE, y));
-        let down = |y: usize, x: usize| step((x, y), (x, (y + 1) % SIDE));
+        let across = |x: usize, y: usize| step((x, y), ((x + 1) % SIDE, y), &texture);
+        let down = |y: usize, x: usize| step((x, y), (x, (y + 1) % SIDE), &texture);
         for steps in [&across as &dyn Fn(usize, usize) -> f32, &down] {
             let usual = (0..SIDE - 1).map(|at| most(steps, at)).fold(0.0, f32::max);
             assert!(most(steps, SIDE - 1) <= usual, "{} {usual}", most(steps, SIDE - 1));

@@ -76,8 +76,10 @@ impl Splat {
         let radius = 1.0 / self.narrowness;
         let leaning = radius * self.slope_x.hypot(self.slope_y);
         let nearest = self.depth - leaning - REACH / self.tightness;
-        let limits = |at: f32| [at - radius, at + radius];
-        nearest > surfaces.farthest(limits(self.x), limits(self.y))
+        fn limits(at: f32, radius: f32) -> [f32; 2] {
+            [at - radius, at + radius]
+        }
+        nearest > surfaces.farthest(limits(self.x, radius), limits(self.y, radius))
     }
 
     /// Whether it may add to a pixel of the square with this first pixel and these depths.
@@ -85,13 +87,13 @@ impl Splat {
     fn reaches(&self, [column, row]: [usize; 2], [low, high]: [f32; 2]) -> bool {
         let radius = 1.0 / self.narrowness;
         // Where it and the pixels of the square overlap, to both sides of its centre.
-        let overlap = |first: usize, at: f32| {
+        fn overlap(first: usize, at: f32, radius: f32) -> [f32; 2] {
             let low = first as f32 + 0.5 - at;
             let high = (first + SIDE) as f32 - 0.5 - at;
             [low.max(-radius), high.min(radius)]
-        };
-        let [left, right] = overlap(column, self.x);
-        let [above, below] = overlap(row, self.y);
+        }
+        let [left, right] = overlap(column, self.x, radius);
+        let [above, below] = overlap(row, self.y, radius);
         if left > right || above > below {
             return false;
         }

@@ -88,9 +88,16 @@ fn chromaticities() -> Chromaticities {
         let sum = x + y + z;
         Vec2((x / sum) as f32, (y / sum) as f32)
     }
-    let column = |j: usize| at([columns[0][j], columns[1][j], columns[2][j]]);
+    fn column(j: usize, columns: &[[f64; 3]; 3]) -> Vec2<f32> {
+        at([columns[0][j], columns[1][j], columns[2][j]])
+    }
     let white = at(space.white().to_array());
-    Chromaticities { red: column(0), green: column(1), blue: column(2), white }
+    Chromaticities {
+        red: column(0, &columns),
+        green: column(1, &columns),
+        blue: column(2, &columns),
+        white,
+    }
 }
 
 /// Encodes linear sRGB (white at 1) as channels R, G, B of 32-bit floats, unclipped, with the

@@ -159,11 +159,11 @@ pub fn reduced_size((width, height): (usize, usize), longest_px: usize) -> (usiz
     if longest <= longest_px {
         return (width, height);
     }
-    let reduced = |side: usize| {
+    fn reduced(side: usize, longest: usize, longest_px: usize) -> usize {
         let exact = side as f64 * longest_px as f64 / longest as f64;
         (exact.round() as usize).max(usize::from(side > 0))
-    };
-    (reduced(width), reduced(height))
+    }
+    (reduced(width, longest, longest_px), reduced(height, longest, longest_px))
 }
 
 /// The picture in linear sRGB reduced to [`reduced_size`]: each pixel is the mean of the area that
@@ -202,8 +202,10 @@ struct Covered {
 
 impl Covered {
     fn new(index: usize, count: usize, before: usize) -> Self {
-        let edge = |index: usize| index as f64 * before as f64 / count as f64;
-        Self { start: edge(index), end: edge(index + 1) }
+        fn edge(index: usize, before: usize, count: usize) -> f64 {
+            index as f64 * before as f64 / count as f64
+        }
+        Self { start: edge(index, before, count), end: edge(index + 1, before, count) }
     }
 
     /// Covered pixels with their shares, which sum to 1.

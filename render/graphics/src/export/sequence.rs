@@ -267,13 +267,15 @@ impl AnimationFormat {
         (rate, last): (FrameRate, usize),
     ) -> Result<Vec<u8>, SequenceError> {
         let SequenceSettings { frames, width, height, .. } = *sequence.settings();
-        let durations = |index: usize| if index + 1 == frames { last.max(1) } else { 1 };
+        fn durations(index: usize, frames: usize, last: usize) -> usize {
+            if index + 1 == frames { last.max(1) } else { 1 }
+        }
         match self {
             Self::Gif => {
                 let table = ColorTable::of(sequence.frames())?;
                 let mut gif = Gif::new(Vec::new(), (width, height), rate, &table)?;
                 for (index, frame) in sequence.frames().enumerate() {
-                    gif.push_held(&frame?, durations(index))?;
+                    gif.push_held(&frame?, durations(index, frames, last))?;
                 }
                 Ok(gif.finish()?)
             }
@@ -281,7 +283,7 @@ impl AnimationFormat {
                 let mut bytes = Vec::new();
                 let mut apng = Apng::new(&mut bytes, (width, height), rate, frames)?;
                 for (index, frame) in sequence.compressed().enumerate() {
-                    apng.push_held(&frame?, durations(index))?;
+                    apng.push_held(&frame?, durations(index, frames, last))?;
                 }
                 apng.finish()?;
                 Ok(bytes)

@@ -381,12 +381,14 @@ impl Places {
 /// shift it. A vertex without a normal has the triangle's. A place without triangles has the mean
 /// of its vertices' normals, or +y.
 fn joined_normals(mesh: &Mesh, of_vertex: &[u32], positions: &[DVec3]) -> Vec<DVec3> {
-    let normal_of = |vertex: usize| DVec3::from(mesh.normals[vertex].map(f64::from));
+    fn normal_of(vertex: usize, mesh: &Mesh) -> DVec3 {
+        DVec3::from(mesh.normals[vertex].map(f64::from))
+    }
     let mut any = vec![DVec3::ZERO; positions.len()];
     for (vertex, &place) in of_vertex.iter().enumerate() {
         let own = &mut any[place as usize];
         // Opposite normals would cancel out: the first side counts.
-        let normal = normal_of(vertex);
+        let normal = normal_of(vertex, mesh);
         *own += if own.dot(normal) < 0.0 { -normal } else { normal };
     }
     let mut sums = vec![(DVec3::ZERO, 0.0); positions.len()];
@@ -400,7 +402,7 @@ fn joined_normals(mesh: &Mesh, of_vertex: &[u32], positions: &[DVec3]) -> Vec<DV
                 next.cross(last).length() / (next.length_squared() * last.length_squared());
             if weight.is_finite() {
                 let (sum, all) = &mut sums[places[i]];
-                *sum += weight * normal_of(triangle.corners[i] as usize).normalize_or(facet);
+                *sum += weight * normal_of(triangle.corners[i] as usize, mesh).normalize_or(facet);
                 *all += weight;
             }
         }

@@ -373,11 +373,11 @@ mod tests {
     #[test]
     fn modes_do_not_depend_on_threads() {
         let planes = planes();
-        let with = |threads: usize| {
+        fn with(threads: usize, planes: &LuvPlanes) -> Field<Mode> {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| modes(&planes, BANDWIDTH, MEETING))
-        };
-        assert!(with(1) == with(3));
+            pool.install(|| modes(planes, BANDWIDTH, MEETING))
+        }
+        assert!(with(1, &planes) == with(3, &planes));
     }
 
     #[derive(serde::Deserialize)]

@@ -165,9 +165,15 @@ impl RegionGraph {
         fn mean(sum: f64, of: &Weight) -> f64 {
             sum / f64::from(of.pixels)
         }
-        let off = |i: usize| mean(one.colors[i], one) - mean(other.colors[i], other);
+        fn off(i: usize, one: &Weight, other: &Weight) -> f64 {
+            mean(one.colors[i], one) - mean(other.colors[i], other)
+        }
         let paper = PAPER * (mean(one.painted.into(), one) - mean(other.painted.into(), other));
-        (off(0).powi(2) + off(1).powi(2) + off(2).powi(2) + paper.powi(2)).sqrt()
+        (off(0, one, other).powi(2)
+            + off(1, one, other).powi(2)
+            + off(2, one, other).powi(2)
+            + paper.powi(2))
+        .sqrt()
     }
 
     /// The neighbours of a region, by rising label.

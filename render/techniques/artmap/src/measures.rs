@@ -168,10 +168,14 @@ pub fn co_occurrence_error(reference: &Texture, other: &Texture) -> f64 {
     let least = sorted[tail];
     let most = sorted[sorted.len() - 1 - tail];
     let per_level = LEVELS as f32 / (most - least).max(1e-6);
-    let level = |value: f32| (((value - least) * per_level).max(0.0) as usize).min(LEVELS - 1);
+    fn level(value: f32, least: f32, per_level: f32) -> usize {
+        (((value - least) * per_level).max(0.0) as usize).min(LEVELS - 1)
+    }
     let shares = |texture: &Texture, step: [isize; 2]| {
         let mut counts = [0_u64; LEVELS * LEVELS];
-        texture.pairs(step, |a, b| counts[level(a) * LEVELS + level(b)] += 1);
+        texture.pairs(step, |a, b| {
+            counts[level(a, least, per_level) * LEVELS + level(b, least, per_level)] += 1
+        });
         let total = counts.iter().sum::<u64>().max(1) as f64;
         counts.map(|count| count as f64 / total)
     };
@@ -281,13 +285,14 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
 pub fn usual_wrap_ratio(map: &Texture) -> f64 {
     let (width, height) = map.size();
     let lightness = map.lightness();
-    let step =
-        |a: (usize, usize), b: (usize, usize)| f64::from((lightness[a] - lightness[b]).abs());
+    fn step(a: (usize, usize), b: (usize, usize), lightness: &Field<f32>) -> f64 {
+        f64::from((lightness[a] - lightness[b]).abs())
+    }
     let columns: Vec<f64> = (0..width.saturating_sub(1))
-        .map(|x: usize| (0..height).map(|y| step((x, y), (x + 1, y))).sum::<f64>())
+        .map(|x: usize| (0..height).map(|y| step((x, y), (x + 1, y), lightness)).sum::<f64>())
         .collect();
     let rows: Vec<f64> = (0..height.saturating_sub(1))
-        .map(|y: usize| (0..width).map(|x| step((x, y), (x, y + 1))).sum::<f64>())
+        .map(|y: usize| (0..width).map(|x| step((x, y), (x, y + 1), lightness)).sum::<f64>())
         .collect();
     let inside: f64 = columns.iter().chain(&rows).sum();
     if inside <= 0.0 {
@@ -310,12 +315,15 @@ pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) ->
     let height = mask.height().div_ceil(block);
     let mut used = vec![0_u64; width * height];
     let mut inside = vec![0_u64; width * height];
-    let part = |x: usize, y: usize| y / block * width + x / block;
+    fn part(x: usize, y: usize, block: usize, width: usize) -> usize {
+        y / block * width + x / block
+    }
     for &[x, y] in sources.values() {
-        used[part(usize::from(x), usize::from(y))] += 1;
+        used[part(usize::from(x), usize::from(y), block, width)] += 1;
     }
     for (index, &is_inside) in mask.values().iter().enumerate() {
-        inside[part(index % mask.width(), index / mask.width())] += u64::from(is_inside);
+        inside[part(index % mask.width(), index / mask.width(), block, width)] +=
+            u64::from(is_inside);
     }
     let all = inside.iter().sum::<u64>().max(1) as f64;
     let mean = (sources.values().len() as f64 / all).max(1.0);

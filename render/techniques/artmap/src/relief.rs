@@ -91,15 +91,15 @@ pub(crate) fn blurred_tile(field: &Field<f32>, sigma: f64) -> Field<f32> {
     let height = field.height();
     // The blur repeats the cells at the border. Four deviations keep that out of the tile.
     let margin = (4.0 * sigma).ceil() as usize;
-    let wrapped = |index: usize, size: usize| {
+    fn wrapped(index: usize, size: usize, margin: usize) -> usize {
         (index as isize - margin as isize).rem_euclid(size as isize) as usize
-    };
+    }
     let wide = width + 2 * margin;
     let high = height + 2 * margin;
     let mut repeated = Vec::with_capacity(wide * high);
     for y in 0..high {
         for x in 0..wide {
-            repeated.push([field[(wrapped(x, width), wrapped(y, height))]]);
+            repeated.push([field[(wrapped(x, width, margin), wrapped(y, height, margin))]]);
         }
     }
     let smooth = blurred(&Field::from_values(wide, high, repeated), sigma);

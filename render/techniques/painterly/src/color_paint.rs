@@ -329,7 +329,9 @@ mod tests {
             let [u, v] = at(index);
             [4.0 * u, 3.0 - 3.0 * v, 0.1 * (9.0 * u).sin()]
         };
-        let corner = |x: usize, y: usize| (x + y * side) as u32;
+        fn corner(x: usize, y: usize, side: usize) -> u32 {
+            (x + y * side) as u32
+        }
         let squares = (0..(side - 1) * (side - 1)).map(|at| (at % (side - 1), at / (side - 1)));
         let mut mesh = Mesh {
             positions: (0..side * side).map(position).collect(),
@@ -337,8 +339,12 @@ mod tests {
             colors: vec![[1.0; 3]; side * side],
             triangles: squares
                 .flat_map(|(x, y)| {
-                    let [a, b, c, d] =
-                        [corner(x, y), corner(x, y + 1), corner(x + 1, y + 1), corner(x + 1, y)];
+                    let [a, b, c, d] = [
+                        corner(x, y, side),
+                        corner(x, y + 1, side),
+                        corner(x + 1, y + 1, side),
+                        corner(x + 1, y, side),
+                    ];
                     [[a, b, c], [a, c, d]].map(|corners| Triangle { corners, material: 0 })
                 })
                 .collect(),
@@ -554,18 +560,23 @@ mod tests {
     fn empty_palettes_and_unknown_lights_are_refused() {
         let library = Arc::new(PigmentLibrary::van_gogh_oils());
         let ground = GroundKind::Panel.spec(1);
-        let made = |slots: Slots, lighting: &Lighting| {
+        fn made(
+            slots: Slots,
+            lighting: &Lighting,
+            ground: &GroundSpec,
+            library: &Arc<PigmentLibrary>,
+        ) -> ColorPaintError {
             let settings = ColorPaintSettings::default();
-            ColorPaint::new(library.clone(), slots, (&ground, lighting), &settings).unwrap_err()
-        };
-        let error = made(Slots::default(), &level());
+            ColorPaint::new(library.clone(), slots, (ground, lighting), &settings).unwrap_err()
+        }
+        let error = made(Slots::default(), &level(), &ground, &library);
         assert!(
             matches!(error, ColorPaintError::Separation(SeparationError::NoPigment)),
             "{error}"
         );
         assert!(error.hint().is_some());
         let candle = Lighting { illuminant: "candle".to_owned(), ..level() };
-        let error = made(*PAINT.slots(), &candle);
+        let error = made(*PAINT.slots(), &candle, &ground, &library);
         assert!(matches!(error, ColorPaintError::Light(_)), "{error}");
     }
 }

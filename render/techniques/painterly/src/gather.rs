@@ -347,20 +347,23 @@ impl Divide<'_> {
         covered: bool,
         (row, column): (usize, usize),
     ) -> [f32; 2] {
-        let cover = |sums: &Sums| match sums.weight[row][column] > LOST {
-            true => sums.cover[row][column],
-            false => 0.0,
-        };
+        #[inline(always)]
+        fn cover(sums: &Sums, column: usize, row: usize) -> f32 {
+            match sums.weight[row][column] > LOST {
+                true => sums.cover[row][column],
+                false => 0.0,
+            }
+        }
         let under = match self.lowest() {
-            true => (cover(&gathered.on) * (1.0 / THIN)).min(1.0),
+            true => (cover(&gathered.on, column, row) * (1.0 / THIN)).min(1.0),
             // Ridges of strokes on others reach further than furrows too.
             false => {
                 let ridge = self.ridge(&gathered.on, row, column) - 0.5;
-                let on = cover(&gathered.on) * (1.0 + BRISTLES * ridge);
+                let on = cover(&gathered.on, column, row) * (1.0 + BRISTLES * ridge);
                 smoothstep([0.5 * self.thin, 1.5 * self.thin], on)
             }
         };
-        let out = cover(&gathered.before);
+        let out = cover(&gathered.before, column, row);
         let over = if self.overhang > 0.0 && out > 0.0 {
             // The ridges of a stroke reach further than its furrows.
             let out = out * (1.0 + BRISTLES * (self.ridge(&gathered.before, row, column) - 0.5));

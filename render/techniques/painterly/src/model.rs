@@ -203,13 +203,15 @@ mod painting_tests {
         let mut painter = Painter::of_model(&mesh, &map, &settings()).unwrap();
         let shown = painter.paint(&camera, (96, 72), 0.0).unwrap();
         let layer = &document.dry[0].paint;
-        let mm = |quanta: u32| mm_from_quanta(quanta, document.cell_mm);
+        fn mm(quanta: u32, document: &Document) -> f64 {
+            mm_from_quanta(quanta, document.cell_mm)
+        }
         let mut covered = 0;
         let mut off = 0.0_f64;
         for (index, height) in shown.height_mm.values().iter().enumerate() {
             let cell = layer.cell(index);
-            let paint = mm(cell.pigments[SLOT]);
-            let vehicle = mm(cell.vehicle);
+            let paint = mm(cell.pigments[SLOT], &document);
+            let vehicle = mm(cell.vehicle, &document);
             assert!((0..SLOTS).all(|slot| slot == SLOT || cell.pigments[slot] == 0));
             assert!((vehicle - paint / 1.5).abs() < 1e-3 * paint + 2e-3, "{paint} {vehicle}");
             if shown.color.values()[index][3] == 0.0 {
@@ -245,11 +247,11 @@ mod painting_tests {
     #[test]
     fn paintings_do_not_depend_on_threads() {
         let map = painted_map();
-        let with = |threads: usize| {
+        fn with(threads: usize, map: &ArtMap) -> Document {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| painting(&map, &settings()).unwrap())
-        };
-        assert!(with(1) == with(3));
+            pool.install(|| painting(map, &settings()).unwrap())
+        }
+        assert!(with(1, &map) == with(3, &map));
     }
 
     #[test]

@@ -240,9 +240,11 @@ pub fn paint_layer(amounts: &Field<Amounts>, cell_mm: f64) -> Layer {
     let laid = cells.zip(amounts.values()).with_min_len(CELLS);
     laid.for_each(|((pigments, vehicle), amounts)| {
         // Most slots of most cells are empty.
-        let quanta = |mm: f32| if mm > 0.0 { quanta_from_mm(f64::from(mm), cell_mm) } else { 0 };
-        *pigments = std::array::from_fn(|slot| quanta(amounts[slot]));
-        *vehicle = quanta(amounts[SLOTS]);
+        fn quanta(mm: f32, cell_mm: f64) -> u32 {
+            if mm > 0.0 { quanta_from_mm(f64::from(mm), cell_mm) } else { 0 }
+        }
+        *pigments = std::array::from_fn(|slot| quanta(amounts[slot], cell_mm));
+        *vehicle = quanta(amounts[SLOTS], cell_mm);
     });
     layer
 }
@@ -311,14 +313,15 @@ mod tests {
     fn paint_between_texels_is_their_mean_and_repeats() {
         let map = painted_map();
         let tones = PaintTones::new(&[&map], Between::Dissolve).unwrap().unwrap();
-        let at = |place: [usize; 2], share: [u32; 2]| {
+        fn at(place: [usize; 2], share: [u32; 2], tones: &PaintTones) -> [f32; 9] {
             let mut sums = PackedSums::default();
             tones.add(&mut sums, (0, 0), place, share, 1.0);
             tones.amounts(&sums, 1.0)
-        };
+        }
         let last = SIZE - 1;
-        let corners = [[last, last], [0, last], [last, 0], [0, 0]].map(|place| at(place, [0, 0]));
-        let between = at([last, last], [64, 192]);
+        let corners =
+            [[last, last], [0, last], [last, 0], [0, 0]].map(|place| at(place, [0, 0], &tones));
+        let between = at([last, last], [64, 192], &tones);
         let paint = map.keys[0].tile.paint.as_ref().unwrap();
         for channel in [1, 3, 5, 7, 8] {
             let shares = [0.75 * 0.25, 0.25 * 0.25, 0.75 * 0.75, 0.25 * 0.75];

@@ -184,8 +184,10 @@ pub(super) fn strongest(depth: &Field<f32>, splats: &[StrokeSplat]) -> Field<Opt
             for &number in lists.of(y / SIDE * lists.across + x / SIDE) {
                 let splat = &splats[number as usize];
                 let off = Vec2::new(x as f32 + 0.5 - splat.x, y as f32 + 0.5 - splat.y);
-                let part = |axis: [f32; 2]| Vec2::from(axis).dot(off);
-                let square = part(splat.across).powi(2) + part(splat.along).powi(2);
+                fn part(axis: [f32; 2], off: Vec2) -> f32 {
+                    Vec2::from(axis).dot(off)
+                }
+                let square = part(splat.across, off).powi(2) + part(splat.along, off).powi(2);
                 let plane = splat.depth + Vec2::from(splat.slope).dot(off);
                 let hidden = plane > depth[(x, y)] + splat.tolerance;
                 let weight = splat.weight * (1.0 - square);

@@ -254,13 +254,20 @@ mod device_tests {
                         ..OverlapSettings::default()
                     };
                     let picture = laid.compare(&mut gpu, (&depth, &splats), THIN, &overlap);
-                    let covers = |least: f32, most: f32| {
+                    fn covers(least: f32, most: f32, picture: &PaintedPicture) -> usize {
                         let pixels = picture.color.values().iter();
                         pixels.filter(|pixel| (least..=most).contains(&pixel[3])).count()
-                    };
+                    }
                     // The mesh is painted, bare pixels stay, and strokes come in between.
-                    assert!(covers(0.9, 1.0) > 2000 && covers(0.0, 0.0) > 50, "{overlap:?}");
-                    assert!(overhang == 0.0 || covers(0.05, 0.95) > 50, "{}", covers(0.05, 0.95));
+                    assert!(
+                        covers(0.9, 1.0, &picture) > 2000 && covers(0.0, 0.0, &picture) > 50,
+                        "{overlap:?}"
+                    );
+                    assert!(
+                        overhang == 0.0 || covers(0.05, 0.95, &picture) > 50,
+                        "{}",
+                        covers(0.05, 0.95, &picture)
+                    );
                 }
             }
         }
@@ -638,8 +645,10 @@ mod tests {
         let mut cover = 0.0;
         for splat in splats {
             let from = [at[0] - splat.x, at[1] - splat.y];
-            let part = |[x, y]: [f32; 2]| f64::from(x * from[0] + y * from[1]);
-            let [a, b] = [part(splat.across), part(splat.along)];
+            fn part([x, y]: [f32; 2], from: [f32; 2]) -> f64 {
+                f64::from(x * from[0] + y * from[1])
+            }
+            let [a, b] = [part(splat.across, from), part(splat.along, from)];
             let square = a * a + b * b;
             if square >= 1.0 {
                 continue;

@@ -151,16 +151,18 @@ fn plane(view: PictureView, depth: Option<&Field<f32>>, settings: &Settings, lar
     let [columns, rows] =
         ((sides + 2.0 * margin) * longer).round().to_array().map(|cells| (cells as usize).max(1));
     let mut mesh = Mesh { materials: vec![Material::plain([1.0; 3])], ..Mesh::default() };
-    let share = |uv: Vec2| 0.5 + (uv - 0.5) * (1.0 + 2.0 * margin / sides);
+    fn share(uv: Vec2, margin: f32, sides: Vec2) -> Vec2 {
+        0.5 + (uv - 0.5) * (1.0 + 2.0 * margin / sides)
+    }
     mesh.add_grid(GridSize { columns, rows }, 0, |uv| {
-        let inside = share(uv).clamp(Vec2::ZERO, Vec2::ONE);
+        let inside = share(uv, margin, sides).clamp(Vec2::ZERO, Vec2::ONE);
         let near = depth.map_or(0.5, |depth| interpolated(depth, inside));
         let height = settings.picture.relief * (near - 0.5);
-        let at = (share(uv) - 0.5) * sides * (1.0 - height / eye);
+        let at = (share(uv, margin, sides) - 0.5) * sides * (1.0 - height / eye);
         Vec3::new(at.x, -at.y, height)
     });
     for at in &mut mesh.texture_coordinates {
-        *at = share(Vec2::from(*at)).clamp(Vec2::ZERO, Vec2::ONE).to_array();
+        *at = share(Vec2::from(*at), margin, sides).clamp(Vec2::ZERO, Vec2::ONE).to_array();
     }
     mesh
 }
@@ -237,9 +239,11 @@ fn directions(
 
 /// A guide at the nearest vertex.
 fn on_plane(mesh: &Mesh, &[at, [x, y]]: &[[f32; 2]; 2]) -> Guide {
-    let off = |share: &[f32; 2]| Vec2::from(*share).distance_squared(at.into());
+    fn off(share: &[f32; 2], at: [f32; 2]) -> f32 {
+        Vec2::from(*share).distance_squared(at.into())
+    }
     let vertices = mesh.texture_coordinates.iter().enumerate();
-    let nearest = vertices.min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
+    let nearest = vertices.min_by(|a, b| off(a.1, at).total_cmp(&off(b.1, at)));
     Guide { vertex: nearest.map_or(0, |(vertex, _)| vertex as u32), along: [x, -y, 0.0] }
 }
 
@@ -473,8 +477,10 @@ impl LayerColors {
     pub(super) fn range(&self) -> [f32; 2] {
         let mut lightness: Vec<f32> = self.lab.values().iter().map(|lab| lab[0]).collect();
         lightness.sort_unstable_by(f32::total_cmp);
-        let at = |share: f32| lightness[(share * (lightness.len() - 1) as f32) as usize];
-        let [dark, light] = [at(0.01), at(0.99)];
+        fn at(share: f32, lightness: &[f32]) -> f32 {
+            lightness[(share * (lightness.len() - 1) as f32) as usize]
+        }
+        let [dark, light] = [at(0.01, &lightness), at(0.99, &lightness)];
         [dark, light.max(dark + 1.0)]
     }
 }
@@ -484,8 +490,10 @@ fn at_strokes(photograph: &Photograph, cells: f32) -> Picture {
     let (width, height) = photograph.size();
     let longer = width.max(height) as f32;
     let scale = (cells / longer).min(1.0);
-    let side = |px: usize| ((px as f32 * scale).round() as usize).max(1);
-    photograph.on_canvas(side(width), side(height))
+    fn side(px: usize, scale: f32) -> usize {
+        ((px as f32 * scale).round() as usize).max(1)
+    }
+    photograph.on_canvas(side(width, scale), side(height, scale))
 }
 
 #[cfg(test)]
@@ -583,45 +591,58 @@ mod tests {
     #[test]
     fn tones_follow_the_lightness_of_the_picture_or_light() {
         let picture = photograph(160, 120, |x, _| if x < 80 { [40; 3] } else { [200; 3] });
-        let of = |text: &str| {
+        fn of(text: &str, picture: &Photograph) -> f32 {
             let settings = settings().changed("test", text).unwrap();
-            let mut painter = Painter::of_picture(&picture, &map(3), &settings).unwrap();
-            let painted = painter.paint(&view(&picture), (160, 120), 0.0).unwrap().color;
+            let mut painter = Painter::of_picture(picture, &map(3), &settings).unwrap();
+            let painted = painter.paint(&view(picture), (160, 120), 0.0).unwrap().color;
             let lab = lab(&painted);
             mean(&lab, 90..150, 10..110).x - mean(&lab, 10..70, 10..110).x
-        };
-        assert!(of("colour.from = \"map\"") > 20.0);
-        assert!(of("colour.from = \"map\"\nlight.tone = \"light\"").abs() < 2.0);
+        }
+        assert!(of("colour.from = \"map\"", &picture) > 20.0);
+        assert!(of("colour.from = \"map\"\nlight.tone = \"light\"", &picture).abs() < 2.0);
     }
 
     #[test]
     fn guides_flow_pictures_and_regions_turn_strokes() {
         let even = photograph(160, 120, |_, _| [120; 3]);
         let map = map(1);
-        let turned = |form: &PictureForm, regions: Vec<Region>| {
+        fn turned(
+            form: &PictureForm,
+            regions: Vec<Region>,
+            even: &Photograph,
+            map: &ArtMap,
+        ) -> Vec<(Vec2, f32)> {
             let regions = Regions { list: regions, ..Regions::default() };
-            let brushwork = Brushwork { regions, ..Brushwork::of(&map) };
+            let brushwork = Brushwork { regions, ..Brushwork::of(map) };
             let mut painter =
-                Painter::of_picture_with(&even, &brushwork, form, &settings()).unwrap();
-            let (_, splats) = painter.splats(&view(&even), (160, 120), 0.0).unwrap();
+                Painter::of_picture_with(even, &brushwork, form, &settings()).unwrap();
+            let (_, splats) = painter.splats(&view(even), (160, 120), 0.0).unwrap();
             splats[0]
                 .iter()
                 .map(|splat| (Vec2::new(splat.x, splat.y), splat.turn()))
                 .collect::<Vec<_>>()
-        };
+        }
         fn off(turn: f32, wanted: Vec2) -> f32 {
             Vec2::from_angle(turn).perp_dot(wanted.normalize()).abs()
         }
         let guide = [[0.2, 0.5], [3.0, 3.0]];
         let form = PictureForm { guides: vec![guide], ..PictureForm::default() };
-        assert!(turned(&form, Vec::new()).iter().all(|(_, turn)| off(*turn, Vec2::ONE) < 0.1));
+        assert!(
+            turned(&form, Vec::new(), &even, &map)
+                .iter()
+                .all(|(_, turn)| off(*turn, Vec2::ONE) < 0.1)
+        );
         let arrows = Field::filled(2, 2, [0.0, -0.5]);
         let form = PictureForm { flow: Some(FlowPicture::of(arrows)), ..PictureForm::default() };
-        assert!(turned(&form, Vec::new()).iter().all(|(_, turn)| off(*turn, Vec2::Y) < 0.1));
+        assert!(
+            turned(&form, Vec::new(), &even, &map)
+                .iter()
+                .all(|(_, turn)| off(*turn, Vec2::Y) < 0.1)
+        );
         let whole =
             RegionArea::Polygon(vec![[0.0, 0.0], [160.0, 0.0], [160.0, 120.0], [0.0, 120.0]]);
         let around = Region { around: Some([80.0, 60.0]), ..Region::new("a", whole.clone()) };
-        let swirl = turned(&PictureForm::default(), vec![around]);
+        let swirl = turned(&PictureForm::default(), vec![around], &even, &map);
         let far = swirl.iter().filter(|(at, _)| at.distance(Vec2::new(80.0, 60.0)) > 25.0);
         assert!(far.clone().count() > 50);
         for (at, turn) in far {
@@ -629,7 +650,7 @@ mod tests {
         }
         let angle = Region { angle_deg: Some(30.0), ..Region::new("a", whole) };
         let wanted = Vec2::from_angle(30_f32.to_radians());
-        let slanted = turned(&PictureForm::default(), vec![angle]);
+        let slanted = turned(&PictureForm::default(), vec![angle], &even, &map);
         assert!(slanted.iter().all(|(_, turn)| off(*turn, wanted) < 0.05));
     }
 

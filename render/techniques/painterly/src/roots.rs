@@ -66,11 +66,14 @@ impl Start {
 /// axes, in units of the model.
 pub(super) fn way(from: (&Feature, &Place), to: (&Feature, &Place)) -> Vec2 {
     let between = to.0.position - from.0.position;
-    let part = |one: Vec3, other: Vec3| {
+    fn part(one: Vec3, other: Vec3, between: Vec3) -> f32 {
         let other = if one.dot(other) < 0.0 { one } else { other };
         between.dot(one + other) / 2.0
-    };
-    Vec2::new(part(from.1.across(), to.1.across()), part(from.1.along, to.1.along))
+    }
+    Vec2::new(
+        part(from.1.across(), to.1.across(), between),
+        part(from.1.along, to.1.along, between),
+    )
 }
 
 /// Whether the strokes of two places continue each other: on one side of the surface, and of one

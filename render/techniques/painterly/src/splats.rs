@@ -132,12 +132,12 @@ fn reaches(splat: &StrokeSplat, column: usize, row: usize) -> bool {
     }
     let right = middle(column) - splat.x;
     let down = middle(row) - splat.y;
-    let part = |[x, y]: [f32; 2]| {
+    fn part([x, y]: [f32; 2], down: f32, right: f32) -> f32 {
         let most = (HALF - 0.5) * (x.abs() + y.abs());
         ((x * right + y * down).abs() - most).max(0.0)
-    };
-    let across = part(splat.across);
-    let along = part(splat.along);
+    }
+    let across = part(splat.across, down, right);
+    let along = part(splat.along, down, right);
     across * across + along * along < 1.0
 }
 

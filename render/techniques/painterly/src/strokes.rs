@@ -126,7 +126,9 @@ fn splat(
     }
     let flat = along.try_normalize()?;
     let tilt = settings.strokes.tilt;
-    let lean = |flat: Vec2, drawn: Vec2| flat + (drawn - flat) * tilt;
+    fn lean(flat: Vec2, drawn: Vec2, tilt: f32) -> Vec2 {
+        flat + (drawn - flat) * tilt
+    }
     let size = style.size * sight.zoom(per_unit);
     let radii = settings.strokes.radii_px().map(|radius| radius * size);
     let wrap = settings.light.wrap;
@@ -138,7 +140,7 @@ fn splat(
     };
     let tone = darkest + (lightest - darkest) * root.tone.unwrap_or(lit) + twinkle;
     let brushed = Brushed {
-        axes: [lean(Vec2::new(flat.y, -flat.x), across), lean(flat, along)],
+        axes: [lean(Vec2::new(flat.y, -flat.x), across, tilt), lean(flat, along, tilt)],
         radii,
         weight,
         cover,

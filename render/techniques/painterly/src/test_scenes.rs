@@ -73,20 +73,20 @@ fn tile(tone: f32) -> Tile {
             }
         }
     }
-    let mean = |index: usize, part: usize| {
+    fn mean(index: usize, part: usize, fine: &Field<[f32; 2]>) -> f32 {
         let x = FINE * (index % SIZE);
         let y = FINE * (index / SIZE);
         let all = (0..FINE * FINE).map(|at| fine[(x + at % FINE, y + at / FINE)][part]);
         all.sum::<f32>() / (FINE * FINE) as f32
-    };
-    let color = |index| [1.0, 0.8, 0.5].map(|share| share * mean(index, 0));
+    }
+    let color = |index| [1.0, 0.8, 0.5].map(|share| share * mean(index, 0, &fine));
     Tile {
         color: Field::from_values(SIZE, SIZE, (0..SIZE * SIZE).map(color).collect()),
         paint: None,
         height_mm: Some(Field::from_values(
             SIZE,
             SIZE,
-            (0..SIZE * SIZE).map(|at| mean(at, 1)).collect(),
+            (0..SIZE * SIZE).map(|at| mean(at, 1, &fine)).collect(),
         )),
     }
 }

@@ -125,8 +125,10 @@ impl Tones {
         let above = slices.partition_point(|slice| slice.tone < wanted);
         let below = above.saturating_sub(1);
         let above = above.min(slices.len() - 1);
-        let off = |at: usize| (slices[at].tone - wanted).abs();
-        first + if off(below) <= off(above) { below } else { above }
+        fn off(at: usize, slices: &[Slice], wanted: f32) -> f32 {
+            (slices[at].tone - wanted).abs()
+        }
+        first + if off(below, slices, wanted) <= off(above, slices, wanted) { below } else { above }
     }
 
     /// Mean L* of a slice.
@@ -169,8 +171,10 @@ impl Tones {
 pub(super) fn tone_tiles(map: &ArtMap, between: Between) -> Vec<Tile> {
     let shares: Vec<(usize, f64)> = (0..map.keys.len())
         .flat_map(|lower| {
-            let tone = |at: usize| map.keys.get(at).map(|key| key.tone);
-            let steps = match (tone(lower), tone(lower + 1)) {
+            fn tone(at: usize, map: &ArtMap) -> Option<f64> {
+                map.keys.get(at).map(|key| key.tone)
+            }
+            let steps = match (tone(lower, map), tone(lower + 1, map)) {
                 (Some(own), Some(next)) => ArtMap::steps(own, next, STEP),
                 _ => 0,
             };
@@ -209,9 +213,9 @@ impl Texels {
         let left = 256_u64.wrapping_sub(right);
         let upper = 256_u64.wrapping_sub(lower);
         // Two mixes of whole numbers in lanes of 16 bits. The first is rounded to 8 bits again.
-        fn mix(a: u64, b: u64, low: u64, high: u64) -> u64 {
+        let mix = |a: u64, b: u64, low: u64, high: u64| {
             a.wrapping_mul(low).wrapping_add(b.wrapping_mul(high))
-        }
+        };
         const LANES: u64 = 0x00ff_00ff_00ff_00ff;
         const HALF: u64 = 0x0080_0080_0080_0080;
         let row = |[a, b]: [u32; 2]| {
@@ -261,14 +265,14 @@ fn sizes(tile: &Tile, coloring: &Coloring, map: usize) -> Vec<(usize, Values)> {
 fn halved(color: &Picture, heights: &[f32]) -> (Picture, Vec<f32>) {
     let size = color.width();
     let half = color.width() / 2;
-    let corners = |index: usize| {
+    fn corners(index: usize, half: usize) -> [(usize, usize); 4] {
         let x = 2 * (index % half);
         let y = 2 * (index / half);
         [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]
-    };
+    }
     let colors = (0..half * half)
         .map(|index| {
-            let sum: Vec3 = corners(index).map(|at| Vec3::from(color[at])).iter().sum();
+            let sum: Vec3 = corners(index, half).map(|at| Vec3::from(color[at])).iter().sum();
             (sum / 4.0).to_array()
         })
         .collect();
@@ -276,7 +280,7 @@ fn halved(color: &Picture, heights: &[f32]) -> (Picture, Vec<f32>) {
         Field::from_values(half, half, colors),
         (0..half * half)
             .map(|index| {
-                corners(index).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0
+                corners(index, half).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0
             })
             .collect(),
     )
@@ -472,12 +476,17 @@ mod tests {
             [0.5, 1.4, 1.5, 2.7, 2.9].map(|scale| tones.halvings(0, scale)),
             [0, 0, 1, 1, 2]
         );
-        let mean = |halvings: usize| {
+        fn mean(halvings: usize, tones: &Tones) -> f32 {
             let texels = tones.texels(4, halvings);
             let size = texels.size;
             let all = (0..size * size).map(|at| texels.between(at % size, at / size, 0, 0)[0]);
             all.sum::<f32>() / 256.0 / (size * size) as f32
-        };
-        assert!((mean(0) - mean(2)).abs() < 6.0, "{} {}", mean(0), mean(2));
+        }
+        assert!(
+            (mean(0, &tones) - mean(2, &tones)).abs() < 6.0,
+            "{} {}",
+            mean(0, &tones),
+            mean(2, &tones)
+        );
     }
 }

@@ -128,15 +128,16 @@ fn smoothing_lowers_the_roughness_of_a_noisy_field_and_keeps_guides() {
     let along = Vec3::new(0.3, 0.7, 0.6);
     let guides: Vec<Guide> =
         (0..1000).step_by(50).map(|vertex| Guide { vertex, along: along.to_array() }).collect();
-    let of = |smoothing: f64, guides: &[Guide]| {
+    fn of(smoothing: f64, guides: &[Guide], mesh: &Mesh) -> DirectionField {
         let settings =
             DirectionSettings { smoothing, normal_rounds: 0, ..DirectionSettings::default() };
-        DirectionField::of_curvature(&mesh, &settings, guides).unwrap()
-    };
-    let [raw, some, much] = [0.0, 0.05, 0.2].map(|smoothing| roughness(&mesh, &of(smoothing, &[])));
+        DirectionField::of_curvature(mesh, &settings, guides).unwrap()
+    }
+    let [raw, some, much] =
+        [0.0, 0.05, 0.2].map(|smoothing| roughness(&mesh, &of(smoothing, &[], &mesh)));
     assert!(some < 0.5 * raw && much < 0.3 * raw, "{raw}, {some}, {much} deg");
-    let free = of(0.2, &[]);
-    let guided = of(0.2, &guides);
+    let free = of(0.2, &[], &mesh);
+    let guided = of(0.2, &guides, &mesh);
     let mut moved = 0.0_f32;
     for guide in &guides {
         let vertex = guide.vertex as usize;
@@ -294,21 +295,27 @@ fn bad_meshes_have_sound_fields() {
 #[test]
 fn faults_of_settings_and_guides_are_named() {
     let mesh = square(100);
-    let of = |smoothing: f64, vertex: u32, along: [f32; 3]| {
+    fn of(smoothing: f64, vertex: u32, along: [f32; 3], mesh: &Mesh) -> Option<DirectionFault> {
         let settings = DirectionSettings { smoothing, ..DirectionSettings::default() };
-        DirectionField::of_curvature(&mesh, &settings, &[Guide { vertex, along }]).err()
-    };
-    for found in [-0.1, 1.1] {
-        assert_eq!(of(found, 0, [1.0; 3]), Some(DirectionFault::Smoothing { found }));
+        DirectionField::of_curvature(mesh, &settings, &[Guide { vertex, along }]).err()
     }
-    assert!(of(f64::NAN, 0, [1.0; 3]).is_some());
+    for found in [-0.1, 1.1] {
+        assert_eq!(of(found, 0, [1.0; 3], &mesh), Some(DirectionFault::Smoothing { found }));
+    }
+    assert!(of(f64::NAN, 0, [1.0; 3], &mesh).is_some());
     let vertices = mesh.positions.len();
     let fault = DirectionFault::NoSuchVertex { guide: 0, found: 500, vertices };
-    assert_eq!(of(0.1, 500, [1.0; 3]), Some(fault));
+    assert_eq!(of(0.1, 500, [1.0; 3], &mesh), Some(fault));
     let found = [0.0, 0.0, 2.0];
-    assert_eq!(of(0.1, 3, found), Some(DirectionFault::OffSurface { guide: 0, vertex: 3, found }));
+    assert_eq!(
+        of(0.1, 3, found, &mesh),
+        Some(DirectionFault::OffSurface { guide: 0, vertex: 3, found })
+    );
     for along in [[0.0; 3], [f32::NAN, 1.0, 0.0], [f32::INFINITY, 1.0, 0.0]] {
-        assert!(matches!(of(0.1, 3, along), Some(DirectionFault::OffSurface { .. })), "{along:?}");
+        assert!(
+            matches!(of(0.1, 3, along, &mesh), Some(DirectionFault::OffSurface { .. })),
+            "{along:?}"
+        );
     }
 }
 
@@ -366,26 +373,26 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
 fn flow_runs_along_every_guide_and_stops_where_guides_meet() {
     let mesh = square(1000);
     let settings = DirectionSettings::default();
-    let flow = |guides: &[Guide]| {
-        DirectionField::of_curvature(&mesh, &settings, guides).unwrap().oriented(1)
-    };
+    fn flow(guides: &[Guide], mesh: &Mesh, settings: &DirectionSettings) -> FlowField {
+        DirectionField::of_curvature(mesh, settings, guides).unwrap().oriented(1)
+    }
     fn guide(vertex: usize, along: Vec3) -> Guide {
         Guide { vertex: vertex as u32, along: along.to_array() }
     }
-    let most = |side: f32| {
+    fn most(side: f32, mesh: &Mesh) -> usize {
         let places = mesh.positions.iter().map(|&[x, ..]| side * x).enumerate();
         places.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
-    };
-    let left = most(-1.0);
-    let right = most(1.0);
+    }
+    let left = most(-1.0, &mesh);
+    let right = most(1.0, &mesh);
     for along in [Vec3::Y, -Vec3::Y, Vec3::X, -Vec3::X] {
-        let one = flow(&[guide(left, along)]);
+        let one = flow(&[guide(left, along)], &mesh, &settings);
         for vertex in 0..mesh.positions.len() {
             assert!(Vec3::from(one.arrow(vertex)).dot(along) > 0.9, "vertex {vertex} of {along}");
             assert!(!one.is_singular(vertex), "vertex {vertex} of {along}");
         }
     }
-    let two = flow(&[guide(left, Vec3::Y), guide(right, -Vec3::Y)]);
+    let two = flow(&[guide(left, Vec3::Y), guide(right, -Vec3::Y)], &mesh, &settings);
     assert!(two.arrow(left)[1] > 0.9 && two.arrow(right)[1] < -0.9, "both have their sign");
     assert!(two.strength(left) > 0.0 && two.strength(right) > 0.0, "both flow");
     assert!((0..mesh.positions.len()).any(|vertex| two.is_singular(vertex)), "they meet");

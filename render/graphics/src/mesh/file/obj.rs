@@ -163,8 +163,14 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
     fn words(line: &'_ str) -> Option<String> {
         line.split_whitespace().next().map(str::to_owned)
     }
-    let count = |of: &str| text.lines().filter(|line| words(line).as_deref() == Some(of)).count();
-    let all = Counts { positions: count("v"), coordinates: count("vt"), normals: count("vn") };
+    fn count(of: &str, text: &str) -> usize {
+        text.lines().filter(|line| words(line).as_deref() == Some(of)).count()
+    }
+    let all = Counts {
+        positions: count("v", text),
+        coordinates: count("vt", text),
+        normals: count("vn", text),
+    };
     let mut so_far = Counts::default();
     let mut colored = None;
     for (line, number) in text.lines().zip(1..) {

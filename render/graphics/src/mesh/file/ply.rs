@@ -42,14 +42,14 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
         };
         read.map_err(|error| failed(&of, text, error))?;
     }
-    let has = |element: &str, property: &str| {
+    fn has(element: &str, property: &str, header: &Header) -> bool {
         header.elements.get(element).is_some_and(|found| found.properties.contains_key(property))
-    };
-    let lacking = ["x", "y", "z"].iter().find(|axis| !has("vertex", axis));
+    }
+    let lacking = ["x", "y", "z"].iter().find(|axis| !has("vertex", axis, &header));
     if let Some(axis) = lacking {
         return Err(malformed("element `vertex`", &format!("it has no property `{axis}`")));
     }
-    Ok(assembled(&vertices, &faces, &|property| has("vertex", property)))
+    Ok(assembled(&vertices, &faces, &|property| has("vertex", property, &header)))
 }
 
 fn elements<E: PropertyAccess>(
@@ -116,10 +116,12 @@ impl PropertyAccess for Vertex {
             "ny" => self.normal[1] = value,
             "nz" => self.normal[2] = value,
             _ => {
-                let column = |row: &[&str]| row.iter().position(|name| *name == key);
-                if let Some(axis) = COORDINATES.iter().find_map(|row| column(row)) {
+                fn column(row: &[&str], key: &str) -> Option<usize> {
+                    row.iter().position(|name| *name == key)
+                }
+                if let Some(axis) = COORDINATES.iter().find_map(|row| column(row, key)) {
                     self.coordinates[axis] = value;
-                } else if let Some(channel) = COLORS.iter().find_map(|row| column(row)) {
+                } else if let Some(channel) = COLORS.iter().find_map(|row| column(row, key)) {
                     // Integer colours are scaled by the greatest value of their type.
                     self.color[channel] = match property {
                         Property::UChar(_) | Property::Char(_) => value / 255.0,

@@ -97,11 +97,17 @@ impl Mesh {
             }
         }
         join(&mut self.positions[first..], &mut self.normals[first..], cells);
-        let vertex = |column: usize, row: usize| (first + row * (columns + 1) + column) as u32;
+        fn vertex(column: usize, row: usize, columns: usize, first: usize) -> u32 {
+            (first + row * (columns + 1) + column) as u32
+        }
         for row in 0..rows {
             for column in 0..columns {
-                let [a, b] = [vertex(column, row), vertex(column + 1, row)];
-                let [c, d] = [vertex(column, row + 1), vertex(column + 1, row + 1)];
+                let [a, b] =
+                    [vertex(column, row, columns, first), vertex(column + 1, row, columns, first)];
+                let [c, d] = [
+                    vertex(column, row + 1, columns, first),
+                    vertex(column + 1, row + 1, columns, first),
+                ];
                 for corners in [[a, c, d], [a, d, b]] {
                     let [p, q, r] = corners.map(|corner| self.positions[corner as usize]);
                     if p != q && q != r && r != p {
@@ -121,21 +127,23 @@ fn join(
     GridSize { columns, rows }: GridSize,
 ) {
     let size = positions.iter().flatten().fold(0.0f32, |most, at| most.max(at.abs()));
-    let near = |p: [f32; 3], q: [f32; 3]| Vec3::from(p).distance(Vec3::from(q)) < 1e-5 * size;
+    fn near(p: [f32; 3], q: [f32; 3], size: f32) -> bool {
+        Vec3::from(p).distance(Vec3::from(q)) < 1e-5 * size
+    }
     let width = columns + 1;
     let last_row = rows * width;
     for row in 0..=rows {
         let [left, right] = [row * width, row * width + columns];
-        if near(positions[left], positions[right]) {
+        if near(positions[left], positions[right], size) {
             positions[right] = positions[left];
         }
     }
-    if (0..width).all(|column| near(positions[column], positions[last_row + column])) {
+    if (0..width).all(|column| near(positions[column], positions[last_row + column], size)) {
         positions.copy_within(..width, last_row);
     }
     for row in [0, last_row] {
         let edge = &mut positions[row..row + width];
-        if edge.iter().all(|&position| near(position, edge[0])) {
+        if edge.iter().all(|&position| near(position, edge[0], size)) {
             edge.fill(edge[0]);
             let around = &normals[row..row + columns];
             let sum: Vec3 = around.iter().map(|&normal| Vec3::from(normal)).sum();
@@ -208,11 +216,13 @@ fn catmull_rom(points: &[Vec3], at: f32) -> Vec3 {
     let at = at.clamp(0.0, 1.0) * spans as f32;
     let first = (at as usize).min(spans - 1);
     let t = at - first as f32;
-    let point = |i: usize| points[i.min(spans)];
-    let b = point(first);
-    let c = point(first + 1);
-    let a = if first == 0 { b * 2.0 - c } else { point(first - 1) };
-    let d = if first + 2 > spans { c * 2.0 - b } else { point(first + 2) };
+    fn point(i: usize, points: &[Vec3], spans: usize) -> Vec3 {
+        points[i.min(spans)]
+    }
+    let b = point(first, points, spans);
+    let c = point(first + 1, points, spans);
+    let a = if first == 0 { b * 2.0 - c } else { point(first - 1, points, spans) };
+    let d = if first + 2 > spans { c * 2.0 - b } else { point(first + 2, points, spans) };
     let quadratic = a * 2.0 - b * 5.0 + c * 4.0 - d;
     let cubic = b * 3.0 - a - c * 3.0 + d;
     b + ((c - a) * t + quadratic * (t * t) + cubic * (t * t * t)) / 2.0
@@ -268,10 +278,15 @@ impl Mesh {
                 .values()
                 .iter()
                 .map(|&[r, g, b, opacity]: &[f32; 4]| {
-                    let channel = |value: f32| {
+                    fn channel(value: f32, opacity: f32) -> u8 {
                         ((value * opacity + 1.0 - opacity).clamp(0.0, 1.0) * 255.0).round() as u8
-                    };
-                    u32::from_le_bytes([channel(r), channel(g), channel(b), u8::MAX])
+                    }
+                    u32::from_le_bytes([
+                        channel(r, opacity),
+                        channel(g, opacity),
+                        channel(b, opacity),
+                        u8::MAX,
+                    ])
                 })
                 .collect(),
         };

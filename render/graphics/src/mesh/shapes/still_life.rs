@@ -31,19 +31,21 @@ impl Mesh {
             Material::named("wood", [0.42, 0.30, 0.20]),
         ];
         let mut mesh = Self { materials, ..Self::default() };
-        let share = |percent: usize| triangles * percent / 100;
-        add_cloth(&mut mesh, share(26));
-        add_jug(&mut mesh, share(22), Vec3::new(-0.75, 0.0, -0.35));
+        fn share(percent: usize, triangles: usize) -> usize {
+            triangles * percent / 100
+        }
+        add_cloth(&mut mesh, share(26, triangles));
+        add_jug(&mut mesh, share(22, triangles), Vec3::new(-0.75, 0.0, -0.35));
         for (x, z, lean, turn, size) in
             [(0.62, 0.05, 0.10, 0.4, 1.0), (1.35, -0.55, -0.16, 2.2, 0.92)]
         {
             let pose = Quat::from_rotation_y(turn) * Quat::from_rotation_x(lean);
-            add_pear(&mut mesh, share(13), Vec3::new(x, 0.02, z), pose, size);
+            add_pear(&mut mesh, share(13, triangles), Vec3::new(x, 0.02, z), pose, size);
         }
         let down = Quat::from_rotation_y(0.5) * Quat::from_rotation_z(1.45);
-        add_pear(&mut mesh, share(13), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
-        add_lemon(&mut mesh, share(6), Vec3::new(-0.72, 0.29, 1.28));
-        add_orange(&mut mesh, share(7), Vec3::new(-1.35, 0.43, 0.75));
+        add_pear(&mut mesh, share(13, triangles), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
+        add_lemon(&mut mesh, share(6, triangles), Vec3::new(-0.72, 0.29, 1.28));
+        add_orange(&mut mesh, share(7, triangles), Vec3::new(-1.35, 0.43, 0.75));
         mesh
     }
 

@@ -124,15 +124,17 @@ impl ArtMap {
             .map(|at: f32| {
                 let tile = transition.at(at);
                 let share = f64::from(at);
-                let mean = |dark: f64, light: f64| dark + share * (light - dark);
-                let of_keys = mean(darker.contrast, lighter.contrast);
+                fn mean(dark: f64, light: f64, share: f64) -> f64 {
+                    dark + share * (light - dark)
+                }
+                let of_keys = mean(darker.contrast, lighter.contrast, share);
                 let found = contrast(&Texture::tiled(&tile.color));
                 BetweenFigures {
                     lower,
                     share,
                     contrast: (of_keys > 0.0).then(|| found / of_keys),
                     tone: tile.tone(),
-                    wanted_tone: mean(darker.tone, lighter.tone),
+                    wanted_tone: mean(darker.tone, lighter.tone, share),
                 }
             })
             .to_vec()

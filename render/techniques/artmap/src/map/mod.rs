@@ -301,15 +301,17 @@ fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) 
     let change = smoothed(&|a, b| b - a - evenly);
     let mut order: Vec<usize> = (0..width * height).collect();
     order.sort_by(|&a, &b| light.values()[b].total_cmp(&light.values()[a]).then(a.cmp(&b)));
-    let size = |index: usize| f64::from(change.values()[index].abs());
-    let total: f64 = order.iter().map(|&index| size(index)).sum();
+    fn size(index: usize, change: &Field<f32>) -> f64 {
+        f64::from(change.values()[index].abs())
+    }
+    let total: f64 = order.iter().map(|&index| size(index, &change)).sum();
     let mut ranks = vec![0.5; width * height];
     let mut before = 0.0;
     for index in order {
         if total > 0.0 {
-            ranks[index] = ((before + 0.5 * size(index)) / total) as f32;
+            ranks[index] = ((before + 0.5 * size(index, &change)) / total) as f32;
         }
-        before += size(index);
+        before += size(index, &change);
     }
     ranks
 }
@@ -458,9 +460,11 @@ mod tests {
                 let [u, v] = key.sources[(x, y)];
                 if (-1..=1).all(|j| {
                     (-1..=1).all(|i| {
-                        let wrap =
-                            |at: usize, by: isize| (at as isize + by).rem_euclid(size as isize);
-                        let near = key.sources[(wrap(x, i) as usize, wrap(y, j) as usize)];
+                        fn wrap(at: usize, by: isize, size: usize) -> isize {
+                            (at as isize + by).rem_euclid(size as isize)
+                        }
+                        let near =
+                            key.sources[(wrap(x, i, size) as usize, wrap(y, j, size) as usize)];
                         near == [u as isize + i, v as isize + j].map(|at| at as u16)
                     })
                 }) {

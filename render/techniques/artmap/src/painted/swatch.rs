@@ -212,11 +212,16 @@ fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
         for y in 0..height {
             let index = y * width + x;
             let [a, b] = [dark.cell(index), light.cell(index)];
-            let blended = |a: u32, b: u32| {
+            fn blended(a: u32, b: u32, light_parts: u32) -> u32 {
                 share_of_65536(a, 65536 - light_parts) + share_of_65536(b, light_parts)
-            };
-            let pigments = std::array::from_fn(|slot| blended(a.pigments[slot], b.pigments[slot]));
-            mixed.set_cell(index, Cell { pigments, vehicle: blended(a.vehicle, b.vehicle) });
+            }
+            let pigments = std::array::from_fn(|slot| {
+                blended(a.pigments[slot], b.pigments[slot], light_parts)
+            });
+            mixed.set_cell(
+                index,
+                Cell { pigments, vehicle: blended(a.vehicle, b.vehicle, light_parts) },
+            );
         }
     }
     mixed
@@ -255,9 +260,11 @@ pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (across, along) = style.margins();
     let side = style.canvas.side_cells;
-    let mm = |cells: usize| cells as f64 * style.canvas.cell_mm;
-    let size = [mm(side + 2 * across), mm(side + 2 * along)];
-    let inner = [mm(along), mm(along + side)];
+    fn mm(cells: usize, style: &Style) -> f64 {
+        cells as f64 * style.canvas.cell_mm
+    }
+    let size = [mm(side + 2 * across, style), mm(side + 2 * along, style)];
+    let inner = [mm(along, style), mm(along + side, style)];
     let mut all = Vec::new();
     for coat in 0..style.strokes.coats {
         let mut strokes = coat_strokes(style, coat, size, &mut random);

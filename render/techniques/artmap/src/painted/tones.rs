@@ -151,19 +151,21 @@ impl ToneLadder {
             return self.rungs[above.min(self.rungs.len() - 1)].shares;
         }
         let [dark, light] = [&self.rungs[above - 1], &self.rungs[above]];
-        let blended = |share: f64| -> [f64; SLOTS] {
+        fn blended(share: f64, dark: &Tone, light: &Tone) -> [f64; SLOTS] {
             std::array::from_fn(|slot| {
                 dark.shares[slot] + share * (light.shares[slot] - dark.shares[slot])
             })
-        };
+        }
         let mut low = 0.0;
         let mut high = 1.0;
         for _ in 0..SHARE_BISECTIONS {
             let middle = (low + high) / 2.0;
-            let under = self.lab_of(&blended(middle)).is_some_and(|lab| lab.lightness < lightness);
+            let under = self
+                .lab_of(&blended(middle, dark, light))
+                .is_some_and(|lab| lab.lightness < lightness);
             if under { low = middle } else { high = middle }
         }
-        blended((low + high) / 2.0)
+        blended((low + high) / 2.0, dark, light)
     }
 
     /// Two mixtures `spread` L* below and above a mean: blended in equal parts they have this L*.

@@ -302,15 +302,17 @@ fn valleys(
     least_px: usize,
 ) -> Vec<Vec<u32>> {
     let count = pixels.len() as f64;
-    let value = |pixel: u32| f64::from(j.values()[pixel as usize]);
-    let mean = pixels.iter().map(|&pixel| value(pixel)).sum::<f64>() / count;
-    let squares = pixels.iter().map(|&pixel| (value(pixel) - mean).powi(2)).sum::<f64>();
+    fn value(pixel: u32, j: &Field<f32>) -> f64 {
+        f64::from(j.values()[pixel as usize])
+    }
+    let mean = pixels.iter().map(|&pixel| value(pixel, j)).sum::<f64>() / count;
+    let squares = pixels.iter().map(|&pixel| (value(pixel, j) - mean).powi(2)).sum::<f64>();
     let deviation = (squares / count).sqrt();
     let mut found: Vec<Vec<u32>> = Vec::new();
     for offset in OFFSETS {
         let threshold = mean + offset * deviation;
         let parts = components(pixels, (labels.width(), labels.height()), |pixel: u32| {
-            labels.values()[pixel as usize] == label && value(pixel) < threshold
+            labels.values()[pixel as usize] == label && value(pixel, j) < threshold
         });
         let large: Vec<_> = parts.into_iter().filter(|part| part.len() >= least_px).collect();
         if large.len() > found.len() {
@@ -382,12 +384,14 @@ fn grow(
     }
     let mut queue = BinaryHeap::new();
     // The bits of J, which is at least 0, are in its order.
-    let entry = |pixel: u32| Reverse((finest.values()[pixel as usize].to_bits(), pixel));
+    fn entry(pixel: u32, finest: &Field<f32>) -> Reverse<(u32, u32)> {
+        Reverse((finest.values()[pixel as usize].to_bits(), pixel))
+    }
     for &pixel in pixels.iter().filter(|&&pixel| labels.values()[pixel as usize] == NOBODY) {
         if beside(pixel, size.0, size.1)
             .any(|other: u32| names.binary_search(&labels.values()[other as usize]).is_ok())
         {
-            queue.push(entry(pixel));
+            queue.push(entry(pixel, finest));
         }
     }
     while let Some(Reverse((_, pixel))) = queue.pop() {
@@ -402,7 +406,7 @@ fn grow(
         labels.values_mut()[pixel as usize] = owner;
         for other in beside(pixel, size.0, size.1) {
             if labels.values()[other as usize] == NOBODY {
-                queue.push(entry(other));
+                queue.push(entry(other, finest));
             }
         }
     }
@@ -413,14 +417,16 @@ fn grow(
 fn grow_parts(labels: &mut Field<u32>, pixels: &[u32], names: &[u32], j: &Field<f32>) {
     let width = labels.width();
     let height = labels.height();
-    let value = |pixel: u32| f64::from(j.values()[pixel as usize]);
+    fn value(pixel: u32, j: &Field<f32>) -> f64 {
+        f64::from(j.values()[pixel as usize])
+    }
     fn is_left(labels: &Field<u32>, pixel: u32) -> bool {
         labels.values()[pixel as usize] == NOBODY
     }
     let left: Vec<u32> = pixels.iter().copied().filter(|&pixel| is_left(labels, pixel)).collect();
-    let mean = left.iter().map(|&pixel| value(pixel)).sum::<f64>() / left.len().max(1) as f64;
+    let mean = left.iter().map(|&pixel| value(pixel, j)).sum::<f64>() / left.len().max(1) as f64;
     for part in components(&left, (width, height), |pixel: u32| {
-        is_left(labels, pixel) && value(pixel) <= mean
+        is_left(labels, pixel) && value(pixel, j) <= mean
     }) {
         let around = part.iter().flat_map(|&pixel| beside(pixel, width, height));
         let mut owners = around
@@ -504,11 +510,11 @@ mod tests {
     #[test]
     fn regions_do_not_depend_on_threads() {
         let picture = mixtures();
-        let with = |threads: usize| {
+        fn with(threads: usize, picture: &Field<[f32; 3]>) -> Regions {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| jseg(&picture, 16))
-        };
-        assert!(with(1) == with(3));
+            pool.install(|| jseg(picture, 16))
+        }
+        assert!(with(1, &picture) == with(3, &picture));
     }
 
     #[test]
@@ -548,14 +554,19 @@ mod tests {
         let bins: Vec<Bin> = (0..60)
             .map(|i| Bin { pixels: 1.0, mean: Vector3::new(f64::from(i * i) / 36.0, 0.0, 0.0) })
             .collect();
-        let error = |centers: &[Vector3<f64>]| -> f64 {
+        fn error(centers: &[Vector3<f64>], bins: &[Bin]) -> f64 {
             bins.iter()
                 .map(|bin| (centers[nearest(centers, bin.mean)] - bin.mean).norm_squared())
                 .sum()
-        };
+        }
         let start = split(&bins, 6);
         let end = lloyd(&bins, start.clone());
-        assert!(error(&end) < error(&start), "{} {}", error(&end), error(&start));
+        assert!(
+            error(&end, &bins) < error(&start, &bins),
+            "{} {}",
+            error(&end, &bins),
+            error(&start, &bins)
+        );
     }
 
     #[test]

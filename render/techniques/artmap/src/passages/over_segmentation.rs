@@ -71,9 +71,11 @@ fn divided(color: &Picture, settings: &PassageSettings) -> Regions {
 /// Means of squares of `factor` x `factor` pixels, in linear light. Squares at the right and lower
 /// edge that are cut off are left out, unless they are the only ones.
 fn reduced(color: &Picture, factor: usize) -> Picture {
-    let size = |pixels: usize| (pixels / factor).max(1);
-    let width = size(color.width());
-    let height = size(color.height());
+    fn size(pixels: usize, factor: usize) -> usize {
+        (pixels / factor).max(1)
+    }
+    let width = size(color.width(), factor);
+    let height = size(color.height(), factor);
     Field::from_values(
         width,
         height,

@@ -227,13 +227,13 @@ pub(super) fn gradient_of(intensity: &Field<f32>) -> Field<[f32; 2]> {
             let left = x.saturating_sub(1);
             let right = (x + 1).min(width - 1);
             // Scharr's weights have the least error in direction (Jaehne 1999).
-            let side = |[a, b, c]: [(usize, usize); 3]| {
+            fn side([a, b, c]: [(usize, usize); 3], smooth: &Field<[f32; 1]>) -> f32 {
                 3.0 * (smooth[a][0] + smooth[c][0]) + 10.0 * smooth[b][0]
-            };
-            let over_x = side([(right, above), (right, y), (right, below)])
-                - side([(left, above), (left, y), (left, below)]);
-            let over_y = side([(left, below), (x, below), (right, below)])
-                - side([(left, above), (x, above), (right, above)]);
+            }
+            let over_x = side([(right, above), (right, y), (right, below)], &smooth)
+                - side([(left, above), (left, y), (left, below)], &smooth);
+            let over_y = side([(left, below), (x, below), (right, below)], &smooth)
+                - side([(left, above), (x, above), (right, above)], &smooth);
             *found = [over_x / 32.0, over_y / 32.0];
         }
     });

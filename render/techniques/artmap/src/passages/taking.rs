@@ -126,17 +126,17 @@ fn masks(
         grown = passages(&regions, &scribbles, &seen.intensity, &seen.gradient, settings.reach);
     }
     let (width, height) = picture.size();
-    let mask = |pixels: &[u32]| {
+    fn mask(pixels: &[u32], height: usize, width: usize) -> Field<bool> {
         let mut mask = Field::filled(width, height, false);
         pixels.iter().for_each(|&pixel| mask.values_mut()[pixel as usize] = true);
         mask
-    };
+    }
     let mut grown = grown.into_iter();
     let masks = areas.into_iter().map(|area| match area {
-        DrawnArea::Whole(pixels) => (mask(&pixels), 0),
-        DrawnArea::Line(line) => grown
-            .next()
-            .map_or((mask(&line), 0), |found| (mask(&found.pixels), found.regions_under)),
+        DrawnArea::Whole(pixels) => (mask(&pixels, height, width), 0),
+        DrawnArea::Line(line) => grown.next().map_or((mask(&line, height, width), 0), |found| {
+            (mask(&found.pixels, height, width), found.regions_under)
+        }),
     });
     Ok(masks.collect())
 }
@@ -277,14 +277,14 @@ fn chosen(traits: &[RegionTraits], picture_px: usize, count: usize) -> Vec<usize
         .collect();
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < count {
-        let worth = |label: usize| {
+        fn worth(label: usize, chosen: &[usize], traits: &[RegionTraits]) -> f64 {
             let apart = chosen.iter().map(|&other| traits[label].apart(&traits[other]));
             apart.fold(MOST_APART, f64::min) * traits[label].pixels.sqrt()
-        };
+        }
         // Of equal ones the first.
-        let best = (0..left.len())
-            .rev()
-            .max_by(|&one, &other| worth(left[one]).total_cmp(&worth(left[other])));
+        let best = (0..left.len()).rev().max_by(|&one, &other| {
+            worth(left[one], &chosen, traits).total_cmp(&worth(left[other], &chosen, traits))
+        });
         let Some(best) = best else { break };
         chosen.push(left.remove(best));
     }
@@ -309,10 +309,13 @@ fn depths(regions: &Regions) -> Field<u32> {
 /// The longest of several lines through the deepest pixel that stay inside of the region.
 fn scribble(regions: &Regions, label: usize, pixels: &[u32], depths: &Field<u32>) -> Vec<[f64; 2]> {
     let width = regions.labels.width();
-    let depth = |pixel: u32| depths.values()[pixel as usize];
-    let deepest = pixels.iter().rev().copied().max_by_key(|&pixel| depth(pixel)).unwrap_or(0);
+    fn depth(pixel: u32, depths: &Field<u32>) -> u32 {
+        depths.values()[pixel as usize]
+    }
+    let deepest =
+        pixels.iter().rev().copied().max_by_key(|&pixel| depth(pixel, depths)).unwrap_or(0);
     let middle = [f64::from(deepest % width as u32), f64::from(deepest / width as u32)];
-    let least = (depth(deepest) / 4).max(1);
+    let least = (depth(deepest, depths) / 4).max(1);
     let inside = |[x, y]: [f64; 2]| {
         let x = x.round();
         let y = y.round();

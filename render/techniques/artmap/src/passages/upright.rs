@@ -509,9 +509,14 @@ mod tests {
         });
         let x = frame.size[0] / 2;
         let y = frame.size[1] / 2;
-        let at = |x: usize, y: usize| found[(x, y)].unwrap();
-        assert!((at(x, y + 8) - at(x, y) - 4.0).abs() < 0.15, "two texels a pixel along y");
-        assert!((at(x + 5, y) - at(x, y)).abs() < 0.15, "and even across");
+        fn at(x: usize, y: usize, found: &Field<Option<f64>>) -> f64 {
+            found[(x, y)].unwrap()
+        }
+        assert!(
+            (at(x, y + 8, &found) - at(x, y, &found) - 4.0).abs() < 0.15,
+            "two texels a pixel along y"
+        );
+        assert!((at(x + 5, y, &found) - at(x, y, &found)).abs() < 0.15, "and even across");
     }
 
     #[test]

@@ -60,7 +60,9 @@ impl WholePainting {
             *slot = Some(*pigment);
         }
         let light = Light::named(&document.library, "D65", "1931-2")?;
-        let name = |pigment: PigmentId| document.library[pigment].name.clone();
+        fn name(pigment: PigmentId, document: &Document) -> String {
+            document.library[pigment].name.clone()
+        }
         Ok(Self {
             title: document.title.clone(),
             color: level_colors(document, &light),
@@ -72,7 +74,10 @@ impl WholePainting {
             height_mm: summed_height(document),
             mm_per_texel: document.cell_mm,
             pigments: PaintOfSamples { library: Arc::new(document.library.clone()), slots },
-            merged: merged.iter().map(|&(minor, into)| [name(minor), name(into)]).collect(),
+            merged: merged
+                .iter()
+                .map(|&(minor, into)| [name(minor, document), name(into, document)])
+                .collect(),
         })
     }
 }
@@ -125,10 +130,11 @@ fn table(
     }
     let colors = masstones(library);
     let nearest = |id: PigmentId| {
-        let distance =
-            |other: PigmentId| delta_e_ciede2000(colors[id.index()], colors[other.index()]);
+        fn distance(other: PigmentId, colors: &[Lab], id: &PigmentId) -> f64 {
+            delta_e_ciede2000(colors[id.index()], colors[other.index()])
+        }
         let kept = ids(&kept).into_iter();
-        kept.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+        kept.min_by(|a, b| distance(*a, &colors, &id).total_cmp(&distance(*b, &colors, &id)))
     };
     let merged = ids(&minor).into_iter().filter_map(|id| Some((id, nearest(id)?))).collect();
     Ok((ids(&kept), merged))
@@ -382,10 +388,10 @@ mod tests {
         assert_eq!(whole.height_mm, half.height_mm);
         let vermilion = document.library.find("Vermilion").unwrap();
         let slot = whole.pigments.slots.iter().position(|slot| *slot == Some(vermilion)).unwrap();
-        let sum = |of: &WholePainting| -> f64 {
+        fn sum(of: &WholePainting, slot: usize) -> f64 {
             of.paint.values().iter().map(|texel| f64::from(texel.pigments_mm[slot])).sum()
-        };
-        let share = sum(&half) / sum(&whole);
+        }
+        let share = sum(&half, slot) / sum(&whole, slot);
         assert!(share > 0.5 - 1e-6 && share < 0.8, "{share}");
     }
 }

@@ -71,7 +71,9 @@ impl<'a> SourceCanvas<'a> {
     /// seams.
     pub(crate) fn paste(&mut self, cell: [usize; 2], place: [u16; 2]) {
         let patch = self.grid.patch;
-        let source = |column: usize, row: usize| [place[0] + column as u16, place[1] + row as u16];
+        fn source(column: usize, row: usize, place: [u16; 2]) -> [u16; 2] {
+            [place[0] + column as u16, place[1] + row as u16]
+        }
         let mut takes = vec![true; patch * patch];
         // `at(along, across)`: a texel of the strip, `across` counted from the patch's border.
         let mut cut = |width: usize, at: &dyn Fn(usize, usize) -> (usize, usize)| {
@@ -85,7 +87,7 @@ impl<'a> SourceCanvas<'a> {
                     if there == NONE {
                         return 0.0;
                     }
-                    let new = as_texel(source(column, row));
+                    let new = as_texel(source(column, row, place));
                     difference(&self.level.look[new], &self.level.look[as_texel(there)])
                 })
                 .collect();
@@ -107,7 +109,7 @@ impl<'a> SourceCanvas<'a> {
             let row = index / patch;
             let texel = self.texel(cell, column, row);
             if takes || self.sources[texel] == NONE {
-                self.sources[texel] = source(column, row);
+                self.sources[texel] = source(column, row, place);
             }
         }
     }
@@ -250,8 +252,10 @@ fn neighbourhood(reach: isize) -> impl Iterator<Item = (isize, isize)> {
 }
 
 fn shifted((x, y): (usize, usize), (i, j): (isize, isize), size: usize) -> (usize, usize) {
-    let wrap = |value: usize, by: isize| (value as isize + by).rem_euclid(size as isize) as usize;
-    (wrap(x, i), wrap(y, j))
+    fn wrap(value: usize, by: isize, size: usize) -> usize {
+        (value as isize + by).rem_euclid(size as isize) as usize
+    }
+    (wrap(x, i, size), wrap(y, j, size))
 }
 
 fn is_inside(level: &Level, (x, y): (isize, isize)) -> bool {
@@ -313,13 +317,16 @@ mod tests {
         let errors = [9., 1., 9., 9., 9., 9., 2., 9., 9., 9., 1., 9., 9., 0., 9., 9.];
         let cut = cheapest_cut(&errors, width);
         assert_eq!(cut, [1, 2, 2, 1]);
-        let cost = |cut: &[usize]| -> f32 {
+        fn cost(cut: &[usize], errors: [f32; 16], width: usize) -> f32 {
             cut.iter().enumerate().map(|(row, &x)| errors[row * width + x]).sum()
-        };
+        }
         for index in 0..256_usize {
             let other: Vec<usize> = (0..4).map(|row| index >> (2 * row) & 3).collect();
             let steady = other.windows(2).all(|pair| pair[0].abs_diff(pair[1]) <= 1);
-            assert!(!steady || cost(&other) >= cost(&cut), "{other:?}");
+            assert!(
+                !steady || cost(&other, errors, width) >= cost(&cut, errors, width),
+                "{other:?}"
+            );
         }
     }
 }

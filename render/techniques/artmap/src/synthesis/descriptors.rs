@@ -198,11 +198,13 @@ fn smoothed(level: &Level, patch: usize) -> Field<[f32; FEATURES]> {
 }
 
 fn sampled(smooth: &Field<[f32; FEATURES]>, [x, y]: [u16; 2], patch: usize) -> [f32; NUMBERS] {
-    let at = |index: usize| ((index as f64 + 0.5) * patch as f64 / SAMPLES as f64) as usize;
+    fn at(index: usize, patch: usize) -> usize {
+        ((index as f64 + 0.5) * patch as f64 / SAMPLES as f64) as usize
+    }
     let mut numbers = [0.0; NUMBERS];
     for (index, values) in numbers.chunks_exact_mut(FEATURES).enumerate() {
-        let i = at(index % SAMPLES);
-        let j = at(index / SAMPLES);
+        let i = at(index % SAMPLES, patch);
+        let j = at(index / SAMPLES, patch);
         values.copy_from_slice(&smooth[(usize::from(x) + i, usize::from(y) + j)]);
     }
     numbers

@@ -204,13 +204,17 @@ impl Level {
                 outside[(y + 1) * (width + 1) + x + 1] = outside[y * (width + 1) + x + 1] + row;
             }
         }
-        let corner = |x: usize, y: usize| outside[y * (width + 1) + x];
+        fn corner(x: usize, y: usize, outside: &[u32], width: usize) -> u32 {
+            outside[y * (width + 1) + x]
+        }
         let mut places = Vec::new();
         for y in 0..(height + 1).saturating_sub(patch) {
             for x in 0..(width + 1).saturating_sub(patch) {
                 let right = x + patch;
                 let below = y + patch;
-                if corner(right, below) + corner(x, y) == corner(right, y) + corner(x, below) {
+                if corner(right, below, &outside, width) + corner(x, y, &outside, width)
+                    == corner(right, y, &outside, width) + corner(x, below, &outside, width)
+                {
                     places.push([x as u16, y as u16]);
                 }
             }

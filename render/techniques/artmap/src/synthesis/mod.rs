@@ -438,12 +438,12 @@ mod tests {
             for ((sample, map), sources) in
                 samples.samples.iter().zip(textures(&samples, &maps)).zip(&maps.sources)
             {
-                let half = |from: usize| {
+                fn half(from: usize, sample: &Sample) -> Texture {
                     let mask = (0..240 * 240).map(|index| index % 240 / 120 == from).collect();
                     Texture::masked(&sample.color, &Field::from_values(240, 240, mask))
-                };
+                }
                 let whole = Texture::masked(&sample.color, &sample.mask);
-                let floor = co_occurrence_error(&half(0), &half(1));
+                let floor = co_occurrence_error(&half(0, sample), &half(1, sample));
                 let error = co_occurrence_error(&whole, &map);
                 assert!(error <= floor + 0.1, "{error} of {floor}");
                 let ratio = contrast(&map) / contrast(&whole);
@@ -481,11 +481,11 @@ mod tests {
         let exact = |a: [u16; 2], b: [u16; 2]| {
             let mut sum = 0.0;
             for index in 0..PATCH * PATCH {
-                let at = |[x, y]: [u16; 2]| {
+                fn at([x, y]: [u16; 2], index: usize) -> (usize, usize) {
                     (usize::from(x) + index % PATCH, usize::from(y) + index / PATCH)
-                };
-                let a = first.features[at(a)];
-                let b = second.features[at(b)];
+                }
+                let a = first.features[at(a, index)];
+                let b = second.features[at(b, index)];
                 sum += (0..FEATURES).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>();
             }
             sum
@@ -511,12 +511,12 @@ mod tests {
     fn threads_and_reruns_change_nothing_and_seeds_do() {
         let samples = tones([1, 2, 3]);
         let settings = SynthesisSettings { size: 64, ..small() };
-        let with = |threads: usize| {
+        fn with(threads: usize, samples: &SampleSet, settings: &SynthesisSettings) -> KeyMaps {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| key_maps(&samples, &settings).unwrap())
-        };
-        let once = with(1);
-        assert_eq!(once, with(2));
+            pool.install(|| key_maps(samples, settings).unwrap())
+        }
+        let once = with(1, &samples, &settings);
+        assert_eq!(once, with(2, &samples, &settings));
         let other = SynthesisSettings { seed: 2, ..settings };
         assert_ne!(once, key_maps(&samples, &other).unwrap());
     }

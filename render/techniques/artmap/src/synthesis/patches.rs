@@ -63,16 +63,20 @@ pub(crate) fn continuations(
     described: &Descriptors,
 ) -> Vec<[u16; 2]> {
     let grid = canvas.grid;
-    let step = |index: usize| (grid.origin(index) - grid.origin(index - 1)) as isize;
-    let of = |column: usize, row: usize| places[row * grid.count + column].map(|at| at as isize);
+    fn step(index: usize, grid: &PatchGrid) -> isize {
+        (grid.origin(index) - grid.origin(index - 1)) as isize
+    }
+    fn of(column: usize, row: usize, grid: &PatchGrid, places: &[[u16; 2]]) -> [isize; 2] {
+        places[row * grid.count + column].map(|at| at as isize)
+    }
     let mut found = Vec::new();
     if column > 0 {
-        let [x, y] = of(column - 1, row);
-        found.extend(existing([x + step(column), y], described));
+        let [x, y] = of(column - 1, row, &grid, places);
+        found.extend(existing([x + step(column, &grid), y], described));
     }
     if row > 0 {
-        let [x, y] = of(column, row - 1);
-        found.extend(existing([x, y + step(row)], described));
+        let [x, y] = of(column, row - 1, &grid, places);
+        found.extend(existing([x, y + step(row, &grid)], described));
     }
     found
 }

@@ -476,7 +476,7 @@ mod tests {
         for (text, message) in cases {
             let error = Guides::from_toml("g.toml", &text).unwrap_err();
             assert!(error.to_string().starts_with(message), "{error}, wanted {message}");
-            assert!(documents::hint::Explain::hint(&error).is_some(), "{message}");
+            assert!(Explain::hint(&error).is_some(), "{message}");
         }
         let error = Guides::open(Path::new("nowhere/g.toml")).unwrap_err();
         assert!(error.to_string().contains("nowhere/g.toml"), "{error}");

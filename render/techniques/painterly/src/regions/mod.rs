@@ -358,7 +358,7 @@ mod tests {
         ] {
             let error = Regions::from_toml("r.toml", &text).unwrap_err();
             assert!(error.to_string().starts_with(wanted), "{error}");
-            assert!(documents::hint::Explain::hint(&error).is_some());
+            assert!(Explain::hint(&error).is_some());
         }
     }
 

@@ -113,10 +113,14 @@ pub(crate) fn mesh_of(triangles: &[[Vec3; 3]]) -> Mesh {
 
 /// The square wall z = `z` from -`half` to `half`, of `2 * cells * cells` triangles.
 pub(crate) fn wall(z: f32, half: f32, cells: usize) -> Mesh {
-    let at = |i: usize| half * (2.0 * i as f32 / cells as f32 - 1.0);
+    fn at(i: usize, cells: usize, half: f32) -> f32 {
+        half * (2.0 * i as f32 / cells as f32 - 1.0)
+    }
     let triangles = (0..cells * cells).flat_map(|cell| {
         let [x, y] = [cell % cells, cell / cells];
-        let corner = |right: usize, up: usize| Vec3::new(at(x + right), at(y + up), z);
+        let corner = |right: usize, up: usize| {
+            Vec3::new(at(x + right, cells, half), at(y + up, cells, half), z)
+        };
         let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
         [[a, b, c], [a, c, d]]
     });
@@ -158,15 +162,17 @@ impl Surfaces {
         }
         push(Vec3::NEG_Y);
         let last = first + 1 + (RINGS - 1) * AROUND;
-        let at = |ring: u32, step: u32| match ring {
-            0 => first,
-            RINGS => last,
-            _ => first + 1 + (ring - 1) * AROUND + step % AROUND,
-        };
+        fn at(ring: u32, step: u32, first: u32, last: u32) -> u32 {
+            match ring {
+                0 => first,
+                RINGS => last,
+                _ => first + 1 + (ring - 1) * AROUND + step % AROUND,
+            }
+        }
         for ring in 0..RINGS {
             for step in 0..AROUND {
-                let [a, b] = [at(ring, step), at(ring, step + 1)];
-                let [c, d] = [at(ring + 1, step), at(ring + 1, step + 1)];
+                let [a, b] = [at(ring, step, first, last), at(ring, step + 1, first, last)];
+                let [c, d] = [at(ring + 1, step, first, last), at(ring + 1, step + 1, first, last)];
                 for corners in [[a, c, d], [a, d, b]] {
                     let [p, q, r] = corners;
                     if p != q && q != r && r != p {
@@ -329,16 +335,22 @@ fn distance_to_segment(at: DVec2, a: DVec2, b: DVec2) -> f64 {
 
 fn distance_to_triangle(at: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let normal = (b - a).cross(c - a).normalize_or_zero();
-    let beside = |from: DVec3, to: DVec3| normal.cross(to - from).dot(at - from) >= 0.0;
-    if normal != DVec3::ZERO && beside(a, b) && beside(b, c) && beside(c, a) {
+    fn beside(from: DVec3, to: DVec3, at: DVec3, normal: DVec3) -> bool {
+        normal.cross(to - from).dot(at - from) >= 0.0
+    }
+    if normal != DVec3::ZERO
+        && beside(a, b, at, normal)
+        && beside(b, c, at, normal)
+        && beside(c, a, at, normal)
+    {
         return (at - a).dot(normal).abs();
     }
-    let to_edge = |from: DVec3, to: DVec3| {
+    fn to_edge(from: DVec3, to: DVec3, at: DVec3) -> f64 {
         let along = to - from;
         let share = (at - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
         at.distance(from + along * share.clamp(0.0, 1.0))
-    };
-    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+    }
+    to_edge(a, b, at).min(to_edge(b, c, at)).min(to_edge(c, a, at))
 }
 
 #[test]
