@@ -425,7 +425,7 @@ pub enum CameraPathError {
     OutOfRange {
         /// Path of the file.
         name: String,
-        /// Key of the value; keyframes count from 1.
+        /// Key of the value. Keyframes count from 1.
         key: String,
         /// Reason, with the value.
         reason: String,

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
@@ -19,10 +19,11 @@ const MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 const ROUNDING: f32 = 1e-3;
 
 /// An OpenEXR file cannot be read as a picture.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum ExrPictureError {
     /// The file is damaged, or has no channels R, G and B.
     #[error("{name}: not an OpenEXR picture with channels R, G and B: {reason}")]
+    #[hint("save it as OpenEXR with channels R, G and B, or as PNG")]
     NoPicture {
         /// Path of the file.
         name: String,
@@ -31,6 +32,7 @@ pub enum ExrPictureError {
     },
     /// The picture has more than [`MOST_PIXELS`] pixels.
     #[error("{name}: a picture has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
+    #[hint("make it smaller")]
     TooLarge {
         /// Path of the file.
         name: String,
@@ -39,15 +41,6 @@ pub enum ExrPictureError {
         /// Height in pixels.
         height: usize,
     },
-}
-
-impl Explain for ExrPictureError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NoPicture { .. } => "save it as OpenEXR with channels R, G and B, or as PNG",
-            Self::TooLarge { .. } => "make it smaller",
-        }))
-    }
 }
 
 /// Whether `bytes` begin like an OpenEXR file.

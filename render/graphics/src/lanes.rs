@@ -36,8 +36,8 @@ pub fn vector_instructions() -> Option<&'static str> {
     }
 }
 
-/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once, else, and in
-/// WebAssembly, two operations, because a fused one would be a slow library call.
+/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once. Otherwise, and
+/// in WebAssembly, it is two operations, because a fused one would be a slow library call.
 #[inline(always)]
 pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
     let has_fused =

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use documents::file::read;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use image::{
     ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageDecoder, ImageFormat,
     ImageReader, Limits, Rgba,
@@ -261,10 +261,12 @@ fn sample_bytes(color: ColorType) -> usize {
 }
 
 /// A photograph cannot be read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PhotographError {
     /// The file cannot be opened or read.
     #[error("{name}: {error}")]
+    #[hint("check the path")]
+    #[fault(Environment)]
     Unreadable {
         /// Path of the file.
         name: String,
@@ -273,6 +275,7 @@ pub enum PhotographError {
     },
     /// The file is not a PNG, JPEG, TIFF or WebP picture, or is damaged.
     #[error("{name}: not a {NAMES} picture that can be read: {reason}")]
+    #[hint("save it as {NAMES}")]
     NoPicture {
         /// Path of the file.
         name: String,
@@ -281,6 +284,7 @@ pub enum PhotographError {
     },
     /// The file is a JPEG picture that ends too early.
     #[error("{name}: the JPEG file is cut off after {bytes} bytes: its end marker is missing")]
+    #[hint("copy or download the file again; the decoder would fill the missing part with grey")]
     CutOff {
         /// Path of the file.
         name: String,
@@ -289,6 +293,7 @@ pub enum PhotographError {
     },
     /// The colours of the picture cannot be converted to sRGB.
     #[error("{name}: {reason}")]
+    #[hint("convert it to sRGB in an image editor")]
     Profile {
         /// Path of the file.
         name: String,
@@ -297,6 +302,7 @@ pub enum PhotographError {
     },
     /// The picture has more than [`MOST_PIXELS`] pixels.
     #[error("{name}: a photograph has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
+    #[hint("make it smaller; a canvas has fewer cells")]
     TooLarge {
         /// Path of the file.
         name: String,
@@ -305,27 +311,6 @@ pub enum PhotographError {
         /// Height in pixels.
         height: u32,
     },
-}
-
-impl Explain for PhotographError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Unreadable { .. } => "check the path",
-            Self::NoPicture { .. } => return Some(Hint::new(format!("save it as {NAMES}"))),
-            Self::CutOff { .. } => {
-                "copy or download the file again; the decoder would fill the missing part with grey"
-            }
-            Self::Profile { .. } => "convert it to sRGB in an image editor",
-            Self::TooLarge { .. } => "make it smaller; a canvas has fewer cells",
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Unreadable { .. } => Fault::Environment,
-            _ => Fault::Input,
-        }
-    }
 }
 
 /// Why a picture cannot be converted.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
 use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 
@@ -113,13 +113,15 @@ impl ToneRamp {
 }
 
 /// A tone ramp cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ToneRampError {
     /// The list of greys is empty.
     #[error("a tone ramp has at least one grey, found `0`")]
+    #[hint("give greys from 0 (black, dense paint) to 1 (white, thin paint)")]
     Empty,
     /// A grey is outside 0..1.
     #[error("grey {index} of the tone ramp is not within 0 to 1: `{grey}`")]
+    #[hint("give greys from 0 (black, dense paint) to 1 (white, thin paint)")]
     OutOfRange {
         /// Index of the grey, from 0.
         index: usize,
@@ -128,25 +130,13 @@ pub enum ToneRampError {
     },
     /// The file is not a picture that can be read.
     #[error("{name}: {reason}")]
+    #[hint("give a picture ({NAMES}) whose middle row runs from shade to light")]
     NoPicture {
         /// Path of the file.
         name: String,
         /// Reason given by the decoder.
         reason: String,
     },
-}
-
-impl Explain for ToneRampError {
-    fn hint(&self) -> Option<Hint> {
-        Some(match self {
-            Self::Empty | Self::OutOfRange { .. } => {
-                Hint::new("give greys from 0 (black, dense paint) to 1 (white, thin paint)")
-            }
-            Self::NoPicture { .. } => Hint::new(format!(
-                "give a picture ({NAMES}) whose middle row runs from shade to light"
-            )),
-        })
-    }
 }
 
 #[cfg(test)]

@@ -305,8 +305,8 @@ impl Select for Below {
 }
 
 impl Features {
-    /// What `draw` makes of the features that `select` needs, and of some more. Their order does
-    /// not depend on the selection.
+    /// Applies `draw` to the features that `select` needs, and to some more. Their order does not
+    /// depend on the selection.
     pub(super) fn selected<T: Send + Copy>(
         &self,
         select: &impl Select,

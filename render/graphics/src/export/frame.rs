@@ -4,7 +4,7 @@
 use std::io::{BufRead, Seek};
 
 use documents::counted;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
 
@@ -14,10 +14,13 @@ use crate::field::Field;
 pub type Frame = Field<[u8; 3]>;
 
 /// A frame or animation cannot be made or read.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum FrameError {
     /// The picture is empty or larger than the format allows.
     #[error("a frame of {format} has 1 to {limit} pixels a side, found `{width} x {height}`")]
+    #[hint(if *format == "GIF", "write APNG, or a smaller picture")]
+    #[hint("ask for a smaller picture")]
     Size {
         /// Name of the format.
         format: &'static str,
@@ -46,12 +49,14 @@ pub enum FrameError {
     },
     /// The frame rate is out of range.
     #[error("0.1 to 100 frames a second, found `{found}`")]
+    #[hint("25 is usual")]
     Rate {
         /// Frames per second.
         found: f64,
     },
     /// The file is not a frame written by [`frame_png`].
     #[error("no frame: {reason}")]
+    #[hint("remove the file, and it is rendered again")]
     Unreadable {
         /// Reason given by the decoder.
         reason: String,
@@ -64,22 +69,6 @@ pub enum FrameError {
         /// Reason given by the encoder.
         reason: String,
     },
-}
-
-impl Explain for FrameError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Size { format: "GIF", .. } => "write APNG, or a smaller picture",
-            Self::Size { .. } => "ask for a smaller picture",
-            Self::Rate { .. } => "25 is usual",
-            Self::Unreadable { .. } => "remove the file, and it is rendered again",
-            _ => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }
 
 /// Frame rate of an animation.

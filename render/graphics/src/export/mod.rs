@@ -26,7 +26,7 @@ pub use ply::ply;
 pub use sequence::{AnimationFormat, Sequence, SequenceError, SequenceSettings};
 
 /// Data that cannot be written as a picture.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ExportError {
     /// The picture is empty or larger than the format allows.
     #[error("a picture has 1 to 1073741822 cells a side, found `{width} x {height}`")]
@@ -95,8 +95,6 @@ pub enum ExportError {
         reason: String,
     },
 }
-
-impl Explain for ExportError {}
 
 /// Checks that a pixel size can be stored in PNG and OpenEXR: 0.0001 to 100 mm.
 ///

@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use moxcms::ColorProfile;
 use png::chunk::ChunkType;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, SrgbRenderingIntent, Unit};
@@ -60,17 +60,12 @@ pub struct PictureFile {
 }
 
 /// Some colours of a picture were outside sRGB and lost chroma.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 #[error("{:.1} % of the cells are outside sRGB and lost chroma", 100.0 * .share)]
+#[hint("linear OpenEXR (.exr) keeps them")]
 pub struct OutsideGamut {
     /// Share of pixels, 0..1.
     pub share: f64,
-}
-
-impl Explain for OutsideGamut {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("linear OpenEXR (.exr) keeps them"))
-    }
 }
 
 impl PictureFile {

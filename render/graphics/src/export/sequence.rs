@@ -10,7 +10,7 @@ use std::io::{BufReader, Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use documents::file::{FileError, write_whole};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use serde::{Deserialize, Serialize};
 
 use super::animation::{Apng, ColorTable, Gif};
@@ -296,13 +296,17 @@ impl AnimationFormat {
 pub(super) const MANIFEST: &str = "animation.json";
 
 /// A folder of frames cannot be used.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
+#[fault(Environment)]
 pub enum SequenceError {
     /// A frame or the manifest cannot be written.
     #[error(transparent)]
+    #[hint("is the folder writable, and is there room?")]
+    #[fault(Environment)]
     File(#[from] FileError),
     /// A file or folder cannot be read or changed.
     #[error("{}: {source}", .path.display())]
+    #[hint("is the folder writable, and is there room?")]
     Io {
         /// Path of the file or folder.
         path: PathBuf,
@@ -311,12 +315,14 @@ pub enum SequenceError {
     },
     /// The folder holds frames but no manifest that says what they belong to.
     #[error("{}: the folder holds frames but no {MANIFEST}", .path.display())]
+    #[hint("name an empty folder, or move the frames away")]
     Foreign {
         /// Path of the first such frame.
         path: PathBuf,
     },
     /// `animation.json` is not a manifest of this version.
     #[error("{}: {reason}", .path.display())]
+    #[hint("name an empty folder, or remove this one")]
     Manifest {
         /// Path of the manifest.
         path: PathBuf,
@@ -325,6 +331,7 @@ pub enum SequenceError {
     },
     /// A frame cannot be encoded or decoded.
     #[error("{}: {source}", .path.display())]
+    #[hint(inner)]
     Frame {
         /// Path of the frame.
         path: PathBuf,
@@ -334,24 +341,6 @@ pub enum SequenceError {
     /// The frames cannot be joined to an animation.
     #[error(transparent)]
     Animation(#[from] FrameError),
-}
-
-impl Explain for SequenceError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::File(_) | Self::Io { .. } => "is the folder writable, and is there room?",
-            Self::Foreign { .. } => "name an empty folder, or move the frames away",
-            Self::Manifest { .. } => "name an empty folder, or remove this one",
-            Self::Frame { source, .. } | Self::Animation(source) => return source.hint(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Frame { source, .. } | Self::Animation(source) => source.fault(),
-            _ => Fault::Environment,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The graphics adapters of this machine, and the reasons why a graphics device failed.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 /// The user's choice of what computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -158,7 +158,9 @@ pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
 }
 
 /// A graphics device failed. Computation on the processor never returns this.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[hint("paint on the processor: [backend=cpu]")]
+#[fault(Environment)]
 pub enum DeviceError {
     /// No adapter can be used.
     #[error("no graphics adapter: {reason}")]
@@ -198,16 +200,6 @@ pub enum DeviceError {
         /// Message of the driver.
         reason: String,
     },
-}
-
-impl Explain for DeviceError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("paint on the processor: [backend=cpu]"))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Environment
-    }
 }
 
 #[cfg(test)]

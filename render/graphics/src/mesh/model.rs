@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use documents::counted_as;
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -89,13 +89,15 @@ impl Mesh {
 }
 
 /// A defect of a mesh. All indices count from 0.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum MeshFault {
     /// The mesh has no triangles.
     #[error("the mesh has no triangle")]
+    #[hint("export the model with its faces; points and lines are not drawn")]
     NoTriangle,
     /// A per-vertex list has another length than the list of positions.
     #[error("{found} {what} for {}", counted_as(*wanted, "vertex", "vertices"))]
+    #[hint("give every vertex and texel its value")]
     ListLength {
         /// Name of the list, for example `normals`.
         what: &'static str,
@@ -106,6 +108,7 @@ pub enum MeshFault {
     },
     /// A vertex attribute is infinite or not a number.
     #[error("vertex {vertex} has the {what} `{found:?}`")]
+    #[hint("clean the model in the program that made it (Blender: Mesh > Clean Up)")]
     NotFinite {
         /// Index of the vertex.
         vertex: usize,
@@ -116,6 +119,7 @@ pub enum MeshFault {
     },
     /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} has vertex {found}, of {vertices}")]
+    #[hint("the file is damaged: export it again")]
     NoSuchVertex {
         /// Index of the triangle.
         triangle: usize,
@@ -126,6 +130,7 @@ pub enum MeshFault {
     },
     /// A triangle refers to a material that does not exist.
     #[error("triangle {triangle} has material {found}, of {materials}")]
+    #[hint("the file is damaged: export it again")]
     NoSuchMaterial {
         /// Index of the triangle.
         triangle: usize,
@@ -136,6 +141,7 @@ pub enum MeshFault {
     },
     /// A material's colour is outside 0..1.
     #[error("material {material} has the colour `{found:?}`")]
+    #[hint("colours are encoded sRGB from 0 to 1")]
     Color {
         /// Index of the material.
         material: usize,
@@ -144,6 +150,7 @@ pub enum MeshFault {
     },
     /// A texture is empty, or its texel count is not width times height.
     #[error("the texture of material {material} has {texels} texels for {width} x {height}")]
+    #[hint("give every vertex and texel its value")]
     Texture {
         /// Index of the material.
         material: usize,
@@ -154,24 +161,6 @@ pub enum MeshFault {
         /// Height in texels.
         height: u32,
     },
-}
-
-impl Explain for MeshFault {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NoTriangle => "export the model with its faces; points and lines are not drawn",
-            Self::ListLength { .. } | Self::Texture { .. } => {
-                "give every vertex and texel its value"
-            }
-            Self::NotFinite { .. } => {
-                "clean the model in the program that made it (Blender: Mesh > Clean Up)"
-            }
-            Self::NoSuchVertex { .. } | Self::NoSuchMaterial { .. } => {
-                "the file is damaged: export it again"
-            }
-            Self::Color { .. } => "colours are encoded sRGB from 0 to 1",
-        }))
-    }
 }
 
 impl Mesh {

@@ -8,7 +8,7 @@
 mod mean_shift;
 mod regions;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use rayon::prelude::*;
 
 use crate::field::Field;
@@ -149,37 +149,30 @@ impl SegmentationSettings {
 }
 
 /// A setting of segmentation is out of its range.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 pub enum SegmentationError {
     /// The radius of the window in the picture.
     #[error(
         "a spatial radius is 1 to {} px, found `{found}`",
         SegmentationSettings::MAX_SPATIAL_PX
     )]
+    #[hint("about a hundredth of the picture's width is usual")]
     SpatialRadius {
         /// The radius that was set, in pixels.
         found: f32,
     },
     /// The radius of the window in colour.
     #[error("a range radius is a number above 0, found `{found}`")]
+    #[hint("8 keeps apart what the eye does; more is flatter")]
     RangeRadius {
         /// The radius that was set, in CIELUV.
         found: f32,
     },
     /// The step between tones.
     #[error("a step of tone is a number of 0 and up, found `{found}`")]
+    #[hint("25 divides a round form into a few tones; 0 divides nothing")]
     ToneStep {
         /// The step that was set, in CIELUV.
         found: f32,
     },
-}
-
-impl Explain for SegmentationError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::SpatialRadius { .. } => "about a hundredth of the picture's width is usual",
-            Self::RangeRadius { .. } => "8 keeps apart what the eye does; more is flatter",
-            Self::ToneStep { .. } => "25 divides a round form into a few tones; 0 divides nothing",
-        }))
-    }
 }

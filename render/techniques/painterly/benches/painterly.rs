@@ -243,7 +243,7 @@ fn paint_of_colors(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| paint_layer(&paint.amounts(black_box(&painted), film), 0.25));
 }
 
-/// What the mixtures of a palette cost once.
+/// One-time cost of the mixtures of a palette.
 #[divan::bench(sample_count = 3)]
 fn mixtures(bencher: Bencher<'_, '_>) {
     bencher.bench_local(color_paint);
@@ -282,7 +282,7 @@ fn photograph(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// What a model of 20,000 triangles costs once: directions, tones, matched offsets.
+/// One-time cost of a model of 20,000 triangles: directions, tones, matched offsets.
 #[divan::bench(args = ["torus-knot", "still-life"], sample_count = 3)]
 fn model(bencher: Bencher<'_, '_>, shape: &str) {
     let mesh = SampleModel::from_name(shape).unwrap().mesh(20_000);

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::document::{Lighting, Medium, Slots};
@@ -233,7 +233,7 @@ fn target(table: &[f32], black: f32, [r, g, b, _]: [f32; 4]) -> [f32; 3] {
 }
 
 /// The colours of a picture cannot be painted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum ColorPaintError {
     /// The light cannot be used with the library.
     #[error(transparent)]
@@ -244,26 +244,6 @@ pub enum ColorPaintError {
     /// The pigments give no mixtures.
     #[error(transparent)]
     Separation(#[from] SeparationError),
-}
-
-impl ColorPaintError {
-    fn cause(&self) -> &dyn Explain {
-        match self {
-            Self::Light(error) => error,
-            Self::Ground(error) => error,
-            Self::Separation(error) => error,
-        }
-    }
-}
-
-impl Explain for ColorPaintError {
-    fn hint(&self) -> Option<Hint> {
-        self.cause().hint()
-    }
-
-    fn fault(&self) -> Fault {
-        self.cause().fault()
-    }
 }
 
 #[cfg(test)]

@@ -154,7 +154,7 @@ impl Coloring {
         lab_of(color).x
     }
 
-    /// What a splat adds where the model is of this encoded sRGB.
+    /// Returns the colour that a splat adds where the model has this encoded sRGB.
     pub(super) fn of_splat(&self, color: Vec3) -> Vec3 {
         if self.of_model { self.of_encoded(color) } else { Vec3::ZERO }
     }

@@ -24,7 +24,7 @@ const SCALE: f32 = 8.0;
 /// Sums of weights below this are lost.
 pub(super) const LOST: f32 = 1e-30;
 
-/// What the strokes of one surface sum up to at each pixel of a square.
+/// Sums over the strokes of one surface at each pixel of a square.
 #[derive(Debug, Clone)]
 pub(super) struct Sums {
     /// Bytes of the map times 256, by channel, times weights.
@@ -50,7 +50,7 @@ pub(super) struct Gathered {
     raised: Vec<(u32, Values, Values)>,
 }
 
-/// What a square gathers from.
+/// The splats and tones that a square gathers from, and the sums that it gathers into.
 pub(super) struct Gather<'a> {
     pub(super) square: &'a Square,
     /// Indices of splats.
@@ -191,7 +191,7 @@ fn sum(
     });
 }
 
-/// What a splat shows at a pixel of a square.
+/// The texel and weight of a splat at a pixel of a square.
 pub(super) struct Part<'a> {
     pub(super) splat: &'a StrokeSplat,
     /// Row and column of the pixel.

@@ -3,7 +3,7 @@
 
 use artmap::map::{ArtMap, Between};
 use artmap::sample::{PaintOfSamples, TexelPaint};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use paint::amount::quanta_from_mm;
 use paint::layer::{Layer, SLOTS};
@@ -204,27 +204,16 @@ pub(super) fn joined(
 }
 
 /// Why maps cannot make one painting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum PaintOfMapsError {
     /// Pigments are of several libraries.
     #[error("the maps have pigments of different libraries")]
+    #[hint("make all maps of samples with the same pigment library")]
     Libraries,
     /// There are too many pigments.
     #[error("the maps have more than {SLOTS} pigments together")]
+    #[hint("make all maps of samples with the same pigments")]
     Pigments,
-}
-
-impl Explain for PaintOfMapsError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Libraries => "make all maps of samples with the same pigment library",
-            Self::Pigments => "make all maps of samples with the same pigments",
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Input
-    }
 }
 
 /// Cells that share the work of one thread at least.

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
@@ -519,7 +519,8 @@ impl BuiltGround {
 }
 
 /// A model or a picture cannot be painted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum PainterError {
     /// A setting is out of its range.
     #[error(transparent)]
@@ -541,12 +542,18 @@ pub enum PainterError {
     Maps(#[from] PaintOfMapsError),
     /// No triangle of the mesh has an area.
     #[error("no triangle of the mesh has an area")]
+    #[hint("the model is a line or a point: export it again")]
+    #[fault(Input)]
     NoArea,
     /// The map has no tile.
     #[error("the art map has no tile")]
+    #[hint("build the map again from at least one sample")]
+    #[fault(Input)]
     NoTile,
     /// The map has no pigments, or the width of its texels is unknown.
     #[error("the art map has colours only")]
+    #[hint("build a map of samples from an impasto painting or a painted style")]
+    #[fault(Input)]
     NoPaint,
     /// The colours of the subject cannot be painted.
     #[error(transparent)]
@@ -556,6 +563,7 @@ pub enum PainterError {
     Ground(#[from] GroundError),
     /// The picture has no pixel, or too many.
     #[error("a picture of {width} x {height} pixels cannot be painted")]
+    #[hint("pictures have 1 to 268435456 pixels")]
     Size {
         /// Its width.
         width: usize,
@@ -564,12 +572,14 @@ pub enum PainterError {
     },
     /// The time is not a number.
     #[error("the time is `{seconds}` seconds")]
+    #[hint("times are seconds from the start, for example 0.5")]
     Time {
         /// The time asked for.
         seconds: f64,
     },
     /// The camera looks nowhere.
     #[error("the camera at {eye} looks at {target}, with {up} upwards")]
+    #[hint("place the eye away from its target, and let upwards point elsewhere than there")]
     Camera {
         /// Its eye.
         eye: Vec3,
@@ -578,47 +588,6 @@ pub enum PainterError {
         /// Its upwards direction.
         up: Vec3,
     },
-}
-
-impl PainterError {
-    fn cause(&self) -> Option<&dyn Explain> {
-        Some(match self {
-            Self::Settings(error) => error,
-            Self::Mesh(error) => error,
-            Self::Directions(error) => error,
-            Self::Device(error) => error,
-            Self::Ground(error) => error,
-            Self::Regions(error) => error,
-            Self::Maps(error) => error,
-            Self::Colors(error) => error,
-            _ => return None,
-        })
-    }
-}
-
-impl Explain for PainterError {
-    fn hint(&self) -> Option<Hint> {
-        let text = match self {
-            Self::NoArea => "the model is a line or a point: export it again",
-            Self::NoTile => "build the map again from at least one sample",
-            Self::NoPaint => "build a map of samples from an impasto painting or a painted style",
-            Self::Size { .. } => "pictures have 1 to 268435456 pixels",
-            Self::Time { .. } => "times are seconds from the start, for example 0.5",
-            Self::Camera { .. } => {
-                "place the eye away from its target, and let upwards point elsewhere than there"
-            }
-            _ => return self.cause()?.hint(),
-        };
-        Some(Hint::new(text))
-    }
-
-    fn fault(&self) -> Fault {
-        match (self.cause(), self) {
-            (Some(cause), _) => cause.fault(),
-            (None, Self::NoArea | Self::NoTile | Self::NoPaint) => Fault::Input,
-            _ => Fault::Setting,
-        }
-    }
 }
 
 /// Maps with their names, and the regions that are painted with one or another.

@@ -2,7 +2,7 @@
 //! and frames for compositing: OpenEXR with cover, depth, height and direction.
 
 use artmap::sample::PaintOfSamples;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use glam::{Vec2, Vec3};
 use graphics::camera::Camera;
 use graphics::coherence::Projection;
@@ -254,7 +254,7 @@ fn hue(angle: f32) -> Vec3 {
 const PX_MM: f64 = 25.4 / 96.0;
 
 /// A frame for compositing cannot be made.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum CompositingError {
     /// The subject cannot be painted.
     #[error(transparent)]
@@ -262,22 +262,6 @@ pub enum CompositingError {
     /// The file cannot be made.
     #[error(transparent)]
     Export(#[from] ExportError),
-}
-
-impl Explain for CompositingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Painter(error) => error.hint(),
-            Self::Export(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Painter(error) => error.fault(),
-            Self::Export(error) => error.fault(),
-        }
-    }
 }
 
 impl Painter {

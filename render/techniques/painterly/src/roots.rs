@@ -56,7 +56,7 @@ impl Start {
         place - place.floor()
     }
 
-    /// The same patch of the map, further on.
+    /// A start further on in this patch of the map.
     pub(super) fn further(&self, way: Vec2) -> Self {
         Self { way: self.way + way, ..*self }
     }
@@ -133,9 +133,9 @@ impl Roots {
         self.surface.regions.sizes()
     }
 
-    /// The same strokes. The strokes of all features below a priority are kept, and start where
-    /// `starts` says instead of anywhere. `reach` is half the length of a stroke in units of the
-    /// model.
+    /// These strokes for another density. The strokes of all features below a priority are kept,
+    /// and start where `starts` says instead of anywhere. `reach` is half the length of a stroke in
+    /// units of the model.
     pub(super) fn keeping(
         mut self,
         features: &Features,
@@ -310,7 +310,7 @@ impl Greys {
     }
 }
 
-/// What a stroke is compared with at one of its places.
+/// The values that a stroke is compared with at one of its places.
 struct Probe {
     /// From its centre, in widths of the map.
     place: Vec2,
@@ -432,7 +432,7 @@ impl Matching<'_> {
         (best.1, best.2)
     }
 
-    /// What the placed neighbours show at the places of a stroke.
+    /// The values that the placed neighbours show at the places of a stroke.
     fn probes(&self, index: usize, beside: &[(usize, Start)], greys: &Greys) -> Vec<Probe> {
         let radii = self.radii(index);
         let widths_per_unit = self.widths_per_unit(index);

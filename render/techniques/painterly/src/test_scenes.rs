@@ -1,5 +1,5 @@
-//! What the tests paint with: a map made by code and its strokes, and a graphics device with a
-//! measure of how far its pictures are from the processor's.
+//! Material for the tests: a map made by code and its strokes, and a graphics device with a measure
+//! of how far its pictures are from the processor's.
 
 use super::passes::PaintedPicture;
 use super::splats::StrokeSplat;

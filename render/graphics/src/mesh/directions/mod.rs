@@ -12,7 +12,7 @@ mod field;
 #[cfg(test)]
 mod tests;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
 pub use field::{DirectionField, FlowField};
 
@@ -69,16 +69,18 @@ pub struct Guide {
 }
 
 /// A fault of the settings or guides of a field of directions. Indices count from 0.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum DirectionFault {
     /// The smoothing is outside 0..1.
     #[error("the smoothing of directions is `{found}`, not 0 to 1")]
+    #[hint("it is a share of the model's radius; 0.05 is usual")]
     Smoothing {
         /// The smoothing asked for.
         found: f64,
     },
     /// A guide refers to a vertex that does not exist.
     #[error("guide {guide} is at vertex {found}, of {vertices}")]
+    #[hint("guides belong to one model: draw them again on this one")]
     NoSuchVertex {
         /// Index of the guide.
         guide: usize,
@@ -91,6 +93,7 @@ pub enum DirectionFault {
     #[error(
         "guide {guide} at vertex {vertex} points along `{found:?}`, which is not on the surface"
     )]
+    #[hint("draw the guide along the surface, not towards or away from it")]
     OffSurface {
         /// Index of the guide.
         guide: usize,
@@ -99,16 +102,4 @@ pub enum DirectionFault {
         /// The direction asked for.
         found: [f32; 3],
     },
-}
-
-impl Explain for DirectionFault {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Smoothing { .. } => "it is a share of the model's radius; 0.05 is usual",
-            Self::NoSuchVertex { .. } => "guides belong to one model: draw them again on this one",
-            Self::OffSurface { .. } => {
-                "draw the guide along the surface, not towards or away from it"
-            }
-        }))
-    }
 }

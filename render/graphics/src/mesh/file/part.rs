@@ -3,7 +3,7 @@
 
 use std::io::Cursor;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use image::{ImageReader, Limits};
 
 use crate::mesh::model::{Material, Mesh, MeshFault, Texture, Triangle};
@@ -77,10 +77,12 @@ impl Texture {
 }
 
 /// A model could not be read. Every message starts with the file's path.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum MeshError {
     /// The file cannot be opened or read.
     #[error("{name}: {error}")]
+    #[hint("check the path")]
+    #[fault(Environment)]
     Unreadable {
         /// Path of the file.
         name: String,
@@ -90,6 +92,7 @@ pub enum MeshError {
     },
     /// The file extension is not one of a supported format.
     #[error("{name}: no file extension of a model: `{extension}`")]
+    #[hint("models are read from .obj, .gltf, .glb and .ply files")]
     UnknownFormat {
         /// Path of the file.
         name: String,
@@ -98,6 +101,7 @@ pub enum MeshError {
     },
     /// The content violates the file's format.
     #[error("{name}: {place}: {reason}")]
+    #[hint("correct that place, or export the model again")]
     Malformed {
         /// Path of the file.
         name: String,
@@ -108,6 +112,10 @@ pub enum MeshError {
     },
     /// A texture image of the model cannot be read.
     #[error("{name}: the texture `{texture}`: {reason}")]
+    #[hint(
+        "put the picture ({NAMES}) where the model names it, or export the model with its \
+        pictures"
+    )]
     Texture {
         /// Path of the model.
         name: String,
@@ -118,6 +126,7 @@ pub enum MeshError {
     },
     /// The file was read, but its mesh fails [`Mesh::check`](crate::mesh::Mesh::check).
     #[error("{name}: {fault}")]
+    #[hint(inner = fault)]
     Faulty {
         /// Path of the file.
         name: String,
@@ -127,32 +136,10 @@ pub enum MeshError {
     },
 }
 
-impl Explain for MeshError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Unreadable { .. } => "check the path",
-            Self::UnknownFormat { .. } => "models are read from .obj, .gltf, .glb and .ply files",
-            Self::Malformed { .. } => "correct that place, or export the model again",
-            Self::Texture { .. } => {
-                return Some(Hint::new(format!(
-                    "put the picture ({NAMES}) where the model names it, or export the model \
-                     with its pictures"
-                )));
-            }
-            Self::Faulty { fault, .. } => return fault.hint(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Unreadable { .. } => Fault::Environment,
-            _ => Fault::Input,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use documents::hint::Fault;
+
     use super::*;
 
     #[test]

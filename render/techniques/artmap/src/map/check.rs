@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ pub struct MapFigures {
 pub struct KeyFigures {
     /// Name of the sample.
     pub name: String,
-    /// Mean L*, as the map has it.
+    /// Mean L*, as the map stores it.
     pub tone: f64,
     /// Standard deviation of L*.
     pub contrast: f64,
@@ -158,10 +158,11 @@ const STEP: f64 = 5.0 / 2.55;
 const SPREAD: f64 = 20.0;
 
 /// A fault of a map: where, the figure found, and the one wanted.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum MapFault {
     /// Strokes of a tile do not stand where the strokes of the first tile stand.
     #[error("tile `{name}`: coherence with the first tile is {found:.2}, wanted at least {wanted}")]
+    #[hint("raise [follow], or choose a sample with clearer strokes as [first]")]
     Coherence {
         /// Name of the tile.
         name: String,
@@ -174,6 +175,7 @@ pub enum MapFault {
     #[error(
         "tile `{name}`: steps across its border are {found:.2} of those inside, wanted at most {wanted:.2}"
     )]
+    #[hint("build the map with another [seed], or mark a larger passage")]
     Seam {
         /// Name of the tile.
         name: String,
@@ -186,6 +188,7 @@ pub enum MapFault {
     #[error(
         "tones of `{darker}` and `{lighter}` rise by {found:.1} L*, wanted at least {wanted:.1}"
     )]
+    #[hint("leave one of the two samples out")]
     Step {
         /// Name of the tile that stands first.
         darker: String,
@@ -198,6 +201,7 @@ pub enum MapFault {
     },
     /// The darkest and the lightest tile are too alike in tone.
     #[error("tones spread over {found:.1} L*, wanted at least {wanted}")]
+    #[hint("add a darker or a lighter sample")]
     Spread {
         /// Difference of the outermost tones.
         found: f64,
@@ -210,6 +214,7 @@ pub enum MapFault {
          least {wanted}",
         100.0 * .share
     )]
+    #[hint("add a sample of a tone between them")]
     BetweenContrast {
         /// Name of the darker tile.
         darker: String,
@@ -227,6 +232,7 @@ pub enum MapFault {
         "{:.0} % between `{darker}` and `{lighter}`: L* is {found:.1}, wanted {wanted:.1}",
         100.0 * .share
     )]
+    #[hint("add a sample of a tone between them")]
     BetweenTone {
         /// Name of the darker tile.
         darker: String,
@@ -239,26 +245,6 @@ pub enum MapFault {
         /// Weighted mean of the tones of both tiles.
         wanted: f64,
     },
-}
-
-impl Explain for MapFault {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Coherence { .. } => {
-                "raise [follow], or choose a sample with clearer strokes as [first]"
-            }
-            Self::Seam { .. } => "build the map with another [seed], or mark a larger passage",
-            Self::Step { .. } => "leave one of the two samples out",
-            Self::Spread { .. } => "add a darker or a lighter sample",
-            Self::BetweenContrast { .. } | Self::BetweenTone { .. } => {
-                "add a sample of a tone between them"
-            }
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Input
-    }
 }
 
 impl MapFigures {

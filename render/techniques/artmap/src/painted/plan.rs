@@ -1,8 +1,5 @@
-//! A style of painting as data: brush, strokes, paint and canvas of a swatch.
-//!
-//! Faults of styles.
-//!
-//! Styles that ship, as text.
+//! A style of painting as data: brush, strokes, paint and canvas of a swatch. Styles are read from
+//! TOML files, and some ship with this crate.
 
 use std::path::Path;
 use std::str::FromStr;
@@ -29,7 +26,7 @@ pub enum Layout {
 pub enum ToneSource {
     /// Every tone has a mixture of its own.
     Mixture,
-    /// Every tone is painted with the darkest mixture; light tones have fewer strokes.
+    /// Every tone is painted with the darkest mixture. Light tones have fewer strokes.
     Density,
 }
 
@@ -43,10 +40,10 @@ pub struct StrokePlan {
     pub length_spread: f64,
     /// Distance of neighbouring strokes across their direction in mm, 0.05 to 100.
     pub spacing_mm: f64,
-    /// Distance from the middle of a stroke to that of the next one below it in mm, 0.1 to 1000.
+    /// Distance between the middles of a stroke and the next one below it in mm, 0.1 to 1000.
     pub advance_mm: f64,
     /// Shift of each column against the one left of it, as a share of the advance: 0 aligns the
-    /// strokes in bands, 0.5 lays them like bricks; 0 to 1.
+    /// strokes in bands, 0.5 lays them like bricks, 0 to 1.
     pub stagger: f64,
     /// Greatest displacement of a stroke as a share of spacing and advance, 0 to 1.
     pub jitter: f64,
@@ -64,7 +61,7 @@ pub struct StrokePlan {
     pub layout: Layout,
     /// Number of coats, 1 to 4. The paint dries between them, except the wet share.
     pub coats: u32,
-    /// Whether all tones have the same strokes; if not, each has strokes of a seed of its own.
+    /// Whether all tones have the same strokes. If not, each has strokes of a seed of its own.
     pub nested: bool,
 }
 
@@ -73,7 +70,7 @@ pub struct StrokePlan {
 #[serde(deny_unknown_fields)]
 pub struct PaintPlan {
     /// Height of an even film of the tone below the first coat in mm, so that gaps between strokes
-    /// show no bare ground, 0 to 1; absent is 0, none.
+    /// show no bare ground, 0 to 1. Absent is 0, none.
     #[serde(default)]
     pub underpainting_mm: f64,
     /// Height of the paint on the head of the loaded brush in mm, 0.001 to 5.
@@ -155,7 +152,7 @@ impl Style {
     /// Reads the TOML file of a style and checks it.
     ///
     /// # Errors
-    /// [`StyleError`] for a file that cannot be read, and those of [`Style::from_toml`].
+    /// [`StyleError`] for a file that cannot be read, and the errors of [`Style::from_toml`].
     pub fn open(path: &Path) -> Result<Self, StyleError> {
         Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use paint::ground::GroundError;
 use paint::light::{Light, PaintLightError};
 use paint::painting::PaintingError;
@@ -79,7 +79,7 @@ pub fn painted_samples(
 }
 
 /// Swatches cannot be painted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PaintedError {
     /// A number of the style is out of range.
     #[error(transparent)]
@@ -98,28 +98,6 @@ pub enum PaintedError {
     Painting(#[from] PaintingError),
 }
 
-impl PaintedError {
-    fn cause(&self) -> &dyn Explain {
-        match self {
-            Self::Style(error) => error,
-            Self::Tones(error) => error,
-            Self::Ground(error) => error,
-            Self::Light(error) => error,
-            Self::Painting(error) => error,
-        }
-    }
-}
-
-impl Explain for PaintedError {
-    fn hint(&self) -> Option<Hint> {
-        self.cause().hint()
-    }
-
-    fn fault(&self) -> Fault {
-        self.cause().fault()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use graphics::field::Field;
@@ -130,6 +108,8 @@ mod tests {
     use rayon::ThreadPoolBuilder;
 
     use super::super::plan::ToneSource;
+    use documents::hint::Fault;
+
     use super::*;
     use crate::sample::Sample;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use paint::layer::{SLOTS, Slots};
 use pigment::library::AmountKind;
 use pigment::matching::{RecipeSearch, TargetColor, USUAL_TOLERANCE};
@@ -296,19 +296,24 @@ fn hue_difference(found: Lab, base: Lab) -> f64 {
 }
 
 /// Tones of a hue cannot be mixed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum TonesError {
     /// The hue is not a colour.
     #[error(transparent)]
+    #[fault(Setting)]
     Hue(#[from] ColorCodeError),
     /// The number of tones is out of range.
     #[error("a set has {} to {} tones, found `{found}`", TONES.start(), TONES.end())]
+    #[hint("leave [tones] out for 7 tones")]
     Count {
         /// Number of tones asked for.
         found: usize,
     },
     /// The library holds washes, not paints that hide.
     #[error("library {library} has absolute amounts: its paints have no white to be mixed with")]
+    #[hint("choose a library of relative amounts with [pigments]")]
+    #[fault(Input)]
     Absolute {
         /// Title of the library.
         library: String,
@@ -323,6 +328,7 @@ pub enum TonesError {
     #[error(
         "mixtures of the hue {hue} reach from L* {darkest:.1} to {lightest:.1}, too little for tones that keep `{margin}` from both ends"
     )]
+    #[hint("choose another [hue], fewer [tones] or other [pigments]")]
     Narrow {
         /// The hue as it was given.
         hue: String,
@@ -333,28 +339,6 @@ pub enum TonesError {
         /// L* between the range and the tones at both ends.
         margin: f64,
     },
-}
-
-impl Explain for TonesError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Hue(error) => return error.hint(),
-            Self::Count { .. } => "leave [tones] out for 7 tones",
-            Self::Absolute { .. } => "choose a library of relative amounts with [pigments]",
-            Self::Palette(error) => return error.hint(),
-            Self::Match(error) => return error.hint(),
-            Self::Narrow { .. } => "choose another [hue], fewer [tones] or other [pigments]",
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Palette(error) => error.fault(),
-            Self::Match(error) => error.fault(),
-            Self::Absolute { .. } => Fault::Input,
-            Self::Hue(_) | Self::Count { .. } | Self::Narrow { .. } => Fault::Setting,
-        }
-    }
 }
 
 #[cfg(test)]

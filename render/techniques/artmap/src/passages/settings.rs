@@ -1,6 +1,6 @@
 //! The picture from which samples are taken, the settings of that, and its faults.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use documents::name_list;
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -125,13 +125,17 @@ impl SourcePicture {
 const MOST_NAMES: usize = 8;
 
 /// Samples cannot be taken from a picture.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PassageError {
     /// The marks do not fit the picture.
     #[error(transparent)]
     Marks(#[from] MarksError),
     /// A setting is out of its range.
     #[error("{key} takes {least} to {most}, found `{found}`")]
+    #[hint(if *key == "reach", "1 is usual; more joins more unlike regions")]
+    #[hint(if *key == "spacing", "leave [spacing] out to estimate it")]
+    #[hint("16 classes are usual")]
+    #[fault(Setting)]
     Setting {
         /// Name of the setting.
         key: &'static str,
@@ -147,6 +151,7 @@ pub enum PassageError {
         "{channel} has {} x {} pixels, the colours have {} x {}",
         found.0, found.1, wanted.0, wanted.1
     )]
+    #[hint("give all channels the size of the picture")]
     ChannelSize {
         /// Name of the channel.
         channel: &'static str,
@@ -157,6 +162,7 @@ pub enum PassageError {
     },
     /// A colour of the picture is infinite or not a number.
     #[error("the picture has no colour at [{x}, {y}]")]
+    #[hint("colours are finite numbers; repair or leave out that pixel")]
     NoColor {
         /// Column.
         x: usize,
@@ -165,6 +171,10 @@ pub enum PassageError {
     },
     /// The distance of strokes cannot be estimated.
     #[error("the distance of strokes cannot be seen in {}", name_list(samples, MOST_NAMES, ", "))]
+    #[hint(
+        "mark the middles of two neighbouring strokes: spacing = [[x, y], [x, y]], or give \
+        one distance in pixels for all samples with [spacing]"
+    )]
     NoSpacing {
         /// Names of the samples.
         samples: Vec<String>,
@@ -173,6 +183,10 @@ pub enum PassageError {
     #[error(
         "sample `{sample}` is {width_px:.0} px wide across its strokes, less than four times their \
          distance of {spacing_px:.1} px"
+    )]
+    #[hint(
+        "mark a wider passage, let it grow further with a larger [reach], or mark a smaller \
+        distance with spacing = [[x, y], [x, y]]"
     )]
     Narrow {
         /// Name of the sample.
@@ -187,6 +201,7 @@ pub enum PassageError {
         "the strokes of sample `{sample}` are {spacing_px:.1} px apart, those of `{reference}` \
          {reference_px:.1} px"
     )]
+    #[hint("mark the distance with spacing = [[x, y], [x, y]], or leave this sample out")]
     Unlike {
         /// Name of the sample.
         sample: String,
@@ -199,41 +214,6 @@ pub enum PassageError {
     },
     /// No samples can be proposed.
     #[error("no passage of the picture has strokes that can be told from a flat colour")]
+    #[hint("mark the samples yourself, or take a picture with more detail")]
     NothingToPropose,
-}
-
-impl Explain for PassageError {
-    fn hint(&self) -> Option<Hint> {
-        let words = match self {
-            Self::Marks(error) => return error.hint(),
-            Self::Setting { key: "reach", .. } => "1 is usual; more joins more unlike regions",
-            Self::Setting { key: "spacing", .. } => "leave [spacing] out to estimate it",
-            Self::Setting { .. } => "16 classes are usual",
-            Self::ChannelSize { .. } => "give all channels the size of the picture",
-            Self::NoColor { .. } => "colours are finite numbers; repair or leave out that pixel",
-            Self::NoSpacing { .. } => {
-                "mark the middles of two neighbouring strokes: spacing = [[x, y], [x, y]], or give \
-                 one distance in pixels for all samples with [spacing]"
-            }
-            Self::Narrow { .. } => {
-                "mark a wider passage, let it grow further with a larger [reach], or mark a smaller \
-                 distance with spacing = [[x, y], [x, y]]"
-            }
-            Self::Unlike { .. } => {
-                "mark the distance with spacing = [[x, y], [x, y]], or leave this sample out"
-            }
-            Self::NothingToPropose => {
-                "mark the samples yourself, or take a picture with more detail"
-            }
-        };
-        Some(Hint::new(words))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Marks(error) => error.fault(),
-            Self::Setting { .. } => Fault::Setting,
-            _ => Fault::Input,
-        }
-    }
 }

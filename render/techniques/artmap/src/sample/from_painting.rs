@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::amount::mm_from_quanta;
@@ -226,13 +226,15 @@ pub(crate) fn summed_height(document: &Document) -> Field<f32> {
 }
 
 /// A painting cannot be sampled.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum FromPaintingError {
     /// The painting holds more pigments than a table of samples.
     #[error(
         "painting `{title}` has {} pigments, samples hold {SLOTS}: {}",
         names.len(), names.join(", ")
     )]
+    #[hint(if *minor == 0, "sample parts of the painting that have fewer pigments")]
+    #[hint("{minor} of them are below 1 %: merge them into others with [merge_minor]")]
     TooManyPigments {
         /// Title of the painting.
         title: String,
@@ -243,25 +245,8 @@ pub enum FromPaintingError {
     },
     /// The painting's library has no wavelengths in common with daylight.
     #[error(transparent)]
+    #[fault(Input)]
     Light(#[from] PaintLightError),
-}
-
-impl Explain for FromPaintingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::TooManyPigments { minor: 0, .. } => {
-                Some(Hint::new("sample parts of the painting that have fewer pigments"))
-            }
-            Self::TooManyPigments { minor, .. } => Some(Hint::new(format!(
-                "{minor} of them are below 1 %: merge them into others with [merge_minor]"
-            ))),
-            Self::Light(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Input
-    }
 }
 
 #[cfg(test)]

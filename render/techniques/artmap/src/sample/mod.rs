@@ -13,7 +13,7 @@ mod made_up;
 pub mod from_painting;
 pub mod file;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
@@ -94,10 +94,11 @@ pub struct SampleSet {
 }
 
 /// Why sets cannot be joined.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum JoinError {
     /// Some sets have paint, others have colours only.
     #[error("`{with}` has paint of pigments, `{without}` has colours only")]
+    #[hint("take all samples from paintings, or none")]
     PaintAndColor {
         /// Provenance of a set with paint.
         with: String,
@@ -106,25 +107,13 @@ pub enum JoinError {
     },
     /// The sets are painted with different pigments, or with the same in another order.
     #[error("`{first}` and `{other}` are painted with different pigments")]
+    #[hint("paint all samples with one library and one hue")]
     Pigments {
         /// Provenance of the first set.
         first: String,
         /// Provenance of the other set.
         other: String,
     },
-}
-
-impl Explain for JoinError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::PaintAndColor { .. } => "take all samples from paintings, or none",
-            Self::Pigments { .. } => "paint all samples with one library and one hue",
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Input
-    }
 }
 
 impl SampleSet {
@@ -243,24 +232,16 @@ fn lightness(sample: &Sample, sigma: f64) -> Vec<f32> {
 }
 
 /// A relief that cannot be guessed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[error(
     "a guessed relief is above 0 and at most {} mm, found `{found}`",
     SampleSet::MOST_RELIEF_MM
 )]
+#[hint("[guess_relief=0.2] is usual for oil")]
+#[fault(Setting)]
 pub struct GuessError {
     /// The relief asked for, in mm.
     pub found: f64,
-}
-
-impl Explain for GuessError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("[guess_relief=0.2] is usual for oil"))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub(crate) struct SourceCanvas<'a> {
     pub(crate) sources: Field<[u16; 2]>,
 }
 
-/// What a new patch has to agree with: the texels that are already there.
+/// The texels that are already there and that a new patch has to agree with.
 #[derive(Debug)]
 pub(crate) struct Overlap {
     /// Column and row within the patch, colour and height, weight.

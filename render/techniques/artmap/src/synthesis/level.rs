@@ -4,7 +4,7 @@
 //! Samples may be nested: their strokes stand at the places of another sample's strokes, as in
 //! painted tones with the same strokes.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
@@ -309,13 +309,16 @@ impl Default for SynthesisSettings {
 }
 
 /// Why maps could not be synthesised.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum SynthesisError {
     /// There are no samples.
     #[error("there is no sample to synthesise from")]
+    #[hint("mark at least one passage of the painting")]
     NoSample,
     /// A setting is out of its range.
     #[error("`{name}` is {found}, it must lie within {range}")]
+    #[hint("change [{name}]")]
+    #[fault(Setting)]
     Setting {
         /// Name of the setting.
         name: &'static str,
@@ -326,6 +329,8 @@ pub enum SynthesisError {
     },
     /// No sample has the name of the first map.
     #[error("no sample is called `{name}`; there are {}", .known.join(", "))]
+    #[hint("name one of the samples as [first]")]
+    #[fault(Setting)]
     UnknownFirst {
         /// The name that was asked for.
         name: String,
@@ -337,6 +342,7 @@ pub enum SynthesisError {
         "strokes of sample `{name}` are {spacing:.1} texels apart; maps of {size} texels take \
          {least} to {most:.0}"
     )]
+    #[hint("scale the picture, or make maps of another [size]")]
     Spacing {
         /// Name of the sample.
         name: String,
@@ -353,6 +359,7 @@ pub enum SynthesisError {
     #[error(
         "strokes of sample `{name}` are {spacing:.1} texels apart, those of `{first}` {wanted:.1}"
     )]
+    #[hint("scale the samples to one spacing")]
     UnlikeSpacings {
         /// Name of the sample.
         name: String,
@@ -367,6 +374,7 @@ pub enum SynthesisError {
     #[error(
         "sample `{name}` of {width} x {height} texels has no room for a patch of {patch} x {patch}"
     )]
+    #[hint("mark a passage at least four times as wide and high as its strokes are apart")]
     TooSmall {
         /// Name of the sample.
         name: String,
@@ -379,34 +387,11 @@ pub enum SynthesisError {
     },
     /// A sample is of one colour, without any relief.
     #[error("sample `{name}` is of one colour: it has no strokes")]
+    #[hint("mark a passage whose strokes show")]
     Flat {
         /// Name of the sample.
         name: String,
     },
-}
-
-impl Explain for SynthesisError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NoSample => "mark at least one passage of the painting".to_owned(),
-            Self::Setting { name, .. } => format!("change [{name}]"),
-            Self::UnknownFirst { .. } => "name one of the samples as [first]".to_owned(),
-            Self::Spacing { .. } => "scale the picture, or make maps of another [size]".to_owned(),
-            Self::UnlikeSpacings { .. } => "scale the samples to one spacing".to_owned(),
-            Self::TooSmall { .. } => {
-                "mark a passage at least four times as wide and high as its strokes are apart"
-                    .to_owned()
-            }
-            Self::Flat { .. } => "mark a passage whose strokes show".to_owned(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Setting { .. } | Self::UnknownFirst { .. } => Fault::Setting,
-            _ => Fault::Input,
-        }
-    }
 }
 
 /// Patches of one size in equal distances on a torus, overlapping by a third or more.

@@ -180,7 +180,7 @@ fn coarse_difference(
     sum / count
 }
 
-/// What the levels of one map have in common.
+/// Data that the levels of one map share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Following {
     /// Number of links of each patch.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use paint::file::{PigmentChannel, ascii_json, slots_of_channels};
 use pigment::{LibraryError, PigmentLibrary};
 use serde::Serialize;
@@ -85,14 +85,19 @@ impl Origin<'_> {
     }
 }
 
+/// The way out for parts and channels that are not as they were written.
+const OTHER_PROGRAM: &str =
+    "another program changed the file: keep parts, sizes and channels as they were";
+
 /// A file of samples or an art map cannot be read or written.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum TexelFileError {
     /// The file cannot be read from or written to the disk.
     #[error(transparent)]
     File(#[from] FileError),
     /// The file is not OpenEXR, or is damaged.
     #[error("{file}: not an intact OpenEXR file: {reason}")]
+    #[hint("the file is truncated, damaged or not OpenEXR: make the {content} again")]
     Container {
         /// Path of the file.
         file: String,
@@ -103,6 +108,7 @@ pub enum TexelFileError {
     },
     /// The file is OpenEXR, but holds something else.
     #[error("{file}: no {content} of impasto: {reason}")]
+    #[hint("choose another file, which impasto wrote as {content}")]
     Format {
         /// Path of the file.
         file: String,
@@ -113,6 +119,7 @@ pub enum TexelFileError {
     },
     /// The file has a version that this program does not know.
     #[error("{file}: {content} of version `{found}`, this program reads versions up to {newest}")]
+    #[hint("a newer impasto may read it")]
     Version {
         /// Path of the file.
         file: String,
@@ -125,6 +132,7 @@ pub enum TexelFileError {
     },
     /// The description in attribute `impasto` is invalid.
     #[error("{file}: attribute `impasto`: {reason}")]
+    #[hint("make the {content} again")]
     Header {
         /// Path of the file.
         file: String,
@@ -135,9 +143,11 @@ pub enum TexelFileError {
     },
     /// The pigment library in the file is invalid.
     #[error(transparent)]
+    #[fault(Input)]
     Library(#[from] LibraryError),
     /// A part of the file is missing or malformed.
     #[error("{file}: part `{part}` {reason}")]
+    #[hint("{OTHER_PROGRAM}")]
     Part {
         /// Path of the file.
         file: String,
@@ -148,6 +158,7 @@ pub enum TexelFileError {
     },
     /// A channel is missing or malformed, or one of its values is impossible.
     #[error("{file}: part `{part}`, channel `{channel}` {reason}")]
+    #[hint("{OTHER_PROGRAM}")]
     Channel {
         /// Path of the file.
         file: String,
@@ -160,6 +171,7 @@ pub enum TexelFileError {
     },
     /// A part has possible values, but not those that were written.
     #[error("{file}: part `{part}` does not hold the values that were written")]
+    #[hint("the file is damaged or was changed: make the {content} again")]
     Changed {
         /// Path of the file.
         file: String,
@@ -176,37 +188,6 @@ pub enum TexelFileError {
         /// Reason, with the sample or tile.
         reason: String,
     },
-}
-
-impl Explain for TexelFileError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::File(error) => return error.hint(),
-            Self::Library(error) => return error.hint(),
-            Self::Container { content, .. } => {
-                format!("the file is truncated, damaged or not OpenEXR: make the {content} again")
-            }
-            Self::Format { content, .. } => {
-                format!("choose another file, which impasto wrote as {content}")
-            }
-            Self::Version { .. } => "a newer impasto may read it".to_owned(),
-            Self::Header { content, .. } => format!("make the {content} again"),
-            Self::Part { .. } | Self::Channel { .. } => "another program changed the file: keep \
-                parts, sizes and channels as they were"
-                .to_owned(),
-            Self::Changed { content, .. } => {
-                format!("the file is damaged or was changed: make the {content} again")
-            }
-            Self::Unwritable { .. } => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 /// Encodes a description as JSON in ASCII.

@@ -12,23 +12,15 @@
 //! ```
 //!
 //! Places are pixels from the upper left corner of a picture of `size_px`, which may be fractions.
-//! Strokes run along a line; what flows, flows from its first point to its last. `camera` belongs
+//! Strokes run along a line. What flows, flows from its first point to its last. `camera` belongs
 //! to views of models: degrees around the model, above the horizon, and of the field of view.
-//!
-//! Guides as data.
-//!
-//! Faults of guides.
-//!
-//! Steps along a line.
-//!
-//! Files of guides in TOML.
 
 mod on_mesh;
 
 use std::path::Path;
 
 use documents::file::{FileError, write_whole};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use documents::text::{Source, TextError, line_of, read_text};
 use glam::DVec2;
 use graphics::camera::{Camera, Framing};
@@ -84,7 +76,7 @@ impl Guides {
         })
     }
 
-    /// The camera from which a model of these vertices was drawn upon; `None` if the guides do not
+    /// The camera from which a model of these vertices was drawn upon, `None` if the guides do not
     /// tell.
     #[must_use]
     pub fn camera_around(&self, positions: &[[f32; 3]]) -> Option<Camera> {
@@ -121,7 +113,7 @@ fn check_line(points: &[[f64; 2]], size_px: [u32; 2]) -> Result<(), GuideFault> 
 }
 
 /// Guides cannot be read, or do not fit their picture or model.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum GuidesError {
     /// The file cannot be written.
     #[error(transparent)]
@@ -131,6 +123,11 @@ pub enum GuidesError {
     Text(#[from] TextError),
     /// The picture has no pixel, or too many.
     #[error("{file}, size_px: a picture of {} x {} pixels", found[0], found[1])]
+    #[hint(
+        verbatim,
+        "write [800, 600] for a width and height of 1 to 16384, at most 67108864 \
+        pixels"
+    )]
     Size {
         /// Name of the file.
         file: String,
@@ -139,6 +136,11 @@ pub enum GuidesError {
     },
     /// The camera is out of its range.
     #[error("{file}, camera: found `{found:?}`")]
+    #[hint(
+        verbatim,
+        "write [30.0, 20.0, 30.0]: degrees around the model, above the horizon (-90 \
+        to 90), and of the field of view (1 to 170)"
+    )]
     Camera {
         /// Name of the file.
         file: String,
@@ -147,12 +149,14 @@ pub enum GuidesError {
     },
     /// There is no guide.
     #[error("{file}: there are no guides")]
+    #[hint(verbatim, "add a [[guide]] with points = [[10, 20], [90, 60]]")]
     NoGuides {
         /// Name of the file.
         file: String,
     },
     /// A guide has a fault.
     #[error("{file}{}, guide {guide}: {fault}", line.map_or(String::new(), |at| format!(", line {at}")))]
+    #[hint(verbatim, "{}", fault.way_out())]
     Guide {
         /// Name of the file.
         file: String,
@@ -220,32 +224,6 @@ impl GuideFault {
             Self::OffMesh => {
                 "check camera and size_px: they must be those of the view that it was drawn on"
             }
-        }
-    }
-}
-
-impl Explain for GuidesError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::verbatim(match self {
-            Self::File(error) => return error.hint(),
-            Self::Text(error) => return error.hint(),
-            Self::Size { .. } => {
-                "write [800, 600] for a width and height of 1 to 16384, at most 67108864 pixels"
-            }
-            Self::Camera { .. } => {
-                "write [30.0, 20.0, 30.0]: degrees around the model, above the horizon (-90 to 90), \
-                 and of the field of view (1 to 170)"
-            }
-            Self::NoGuides { .. } => "add a [[guide]] with points = [[10, 20], [90, 60]]",
-            Self::Guide { fault, .. } => fault.way_out(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Text(error) => error.fault(),
-            _ => Fault::Input,
         }
     }
 }

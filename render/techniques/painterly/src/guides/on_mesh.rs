@@ -1,6 +1,4 @@
-//! Guides laid on a model.
-//!
-//! Guides on a picture of any size.
+//! Guides laid on a model, or on a picture of any size.
 
 use std::collections::BTreeMap;
 
@@ -29,15 +27,15 @@ struct View<'a> {
 
 impl Guides {
     /// Lays the guides on the surface of `mesh` that `camera` sees in a picture of `size_px`. In
-    /// steps of at most 1 px a direction is given to the nearest corner of the triangle seen there;
-    /// directions of one line at one vertex are averaged. Lines have gaps where nothing is seen.
+    /// steps of at most 1 px a direction is given to the nearest corner of the triangle seen there.
+    /// Directions of one line at one vertex are averaged. Lines have gaps where nothing is seen.
     ///
     /// # Errors
     /// [`GuidesError`] if the guides are not on their picture, see [`Self::check`], or a guide sees
     /// nothing of the mesh.
     ///
     /// # Panics
-    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions;
+    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions.
     /// [`Mesh::check`] finds both.
     pub fn on_mesh(&self, mesh: &Mesh, camera: &Camera) -> Result<Vec<Guide>, GuidesError> {
         self.check()?;
@@ -225,7 +223,7 @@ mod tests {
             let line = [-6.0, 6.0].map(|far| [middle[0] + far * cos, middle[1] + far * sin]);
             let laid = guides(vec![line.to_vec()]).on_mesh(&mesh, &camera).unwrap();
             for Guide { along: [x, y, _], .. } in laid {
-                // The middle of the ball faces the camera; y of the picture points down.
+                // The middle of the ball faces the camera, y of the picture points down.
                 let found = f64::from(-y).atan2(f64::from(x)).to_degrees();
                 let off = (found - degrees + 180.0).rem_euclid(360.0) - 180.0;
                 assert!(off.abs() < 2.0, "{found} of {degrees} degrees");

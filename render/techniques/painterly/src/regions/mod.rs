@@ -1,10 +1,5 @@
-//! Regions of a subject that are painted in another way than the rest.
-//!
-//! Regions as data.
-//!
-//! Faults of regions.
-//!
-//! Files of regions in TOML.
+//! Regions of a subject that are painted in another way than the rest: their data, their TOML files
+//! and the faults of those.
 
 mod area;
 
@@ -27,7 +22,7 @@ pub struct Regions {
     pub name: String,
     /// The regions.
     pub list: Vec<Region>,
-    /// Width and height in px of the picture that polygons and centres refer to; `None` for the
+    /// Width and height in px of the picture that polygons and centres refer to, `None` for the
     /// subject's own size.
     pub size_px: Option<[u32; 2]>,
     /// Colours of labels, of any size: it is stretched over the subject.
@@ -47,7 +42,7 @@ pub struct Region {
     pub angle_deg: Option<f32>,
     /// Point in px that strokes run around, clockwise. Pictures only.
     pub around: Option<[f32; 2]>,
-    /// Size of strokes by that of the settings, 0.1..=10.
+    /// Size of strokes relative to the settings, 0.1..=10.
     pub size: f32,
     /// Lengths of the map by which strokes move in a loop, 0..=16.
     pub flow: Option<u32>,
@@ -62,7 +57,7 @@ pub struct Region {
 /// Place of a region.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RegionArea {
-    /// Inside this polygon, in px from the upper left corner of a picture; where it crosses itself,
+    /// Inside this polygon, in px from the upper left corner of a picture, where it crosses itself,
     /// by the even-odd rule.
     Polygon(Vec<[f32; 2]>),
     /// Where the picture of labels has this colour, encoded sRGB.

@@ -18,14 +18,10 @@
 //! Places are pixels from the upper left corner of the picture, which may be fractions. `spacing`
 //! holds two points one stroke apart. A picture of coloured lines over the painting does as well
 //! ([`Marks::from_overlay`]).
-//!
-//! Marks as data.
-//!
-//! Faults of marks.
 mod text;
 
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use documents::text::TextError;
 use graphics::picture::PhotographError;
 
@@ -49,7 +45,7 @@ pub struct Mark {
     pub name: String,
     /// Place of the sample.
     pub area: MarkedArea,
-    /// Two points one stroke apart, in pixels; `None` if their distance is to be estimated.
+    /// Two points one stroke apart, in pixels, `None` if their distance is to be estimated.
     pub spacing: Option<[[f64; 2]; 2]>,
 }
 
@@ -106,7 +102,7 @@ impl MarkedArea {
 }
 
 /// Marks cannot be read, or do not fit the picture.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum MarksError {
     /// The file cannot be written.
     #[error(transparent)]
@@ -116,12 +112,14 @@ pub enum MarksError {
     Text(#[from] TextError),
     /// There is no sample.
     #[error("{file}: there are no samples")]
+    #[hint("add a sample with a name and a scribble, or let marks be proposed with [propose]")]
     NoSamples {
         /// Name of the file.
         file: String,
     },
     /// A sample has a fault.
     #[error("{file}, sample `{sample}`, {key}: {fault}")]
+    #[hint("{}", fault.way_out())]
     Sample {
         /// Name of the file.
         file: String,
@@ -140,6 +138,7 @@ pub enum MarksError {
         "{file}: {} x {} pixels, but the painting has {} x {}",
         found.0, found.1, wanted.0, wanted.1
     )]
+    #[hint("draw the lines on a transparent layer over the painting and save that layer alone")]
     OverlaySize {
         /// Name of the picture of lines.
         file: String,
@@ -150,6 +149,7 @@ pub enum MarksError {
     },
     /// The picture of lines is opaque everywhere, or has very many colours.
     #[error("{file}: {colors} opaque colours, expected a line of one colour for each sample")]
+    #[hint("leave the rest transparent, and draw with a hard brush, one colour a sample")]
     OverlayColors {
         /// Name of the picture of lines.
         file: String,
@@ -210,36 +210,6 @@ pub enum MarkFault {
         /// Row.
         y: usize,
     },
-}
-
-impl Explain for MarksError {
-    fn hint(&self) -> Option<Hint> {
-        let words = match self {
-            Self::File(error) => return error.hint(),
-            Self::Text(error) => return error.hint(),
-            Self::Overlay(error) => return error.hint(),
-            Self::NoSamples { .. } => {
-                "add a sample with a name and a scribble, or let marks be proposed with [propose]"
-            }
-            Self::Sample { fault, .. } => fault.way_out(),
-            Self::OverlaySize { .. } => {
-                "draw the lines on a transparent layer over the painting and save that layer alone"
-            }
-            Self::OverlayColors { .. } => {
-                "leave the rest transparent, and draw with a hard brush, one colour a sample"
-            }
-        };
-        Some(Hint::new(words))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Text(error) => error.fault(),
-            Self::Overlay(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 impl MarkFault {

@@ -1,8 +1,5 @@
-//! Files of marks in TOML.
-//!
-//! Marks from a picture of coloured lines over the painting.
-//!
-//! Marks drawn on a picture: the pixels under each line.
+//! Marks read from a TOML file or from a picture of coloured lines over the painting, and the
+//! pixels under each line.
 
 use std::path::Path;
 
@@ -171,7 +168,7 @@ const MOST_COLORS: usize = 64;
 
 impl Marks {
     /// Reads a PNG of coloured lines on a transparent ground, as large as the painting. Each opaque
-    /// colour is the scribble of one sample, named like `#c9a227`; pixels that are not quite opaque
+    /// colour is the scribble of one sample, named like `#c9a227`. Pixels that are not quite opaque
     /// (soft edges of a line) are left out.
     ///
     /// # Errors
@@ -258,7 +255,7 @@ impl Marks {
         Ok(areas.collect())
     }
 
-    /// The pixels of each line; `None` for rectangles, which only have to lie on the picture.
+    /// The pixels of each line, `None` for rectangles, which only have to lie on the picture.
     fn lines(&self, width: usize, height: usize) -> Result<Vec<Option<Vec<u32>>>, MarksError> {
         let fault = |mark: &Mark, key: &'static str, fault: MarkFault| MarksError::Sample {
             file: self.file.clone(),
@@ -301,7 +298,7 @@ fn inside(x: f64, y: f64, width: usize, height: usize) -> Result<(), MarkFault> 
 }
 
 impl MarkedArea {
-    /// The pixels of a line, in order and each once; `None` for a rectangle.
+    /// The pixels of a line, in order and each once, `None` for a rectangle.
     fn line(&self, width: usize, height: usize) -> Result<Option<Vec<u32>>, MarkFault> {
         let mut pixels = Vec::new();
         let index = |x: usize, y: usize| (y * width + x) as u32;
@@ -332,7 +329,7 @@ impl MarkedArea {
         Ok(Some(pixels))
     }
 
-    /// The pixels of a rectangle on a picture of this width; none of other areas.
+    /// The pixels of a rectangle on a picture of this width, none of other areas.
     fn rectangle_pixels(&self, width: usize) -> Vec<u32> {
         let &Self::Rectangle { x, y, width: across, height: down } = self else {
             return Vec::new();
