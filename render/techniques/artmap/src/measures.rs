@@ -174,7 +174,7 @@ pub fn co_occurrence_error(reference: &Texture, other: &Texture) -> f64 {
     let shares = |texture: &Texture, step: [isize; 2]| {
         let mut counts = [0_u64; LEVELS * LEVELS];
         texture.pairs(step, |a, b| {
-            counts[level(a, least, per_level) * LEVELS + level(b, least, per_level)] += 1
+            counts[level(a, least, per_level) * LEVELS + level(b, least, per_level)] += 1;
         });
         let total = counts.iter().sum::<u64>().max(1) as f64;
         counts.map(|count| count as f64 / total)

@@ -350,7 +350,7 @@ mod tests {
         assert!(error.to_string().contains("mine.toml"), "{error}");
         let error = Style::open(&folder.path().join("no.toml")).unwrap_err();
         assert!(error.to_string().contains("no.toml: cannot be read"), "{error}");
-        assert_eq!(error.fault(), documents::hint::Fault::Environment);
+        assert_eq!(error.fault(), Fault::Environment);
     }
 
     #[test]

@@ -261,8 +261,8 @@ mod tests {
         fn apart(a: &(f64, f64), b: &(f64, f64)) -> f64 {
             (a.0 / a.1 - b.0 / b.1).abs()
         }
-        fn unite(a: &mut (f64, f64), b: (f64, f64)) -> () {
-            *a = (a.0 + b.0, a.1 + b.1)
+        fn unite(a: &mut (f64, f64), b: (f64, f64)) {
+            *a = (a.0 + b.0, a.1 + b.1);
         }
         // 0 and 1 are joined first. Their mean 0.5 is then 2.0 from the third.
         let (found, sums_found) = joined(&regions, sums.clone(), 1.8, apart, unite);
