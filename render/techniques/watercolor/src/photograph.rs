@@ -13,7 +13,7 @@
 //! All of it happens on the processor, before the effects of water and paper, and is the same
 //! for colours and for glazes of pigments.
 
-use graphics::blur::blurred;
+use graphics::blurred;
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
 use graphics::smoothstep;
