@@ -85,7 +85,7 @@ impl Scene {
         let hatching = Hatching::new(&mut compute, &texture, &packed).unwrap();
         let mut model = Model::new(&mut compute, packed).unwrap();
         let visible = model.visible(&mut compute, &self.camera, SIZE.0, SIZE.1).unwrap();
-        let look = super::in_sight::drawing_look(&self.settings);
+        let look = in_sight::drawing_look(&self.settings);
         shade(&mut compute, &model, &visible, &self.camera, &look, &hatching).unwrap().into_host()
     }
 

@@ -208,7 +208,7 @@ fn pigments_are_found_by_their_letters() {
         let fault = script(&text).slots(&library).unwrap_err();
         let error = ScriptError::located("s.toml", &text, fault);
         assert_eq!(error.to_string(), format!("s.toml, line 7: palette.Y takes {wanted}"));
-        let told = documents::hint::Explain::hint(&error).unwrap().to_string();
+        let told = Explain::hint(&error).unwrap().to_string();
         assert!(told.starts_with(hint), "{told}");
     }
 }

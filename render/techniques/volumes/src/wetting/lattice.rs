@@ -201,7 +201,7 @@ pub(super) fn touches([a, b]: [DVec3; 2], cell: [i32; 3]) -> bool {
 
 /// A place in widths of a cell from the origin of the lattice.
 pub(super) fn in_cells(lattice: &Lattice, place: [f32; 3]) -> DVec3 {
-    (glam::Vec3::from(place) - lattice.origin).as_dvec3() / f64::from(lattice.cell)
+    (Vec3::from(place) - lattice.origin).as_dvec3() / f64::from(lattice.cell)
 }
 
 /// Whether a triangle meets a box: no axis separates them (Akenine-Moller, "Fast 3D triangle-box

@@ -147,7 +147,7 @@ impl World {
         if let Some(index) = holding.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
             return Ok(index);
         }
-        let index = self.begin(place, super::state::BIRTH * self.scale.cell, DETAIL)?;
+        let index = self.begin(place, BIRTH * self.scale.cell, DETAIL)?;
         let volume = &mut self.volumes[index];
         (volume.region, volume.normal) = (region, normal);
         Ok(index)
@@ -234,15 +234,14 @@ impl World {
     }
 
     /// Share of the surface with paint of a volume that lies where `below` is true.
-    pub(super) fn share_below(&self, index: usize, below: impl Fn(glam::Vec3) -> bool) -> f32 {
+    pub(super) fn share_below(&self, index: usize, below: impl Fn(Vec3) -> bool) -> f32 {
         let volume = &self.volumes[index];
         let samples = &self.grid.samples;
         let own = match volume.cell {
             Some(cell) => samples.of_cell(cell as usize),
             None => 0..samples.len(),
         };
-        let held =
-            |at: &glam::Vec3| at.distance_squared(volume.center) <= volume.radius * volume.radius;
+        let held = |at: &Vec3| at.distance_squared(volume.center) <= volume.radius * volume.radius;
         let mut all = 0_u32;
         let mut found = 0_u32;
         for place in samples.places[own].iter().filter(|place| held(place)) {
@@ -295,7 +294,7 @@ impl World {
             }
         }
         let quanta = (self.quanta_per_sample() * f64::from(count)).round();
-        (normal.normalize_or_zero(), quanta.min(f64::from(paint::amount::MAX_COLUMN)) as u32)
+        (normal.normalize_or_zero(), quanta.min(f64::from(MAX_COLUMN)) as u32)
     }
 
     fn quanta_per_sample(&self) -> f64 {

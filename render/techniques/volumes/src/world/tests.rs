@@ -637,7 +637,7 @@ fn files_of_other_worlds_and_damaged_ones_are_refused() {
     let mut kept = flat();
     kept.keep(KeepIn::Ball { center: Vec3::ZERO, radius: 4.0 }).unwrap();
     assert_eq!(found(&kept, WISH), other);
-    let mesh = graphics::mesh::SampleModel::Sphere.mesh(500);
+    let mesh = SampleModel::Sphere.mesh(500);
     let settings = WorldSettings { unit_mm: Some(1.0), ..WorldSettings::default() };
     assert_eq!(found(&World::of(&mesh, &settings).unwrap(), WISH), other);
     let damaged = Err(SavedError::Damaged);
@@ -656,7 +656,7 @@ fn files_of_other_worlds_and_damaged_ones_are_refused() {
 fn states_that_no_world_has_are_refused() {
     let mut world = flat();
     let at = world.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
-    let wrong: [fn(&mut crate::volume::Volume); 4] = [
+    let wrong: [fn(&mut Volume); 4] = [
         |volume| volume.detail = 9,
         |volume| volume.detail = 2,
         |volume| volume.cell = Some(1 << 20),

@@ -187,7 +187,7 @@ fn regions_count_their_own_volumes_alone() {
 
 #[test]
 fn where_a_device_knows_no_gates_the_processor_counts() {
-    let Some(device) = crate::test_volumes::device() else { return };
+    let Some(device) = test_volumes::device() else { return };
     let mut scene = Scene::new(plates(), Framing::default());
     scene.mesh.colors.fill([0.8, 0.2, 0.1]);
     scene.settings.unit_mm = 1.0;
