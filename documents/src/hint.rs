@@ -40,7 +40,7 @@ impl Hint {
         Self { sentence: sentence.into(), has_settings: false }
     }
 
-    /// Returns the sentence with each setting replaced by `control(name, value)`; `value`
+    /// Returns the sentence with each setting replaced by `control(name, value)`. `value`
     /// is `None` for a setting without one.
     #[must_use]
     pub fn with_settings(&self, control: impl Fn(&str, Option<&str>) -> String) -> String {
@@ -96,7 +96,7 @@ fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
 /// Whether the data, a setting or the machine caused an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The data are wrong; the call succeeds with other data.
+    /// The data are wrong: the call succeeds with other data.
     Input,
     /// A setting is wrong: a name that does not exist, a value out of its range. The call
     /// succeeds with the same data and another setting.
@@ -143,20 +143,20 @@ pub enum Fault {
 ///
 /// | attribute of a variant or a struct | hint |
 /// | --- | --- |
-/// | `#[hint("text with [setting] and {field}")]` | the text as [`Hint::new`]; braces as in `format!`, with all fields by name, those of tuples as `{0}` or `_0` |
+/// | `#[hint("text with [setting] and {field}")]` | the text as [`Hint::new`], with braces as in `format!`: all fields by name, fields of tuples as `{0}` or `_0` |
 /// | `#[hint("{} and {}", expression, expression)]` | the same with arguments, in which fields are references and `self` is the error |
 /// | `#[hint(verbatim, "text")]` | the text as [`Hint::verbatim`] |
-/// | `#[hint(with = expression)]` | the expression, an `Option<Hint>`; a path to a function is called with `self` |
-/// | `#[hint(inner)]`, `#[hint(inner = field)]` | the hint of the wrapped error: the field with `#[from]` or `#[source]`, else `source` or `error`, else the only one; the fault is taken from it as well |
+/// | `#[hint(with = expression)]` | the expression, an `Option<Hint>`. We call a path to a function with `self` |
+/// | `#[hint(inner)]`, `#[hint(inner = field)]` | the hint of the wrapped error: the field with `#[from]` or `#[source]`, else `source` or `error`, else the only one. It also gives the fault |
 /// | `#[hint(none)]` | none, also where the enum has one for all |
-/// | `#[hint(if condition, ..)]` | any of these if the condition holds; otherwise the next `#[hint(..)]` of the variant |
-/// | nothing | the one of the enum; else the wrapped error's where the message is `#[error(transparent)]`; else none |
+/// | `#[hint(if condition, ..)]` | any of these if the condition holds, otherwise the next `#[hint(..)]` of the variant |
+/// | nothing | the one of the enum, else the wrapped error's where the message is `#[error(transparent)]`, else none |
 ///
 /// | attribute of a variant, a struct or an enum | fault |
 /// | --- | --- |
 /// | `#[fault(Setting)]` | that variant of [`Fault`] |
 /// | `#[fault(with = expression)]`, `#[fault(inner)]` | as for hints |
-/// | nothing | the wrapped error's under `#[hint(inner)]` or `#[error(transparent)]`; else the one of the enum; else [`Fault::Input`] |
+/// | nothing | the wrapped error's under `#[hint(inner)]` or `#[error(transparent)]`, else the one of the enum, else [`Fault::Input`] |
 pub trait Explain: Error {
     /// Advice on how to resolve the error, or `None` if the message already says it.
     fn hint(&self) -> Option<Hint> {

@@ -9,7 +9,7 @@
 //! | declare settings, presets and their files | [`mod@settings`] |
 //! | read TOML and JSON with lines in errors | [`text::Source`] |
 //!
-//! Every other crate may use this one; it uses none of them.
+//! Every other crate may use this one, and it uses none of them.
 
 // The derive macro names this crate, also within it.
 extern crate self as documents;

@@ -225,11 +225,11 @@ impl Steps {
 /// How far a [`Task`] is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Progress {
-    /// The stage of the work; empty before the first.
+    /// The stage of the work, empty before the first.
     pub stage: Arc<str>,
     /// Steps that are done.
     pub done: u64,
-    /// All steps; 0 while their number is not known.
+    /// All steps, 0 while their number is not known.
     pub of: u64,
 }
 

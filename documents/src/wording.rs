@@ -27,8 +27,8 @@ pub fn similar_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -
     ranked.into_iter().take(MOST).map(|(_, other)| other).collect()
 }
 
-/// The question "did you mean A or B?" with the names of `known` that are spelt like `name`;
-/// `None` if there are none.
+/// The question "did you mean A or B?" with the names of `known` that are spelt like `name`,
+/// or `None` without any.
 ///
 /// ```
 /// use documents::did_you_mean;
@@ -67,7 +67,7 @@ pub fn counted<N: Display + PartialEq + From<u8>>(number: N, noun: &str) -> Stri
     counted_as(number, noun, &format!("{noun}s"))
 }
 
-/// A number with a noun whose plural is `many`.
+/// A number with a noun that has the plural `many`.
 ///
 /// ```
 /// assert_eq!(documents::counted_as(2, "swatch", "swatches"), "2 swatches");
@@ -172,7 +172,7 @@ impl Display for ParserReason {
     }
 }
 
-/// The message of a parser without names of types; what it says of keys and places stays.
+/// The message of a parser without names of types. What it says of keys and places stays.
 ///
 /// ```
 /// let message = "invalid type: integer `3`, expected struct Surface at line 2 column 9";
@@ -186,7 +186,7 @@ pub fn plain_parser_message(message: &str) -> String {
         Some((word, rest)) => format!("{word}{rest}"),
         None => wanted.to_owned(),
     };
-    // `before` tells what was found by the same names.
+    // `before` describes what was found by the same names.
     let mut before = before.to_owned();
     for (from, to) in [
         ("floating point ", "number "),

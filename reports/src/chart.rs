@@ -1,8 +1,8 @@
-//! Charts drawn as SVG. The only file that uses the crate plotters.
+//! Charts drawn as SVG. This is the only file that uses the crate plotters.
 //!
-//! plotters rounds to whole px, which would make curves of small panels jagged. So the drawing is
-//! ten times as large, and the view box of the document scales it down. Labels are placed by this
-//! crate (`names`), because plotters without a font can only guess their size.
+//! plotters rounds to whole px, which would make curves of small panels jagged. So the drawing is ten times
+//! as large, and the view box of the document scales it down. This crate places the labels, because plotters
+//! without a font can only guess their size.
 
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;
@@ -15,11 +15,9 @@ use plotters::prelude::{
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontFamily, IntoFont};
 
-use crate::lettering::{estimated_width, fitted};
-use crate::names::{Placed, place_labels};
 use crate::panel::{AxisLabels, Chart, Frame, KeySymbol, Mark, Panel, Point, SUBTITLE};
 use crate::style::{BAND, CURVE, Color, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
-use crate::svg::{Anchor, opening};
+use crate::svg::{Anchor, estimated_width, fitted, opening};
 
 /// Units of plotters in one px of the figure.
 const FINE: f64 = 10.0;
@@ -255,7 +253,7 @@ impl Drawing<'_, '_> {
                 }
             }
             KeySymbol::Bands(count) => {
-                // No rectangle, so that a dark page exchanges its colour with that of the bands.
+                // This is not a rectangle, so that a dark page swaps its colour with the bands.
                 let style = rgb(color).mix(BAND).filled();
                 let corners = [(4.0, -5.0), (16.0, -5.0), (16.0, 5.0), (4.0, 5.0)];
                 let corners = corners.map(|(dx, dy)| point(dx, dy));
@@ -304,4 +302,100 @@ fn compact(text: &str, opening: &str) -> String {
     let family = format!(" font-family=\"{FONTS}\"");
     out.push_str(&body.replace(" opacity=\"1\"", "").replace(&family, ""));
     out
+}
+
+/// A label with its position in px.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Placed<'a> {
+    pub(crate) at: (f64, f64),
+    pub(crate) anchor: Anchor,
+    pub(crate) text: &'a str,
+}
+
+/// Half the side of the square kept free for a dot, in px.
+const DOT: f64 = 3.5;
+
+/// Left, top, right and bottom of a box in px.
+type Edges = [f64; 4];
+
+/// Places each label to the right, left, above or below its point, where it covers no dot and no
+/// earlier label and stays in the frame. Where that fails, only the part before a colon is tried;
+/// where that fails too, the label is left out.
+pub(crate) fn place_labels<'a>(
+    names: &[((f64, f64), &'a str)],
+    dots: &[(f64, f64)],
+    size: f64,
+    frame: Frame,
+) -> Vec<Placed<'a>> {
+    let mut occupied: Vec<Edges> =
+        dots.iter().map(|&(x, y)| [x - DOT, y - DOT, x + DOT, y + DOT]).collect();
+    let mut placed = Vec::new();
+    for &(at, text) in names {
+        let short = text.split(": ").next().unwrap_or(text);
+        let place = |text| free_place(at, text, size, frame, &occupied);
+        if let Some((edges, name)) = place(text).or_else(|| place(short)) {
+            occupied.push(edges);
+            placed.push(name);
+        }
+    }
+    placed
+}
+
+fn free_place<'a>(
+    (x, y): (f64, f64),
+    text: &'a str,
+    size: f64,
+    frame: Frame,
+    occupied: &[Edges],
+) -> Option<(Edges, Placed<'a>)> {
+    let width = estimated_width(text, size);
+    let tries = [
+        (x + 6.0, y, Anchor::Start),
+        (x - 6.0, y, Anchor::End),
+        (x, y - size, Anchor::Middle),
+        (x, y + size, Anchor::Middle),
+        (x + 6.0, y - size, Anchor::Start),
+        (x - 6.0, y - size, Anchor::End),
+        (x + 6.0, y + size, Anchor::Start),
+        (x - 6.0, y + size, Anchor::End),
+    ];
+    tries.into_iter().find_map(|(x, y, anchor)| {
+        let left = match anchor {
+            Anchor::Start => x,
+            Anchor::Middle => x - width / 2.0,
+            Anchor::End => x - width,
+        };
+        let edges = [left, y - 0.6 * size, left + width, y + 0.6 * size];
+        let [left, top, right, bottom] = edges;
+        let inside = left >= frame.x
+            && right <= frame.x + frame.width + 10.0
+            && top >= frame.y - 4.0
+            && bottom <= frame.y + frame.height;
+        let free = inside
+            && !occupied
+                .iter()
+                .any(|[l, t, r, b]: &Edges| left < *r && *l < right && top < *b && *t < bottom);
+        free.then_some((edges, Placed { at: (x, y), anchor, text }))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_do_not_overlap_and_stay_in_the_frame() {
+        let frame = Frame { x: 0.0, y: 0.0, width: 100.0, height: 50.0 };
+        let points = [((50.0, 25.0), "one"), ((51.0, 25.0), "two"), ((99.0, 5.0), "edge")];
+        let placed = place_labels(&points, &[], 10.0, frame);
+        assert_eq!(placed.len(), 3);
+        assert_eq!(placed[0].anchor, Anchor::Start);
+        assert_eq!(placed[1].anchor, Anchor::End);
+        assert_eq!(placed[2].anchor, Anchor::End);
+        let narrow = Frame { width: 50.0, ..frame };
+        let cut = place_labels(&[((40.0, 25.0), "17F: a long recipe")], &[], 10.0, narrow);
+        assert_eq!((cut[0].text, cut.len()), ("17F", 1));
+        let next_to_dot = place_labels(&points[..1], &[(60.0, 25.0)], 10.0, frame);
+        assert_eq!(next_to_dot[0].anchor, Anchor::End);
+    }
 }

@@ -24,8 +24,7 @@
 //! A single chart needs no library:
 //!
 //! ```
-//! use reports::axis::Axis;
-//! use reports::panel::{Chart, Mark, Panel};
+//! use reports::panel::{Axis, Chart, Mark, Panel};
 //! use reports::style::{CURVE, SERIES};
 //!
 //! let x = Axis::linear("Wavelength", "nm", 400.0, 700.0, 4);
@@ -42,7 +41,7 @@
 //! To add a figure:
 //!
 //! 1. compute its numbers in `calibrate`;
-//! 2. write a module here with one `pub(crate) fn section(&Subject) -> Section`: describe panels
+//! 2. write one `pub(crate) fn .._section(&Subject) -> Section` in the file of its topic: describe panels
 //!    as data ([`panel::Panel`], [`panel::Mark`]) and arrange them ([`panel::Chart`]), or draw
 //!    patches and text ([`svg::Canvas`]); then pass drawing, texts and data to
 //!    [`Subject::figure`];
@@ -56,24 +55,15 @@
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub mod style;
-pub mod lettering;
 pub mod svg;
-pub mod axis;
 pub mod panel;
-mod names;
 mod chart;
 
 #[cfg(feature = "pictures")]
 pub mod picture;
-pub mod table;
 pub mod figure;
 pub mod subject;
-pub mod page;
-mod curves;
-mod samples;
-mod residuals;
-mod errors;
-mod left_out;
+mod fit;
 mod light;
 mod palette;
 mod report;

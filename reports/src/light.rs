@@ -3,14 +3,12 @@
 
 use calibrate::quadrature::{QuadratureMethod, QuadratureTrial};
 
-use crate::axis::Axis;
-use crate::figure::{Drawing, Figure, Words};
-use crate::panel::{Chart, KeySymbol, Mark, Panel, Point};
+use crate::figure::{Cell, Column, Drawing, Figure, Table, Words};
+use crate::panel::{Axis, Chart, KeySymbol, Mark, Panel, Point};
 use crate::style::{CURVE, Color, DOT, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
-use crate::table::{Cell, Column, Table};
 
-/// Number of wavelengths of the quadrature shown; the default of `calibrate::quadrature`.
+/// Number of wavelengths of the quadrature shown. This is the default of `calibrate::quadrature`.
 const NODES: usize = 8;
 /// Name and colour of the channels X, Y and Z.
 const CHANNELS: [(&str, Color); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];

@@ -17,7 +17,6 @@ const SCALE: f32 = 2.0;
 /// # Errors
 /// [`PictureError`] if `svg` is not an SVG document, or is empty or too large to render.
 pub fn png(svg: &str) -> Result<Vec<u8>, PictureError> {
-    let error = |reason: String| PictureError { reason };
     let options = Options { fontdb: fonts(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).map_err(|cause| error(cause.to_string()))?;
     let size = tree.size().to_int_size().scale_by(SCALE);
@@ -28,20 +27,25 @@ pub fn png(svg: &str) -> Result<Vec<u8>, PictureError> {
     pixmap.encode_png().map_err(|cause| error(cause.to_string()))
 }
 
+fn error(reason: String) -> PictureError {
+    PictureError { reason }
+}
+
 fn fonts() -> Arc<Database> {
     static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
-    let load = || {
-        let mut database = Database::new();
-        for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
-            database.load_font_data(font.to_vec());
-        }
-        let first = database.faces().next().and_then(|face| face.families.first().cloned());
-        if let Some((family, _)) = first {
-            database.set_sans_serif_family(family);
-        }
-        Arc::new(database)
-    };
     Arc::clone(FONTS.get_or_init(load))
+}
+
+fn load() -> Arc<Database> {
+    let mut database = Database::new();
+    for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
+        database.load_font_data(font.to_vec());
+    }
+    let first = database.faces().next().and_then(|face| face.families.first().cloned());
+    if let Some((family, _)) = first {
+        database.set_sans_serif_family(family);
+    }
+    Arc::new(database)
 }
 
 /// A drawing that cannot be rendered.
@@ -64,19 +68,21 @@ mod tests {
 
     #[test]
     fn text_is_rendered_with_the_built_in_fonts() {
-        let svg = |text: &str| {
-            format!(
-                r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20" font-family="Nowhere,sans-serif"><text x="2" y="15" font-size="14" fill="#000000">{text}</text></svg>"##
-            )
-        };
-        let ink = |text: &str| {
-            let picture = Pixmap::decode_png(&png(&svg(text)).unwrap()).unwrap();
-            assert_eq!((picture.width(), picture.height()), (80, 40));
-            picture.pixels().iter().filter(|pixel| pixel.alpha() > 0).count()
-        };
         assert_eq!(ink(""), 0);
         // A Latin letter, and a Greek letter of the figures.
         assert!(ink("M") > 40 && ink("\u{39b}") > 20, "{} {}", ink("M"), ink("\u{39b}"));
+    }
+
+    fn ink(text: &str) -> usize {
+        let picture = Pixmap::decode_png(&png(&svg(text)).unwrap()).unwrap();
+        assert_eq!((picture.width(), picture.height()), (80, 40));
+        picture.pixels().iter().filter(|pixel| pixel.alpha() > 0).count()
+    }
+
+    fn svg(text: &str) -> String {
+        format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20" font-family="Nowhere,sans-serif"><text x="2" y="15" font-size="14" fill="#000000">{text}</text></svg>"##
+        )
     }
 
     #[test]

@@ -1,5 +1,8 @@
 //! The report: its sections, drawn in parallel, and the files made of them.
+//!
+//! The page is one HTML file that needs no other file.
 
+use std::fmt::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -8,28 +11,28 @@ use calibrate::evaluate::Summary;
 use calibrate::validation::Validation;
 use documents::name_list;
 
-#[cfg(feature = "pictures")]
-use crate::figure::Figure;
-use crate::page::{self, Head, Links, Warning};
+use crate::figure::{Cell, Column, Figure, Table};
 #[cfg(feature = "pictures")]
 use crate::picture::{PictureError, png};
-use crate::subject::{Section, Subject};
+use crate::style::{Color, PAPER, RESERVED, SERIES};
+use crate::subject::{Part, Section, Subject};
+use crate::svg::escaped;
 
 /// A function that draws a section.
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
 const SECTIONS: [Drawer; 11] = [
-    crate::samples::section,
-    crate::errors::section,
-    crate::left_out::section,
-    crate::residuals::section,
-    crate::curves::section,
-    crate::palette::mixing,
-    crate::palette::graded,
-    crate::palette::gamut,
-    crate::palette::strength,
-    crate::palette::lights,
+    crate::fit::samples_section,
+    crate::fit::errors_section,
+    crate::fit::left_out_section,
+    crate::fit::residuals_section,
+    crate::fit::curves_section,
+    crate::palette::mixing_section,
+    crate::palette::graded_section,
+    crate::palette::gamut_section,
+    crate::palette::strength_section,
+    crate::palette::lights_section,
     crate::light::section,
 ];
 
@@ -50,7 +53,6 @@ pub struct Report {
 /// The head of a report on `subject`: title, facts and warnings.
 fn head(subject: &Subject<'_>) -> Head {
     let library = subject.library;
-    let fact = |name: &str, fact: String| (name.to_owned(), fact);
     let mut facts = vec![
         fact("Pigments", library.pigments.len().to_string()),
         fact("Wavelengths", library.grid.to_string()),
@@ -95,6 +97,10 @@ fn head(subject: &Subject<'_>) -> Head {
     Head { title, facts, warnings: warnings.collect(), command }
 }
 
+fn fact(name: &str, fact: String) -> (String, String) {
+    (name.to_owned(), fact)
+}
+
 fn errors(count: usize, item: &str, errors: &Summary) -> String {
     let items = documents::counted(count, item);
     format!(
@@ -128,14 +134,14 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     resampled.into_iter().chain(absent).collect()
 }
 
-/// Draws all sections of `subject` as one HTML page, whose figures carry their numbers within: for a
-/// program without files. `step` is called [`STEPS`] times, after each section.
+/// Draws all sections of `subject` as one HTML page with the numbers inside its figures: for a program
+/// without files. `step` is called [`STEPS`] times, after each section.
 ///
 /// # Panics
 /// If a drawing thread panics.
 #[must_use]
 pub fn page_alone(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> String {
-    page::html(&head(subject), &drawn(subject, step), Links::Within)
+    html(&head(subject), &drawn(subject, step), Links::Within)
 }
 
 /// The sections that are not empty.
@@ -183,7 +189,7 @@ impl Report {
             files.push((path("png"), picture.clone()));
             files.push((path("csv"), figure.data.csv().into_bytes()));
         }
-        let page = page::html(&self.head, &self.sections, Links::Beside);
+        let page = html(&self.head, &self.sections, Links::Beside);
         files.push(("report.html".to_owned(), page.into_bytes()));
         files
     }
@@ -215,6 +221,319 @@ fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) ->
     made.into_iter().map(|(_, result)| result).collect()
 }
 
+/// Title, facts and warnings above the sections.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Head {
+    /// Title of the page.
+    pub title: String,
+    /// Name and value of each fact.
+    pub facts: Vec<(String, String)>,
+    /// Warnings that a reader should know before trusting the figures.
+    pub warnings: Vec<Warning>,
+    /// The command line that made the report.
+    pub command: String,
+}
+
+/// A warning above the sections.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// One line of text.
+    pub text: String,
+    /// Name and recipe of each sample that the text names.
+    pub recipes: Vec<(String, String)>,
+}
+
+/// Where the links below a figure lead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Links {
+    /// To the files `figures/NAME.svg`, `.png` and `.csv` beside the page.
+    Beside,
+    /// To its numbers as CSV, within the page.
+    Within,
+}
+
+/// Renders the page.
+#[must_use]
+pub(crate) fn html(head: &Head, sections: &[Section], links: Links) -> String {
+    let title = escaped(&head.title);
+    let style = style(sections);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <link rel=\"icon\" href=\"data:,\">\n\
+         <title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n"
+    );
+    out += &format!("<main>\n<header>\n<h1>{title}</h1>\n<dl>\n");
+    for (name, fact) in &head.facts {
+        out += &format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact));
+    }
+    out += "</dl>\n";
+    if !head.warnings.is_empty() {
+        out += "<details open class=\"warnings\"><summary>Not identified by the data, or inconsistent with it</summary>\n<ul>\n";
+        for warning in &head.warnings {
+            out += &format!("<li>{}{}</li>\n", escaped(&warning.text), recipes(&warning.recipes));
+        }
+        out += "</ul>\n</details>\n";
+    }
+    out += &command_html(&head.command);
+    out += "</header>\n";
+    out += &contents(sections);
+    let mut number = 0;
+    for (index, section) in sections.iter().enumerate() {
+        // Heading and first figure are on one printed page.
+        let title = escaped(&section.title);
+        out +=
+            &format!("<section id=\"s{}\">\n<div class=\"head\">\n<h2>{title}</h2>\n", index + 1);
+        for paragraph in &section.paragraphs {
+            out += &format!("<p>{}</p>\n", escaped(paragraph));
+        }
+        for (place, part) in section.parts.iter().enumerate() {
+            let figure = matches!(part, Part::Figure(_));
+            if place == 0 && !figure {
+                out += "</div>\n";
+            }
+            match part {
+                Part::Figure(figure) => {
+                    number += 1;
+                    out += &figure_html(figure, number, links);
+                }
+                Part::Table(title, table) => out += &table_html(title, table),
+            }
+            if place == 0 && figure {
+                out += "</div>\n";
+            }
+        }
+        out += if section.parts.is_empty() { "</div>\n</section>\n" } else { "</section>\n" };
+    }
+    out += "</main>\n</body>\n</html>\n";
+    out
+}
+
+/// The recipes of samples, on a line of their own.
+fn recipes(samples: &[(String, String)]) -> String {
+    if samples.is_empty() {
+        return String::new();
+    }
+    let all = samples.iter().map(|(name, recipe)| format!("{name}: {recipe}"));
+    format!(" <small>{}</small>", escaped(&all.collect::<Vec<_>>().join("; ")))
+}
+
+/// A command line, folded away.
+fn command_html(command: &str) -> String {
+    let command = escaped(command);
+    format!("<details class=\"made\"><summary>Command</summary><code>{command}</code></details>\n")
+}
+
+fn contents(sections: &[Section]) -> String {
+    let mut out = String::from("<nav aria-label=\"contents\">\n<ol>\n");
+    let mut number = 0;
+    for (index, section) in sections.iter().enumerate() {
+        out += &format!("<li><a href=\"#s{}\">{}</a>\n<ol>\n", index + 1, escaped(&section.title));
+        for figure in section.figures() {
+            number += 1;
+            let name = &figure.name;
+            let title = escaped(&figure.title);
+            out += &format!("<li><a href=\"#{name}\">{number}. {title}</a></li>\n");
+        }
+        out += "</ol></li>\n";
+    }
+    out + "</ol>\n</nav>\n"
+}
+
+fn figure_html(figure: &Figure, number: usize, links: Links) -> String {
+    let Figure { name, title, caption, command, svg, .. } = figure;
+    let [title, caption] = [title, caption].map(|text| escaped(text));
+    let files = match links {
+        Links::Beside => ["svg", "png", "csv"]
+            .map(|ending: &str| {
+                format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase())
+            })
+            .join(" "),
+        Links::Within => format!(
+            "<a download=\"{name}.csv\" href=\"data:text/csv;charset=utf-8,{}\">CSV</a>",
+            percent_encoded(&figure.data.csv())
+        ),
+    };
+    format!(
+        "<figure id=\"{name}\">\n<div class=\"drawing\" tabindex=\"0\">\n{svg}</div>\n\
+         <figcaption><b>Figure {number}. {title}.</b> {caption}\n\
+         <div class=\"made\">{}</div>\n{}</figcaption>\n</figure>\n",
+        files,
+        command_html(command)
+    )
+}
+
+/// `text` as the data of a URL.
+fn percent_encoded(text: &str) -> String {
+    let mut encoded = String::with_capacity(text.len());
+    for byte in text.bytes() {
+        match byte {
+            b'0'..=b'9' | b'A'..=b'Z' | b'a'..=b'z' | b'-' | b'.' | b'_' | b',' => {
+                encoded.push(char::from(byte));
+            }
+            _ => {
+                let _ = write!(encoded, "%{byte:02X}");
+            }
+        }
+    }
+    encoded
+}
+
+fn table_html(title: &str, table: &Table) -> String {
+    let mut out = format!(
+        "<div class=\"table\" tabindex=\"0\"><table>\n<caption>{}</caption>\n<thead><tr>",
+        escaped(title)
+    );
+    for column in &table.columns {
+        // The unit `1` of a ratio is not written.
+        let unit = column.unit.as_deref().filter(|unit| *unit != "1");
+        let unit = unit.map(|unit| format!(" <small>{}</small>", escaped(unit)));
+        let class = class(column);
+        let name = escaped(&column.name);
+        let _ = write!(out, "<th scope=\"col\"{class}>{name}{}</th>", unit.unwrap_or_default());
+    }
+    out += "</tr></thead>\n<tbody>\n";
+    for row in &table.rows {
+        out += "<tr>";
+        for (cell, column) in row.iter().zip(&table.columns) {
+            let class = class(column);
+            let _ = match cell {
+                Cell::Text(text) => write!(out, "<td{class}>{}</td>", escaped(text)),
+                Cell::Number(number) => write!(out, "<td{class}>{number:.*}</td>", column.digits),
+                Cell::Patch(color) => write!(
+                    out,
+                    "<td class=\"c\"><i class=\"patch\" style=\"background:{hex}\"></i> <code>{hex}</code></td>",
+                    hex = color.hex()
+                ),
+                Cell::Empty => write!(out, "<td{class}></td>"),
+            };
+        }
+        out += "</tr>\n";
+    }
+    out + "</tbody>\n</table></div>\n"
+}
+
+fn class(column: &Column) -> &str {
+    if column.unit.is_some() { " class=\"n\"" } else { "" }
+}
+
+/// The style sheet. On a dark screen, lines and text of figures get lighter colours.
+fn style(sections: &[Section]) -> String {
+    let mut colors: Vec<Color> =
+        sections.iter().flat_map(Section::figures).flat_map(Figure::line_colors).collect();
+    colors.sort_unstable();
+    colors.dedup();
+    let mut dark = String::new();
+    for (reserved, replacement) in RESERVED {
+        let from = reserved.hex();
+        let to = replacement.hex();
+        dark +=
+            &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
+    }
+    for color in SERIES {
+        let from = color.hex();
+        let to = color.for_dark_screen().hex();
+        dark +=
+            &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
+    }
+    for color in colors.into_iter().filter(|color| !color.is_reserved()) {
+        let from = color.hex();
+        let to = color.for_dark_screen().hex();
+        dark += &format!(
+            "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
+        );
+    }
+    let light = root(|pair| pair.0, "#0057A0");
+    let night = root(|pair| pair.1, "#7FB8F0");
+    let paper = PAPER.hex();
+    let white = Color([0xFF; 3]).hex();
+    format!(
+        "{light}\n{STYLE}\
+         @media print{{:root{{--paper:{white}}}\
+         svg [fill=\"{paper}\"]{{fill:{white}}}svg [stroke=\"{paper}\"]{{stroke:{white}}}}}\n\
+         @media screen and (prefers-color-scheme:dark){{\n\
+         {night}\nsvg text{{stroke:var(--paper)}}\n{dark}}}\n"
+    )
+}
+
+fn root(of: fn(&(Color, Color)) -> Color, link: &str) -> String {
+    let [ink, faint, grid, paper] = RESERVED.each_ref().map(|pair| of(pair).hex());
+    format!(":root{{--ink:{ink};--faint:{faint};--grid:{grid};--paper:{paper};--link:{link}}}")
+}
+
+const STYLE: &str = "\
+:root{color-scheme:light dark}
+*{box-sizing:border-box}
+body{margin:0;color:var(--ink);background:var(--paper);font:15px/1.5 Ubuntu,system-ui,sans-serif}
+a{color:var(--link)}
+nav{position:fixed;inset:0 auto 0 0;width:250px;overflow-y:auto;padding:20px 16px;border-right:1px solid var(--grid);font-size:13px;line-height:1.35}
+nav ol{list-style:none;margin:0;padding:0}
+nav>ol>li{margin:0 0 12px;font-weight:600}
+nav ol ol{font-weight:400;padding:4px 0 0 8px}
+nav li li{margin:4px 0}
+nav a{text-decoration:none}
+main{max-width:1040px;margin-left:250px;padding:20px 28px 60px;overflow-wrap:break-word}
+h1{font-size:26px;line-height:1.2;margin:0 0 12px}
+h2{font-size:20px;margin:36px 0 8px;padding-top:12px;border-top:1px solid var(--grid)}
+dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 16px;margin:0 0 16px}
+dt{color:var(--faint)}
+dd{margin:0;overflow-wrap:anywhere}
+.warnings{border-left:3px solid var(--faint);padding:2px 14px}
+summary{font-weight:600}
+.warnings ul{margin:6px 0;padding-left:18px}
+.warnings small{display:block;color:var(--faint)}
+figure{margin:18px 0 28px}
+.drawing{overflow-x:auto}
+.drawing svg{display:block;max-width:100%;height:auto}
+figcaption{max-width:960px;font-size:14px}
+.made{color:var(--faint);font-size:12px}
+.made summary{font-weight:400}
+.made a{margin-right:4px}
+code{font:12px/1.4 ui-monospace,Hack,monospace;overflow-wrap:anywhere}
+.table{overflow-x:auto;margin:18px 0}
+table{border-collapse:collapse;font-size:13.5px}
+caption{text-align:left;font-weight:600;padding-bottom:6px;white-space:nowrap}
+th,td{padding:2px 14px 2px 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
+.n+:not(.n){padding-left:10px}
+td{overflow-wrap:anywhere}
+td:first-child{min-width:6em}
+td:nth-child(2):not(.n,.c){min-width:17em}
+th{vertical-align:bottom}
+th small{display:block;font-weight:400;color:var(--faint)}
+.c{white-space:nowrap}
+.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.patch{display:inline-block;width:28px;height:13px;vertical-align:-2px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+@media (max-width:1100px){nav{position:static;width:auto;border:0;padding:0;margin:18px 0}main{margin:0}}
+@media screen and (max-width:900px){
+main{padding:14px 16px 40px}
+nav ol ol{display:none}
+nav>ol{columns:2;column-gap:14px}
+nav>ol>li{margin:0 0 8px;break-inside:avoid}
+.drawing svg{max-width:none;width:820px}
+dl{display:block}
+dd{margin:0 0 6px}
+table{width:max-content}
+td,th{max-width:22em}
+td:first-child,th:first-child{position:sticky;left:0;background:var(--paper);min-width:5em;max-width:38vw}
+}
+@media print{
+@page{margin:14mm}
+nav{display:none}
+main{margin:0;padding:0;max-width:none}
+.head,figure,tr,li{break-inside:avoid}
+h2,h2~p,caption,thead,summary{break-after:avoid}
+p{orphans:3;widows:3}
+.made{display:none}
+.drawing{overflow:visible}
+.drawing svg{max-height:200mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+body{font-size:10pt}
+table{font-size:8pt}
+th,td{padding:1px 9px 1px 0}
+.table{overflow:visible}
+.c code{display:none}
+}
+";
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -231,17 +550,16 @@ mod tests {
         let numbers = "href=\"data:text/csv;charset=utf-8,";
         assert_eq!(page.matches(numbers).count(), figures.len());
         assert!(!page.contains("href=\"figures/"), "a link to a file that is not there");
-        let decoded = |text: &str| {
-            let mut parts = text.split('%');
-            let mut bytes = parts.next().unwrap().as_bytes().to_vec();
-            for part in parts {
-                bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
-                bytes.extend_from_slice(&part.as_bytes()[2..]);
-            }
-            String::from_utf8(bytes).unwrap()
-        };
         for (figure, link) in figures.iter().zip(page.split(numbers).skip(1)) {
-            let told = decoded(link.split('"').next().unwrap());
+            let told = {
+                let mut parts = (link.split('"').next().unwrap()).split('%');
+                let mut bytes = parts.next().unwrap().as_bytes().to_vec();
+                for part in parts {
+                    bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
+                    bytes.extend_from_slice(&part.as_bytes()[2..]);
+                }
+                String::from_utf8(bytes).unwrap()
+            };
             assert_eq!(told, figure.data.csv(), "{}", figure.name);
         }
     }

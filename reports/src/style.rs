@@ -2,7 +2,7 @@
 
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
 
-/// Width of a figure in px; fits the screen of a laptop at 100 % zoom.
+/// Width of a figure in px. This fits the screen of a laptop at 100 % zoom.
 pub const WIDTH: u32 = 960;
 /// Font size of axis names and of general text, in px.
 pub const TEXT: f64 = 12.0;
@@ -16,8 +16,8 @@ pub const HAIR: f64 = 0.7;
 pub const DOT: f64 = 1.2;
 /// Opacity of a band of uncertainty, 0 to 1.
 pub const BAND: f64 = 0.25;
-/// Font families of a figure. PNG files use the first, which is built in; a page uses the first
-/// that the reader has.
+/// Font families of a figure. PNG files use the first, which is built in. A page uses the first that the
+/// reader has.
 pub const FONTS: &str = "Ubuntu,system-ui,sans-serif";
 
 /// Colour of text and frames. It and the next three are reserved: no data has exactly these

@@ -9,9 +9,8 @@ use calibrate::validation::Validation;
 use calibrate::{PigmentId, Recipe};
 use spectra::{InterpolateError, TristimulusWeights};
 
-use crate::figure::{Drawing, Figure, Words};
+use crate::figure::{Drawing, Figure, Table, Words};
 use crate::style::Color;
-use crate::table::Table;
 
 /// The input of a report: a library, the viewing condition, and its comparison with
 /// measurements.
@@ -25,15 +24,15 @@ pub struct Subject<'a> {
     pub weights: TristimulusWeights,
     /// The command line that makes the report, printed with each figure.
     pub command: String,
-    /// Measured and predicted films; `None` without measurements.
+    /// Measured and predicted films, or `None` without measurements.
     pub comparison: Option<Comparison>,
-    /// Leave-one-out validation of mixtures; `None` if not requested or not possible.
+    /// Leave-one-out validation of mixtures, or `None` if not requested or not possible.
     pub validation: Option<Validation>,
     /// Black and white card under the films.
     pub cards: Cards,
     /// Quadratures of a few wavelengths for `viewing`, by method and number of wavelengths.
     pub quadratures: Vec<QuadratureTrial>,
-    /// The pigments of the graded mixture; `None` to choose pairs from the library.
+    /// The pigments of the graded mixture, or `None` to choose pairs from the library.
     pub pair: Option<(PigmentId, PigmentId)>,
 }
 
@@ -169,7 +168,7 @@ impl Subject<'_> {
         }
     }
 
-    /// A sample's name, with a star if its recipe has a pigment whose K and S are not measured.
+    /// A sample's name, with a star if its recipe has a pigment without measured K and S.
     #[must_use]
     pub fn sample(&self, film: &ComparedFilm) -> String {
         format!("{}{}", film.sample, if film.unsure { "*" } else { "" })
@@ -226,11 +225,14 @@ impl Subject<'_> {
 
 /// Where `text` has `word` as a whole word.
 fn word_at(text: &str, word: &str) -> Option<usize> {
-    let ends = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let mut places = text.match_indices(word).map(|(at, _)| at);
     places.find(|at| {
         ends(text[..*at].chars().next_back()) && ends(text[at + word.len()..].chars().next())
     })
+}
+
+fn ends(c: Option<char>) -> bool {
+    c.is_none_or(|c| !c.is_alphanumeric())
 }
 
 /// `value` rounded to three significant digits.

@@ -1,12 +1,11 @@
 //! The correlated colour temperature of a light.
 
-use crate::black_body::black_body;
 use crate::color::Xyz;
 use crate::grid::Grid;
-use crate::illuminant::Illuminant;
-use crate::integrate::TristimulusWeights;
+use crate::illuminant::{Illuminant, Observer};
 use crate::interpolate::Interpolation;
-use crate::observer::Observer;
+use crate::light::black_body;
+use crate::viewing::TristimulusWeights;
 
 /// The correlated colour temperature of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +26,9 @@ const MIREDS: (f64, f64) = (20.0, 1000.0);
 const STEPS: usize = 49;
 
 impl ColorTemperature {
-    /// The correlated colour temperature of `light`: that of the nearest black body in CIE 1960
-    /// (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). `None` if the nearest is
-    /// farther than 0.05, or outside 1000 to 50000 K.
+    /// The correlated colour temperature of `light`: the temperature of the nearest black body in CIE 1960
+    /// (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). `None` if the nearest is farther than
+    /// 0.05, or outside 1000 to 50000 K.
     ///
     /// ```
     /// let light = spectra::Illuminant::named("A").unwrap();
@@ -39,14 +38,11 @@ impl ColorTemperature {
     #[must_use]
     pub fn of(light: &Illuminant) -> Option<Self> {
         let [u, v] = uv(light);
-        let away = |mired: f64| {
-            let body = black_body(1e6 / mired).expect("the search stays above 500 K");
-            let [u_body, v_body] = uv(&body);
-            ((u - u_body).hypot(v - v_body), v - v_body)
-        };
         let width = (MIREDS.1 - MIREDS.0) / STEPS as f64;
         let at = |step: usize| MIREDS.0 + step as f64 * width;
-        let nearest = (0..=STEPS).min_by(|&a, &b| away(at(a)).0.total_cmp(&away(at(b)).0))?;
+        let nearest = (0..=STEPS).min_by(|&a, &b| {
+            distance_from_body(u, v, at(a)).0.total_cmp(&distance_from_body(u, v, at(b)).0)
+        })?;
         let mut low = at(nearest.max(1) - 1);
         let mut high = at((nearest + 1).min(STEPS));
         // Golden-section search: the distance has one minimum between the neighbours.
@@ -54,14 +50,24 @@ impl ColorTemperature {
         while high - low > 1e-3 {
             let left = high - golden * (high - low);
             let right = low + golden * (high - low);
-            if away(left).0 < away(right).0 { high = right } else { low = left }
+            if distance_from_body(u, v, left).0 < distance_from_body(u, v, right).0 {
+                high = right;
+            } else {
+                low = left;
+            }
         }
         let mired = 0.5 * (low + high);
         let inside = mired - MIREDS.0 > 2e-3 && MIREDS.1 - mired > 2e-3;
-        let (distance, above) = away(mired);
+        let (distance, above) = distance_from_body(u, v, mired);
         (inside && distance <= FARTHEST)
             .then(|| Self { kelvin: 1e6 / mired, duv: distance.copysign(above) })
     }
+}
+
+fn distance_from_body(u: f64, v: f64, mired: f64) -> (f64, f64) {
+    let body = black_body(1e6 / mired).expect("the search stays above 500 K");
+    let [u_body, v_body] = uv(&body);
+    ((u - u_body).hypot(v - v_body), v - v_body)
 }
 
 /// CIE 1960 (u, v) of the white point of a light, for the observer of 1931.

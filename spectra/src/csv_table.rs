@@ -8,7 +8,7 @@ use documents::counted;
 pub struct CellPlace {
     /// Path of the file, as the user gave it.
     pub file: String,
-    /// Row number from 1; the header is row 1.
+    /// Row number from 1. The header is row 1.
     pub row: u64,
     /// Heading of the column.
     pub column: String,
@@ -59,7 +59,7 @@ impl std::fmt::Display for CellPlace {
 #[derive(Debug)]
 pub struct RowNumbers<'a> {
     bytes: &'a [u8],
-    /// Bytes whose lines are counted already.
+    /// The lines in this many first bytes are counted already.
     counted: usize,
     row: u64,
 }
@@ -71,7 +71,7 @@ impl<'a> RowNumbers<'a> {
         Self { bytes, counted: 0, row: 1 }
     }
 
-    /// Row of the record that the parser found at `offset` bytes; offsets must not fall.
+    /// Row of the record that the parser found at `offset` bytes. Offsets must not fall.
     pub fn at(&mut self, offset: u64) -> u64 {
         let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.bytes.len());
         let blank = self.bytes[offset..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
@@ -100,7 +100,7 @@ pub enum CsvTableError {
         /// Heading of the missing column.
         column: &'static str,
     },
-    /// The number of cells in a row differs from that of the header.
+    /// A row and the header differ in the number of cells.
     #[error("{file}, row {row}: expected {}, found `{found}`", counted(*wanted, "cell"))]
     RowLength {
         /// Path of the file.
@@ -124,7 +124,7 @@ pub enum CsvTableError {
     },
 }
 
-/// Words that stand beside a wavelength in headings of instruments and spreadsheets.
+/// Words next to a wavelength in headings of instruments and spreadsheets.
 const WORDS: [&str; 18] = [
     "nm",
     "nanometer",

@@ -1,13 +1,16 @@
-//! Illuminants: the tables of the CIE, and the common form of all lights.
+//! Illuminants and standard observers of the CIE, read from the tables in `data`.
+//!
+//! [`Illuminant`] is also the common form of all other lights.
 
 use std::sync::OnceLock;
 
+use documents::hint::Explain;
+
 use crate::grid::Grid;
 use crate::interpolate::Extrapolation;
-use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
-use crate::spectrum::{Power, Spectrum, SpectrumError};
-use crate::table;
-use documents::hint::{Explain, Hint};
+use crate::spectrum::{
+    IrregularSpectrum, IrregularSpectrumError, Power, Response, Spectrum, SpectrumError,
+};
 
 /// A light: its name and its relative spectral power at 1 nm on [`Grid::cie`].
 ///
@@ -33,7 +36,7 @@ impl Illuminant {
             .skip(1)
             .find(|(known, _)| known.eq_ignore_ascii_case(name))
             .ok_or_else(|| IlluminantError::Unknown { name: name.to_owned() })?;
-        let (nm, values) = table::filled(tables, known).expect("the column was just found");
+        let (nm, values) = filled(tables, known).expect("the column was just found");
         Self::from_samples(known, &IrregularSpectrum::new(nm, values)?)
     }
 
@@ -84,14 +87,15 @@ impl Illuminant {
 
 fn tables() -> &'static [(String, Vec<Option<f64>>)] {
     static TABLES: OnceLock<Vec<(String, Vec<Option<f64>>)>> = OnceLock::new();
-    TABLES.get_or_init(|| table::columns(include_str!("../data/illuminants.csv")))
+    TABLES.get_or_init(|| columns(include_str!("../data/illuminants.csv")))
 }
 
 /// A light that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum IlluminantError {
     /// The illuminant name is not in the table.
     #[error("no CIE illuminant is called `{name}`")]
+    #[hint("use a name such as D65, A, FL11 or LED-B3")]
     Unknown {
         /// The name that was given.
         name: String,
@@ -100,6 +104,7 @@ pub enum IlluminantError {
     #[error(
         "daylight is defined from 4000 to 25000 K, a black body here from 500 K, found `{kelvin}`"
     )]
+    #[hint("daylight is defined from D4000K to D25000K, a black body from 500K")]
     Temperature {
         /// The temperature in K.
         kelvin: f64,
@@ -118,17 +123,120 @@ pub enum IlluminantError {
     Power(#[from] SpectrumError),
 }
 
-impl Explain for IlluminantError {
-    fn hint(&self) -> Option<Hint> {
-        let sentence = match self {
-            Self::Temperature { .. } => {
-                "daylight is defined from D4000K to D25000K, a black body from 500K"
-            }
-            Self::Unknown { .. } => "use a name such as D65, A, FL11 or LED-B3",
-            Self::IrregularSpectrum(error) => return error.hint(),
-            Self::Power(error) => return error.hint(),
-            Self::Dark { .. } => return None,
-        };
-        Some(Hint::new(sentence))
+/// The columns of a CSV with their headings. Empty cells are `None`.
+pub(crate) fn columns(text: &str) -> Vec<(String, Vec<Option<f64>>)> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let headers = reader.headers().expect("a shipped table has headers").clone();
+    let mut columns: Vec<(String, Vec<Option<f64>>)> =
+        headers.iter().map(|name| (name.to_owned(), Vec::new())).collect();
+    for record in reader.records() {
+        let record = record.expect("a shipped table has rows of one length");
+        for (column, cell) in columns.iter_mut().zip(&record) {
+            column.1.push(
+                (!cell.is_empty()).then(|| cell.parse().expect("a shipped cell is a number")),
+            );
+        }
     }
+    columns
+}
+
+/// The wavelengths and values of the filled cells in the column `name`. The first column holds the
+/// wavelengths.
+pub(crate) fn filled(
+    columns: &[(String, Vec<Option<f64>>)],
+    name: &str,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let nm = &columns.first()?.1;
+    let values = &columns.iter().skip(1).find(|(header, _)| header == name)?.1;
+    Some(nm.iter().zip(values).filter_map(|(nm, value)| Some(((*nm)?, (*value)?))).unzip())
+}
+
+/// A set of colour-matching functions at 1 nm.
+///
+/// Outside the tabulated band the functions are 0. Sources and licences: `data/SOURCES.md`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Observer {
+    /// CIE 1931, 2 degrees (ISO/CIE 11664-1).
+    #[default]
+    Cie1931Deg2,
+    /// CIE 1964, 10 degrees (ISO/CIE 11664-1).
+    Cie1964Deg10,
+    /// CIE 2015, cone-fundamental-based, 2 degrees (CIE 170-2:2015).
+    Cie2015Deg2,
+    /// CIE 2015, cone-fundamental-based, 10 degrees (CIE 170-2:2015).
+    Cie2015Deg10,
+}
+
+impl Observer {
+    /// All observers, by year and field of view.
+    pub const ALL: [Self; 4] =
+        [Self::Cie1931Deg2, Self::Cie1964Deg10, Self::Cie2015Deg2, Self::Cie2015Deg10];
+
+    /// Name of the observer in files and settings.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cie1931Deg2 => "1931-2",
+            Self::Cie1964Deg10 => "1964-10",
+            Self::Cie2015Deg2 => "2015-2",
+            Self::Cie2015Deg10 => "2015-10",
+        }
+    }
+
+    /// The observer with the given name. `2` and `10` are the observers of 1931 and 1964.
+    ///
+    /// # Errors
+    /// [`ObserverError`] lists the names in its message.
+    pub fn named(name: &str) -> Result<Self, ObserverError> {
+        match name {
+            "2" => Ok(Self::Cie1931Deg2),
+            "10" => Ok(Self::Cie1964Deg10),
+            _ => Self::ALL
+                .into_iter()
+                .find(|observer| observer.name() == name)
+                .ok_or_else(|| ObserverError { name: name.to_owned() }),
+        }
+    }
+
+    /// The colour-matching functions x, y and z (with a bar) on [`Grid::cie`].
+    #[must_use]
+    pub fn functions(self) -> &'static [Spectrum<Response>; 3] {
+        static TABLES: [OnceLock<[Spectrum<Response>; 3]>; 4] = [const { OnceLock::new() }; 4];
+        TABLES[self as usize].get_or_init(|| self.read_table())
+    }
+
+    fn read_table(self) -> [Spectrum<Response>; 3] {
+        let columns = columns(match self {
+            Self::Cie1931Deg2 => include_str!("../data/observers/cie-1931-2.csv"),
+            Self::Cie1964Deg10 => include_str!("../data/observers/cie-1964-10.csv"),
+            Self::Cie2015Deg2 => include_str!("../data/observers/cie-2015-2.csv"),
+            Self::Cie2015Deg10 => include_str!("../data/observers/cie-2015-10.csv"),
+        });
+        ["x", "y", "z"].map(|name| {
+            let (nm, tabulated) =
+                filled(&columns, name).expect("a shipped observer has x, y and z");
+            let grid = Grid::cie();
+            let mut values = vec![0.0; grid.count()];
+            for (nm, value) in nm.iter().zip(tabulated) {
+                // The tables are given at whole nanometres inside this band.
+                values[(nm - grid.start_nm()) as usize] = value;
+            }
+            Spectrum::new(grid, values).expect("a shipped observer is finite")
+        })
+    }
+}
+
+impl std::fmt::Display for Observer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// An unknown name of an observer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[fault(Setting)]
+#[error("observers are 1931-2 (or 2), 1964-10 (or 10), 2015-2 and 2015-10, found `{name}`")]
+pub struct ObserverError {
+    /// The name that was given.
+    pub name: String,
 }

@@ -34,46 +34,33 @@
 //! reflectance factor does not separate.
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
-
-mod wavelength;
 mod grid;
 mod interpolate;
 mod spectrum;
-mod spline;
-mod irregular;
 pub mod csv_table;
 pub mod instrument;
 pub mod referencing;
-mod table;
-mod observer;
 mod illuminant;
-mod daylight;
-mod black_body;
-mod lamp;
 mod light;
 pub mod color;
-mod integrate;
 mod viewing;
 mod color_temperature;
 mod color_rendering;
 pub mod swatch_file;
 pub mod optics;
 
-pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
 pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};
 pub use color_temperature::ColorTemperature;
-pub use daylight::{daylight, daylight_chromaticity};
-pub use grid::{Grid, GridError};
-pub use illuminant::{Illuminant, IlluminantError};
+pub use grid::{Grid, GridError, Wavelength, WavelengthError};
+pub use illuminant::{Illuminant, IlluminantError, Observer, ObserverError};
 pub use instrument::{open as read_spectra, open_spectrum as read_spectrum};
-pub use integrate::TristimulusWeights;
 pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
-pub use irregular::{IrregularSpectrum, IrregularSpectrumError};
-pub use lamp::{LampError, lamp_from_bytes};
-pub use light::{LightError, light_from_text};
-pub use observer::{Observer, ObserverError};
-pub use spectrum::{
-    Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,
+pub use light::{
+    LampError, LightError, SECOND_RADIATION_CONSTANT, black_body, daylight, daylight_chromaticity,
+    lamp_from_bytes, light_from_text,
 };
-pub use viewing::{Viewing, ViewingError};
-pub use wavelength::{Wavelength, WavelengthError};
+pub use spectrum::{
+    Absorption, IrregularSpectrum, IrregularSpectrumError, Power, Quantity, Reflectance, Response,
+    Scattering, Spectrum, SpectrumError,
+};
+pub use viewing::{TristimulusWeights, Viewing, ViewingError};

@@ -1,14 +1,21 @@
-//! Lights as text.
+//! Lights by name, temperature or file: daylight of any correlated colour temperature, black-body radiators
+//! (Planck's law), and lamps measured by an instrument.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
-use crate::black_body::black_body;
-use crate::daylight::daylight;
-use crate::illuminant::{Illuminant, IlluminantError};
-use crate::instrument::{bytes_of, split_file_and_name, split_file_and_sheet};
-use crate::lamp::{LampError, lamp_from_bytes};
 use documents::file::{self, FileError};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
+
+use crate::grid::Grid;
+use crate::illuminant;
+use crate::illuminant::{Illuminant, IlluminantError};
+use crate::instrument::{
+    ChoiceError, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum, bytes_of,
+    choose_spectrum, read, split_file_and_name, split_file_and_sheet,
+};
+use crate::interpolate::Extrapolation;
+use crate::spectrum::IrregularSpectrum;
 
 /// Returns the light that `text` names.
 ///
@@ -46,10 +53,16 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
 }
 
 /// A text that does not name a light.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum LightError {
     /// The text is neither a name, a temperature nor the path of a file.
     #[error("neither a CIE illuminant, a temperature nor a file of a lamp: `{text}`")]
+    #[hint(
+        verbatim,
+        "{}use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
+        did_you_mean(text)
+    )]
+    #[fault(Setting)]
     Unknown {
         /// The text that was given.
         text: String,
@@ -62,11 +75,12 @@ pub enum LightError {
     Lamp(#[from] LampError),
     /// The temperature is outside the defined range.
     #[error(transparent)]
+    #[fault(Setting)]
     Illuminant(#[from] IlluminantError),
 }
 
-/// Names of lights that trade and older tables use, with those of the CIE or temperatures. TL84, TL83,
-/// CWF and the like are lamps of viewing booths; the lamp U35 has 3500 K, between FL12 and FL11.
+/// Names of lights in trade and older tables, each with its CIE name or temperature. TL84, TL83, CWF and the
+/// like are lamps of viewing booths. The lamp U35 has 3500 K, between FL12 and FL11.
 const OTHER_NAMES: [(&str, &str); 15] = [
     ("TL84", "FL11"),
     ("TL83", "FL12"),
@@ -96,7 +110,7 @@ fn did_you_mean(text: &str) -> String {
         return format!("did you mean {kelvin}K{daylight}{d65}? ");
     }
     let known = OTHER_NAMES.iter().find(|(other, _)| *other == letters);
-    // A path is no name.
+    // A path is not a name.
     let is_name = !text.contains(['/', '\\', '.', '#']);
     // F1 to F12 are FL1 to FL12 since CIE 15:2018.
     let fluorescent = letters.strip_prefix('F').map(|number| format!("FL{number}"));
@@ -110,26 +124,215 @@ fn did_you_mean(text: &str) -> String {
     question.map_or_else(String::new, |question| question + " ")
 }
 
-impl Explain for LightError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Unknown { text } => Some(Hint::verbatim(
-                did_you_mean(text)
-                    + "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
-            )),
-            Self::Illuminant(error) => error.hint(),
-            Self::Lamp(error) => error.hint(),
-            Self::File(error) => error.hint(),
-        }
-    }
+/// Negative power down to minus this fraction of the peak counts as noise of the spectrometer
+/// (chosen by eye).
+const NEGATIVE_NOISE: f64 = 0.01;
 
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Lamp(error) => error.fault(),
-            Self::Unknown { .. } | Self::Illuminant(_) => Fault::Setting,
+/// Band in nm that a lamp must be measured in: it holds nearly all of the luminance and chroma.
+const NEEDED_NM: [f64; 2] = [420.0, 680.0];
+
+/// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
+/// `nm, power`. The format is detected from the content.
+///
+/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more. Outside them the
+/// end values are held. From
+/// 360 to 830 nm negative power down to -1 % of the peak is set to 0 as noise. `spectrum`
+/// selects one of several spectra by name. The light is called `file`, or `file#spectrum`.
+///
+/// # Errors
+/// [`LampError`] if the file is faulty or does not hold exactly one such spectrum of power.
+///
+/// ```
+/// let lamp = spectra::lamp_from_bytes("desk.csv", b"nm,power\n400,1\n700,3\n", None).unwrap();
+/// assert_eq!(lamp.name(), "desk.csv");
+/// ```
+pub fn lamp_from_bytes(
+    file: &str,
+    bytes: &[u8],
+    spectrum: Option<&str>,
+) -> Result<Illuminant, LampError> {
+    let spectra = match read(file, bytes, None) {
+        // Very short files are not recognised as columns. Reading them as such gives a better
+        // error.
+        Err(InstrumentError::Unrecognised { .. }) => read(file, bytes, Some(Format::Columns)),
+        known => known,
+    }?
+    .spectra;
+    let measured = choose_spectrum(file, &spectra, spectrum)?;
+    let name = spectrum.map_or_else(|| file.to_owned(), |spectrum| format!("{file}#{spectrum}"));
+    Ok(Illuminant::from_samples(&name, &power(file, measured)?)?)
+}
+
+fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
+    let file = file.to_owned();
+    let name = measured.name.clone();
+    let found = match measured.quantity {
+        MeasuredQuantity::Unstated if measured.is_relative_to_white() => {
+            MeasuredQuantity::Reflectance
         }
+        stated => stated,
+    };
+    if !matches!(found, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
+        return Err(LampError::Quantity { file, name, found });
     }
+    let nm = &measured.wavelengths_nm;
+    if nm.len() < 2 {
+        return Err(LampError::TooShort { file, count: nm.len() });
+    }
+    let start_nm = nm[0];
+    let end_nm = nm[nm.len() - 1];
+    let band = Grid::cie();
+    let within = || nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
+    let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));
+    if let Some((&nm, &power)) = within().find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
+        return Err(LampError::Power { file, name, nm, power });
+    }
+    if start_nm > NEEDED_NM[0] || end_nm < NEEDED_NM[1] {
+        return Err(LampError::Band { file, start_nm, end_nm });
+    }
+    let values = measured.values.iter().map(|power| power.max(0.0)).collect();
+    Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
+}
+
+/// The file of a lamp that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum LampError {
+    /// The file cannot be read as any format.
+    #[error(transparent)]
+    #[hint(
+        if matches!(_0, InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. }),
+        "a lamp is a file of an instrument, or two columns `nm,power`"
+    )]
+    #[hint(inner)]
+    Instrument(#[from] InstrumentError),
+    /// The file has several spectra and none is selected, or none of the selected name.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+    /// The spectrum is not of a light.
+    #[error("{file}: `{name}` must be the power of a lamp, found `{found}`")]
+    #[hint(
+        if *found == MeasuredQuantity::Counts,
+        "counts hold the detector's own response: export irradiance, radiance or power"
+    )]
+    #[hint(
+        "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
+    )]
+    Quantity {
+        /// Path of the file.
+        file: String,
+        /// Name of the spectrum.
+        name: String,
+        /// Quantity of the spectrum.
+        found: MeasuredQuantity,
+    },
+    /// A power is negative by more than noise.
+    #[error("{file}: power of `{name}` at {nm} nm must be 0 and up, found `{power}`")]
+    #[hint("only noise down to -1 % of the peak is taken as 0: measure again, or cut the file")]
+    Power {
+        /// Path of the file.
+        file: String,
+        /// Name of the spectrum.
+        name: String,
+        /// Wavelength in nm.
+        nm: f64,
+        /// Power at the wavelength, in the unit of the file.
+        power: f64,
+    },
+    /// The spectrum has fewer than two wavelengths.
+    #[error("{file}: a lamp needs at least 2 wavelengths, found `{count}`")]
+    TooShort {
+        /// Path of the file.
+        file: String,
+        /// Number of wavelengths.
+        count: usize,
+    },
+    /// Much of the visible band is not measured. The file may use another unit.
+    #[error(
+        "{file}: a lamp must be measured from {} to {} nm or beyond, found `{start_nm}` to `{end_nm}` nm", NEEDED_NM[0], NEEDED_NM[1]
+    )]
+    #[hint("wavelengths are in nm; only beyond this band are the end values of a file held")]
+    Band {
+        /// Path of the file.
+        file: String,
+        /// First wavelength in nm.
+        start_nm: f64,
+        /// Last wavelength in nm.
+        end_nm: f64,
+    },
+    /// The values do not form a light.
+    #[error(transparent)]
+    Light(#[from] IlluminantError),
+}
+
+/// CIE daylight of the correlated colour temperature `kelvin`, 4000 to 25000.
+///
+/// CIE 15:2018, section 4.1.2: the chromaticity gives the weights M1 and M2 of the three
+/// tabulated components. They are not rounded to three places here, as the CIE does for the
+/// tabulated D50 to D75 (see [`Illuminant::named`]). The temperature is on the present scale,
+/// on which D65 has 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
+///
+/// # Errors
+/// [`IlluminantError::Temperature`] outside 4000 to 25000 K, where the CIE does not define
+/// daylight.
+pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
+    let name = format!("daylight {kelvin} K");
+    if !(4000.0..=25000.0).contains(&kelvin) {
+        return Err(IlluminantError::Temperature { kelvin });
+    }
+    let (x, y) = daylight_chromaticity(kelvin);
+    let m = 0.0241 + 0.2562 * x - 0.7341 * y;
+    let m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / m;
+    let m2 = (0.0300 - 31.4424 * x + 30.0717 * y) / m;
+    let [s0, s1, s2] = components();
+    Illuminant::from_function(&name, |nm| {
+        let [s0, s1, s2] =
+            [s0, s1, s2].map(|s| s.at_linear(nm, Extrapolation::Hold).unwrap_or(0.0));
+        (s0 + m1 * s1 + m2 * s2).max(0.0)
+    })
+}
+
+/// CIE 1931 chromaticity (x, y) of daylight of temperature `kelvin` (CIE 15:2018, equations 4.1
+/// to 4.3). Valid from 4000 to 25000 K.
+#[must_use]
+pub fn daylight_chromaticity(kelvin: f64) -> (f64, f64) {
+    let t = 1000.0 / kelvin;
+    let x = if kelvin <= 7000.0 {
+        ((-4.6070 * t + 2.9678) * t + 0.09911) * t + 0.244063
+    } else {
+        ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040
+    };
+    (x, -3.0 * x * x + 2.87 * x - 0.275)
+}
+
+fn components() -> &'static [IrregularSpectrum; 3] {
+    static TABLE: OnceLock<[IrregularSpectrum; 3]> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let columns = illuminant::columns(include_str!("../data/daylight-components.csv"));
+        ["S0", "S1", "S2"].map(|name| {
+            let (nm, values) = illuminant::filled(&columns, name).expect("a shipped component");
+            IrregularSpectrum::new(nm, values).expect("shipped wavelengths rise")
+        })
+    })
+}
+
+/// The second radiation constant c2 in m K, with the value of CIE 15:2018, section 4.1.1
+/// (ITS-90). The exact SI value, 0.014387769, differs by 2 parts in a million.
+pub const SECOND_RADIATION_CONSTANT: f64 = 1.4388e-2;
+
+/// A black body of temperature `kelvin`, with relative power 100 at 560 nm. The "5600 K bulb"
+/// of Baxter, Wendt and Lin 2004 is `black_body(5600.0)`.
+///
+/// # Errors
+/// [`IlluminantError::Temperature`] unless the temperature is finite and at least 500 K (below,
+/// the visible power underflows double precision).
+pub fn black_body(kelvin: f64) -> Result<Illuminant, IlluminantError> {
+    let name = format!("black body {kelvin} K");
+    if !(kelvin.is_finite() && kelvin >= 500.0) {
+        return Err(IlluminantError::Temperature { kelvin });
+    }
+    let planck =
+        |nm: f64| nm.powi(-5) / (SECOND_RADIATION_CONSTANT / (nm * 1e-9 * kelvin)).exp_m1();
+    Illuminant::from_function(&name, |nm| 100.0 * planck(nm) / planck(560.0))
 }
 
 #[cfg(test)]
@@ -138,7 +341,6 @@ mod tests {
 
     #[test]
     fn names_of_trade_and_bare_temperatures_are_understood() {
-        let question = |text: &str| light_from_text(text).unwrap_err().hint().unwrap().to_string();
         for (text, wanted) in [
             ("F11", "did you mean FL11? use"),
             ("TL84", "did you mean FL11? use"),
@@ -153,13 +355,110 @@ mod tests {
             ("no/such/lamp.csv", "use a name"),
             ("./LED-B3", "use a name"),
         ] {
-            assert!(question(text).starts_with(wanted), "{text}: {}", question(text));
+            assert!(hint_of(text).starts_with(wanted), "{text}: {}", hint_of(text));
         }
         // There is no FL13.
-        assert!(!question("F13").contains("FL13"), "{}", question("F13"));
+        assert!(!hint_of("F13").contains("FL13"), "{}", hint_of("F13"));
         for (other, name) in OTHER_NAMES {
             assert!(light_from_text(name).is_ok(), "{name}");
-            assert!(question(other).starts_with(&format!("did you mean {name}? ")), "{other}");
+            assert!(hint_of(other).starts_with(&format!("did you mean {name}? ")), "{other}");
+        }
+    }
+
+    fn hint_of(text: &str) -> String {
+        light_from_text(text).unwrap_err().hint().unwrap().to_string()
+    }
+
+    fn lamp(text: &str) -> Result<Illuminant, LampError> {
+        lamp_from_bytes("l", text.as_bytes(), None)
+    }
+
+    fn at(lamp: &Illuminant, nm: usize) -> f64 {
+        lamp.power().values()[nm - 360]
+    }
+
+    #[test]
+    fn two_columns_with_header_and_comments_are_read() {
+        for text in [
+            "# lamp\nnm;power\n400;1\n500;2\n700;4\n",
+            "nm\tpower\n400\t1\n500\t2\n700\t4\n",
+            "400 , 1\n500 , 2\n700 , 4\n",
+            "700,4\n500,2\n400,1\n",
+        ] {
+            let lamp = lamp(text).unwrap();
+            let found = [360, 450, 600, 800].map(|nm| at(&lamp, nm));
+            assert_eq!(found, [1.0, 1.5, 3.0, 4.0], "{text}");
+        }
+    }
+
+    #[test]
+    fn faults_name_the_line() {
+        for (text, line) in
+            [("400,1\n390,2\n420,1\n", 3), ("400,1\n410,x\n", 2), ("400,1\n400\n", 2)]
+        {
+            let error = lamp(text).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("l, line {line}: ")), "{error}");
+        }
+        assert!(matches!(lamp("400,1\n"), Err(LampError::TooShort { count: 1, .. })));
+        let prose = lamp("dear reader\n").unwrap_err();
+        assert!(prose.hint().is_some_and(|hint| hint.to_string().contains("nm,power")), "{prose}");
+    }
+
+    #[test]
+    fn negative_noise_is_set_to_zero_and_more_is_refused() {
+        let noisy = lamp("350,-50\n400,-0.9\n500,100\n700,50\n").unwrap();
+        assert_eq!((at(&noisy, 400), at(&noisy, 500)), (0.0, 100.0));
+        let refused = lamp("400,-1.1\n500,100\n").unwrap_err().to_string();
+        assert_eq!(refused, "l: power of `l` at 400 nm must be 0 and up, found `-1.1`");
+    }
+
+    #[test]
+    fn one_of_several_spectra_is_selected_by_name() {
+        let text = b"nm;desk;shop\n400;1;3\n700;2;6\n";
+        let error = lamp_from_bytes("l", text, None).unwrap_err();
+        assert_eq!(error.hint().unwrap().to_string(), "name one: \"l#desk\" or \"#shop\"");
+        let shop = lamp_from_bytes("l", text, Some("shop")).unwrap();
+        assert_eq!((at(&shop, 400), shop.name()), (3.0, "l#shop"));
+        let error = lamp_from_bytes("l", text, Some("hall")).unwrap_err();
+        assert_eq!(error.hint().unwrap().to_string(), "spectra: desk, shop");
+    }
+
+    #[test]
+    fn other_quantities_than_power_are_refused() {
+        for (heading, word) in [("reflectance", "radiance"), ("counts", "export irradiance")] {
+            let error = lamp(&format!("nm,{heading}\n400,1\n500,2\n")).unwrap_err();
+            assert!(error.to_string().contains(heading), "{error}");
+            assert!(error.hint().is_some_and(|hint| hint.to_string().contains(word)), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_lamp_that_is_not_measured_in_the_visible_band_is_refused() {
+        for text in [
+            "500,1\n510,1\n",
+            "801,1\n2499,1\n",
+            "300,1\n380,2\n",
+            "430,1\n700,1\n",
+            "400,1\n670,1\n",
+        ] {
+            let refused = lamp(text).unwrap_err();
+            assert!(matches!(refused, LampError::Band { .. }), "{text}: {refused}");
+            assert!(refused.to_string().contains("420 to 680 nm"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn readings_relative_to_a_white_are_no_lamp() {
+        let processed = "SpectraSuite Data File\nReference Spectrum Present: Yes\n\
+            Number of Pixels in Processed Spectrum: 2\n>>>>>Begin Processed Spectral Data<<<<<\n\
+            400\t50\n700\t60\n";
+        let table = "BEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_PCT400 SPECTRAL_PCT700\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nA 40 50\nEND_DATA\n";
+        let printed = "CTI3\nDEVICE_CLASS \"OUTPUT\"\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPEC_400 SPEC_700\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nA 40 50\nEND_DATA\n";
+        for text in [processed, table, printed, "nm,%R\n400,50\n700,60\n"] {
+            let refused = lamp(text).unwrap_err().to_string();
+            assert!(refused.contains("found `reflectance`"), "{text}: {refused}");
         }
     }
 }

@@ -1,11 +1,12 @@
-//! Spectra with a physical quantity as their type.
+//! Spectra with a physical quantity as their type, on a regular grid or at irregular wavelengths.
 
 use std::marker::PhantomData;
 
-use crate::grid::Grid;
-use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
 use documents::counted;
 use documents::hint::Explain;
+
+use crate::grid::{Grid, Wavelength, WavelengthError};
+use crate::interpolate::{Extrapolation, InterpolateError, Interpolation, Spline};
 
 /// A physical quantity over wavelength, with its range of valid values.
 pub trait Quantity: Copy + std::fmt::Debug + PartialEq {
@@ -41,11 +42,11 @@ macro_rules! quantity {
 
 quantity!(
     /// Reflectance factor as a fraction. Values above 1 are valid (fluorescence, or a reading
-    /// relative to a darker white); values above 2 are taken for percent and refused.
+    /// relative to a darker white). Values above 2 are taken for percent and refused.
     Reflectance, "reflectance", 0.0, 2.0, "0 to 2"
 );
 quantity!(
-    /// Relative spectral power of a light, in any unit; not negative.
+    /// Relative spectral power of a light, in any unit, not negative.
     Power, "power", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
@@ -124,8 +125,8 @@ impl<Q: Quantity> Spectrum<Q> {
         Ok(method.row(self.grid, nm, ends)?.apply(&self.values))
     }
 
-    /// Resamples the spectrum to another grid. Interpolated values outside the valid range
-    /// (such as a reflectance below 0, where the polynomial overshoots) are clipped.
+    /// Resamples the spectrum to another grid. Interpolated values outside the valid range (for example a
+    /// reflectance below 0, where the polynomial overshoots) are clipped.
     ///
     /// # Errors
     /// [`InterpolateError`] in the cases of [`Spectrum::at`].
@@ -144,7 +145,7 @@ impl<Q: Quantity> Spectrum<Q> {
 }
 
 /// Values that do not form a spectrum.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum SpectrumError {
     /// The number of values differs from the number of wavelengths.
     #[error("a grid of {} needs as many values, found `{found}`", counted(*expected, "wavelength"))]
@@ -168,4 +169,159 @@ pub enum SpectrumError {
     },
 }
 
-impl Explain for SpectrumError {}
+/// Fewest values for a spline, as Sprague's polynomial needs on a regular grid.
+const LEAST_OF_SPLINE: usize = 6;
+
+/// Values at strictly rising wavelengths with no regular step, as spectrometers with an array
+/// detector give them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IrregularSpectrum {
+    nm: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl IrregularSpectrum {
+    /// A spectrum of `values` at the wavelengths `nm`.
+    ///
+    /// # Errors
+    /// [`IrregularSpectrumError`] if their numbers differ, there are none, or `nm` contains a
+    /// number that is not a wavelength or does not rise strictly.
+    pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, IrregularSpectrumError> {
+        if nm.len() != values.len() || nm.is_empty() {
+            return Err(IrregularSpectrumError::Count {
+                wavelengths: nm.len(),
+                values: values.len(),
+            });
+        }
+        for &nm in &nm {
+            Wavelength::from_nm(nm)?;
+        }
+        if let Some(pair) = nm.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(IrregularSpectrumError::Order { before: pair[0], after: pair[1] });
+        }
+        Ok(Self { nm, values })
+    }
+
+    /// The wavelengths in nm, rising.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.nm
+    }
+
+    /// The values, in order of rising wavelength.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The value at `nm`, interpolated linearly.
+    ///
+    /// # Errors
+    /// [`IrregularSpectrumError::Outside`] outside the band, unless the end values are held.
+    pub fn at_linear(&self, nm: f64, ends: Extrapolation) -> Result<f64, IrregularSpectrumError> {
+        let last = self.nm.len() - 1;
+        if !(self.nm[0]..=self.nm[last]).contains(&nm) {
+            return match ends {
+                Extrapolation::Hold if !nm.is_nan() => {
+                    Ok(self.values[if nm < self.nm[0] { 0 } else { last }])
+                }
+                _ => Err(IrregularSpectrumError::Outside {
+                    nm,
+                    start_nm: self.nm[0],
+                    end_nm: self.nm[last],
+                }),
+            };
+        }
+        let after = self.nm.partition_point(|&w| w < nm);
+        if self.nm[after] == nm {
+            return Ok(self.values[after]);
+        }
+        let before = after - 1;
+        let fraction = (nm - self.nm[before]) / (self.nm[after] - self.nm[before]);
+        Ok(self.values[before] * (1.0 - fraction) + self.values[after] * fraction)
+    }
+
+    /// The spectrum on `grid`, interpolated by a natural cubic spline, linearly if there are fewer
+    /// than six values. Outside the band the end values hold. Values at the wavelengths of `grid`
+    /// itself are returned unchanged. If no value is negative, none becomes so.
+    ///
+    /// This suits reflectances, which are smooth. A lamp with lines is interpolated linearly
+    /// ([`IrregularSpectrum::at_linear`]), since a spline would swing next to each line.
+    #[must_use]
+    pub fn on_grid(&self, grid: Grid) -> Vec<f64> {
+        if Grid::through(&self.nm) == Some(grid) {
+            return self.values.clone();
+        }
+        let curve = self.smooth_curve();
+        let last = self.nm.len() - 1;
+
+        grid.wavelengths_nm()
+            .map(|nm| {
+                curve.at(nm).unwrap_or_else(|| self.values[if nm < self.nm[0] { 0 } else { last }])
+            })
+            .collect()
+    }
+
+    /// The curve through the values of a smooth quantity.
+    pub(crate) fn smooth_curve(&self) -> SmoothCurve<'_> {
+        let enough = self.nm.len() >= LEAST_OF_SPLINE;
+        let spline = enough.then(|| Spline::through(&self.nm, &self.values));
+        let is_negative = self.values.iter().any(|&value| value < 0.0);
+        let least = if is_negative { f64::NEG_INFINITY } else { 0.0 };
+        SmoothCurve { spectrum: self, spline, least }
+    }
+}
+
+/// A spectrum as a natural cubic spline, or as straight lines if it has fewer than six values.
+#[derive(Debug)]
+pub(crate) struct SmoothCurve<'a> {
+    spectrum: &'a IrregularSpectrum,
+    spline: Option<Spline<'a>>,
+    /// Least value of the curve: 0 unless the spectrum itself has negative values.
+    least: f64,
+}
+
+impl SmoothCurve<'_> {
+    /// The value at `nm`. `None` outside the band.
+    pub(crate) fn at(&self, nm: f64) -> Option<f64> {
+        let linear = self.spectrum.at_linear(nm, Extrapolation::Refuse).ok()?;
+        Some(self.spline.as_ref().map_or(linear, |spline| spline.at(nm).max(self.least)))
+    }
+}
+
+/// Values that do not form a spectrum, or a spectrum that cannot be evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum IrregularSpectrumError {
+    /// The numbers of wavelengths and values differ, or there are none.
+    #[error(
+        "one value for each wavelength is needed, found `{values}` for {}",
+        counted(*wavelengths, "wavelength")
+    )]
+    Count {
+        /// Number of wavelengths.
+        wavelengths: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A number that is not a wavelength.
+    #[error(transparent)]
+    Wavelength(#[from] WavelengthError),
+    /// The wavelengths do not rise strictly.
+    #[error("wavelengths must rise strictly, found {before} nm before `{after}` nm")]
+    Order {
+        /// The wavelength before, in nm.
+        before: f64,
+        /// The wavelength that is not larger, in nm.
+        after: f64,
+    },
+    /// The wavelength is outside the band of the spectrum.
+    #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
+    Outside {
+        /// The requested wavelength in nm.
+        nm: f64,
+        /// First wavelength of the spectrum in nm.
+        start_nm: f64,
+        /// Last wavelength of the spectrum in nm.
+        end_nm: f64,
+    },
+}

@@ -8,23 +8,23 @@ use spectra::TristimulusWeights;
 use spectra::optics::{Surface, UnevenFilm};
 
 use crate::calibration::{Calibration, CalibrationError, pigment};
-use crate::findings;
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, FitStage, MeasuredFilm, Refined, Refinement, Smoothness,
     Watch, fit_finite, root_mean_square,
 };
 use crate::measurement::MeasurementError;
-use crate::scores::Scores;
+use crate::report;
+use crate::report::Scores;
 use crate::swatch::SwatchSet;
 use pigment::PigmentId;
 use pigment::evaluate::{Viewing, delta_e};
 use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 
-/// Collects every film of `set` that lies on a backing of known reflectance.
+/// Collects every film of `set` that lies on a backing with known reflectance.
 ///
 /// # Errors
-/// [`MeasurementError::NoBareBacking`] for the first film whose backing has no bare reading,
-/// [`MeasurementError::NoFilms`] if there is no film.
+/// [`MeasurementError::NoBareBacking`] for the first film on a backing without a bare reading,
+/// [`MeasurementError::NoFilms`] if `set` has no films.
 pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
     let mut problem = FiniteProblem {
         grid: set.grid,
@@ -76,7 +76,8 @@ pub fn calibrate_absolute(
     calibrate_absolute_watched(set, film, settings, viewing, Watch::default())
 }
 
-/// Fits like [`calibrate_absolute`], tells `watch` the stages of the fit, and ends when it asks for that.
+/// Fits like [`calibrate_absolute`], reports the stages of the fit to `watch`, and ends when it asks for
+/// that.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used or the fit fails.
@@ -88,7 +89,7 @@ pub fn calibrate_absolute_watched(
     watch: Watch<'_>,
 ) -> Result<Calibration, CalibrationError> {
     let problem = films(set)?;
-    let dark = findings::below_surface(set, film.surface, settings.below_surface)?;
+    let dark = report::below_surface(set, film.surface, settings.below_surface)?;
     let own = Viewing::default().weights(set.grid).expect("the method fits the grid");
     let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
     let fit = fit_finite(&problem, film, &own, how)?;
@@ -105,7 +106,7 @@ pub fn calibrate_absolute_watched(
         observer: viewing.observer.name().to_owned(),
         rms,
         delta_e,
-        warnings: findings::absolute_warnings(set, &undetermined, dark, &per_sample),
+        warnings: report::absolute_warnings(set, &undetermined, dark, &per_sample),
         per_sample,
     };
     let deviations = fit.deviations.as_deref();
@@ -156,12 +157,13 @@ fn undetermined(fit: &Refined) -> Vec<PigmentId> {
 
 /// Chooses the film model that predicts unseen films best.
 ///
-/// First k2, the share of diffuse light that the surface reflects back inside, is chosen from 0, 0.3 and 0.6
-/// (k1 stays as given), then the unevenness of the films from 0, 0.25 and 0.5. The score of a model is its
-/// mean CIEDE2000 in five-fold cross-validation over seeded folds. Another model replaces the current one
-/// only if its score is lower by more than 3 %. With fewer than 20 films the plain model (0 and 0) is
-/// returned without a test. The chosen k2 serves prediction only. It does not measure the surface, because
-/// unevenness has a similar effect. `watch` is told [`FitStage::FilmModel`] after each fit.
+/// First k2, the share of diffuse light that the surface reflects back inside, is chosen from 0, 0.3 and
+/// 0.6 (k1 stays as given), then the unevenness of the films from 0, 0.25 and 0.5. The score of a model
+/// is its mean CIEDE2000 in five-fold cross-validation over seeded folds. Another model replaces the
+/// current one only if its score is lower by more than 3 %. With fewer than 20 films the plain model (0
+/// and 0) is returned without a test. The chosen k2 serves prediction only. It does not measure the
+/// surface, because unevenness has a similar effect. `watch` receives [`FitStage::FilmModel`] after each
+/// fit.
 ///
 /// # Errors
 /// [`FitError`] from any fit.
@@ -217,9 +219,10 @@ pub fn chosen_film(
 pub const CHOICE_FITS: usize = 5 * FOLDS;
 /// Number of folds of the cross-validation.
 const FOLDS: usize = 5;
-/// A model is replaced by another one whose score is below this fraction of its own; chosen by eye.
+/// Another model replaces the current one if its score is below this fraction of the current score
+/// (chosen by eye).
 const LEAST_GAIN: f64 = 0.97;
-/// Fraction of information on S from the films below which S is called undetermined; chosen by eye.
+/// Fraction of information on S from the films below which S is called undetermined (chosen by eye).
 const HALF_KNOWN: f64 = 0.5;
 /// Seed of the folds.
 const FOLD_SEED: u64 = 2004;

@@ -3,7 +3,6 @@
 use documents::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
-use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
     Unidentified, Unknown, Watch, condition, fit_qp_watched, fit_refined, fit_weighted_watched,
@@ -11,7 +10,8 @@ use crate::fit::{
 };
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
-use crate::scores::Scores;
+use crate::report;
+use crate::report::Scores;
 use crate::swatch::SwatchSet;
 use pigment::digits::rounded;
 use pigment::evaluate::Viewing;
@@ -23,20 +23,20 @@ use pigment::{Curves, PigmentId, Recipe};
 pub struct Calibration {
     /// Fitted library. Title, licence, source and inputs are empty.
     pub library: PigmentLibrary,
-    /// Swatches as the fit used them, in order of the file; empty for absolute amounts.
+    /// Swatches as the fit used them, in order of the file, or empty for absolute amounts.
     pub observations: Vec<Observation>,
-    /// Rank and condition of the equations; `None` for absolute amounts.
+    /// Rank and condition of the equations, or `None` for absolute amounts.
     pub condition: Option<Condition>,
     /// Estimates of noise and smoothness that a leave-one-out fit may reuse.
     pub state: Option<RefinedState>,
 }
 
-/// Fits K and S of every pigment of `set`, with S relative to that of `reference`.
+/// Fits K and S of every pigment of `set`, with S relative to the S of `reference`.
 ///
-/// Colour errors in the evidence are CIEDE2000 under `viewing`, between the colour that each swatch's K/S has
-/// in a film that hides and that of the fitted mixture. Samples with a pigment that the data do not identify
-/// are used neither for the fit nor for its errors. A pigment known only from a masstone gets its K/S with
-/// S = 1, marked as not identified; one without a masstone is left out.
+/// Colour errors in the evidence are CIEDE2000 under `viewing`, between the colour of each swatch's K/S
+/// in a film that hides and the colour of the fitted mixture. Samples with a pigment that the data do not
+/// identify are used neither for the fit nor for its errors. A pigment known only from a masstone gets
+/// its K/S with S = 1, marked as not identified. One without a masstone is left out.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used or the fit fails.
@@ -50,7 +50,7 @@ pub fn calibrate(
     calibrate_watched(set, reference, surface, settings, viewing, Watch::default())
 }
 
-/// Fits like [`calibrate`], tells `watch` the stages of the fit, and ends when it asks for that.
+/// Fits like [`calibrate`], reports the stages of the fit to `watch`, and ends when it asks for that.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used or the fit fails.
@@ -98,7 +98,7 @@ pub fn calibrate_watched(
     library.evidence = Some(evidence(&library, set, &solvable, &identified, viewing));
     if let Some(evidence) = &mut library.evidence {
         evidence.warnings =
-            findings::warnings(set, &observations, &unknown, &condition, &evidence.per_sample);
+            report::warnings(set, &observations, &unknown, &condition, &evidence.per_sample);
     }
     Ok(Calibration { library, observations, condition: Some(condition), state: solution.state })
 }
@@ -107,7 +107,7 @@ pub fn calibrate_watched(
 pub(crate) struct Solution {
     /// K and S by pigment.
     pub(crate) curves: Vec<Curves>,
-    /// Standard deviations of K and S by pigment; `None` if they were not requested.
+    /// Standard deviations of K and S by pigment, or `None` if they were not requested.
     deviations: Option<Vec<Curves>>,
     state: Option<RefinedState>,
 }

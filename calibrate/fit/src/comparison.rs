@@ -12,7 +12,7 @@ use crate::calibration::{CalibrationError, calibrate_watched};
 use crate::fit::{FitSettings, MeasuredFilm, Watch};
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
-use crate::scores::Scores;
+use crate::report::Scores;
 use crate::swatch::{Swatch, SwatchSet};
 use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
 use pigment::evaluate::{Summary, Viewing};
@@ -23,7 +23,7 @@ use pigment::library::{AmountKind, PigmentLibrary};
 pub struct ComparedFilm {
     /// Name of the sample, with its backing if it has several films.
     pub sample: String,
-    /// Pigments of the library with their amounts; shares sum to 1.
+    /// Pigments of the library with their amounts. Shares sum to 1.
     pub recipe: Recipe,
     /// Measured reflectance as a fraction: as a film that hides for shares, of the film itself for
     /// absolute amounts.
@@ -32,7 +32,7 @@ pub struct ComparedFilm {
     pub predicted: Vec<f64>,
     /// CIEDE2000 between measured and predicted colour.
     pub delta_e: f64,
-    /// Whether the recipe contains a pigment whose K and S were not measured (not identified, or
+    /// Whether the recipe contains a pigment without measured K and S (for example not identified, or
     /// guessed).
     pub unsure: bool,
     /// Whether the fit of the library left this sample out.
@@ -55,13 +55,13 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Films whose pigments are all measured and identified, over which errors are summarised.
+    /// Films with measured and identified pigments only. Errors are summarised over these.
     pub fn sure(&self) -> impl Iterator<Item = &ComparedFilm> {
         self.films.iter().filter(|film| !film.unsure)
     }
 
-    /// Films that `palette` can mix, without those that the fit excluded. Empty for absolute amounts, whose
-    /// films do not hide.
+    /// Films that `palette` can mix, without those that the fit excluded. The list is empty for absolute
+    /// amounts, because their films do not hide.
     #[must_use]
     pub fn measured_samples(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
         if palette.library().amounts == AmountKind::Absolute {
@@ -82,7 +82,7 @@ impl Comparison {
 /// Measurements that can be compared with a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparable {
-    /// Samples whose pigments are all in the library, on the library's wavelengths.
+    /// Samples with all pigments in the library, on the library's wavelengths.
     pub set: SwatchSet,
     /// Place in the library of each pigment of `set`.
     pub in_library: Vec<PigmentId>,
@@ -93,7 +93,7 @@ pub struct Comparable {
 }
 
 impl Comparable {
-    /// Selects the samples of `set` whose pigments are all in `library`, by name without regard to case.
+    /// Selects the samples of `set` with all pigments in `library`. Names match without regard to case.
     ///
     /// # Errors
     /// [`ComparisonError`] if there is none, or if the readings do not cover the library's wavelengths.
@@ -226,7 +226,7 @@ impl Comparable {
     /// For a library without settings of its fit, [`FitSettings::default`] is assumed with dark readings
     /// read as black.
     ///
-    /// `watch` is told [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may
+    /// `watch` receives [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may
     /// end the work.
     ///
     /// # Errors

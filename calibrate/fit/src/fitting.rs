@@ -1,25 +1,24 @@
-//! From readings to a library: options, default choices (reported as remarks) and the fit.
+//! From readings to a library: options, default choices (reported as remarks), the surface, and the fit.
 
 use std::path::Path;
 
 use documents::counted;
-use spectra::optics::{Specular, Surface, UnevenFilm};
-
-use crate::absolute::{CHOICE_FITS, calibrate_absolute_watched, chosen_film, films};
-use crate::backings::check_backings;
-use crate::calibration::{Calibration, CalibrationError, calibrate_watched};
-use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness, Watch};
-use crate::fitting_error::FittingError;
-use crate::observation::{BelowSurface, Observation};
-use crate::readings::Readings;
-use crate::report::ErrorReport;
-use crate::surface_choice::{check_above_surface, usual_below_readings};
-use crate::swatch::SwatchSet;
+use documents::hint::{Explain, Fault, Hint};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
 use pigment::remark::Remark;
-use pigment::visible_band::check_visible_band;
+use pigment::visible_band::{BandError, check_visible_band};
+use spectra::optics::{Specular, Surface, UnevenFilm};
+
+use crate::absolute::{CHOICE_FITS, calibrate_absolute_watched, chosen_film, films};
+use crate::calibration::{Calibration, CalibrationError, calibrate_watched};
+use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness, Watch};
+use crate::measurement::{MeasurementError, k1_below};
+use crate::observation::{BelowSurface, Observation, check_backings, least_reading};
+use crate::readings::Readings;
+use crate::report::ErrorReport;
+use crate::swatch::SwatchSet;
 
 /// Options of [`fit`].
 ///
@@ -35,9 +34,9 @@ pub struct FitOptions {
     /// Meaning of the amounts in recipes: shares of a mixture, or amounts on a fixed area of a known
     /// backing.
     pub amounts: AmountKind,
-    /// Method of the fit; absolute amounts always take `refined`.
+    /// Method of the fit. Absolute amounts always take `refined`.
     pub method: Method,
-    /// Name of the white whose S is 1. Default: the pigment called white that occurs in most samples.
+    /// Name of the white with S = 1. Default: the pigment called white that occurs in most samples.
     pub reference: Option<String>,
     /// Surface of the films. Default: k2 = 0.6 and k1 = 0.03, or less where a reading is lower; for
     /// absolute amounts k1 = 0 and the k2 that predicts unseen films best.
@@ -94,9 +93,9 @@ pub struct Fit {
     pub library: PigmentLibrary,
     /// Choices that were made, and what the films and equations show.
     pub remarks: Vec<Remark>,
-    /// Swatches as the fit used them; empty for absolute amounts.
+    /// Swatches as the fit used them, or empty for absolute amounts.
     pub observations: Vec<Observation>,
-    /// Rank and condition of the equations; `None` for absolute amounts.
+    /// Rank and condition of the equations, or `None` for absolute amounts.
     pub condition: Option<Condition>,
     /// Estimates that a validation reuses.
     pub(crate) state: Option<RefinedState>,
@@ -154,7 +153,7 @@ pub struct PreparedFit {
 pub enum FilmModel {
     /// Shares of a mixture.
     Relative {
-        /// White whose S is 1.
+        /// White with S = 1.
         reference: PigmentId,
         /// Surface of the films.
         surface: Surface,
@@ -164,12 +163,13 @@ pub enum FilmModel {
 }
 
 impl PreparedFit {
-    /// Number of times that [`Self::new`] tells [`FitStage::FilmModel`](crate::fit::FitStage::FilmModel)
-    /// if it chooses the film model of absolute amounts.
+    /// Number of times that [`Self::new`] reports
+    /// [`FitStage::FilmModel`](crate::fit::FitStage::FilmModel) if it chooses the film model of absolute
+    /// amounts.
     pub const MODEL_FITS: usize = CHOICE_FITS;
 
-    /// Resolves the options: selects samples, finds the reference white and the surface. `watch` is
-    /// told each fit made to choose the film model of absolute amounts, and may end them.
+    /// Resolves the options: selects samples, finds the reference white and the surface. `watch` receives
+    /// each fit made to choose the film model of absolute amounts, and may end them.
     ///
     /// # Errors
     /// [`FittingError`] if options exclude each other, a name is unknown, or readings cannot be used.
@@ -216,7 +216,6 @@ impl PreparedFit {
             }
         };
         let first = readings.inputs.first().map_or("", |input| input.path.as_str());
-        let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "not stated".into());
         Ok(Self {
             set,
             settings: FitSettings {
@@ -241,7 +240,7 @@ impl PreparedFit {
         &self.viewing
     }
 
-    /// Fits the library. The remarks are those of the fit itself.
+    /// Fits the library. The remarks are the fit's own.
     ///
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
@@ -249,7 +248,7 @@ impl PreparedFit {
         self.fit_watched(Watch::default())
     }
 
-    /// Fits like [`Self::fit`], tells `watch` the stages of the fit, and ends when it asks for that.
+    /// Fits like [`Self::fit`], reports the stages of the fit to `watch`, and ends when it asks for that.
     ///
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `watch` ends it.
@@ -270,6 +269,10 @@ impl PreparedFit {
         let remarks = remarks(&observations, condition.as_ref());
         Ok(Fit { library, remarks, observations, condition, state })
     }
+}
+
+fn stated(text: &Option<String>) -> String {
+    text.clone().unwrap_or_else(|| "not stated".into())
 }
 
 fn without_excluded(set: SwatchSet, exclude: &[String]) -> Result<SwatchSet, FittingError> {
@@ -293,8 +296,9 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
         return index_of(&set.pigments, name, "pigment").map(PigmentId);
     }
     let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
-    let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
-    let whites: Vec<usize> = (0..set.pigments.len()).filter(called_white).collect();
+    let whites: Vec<usize> = (0..set.pigments.len())
+        .filter(|&index: &usize| set.pigments[index].to_lowercase().contains("white"))
+        .collect();
     // Of several in equally many samples, the first column is chosen.
     let commonest = whites.into_iter().rev().max_by_key(|&index| samples(index));
     commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {
@@ -370,4 +374,263 @@ pub(crate) fn index_of(
 fn stem(path: &str) -> String {
     let stem = Path::new(path).file_stem();
     stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// The surface of most paints, with k1 lowered below every reading of `set`, and the remark about this
+/// change.
+pub(crate) fn usual_below_readings(
+    set: &SwatchSet,
+    specular: Specular,
+) -> (Surface, Option<Remark>) {
+    let usual = Surface::of_most_paints(specular);
+    let least = least_reading(set);
+    if least >= usual.floor() {
+        return (usual, None);
+    }
+    let surface = Surface { k1: k1_below(least), ..usual };
+    let remark = Remark::note(format!(
+        "k1 = {}, not {}: {} reads {least:.4}, and a surface reflects no more than is read",
+        surface.k1,
+        usual.k1,
+        darkest(set, least)
+    ));
+    (surface, Some(remark.with_hint("state the surface with [saunderson=K1,K2]")))
+}
+
+/// Name and wavelength of the reading `least` of `set`.
+fn darkest(set: &SwatchSet, least: f64) -> String {
+    for swatch in &set.swatches {
+        for film in &swatch.films {
+            for (readings, kind) in
+                [(Some(&film.reflectance), ""), (film.bare.as_ref(), "the bare card under ")]
+            {
+                let at = readings.and_then(|all| all.iter().position(|&reading| reading == least));
+                if let Some(at) = at {
+                    return format!("{kind}{} at {} nm", swatch.sample, set.grid.nm(at));
+                }
+            }
+        }
+    }
+    "a film".to_owned()
+}
+
+/// Refuses a set of films with most readings below `k1`. We assume that such a set was read in a wrong
+/// unit.
+pub(crate) fn check_above_surface(
+    set: &SwatchSet,
+    k1: f64,
+    k2: f64,
+) -> Result<(), MeasurementError> {
+    let mut below = 0;
+    let mut count = 0;
+    let mut first = None;
+    for swatch in &set.swatches {
+        let readings = || swatch.films.iter().flat_map(|film| &film.reflectance);
+        let dark = readings().filter(|&&reading| reading < k1).count();
+        first = first.or_else(|| (dark > 0).then_some(swatch));
+        below += dark;
+        count += readings().count();
+    }
+    match first {
+        Some(swatch) if 2 * below > count => Err(MeasurementError::MostBelowSurface {
+            file: swatch.file.to_string(),
+            row: swatch.row,
+            sample: swatch.sample.clone(),
+            below,
+            count,
+            k1,
+            below_all: format!("{:.3},{k2}", k1_below(least_reading(set))),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A fit or validation that cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FittingError {
+    /// A sample or pigment is not among the readings.
+    #[error("no {what} is called `{name}`")]
+    UnknownName {
+        /// `sample` or `pigment`.
+        what: &'static str,
+        /// Name that was looked up.
+        name: String,
+        /// Names that exist.
+        known: Vec<String>,
+    },
+    /// No pigment can be guessed as the reference.
+    #[error("no pigment is called white, so none can be the reference whose S is 1")]
+    NoWhite {
+        /// Name of the first pigment, for advice.
+        first: String,
+    },
+    /// Every sample is excluded.
+    #[error("every sample is excluded")]
+    AllExcluded,
+    /// Absolute amounts have no reference and a method of their own.
+    #[error("absolute amounts take neither a reference white nor another method")]
+    AbsoluteOptions,
+    /// A validation of absolute amounts cannot be limited to pigments.
+    #[error("a validation with certain pigments needs relative amounts")]
+    AbsoluteWith,
+    /// Films of absolute amounts do not hide, so that they have no residuals for maps.
+    #[error("residuals of films that hide need relative amounts")]
+    AbsoluteResiduals,
+    /// A validation needs two groups or more.
+    #[error("a validation in groups needs at least 2, found `{folds}`")]
+    Folds {
+        /// Number of groups that was given.
+        folds: usize,
+    },
+    /// No mixture can be left out.
+    #[error("{}", nothing_to_leave_out(needed))]
+    NothingToLeaveOut {
+        /// Mixtures without which a pigment would not be identified.
+        needed: Vec<String>,
+    },
+    /// The readings have no visible wavelength.
+    #[error(transparent)]
+    Band(#[from] BandError),
+    /// Readings cannot be used.
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+    /// Readings cannot be used, or the fit failed.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+}
+
+fn nothing_to_leave_out(needed: &[String]) -> String {
+    if needed.is_empty() {
+        return "there is no mixture to leave out".to_owned();
+    }
+    let needed = needed.join(", ");
+    format!("no mixture can be left out: without it a pigment would not be identified ({needed})")
+}
+
+impl Explain for FittingError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::UnknownName { what, name, known } => {
+                let question = documents::did_you_mean(name, known.iter().map(String::as_str));
+                let question = question.map_or_else(String::new, |question| question + " ");
+                return Some(Hint::verbatim(format!("{question}{what}s: {}", known.join(", "))));
+            }
+            Self::NoWhite { first } => format!("name it: [reference=\"{first}\"]"),
+            Self::AllExcluded => "leave out some [exclude]".into(),
+            Self::AbsoluteOptions => "leave out [reference] and [method]".into(),
+            Self::AbsoluteWith => "leave out [with]".into(),
+            Self::AbsoluteResiduals => "leave out [residuals]".into(),
+            Self::Folds { .. } => "try [folds=10]".into(),
+            Self::NothingToLeaveOut { .. } => {
+                "measure more mixtures of each pigment (masstone, two tints, a shade)".into()
+            }
+            Self::Band(error) => return error.hint(),
+            Self::Measurement(error) => return error.hint(),
+            Self::Calibration(error) => return error.hint(),
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::AbsoluteOptions
+            | Self::AbsoluteWith
+            | Self::AbsoluteResiduals
+            | Self::Folds { .. } => Fault::Setting,
+            Self::Measurement(error) => error.fault(),
+            Self::Calibration(error) => error.fault(),
+            _ => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fitting::{FilmModel, FitOptions, PreparedFit, fit};
+    use crate::observation::BelowSurface;
+    use crate::readings::Readings;
+    use crate::validation::{ValidationOptions, validate};
+    use documents::hint::Explain;
+    use pigment::evaluate::delta_e;
+
+    /// Films that hide, of a white and a black paint, read without any surface, times `scale`.
+    fn matte(scale: f64) -> Readings {
+        let wavelengths: Vec<String> = (0..16).map(|i| (400 + 20 * i).to_string()).collect();
+        let mut text = format!("sample,White,Black,{}\n", wavelengths.join(","));
+        for (sample, black) in [("w", 0.0), ("a", 0.1), ("b", 0.5), ("c", 0.9), ("d", 1.0)] {
+            let k = 0.013 * (1.0 - black) + 20.0 * black;
+            let s = 1.0 - 0.5 * black;
+            let value = scale * spectra::optics::infinite_film_from_ratio(k / s);
+            let values = vec![value.to_string(); wavelengths.len()].join(",");
+            text += &format!("{sample},{},{black},{values}\n", 1.0 - black);
+        }
+        Readings::from_csv("matte.csv", text.as_bytes()).unwrap()
+    }
+
+    fn floored() -> FitOptions {
+        let below_surface = Some(BelowSurface::Floor);
+        FitOptions {
+            surface: Some(Surface::of_most_paints(Specular::Included)),
+            below_surface,
+            ..FitOptions::default()
+        }
+    }
+
+    #[test]
+    fn errors_are_told_against_readings_as_they_were_read() {
+        let readings = matte(1.0);
+        let options = floored();
+        let fitted = fit(&readings, &options).unwrap();
+        let library = &fitted.library;
+        let weights = options.viewing.weights(library.grid).unwrap();
+        for (sample, black) in [("c", 0.9), ("d", 1.0)] {
+            let recipe = [("White", 1.0 - black), ("Black", black)];
+            let recipe = recipe.map(|(name, share)| (library.find(name).unwrap(), share));
+            let predicted = library.mix(recipe).unwrap();
+            let read = &readings.table.readings.iter().find(|r| r.sample == sample).unwrap();
+            let truth = delta_e(&weights, &read.reflectance, &predicted.hiding(library.saunderson));
+            let told = fitted.evidence().per_sample.iter().find(|s| s.sample == sample).unwrap();
+            assert!(truth > 2.0, "the surface reflects more than was read: {truth}");
+            assert!((told.delta_e - truth).abs() < 1e-3, "{sample}: {} for {truth}", told.delta_e);
+        }
+        let left_out = ValidationOptions { fit: options, ..ValidationOptions::default() };
+        let worst = validate(&readings, &left_out).unwrap().errors.delta_e.max;
+        assert!(worst > 2.0, "{worst}");
+    }
+
+    #[test]
+    fn a_k1_that_nobody_stated_stays_below_every_reading() {
+        let readings = matte(1.0);
+        let fitted = fit(&readings, &FitOptions::default()).unwrap();
+        let least = least_reading(&readings.swatches().unwrap());
+        assert!(fitted.library.saunderson.k1 < least, "{:?}", fitted.library.saunderson);
+        let told = fitted.remarks.iter().find(|remark| remark.text.starts_with("k1 = "));
+        let told = &told.unwrap().text;
+        assert!(told.contains("not 0.03") && told.contains("d at 400 nm"), "{told}");
+        assert!(fitted.evidence().delta_e.max < 1.0, "{:?}", fitted.evidence().delta_e);
+
+        // Readings above the usual k1 keep it, and so does who says how those below are treated.
+        let mut lighter = matte(1.0);
+        let reflectances = lighter.table.readings.iter_mut().flat_map(|r| &mut r.reflectance);
+        reflectances.for_each(|value| *value = value.max(0.04));
+        for (readings, below_surface) in [(&lighter, None), (&readings, Some(BelowSurface::Floor))]
+        {
+            let options = FitOptions { below_surface, ..FitOptions::default() };
+            let prepared = PreparedFit::new(readings, &options, Watch::default()).unwrap();
+            let FilmModel::Relative { surface, .. } = prepared.model else { panic!("relative") };
+            assert_eq!(surface.k1, 0.03);
+        }
+    }
+
+    #[test]
+    fn readings_mostly_below_k1_are_refused_with_a_way_out() {
+        let readings = matte(0.01);
+        for options in [FitOptions::default(), floored()] {
+            let error = fit(&readings, &options).unwrap_err();
+            let said = error.to_string();
+            assert!(said.contains("matte.csv, row 2") && said.contains("80 of 80"), "{said}");
+            let hint = error.hint().unwrap().to_string();
+            assert!(hint.contains("fraction") && hint.contains("saunderson"), "{hint}");
+        }
+    }
 }

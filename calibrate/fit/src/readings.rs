@@ -1,22 +1,23 @@
-//! Measurement files of any known format, read together.
+//! Measurement files of any known format, read together, with the options and errors of reading them.
 
 use std::fs::File;
 use std::path::Path;
 
 use documents::counted;
 use documents::file::FileError;
+use documents::hint::{Explain, Fault, Hint};
+use pigment::library::Input;
+use pigment::remark::Remark;
 use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};
-use spectra::referencing::{OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
+use spectra::referencing::{
+    OpenedReferences, ReferenceFiles, ReferenceFilesError, ReferencingError, TileSource,
+};
 
 use crate::measurement::{
     LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
-    RecordChoice, Scale, begins_with_samples, is_measurement_csv,
+    RecipesError, RecordChoice, Scale, ScaleChoice, begins_with_samples, is_measurement_csv,
 };
-pub use crate::reading_options::{ReadingFormat, ReadingOptions};
-use crate::readings_error::ReadingsError;
 use crate::swatch::SwatchSet;
-use pigment::library::Input;
-use pigment::remark::Remark;
 
 /// Readings of one or more measurement files. A sheet of a workbook is given as `FILE.xlsx#SHEET`.
 ///
@@ -57,7 +58,7 @@ impl Readings {
         Self::open_files(paths, options, false)
     }
 
-    /// Reads the spectra of files whose other columns do not matter, such as recipes.
+    /// Reads the spectra of files and ignores their other columns, for example recipes.
     ///
     /// # Errors
     /// [`ReadingsError`] with file, row and column.
@@ -114,7 +115,7 @@ impl Readings {
     }
 
     /// Adds the recipes of a CSV file (columns `sample`, one for each pigment, optionally `film`,
-    /// `backing`, `thickness_mm` and `reading`) to readings whose own files state none.
+    /// `backing`, `thickness_mm` and `reading`) to readings without recipes in their own files.
     ///
     /// # Errors
     /// [`ReadingsError::Recipes`] with the row.
@@ -168,7 +169,7 @@ impl Readings {
     /// Groups the readings by sample.
     ///
     /// # Errors
-    /// [`MeasurementError`] for rows that contradict each other, or if there is no film of paint.
+    /// [`MeasurementError`] for rows that contradict each other, or if `set` has no films of paint.
     pub fn swatches(&self) -> Result<SwatchSet, MeasurementError> {
         SwatchSet::from_table(&self.table)
     }
@@ -341,7 +342,7 @@ fn csv_table(
     Ok((table, remarks))
 }
 
-/// The table of a large measurement CSV, which is read in pieces; `None` for any other file.
+/// The table of a large measurement CSV, which is read in pieces, or `None` for any other file.
 fn large_csv(
     path: &Path,
     options: &ReadingOptions,
@@ -384,4 +385,113 @@ fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
 
 fn content(path: &Path) -> Result<(String, Vec<u8>), FileError> {
     Ok((path.display().to_string(), bytes_of(path)?))
+}
+
+/// Format of a measurement file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReadingFormat {
+    /// The measurement CSV: columns `sample`, `film`, `backing`, one for each pigment, wavelengths.
+    Csv,
+    /// A file as an instrument writes it.
+    Instrument(Format),
+}
+
+impl ReadingFormat {
+    /// Name of the CSV among the formats.
+    pub const CSV_NAME: &'static str = "csv";
+
+    /// Names of all formats.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        std::iter::once(Self::CSV_NAME).chain(Format::ALL.into_iter().map(Format::name))
+    }
+
+    /// The format with this name, or `None` for an unknown name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        if name == Self::CSV_NAME {
+            return Some(Self::Csv);
+        }
+        Format::named(name).map(Self::Instrument)
+    }
+}
+
+/// Options of [`Readings::open_all`](crate::Readings::open_all). The defaults read every file as it describes itself.
+#[derive(Debug, Clone, Default)]
+pub struct ReadingOptions {
+    /// Format of the files. Default: detected from the content of each.
+    pub format: Option<ReadingFormat>,
+    /// Percent or fraction. Default: what the file states, else what its largest value suggests.
+    pub scale: ScaleChoice,
+    /// Headings of the columns that are pigments. Default: every column of a CSV that is not known as
+    /// something else and holds amounts.
+    pub pigments: Option<Vec<String>>,
+    /// Whether transmittance counts as reflectance, for spectrometers that measured in transmission
+    /// mode over a white tile. Counts and powers of lamps never do.
+    pub transmittance_is_reflectance: bool,
+    /// White, dark and tile with which counts are converted to reflectances. Default: the files hold
+    /// reflectances.
+    pub references: Option<ReferenceFiles>,
+}
+
+/// Measurement files that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadingsError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// An instrument's file is faulty.
+    #[error(transparent)]
+    Instrument(#[from] InstrumentError),
+    /// Readings are faulty or contradict each other.
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+    /// The recipes are faulty or do not fit the readings.
+    #[error(transparent)]
+    Recipes(#[from] RecipesError),
+    /// White, dark or tile cannot be read.
+    #[error(transparent)]
+    References(#[from] ReferenceFilesError),
+    /// Counts and white do not make a reflectance.
+    #[error("{file}: cannot be set against the white of {white}")]
+    Referencing {
+        /// File of the samples.
+        file: String,
+        /// White as the caller named it.
+        white: String,
+        /// Reason with the wavelength.
+        #[source]
+        reason: ReferencingError,
+    },
+    /// A white is given, but the file is a measurement CSV, which holds reflectances.
+    #[error("a white needs counts as an instrument writes them, found a CSV: `{file}`")]
+    CsvOfCounts {
+        /// File name as the caller gave it.
+        file: String,
+    },
+}
+
+impl Explain for ReadingsError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::File(error) => error.hint(),
+            Self::Instrument(error) => error.hint(),
+            Self::Measurement(error) => error.hint(),
+            Self::Recipes(error) => error.hint(),
+            Self::References(error) => error.hint(),
+            Self::Referencing { reason, .. } => reason.hint(),
+            Self::CsvOfCounts { .. } => Some(Hint::new(
+                "give the spectrometer's own file, or two columns `nm counts`, or leave out [white_reading]",
+            )),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            Self::Instrument(error) => error.fault(),
+            Self::References(error) => error.fault(),
+            Self::CsvOfCounts { .. } => Fault::Setting,
+            Self::Measurement(_) | Self::Recipes(_) | Self::Referencing { .. } => Fault::Input,
+        }
+    }
 }

@@ -1,9 +1,10 @@
-//! Swatches: all readings of one sample, averaged.
+//! Swatches: all readings of one sample, averaged, and the cards on which they were painted.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use spectra::Grid;
+use pigment::palette::Cards;
+use spectra::{Grid, TristimulusWeights};
 
 use crate::measurement::{CellPlace, Film, MeasurementError, MeasurementTable, Reading};
 
@@ -27,17 +28,17 @@ pub struct Swatch {
 /// Averaged readings of one film on one backing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchFilm {
-    /// Name of the backing; empty if the file does not state it.
+    /// Name of the backing, or empty if the file does not state it.
     pub backing: String,
     /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
     /// Mean measured reflectance, as a fraction, on the set's grid.
     pub reflectance: Vec<f64>,
-    /// Standard deviation of repeated readings, root mean square over wavelengths; `None` for a single
+    /// Standard deviation of repeated readings, root mean square over wavelengths, or `None` for a single
     /// reading.
     pub spread: Option<f64>,
-    /// Measured reflectance of the bare backing, if it was read: that of the sample's own card, else the
-    /// mean over the file.
+    /// Measured reflectance of the bare backing, if it was read: the sample's own card, else the mean
+    /// over the file.
     pub bare: Option<Vec<f64>>,
 }
 
@@ -48,7 +49,7 @@ pub struct SwatchSet {
     pub grid: Grid,
     /// Names of the pigments, in order of their columns.
     pub pigments: Vec<String>,
-    /// Swatches; empty if the files hold bare cards only.
+    /// Swatches, or empty if the files hold bare cards only.
     pub swatches: Vec<Swatch>,
 }
 
@@ -83,7 +84,7 @@ impl SwatchSet {
         Ok(all.retaining(|_| true))
     }
 
-    /// Copy with the swatches that `keep` selects; pigments that none of them contains are dropped.
+    /// Copy with the swatches that `keep` selects. Pigments that none of them contains are dropped.
     #[must_use]
     pub fn retaining(&self, keep: impl Fn(&Swatch) -> bool) -> Self {
         let swatches: Vec<Swatch> = self.swatches.iter().filter(|s| keep(s)).cloned().collect();
@@ -106,13 +107,16 @@ impl SwatchSet {
         Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
-    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in percent. Empty if most mixtures
-    /// have other sums: the file then states parts.
+    /// Mixtures with amounts that do not sum to 100 % (or 1), with their sum in percent. The list is
+    /// empty if most mixtures have other sums: the file then states parts.
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
         // A masstone may be written as 1 where mixtures are counted in parts.
-        let is_mixture = |s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
-        let mixtures: Vec<&Swatch> = self.swatches.iter().filter(is_mixture).collect();
+        let mixtures: Vec<&Swatch> = self
+            .swatches
+            .iter()
+            .filter(|s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1)
+            .collect();
         let totals: Vec<f64> = mixtures.iter().map(|s| s.amounts.iter().sum()).collect();
         for whole in [100.0, 1.0] {
             let even = |total: f64| (total / whole - 1.0).abs() < 1e-3;
@@ -235,4 +239,36 @@ fn spread(readings: &[&Reading]) -> Option<f64> {
         .flat_map(|r| r.reflectance.iter().zip(&mean).map(|(v, m)| (v - m).powi(2)))
         .sum();
     Some((squares / freedom).sqrt())
+}
+
+impl SwatchSet {
+    /// Cards under the films of this set, chosen by [`Cards::among`]. These are the standard cards if the
+    /// set is on another grid than `weights`.
+    #[must_use]
+    pub fn cards(&self, weights: &TristimulusWeights) -> Cards {
+        if self.grid != weights.grid() {
+            return Cards::standard(weights.grid());
+        }
+        Cards::among(bare_backings(self), weights)
+    }
+}
+
+/// Mean bare reflectance of each backing over the films that lie on it.
+fn bare_backings(set: &SwatchSet) -> Vec<Vec<f64>> {
+    let films = || set.swatches.iter().flat_map(|swatch| &swatch.films);
+    let mut names: Vec<&str> = films().map(|film| film.backing.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+        .into_iter()
+        .filter_map(|name: &str| {
+            let bare: Vec<&[f64]> = films()
+                .filter(|film| film.backing == name)
+                .filter_map(|film| film.bare.as_deref())
+                .collect();
+            let sum = |at: usize| bare.iter().map(|card| card[at]).sum::<f64>();
+            let values = (0..set.grid.count()).map(|at| sum(at) / bare.len() as f64).collect();
+            (!bare.is_empty()).then_some(values)
+        })
+        .collect()
 }

@@ -64,10 +64,12 @@ impl SyntheticMixtures {
                 absorption_over_scattering(internal.unwrap_or(BLACK).clamp(BLACK, 1.0))
             };
             let ratio: Vec<f64> = truth.iter().map(read).collect();
-            let measured = |q: &f64| {
-                surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(*q))
-            };
-            let reflectance: Vec<f64> = ratio.iter().map(measured).collect();
+            let reflectance: Vec<f64> = ratio
+                .iter()
+                .map(|q: &f64| {
+                    surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(*q))
+                })
+                .collect();
             mixtures.observations.push(Observation {
                 as_read: reflectance.clone(),
                 sample: format!("S{number:02}"),

@@ -1,23 +1,31 @@
-//! Errors of predictions for films that the fit has not seen.
+//! Validation of a fit: each mixture is predicted by a fit without its own measurement.
+//!
+//! This file holds the fits without some of the samples, their errors, and these errors as JSON.
 
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::{Map, Value, json};
+use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm};
 
 use crate::absolute::{all_but, films, folds};
-use crate::calibration::CalibrationError;
-use crate::fit::{FitSettings, FitStage, RefinedState, Refinement, Watch, fit_finite};
+use crate::calibration::{CalibrationError, pigment, solve, without};
+use crate::fit::{
+    FitError, FitSettings, FitStage, Problem, RefinedState, Refinement, Unidentified, Watch,
+    fit_finite, unidentified,
+};
+use crate::fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, index_of};
 use crate::observation::{Observation, observations};
-use crate::refit::Refits;
-use crate::residuals::LeftOutMixture;
-use crate::scores::Scores;
+use crate::readings::Readings;
+use crate::report::{ErrorReport, Scores, shares_of_squares};
+use crate::residuals::{LeftOutMixture, Residuals};
 use crate::swatch::SwatchSet;
-use pigment::PigmentId;
 use pigment::evaluate::{Summary, Viewing, delta_e};
-use pigment::library::SampleEvidence;
+use pigment::library::{AmountKind, Evidence, PigmentLibrary, SampleEvidence};
+use pigment::{Curves, PigmentId};
 
-/// Groups that are left out in turn for absolute amounts, where each film by itself would take too long;
-/// chosen by eye.
+/// Groups that are left out in turn for absolute amounts, where each film by itself would take too long
+/// (chosen by eye).
 pub const DEFAULT_FOLDS: usize = 10;
 
 /// Errors of mixtures that were predicted without their own measurement.
@@ -35,9 +43,10 @@ pub struct Validation {
     /// its main one were free by one common factor: the part of the errors that is not strength. `None`
     /// for absolute amounts.
     pub strength_free: Option<Summary>,
-    /// Pigments by their part of the error, the greatest first; empty for absolute amounts.
+    /// Pigments by their part of the error, the greatest first, or empty for absolute amounts.
     pub by_pigment: Vec<PigmentError>,
-    /// Measured and predicted films of the mixtures; empty for absolute amounts, whose films do not hide.
+    /// Measured and predicted films of the mixtures, or empty for absolute amounts, because their films
+    /// do not hide.
     #[serde(skip)]
     pub mixtures: Vec<LeftOutMixture>,
 }
@@ -64,9 +73,9 @@ pub struct ValidationPlan<'a> {
     /// Estimates from the fit of all samples, which are reused rather than estimated in each fit. On the
     /// Van Gogh oils this moves the mean error by 0.004.
     pub state: Option<RefinedState>,
-    /// Number of seeded groups that are left out in turn; `None` for each mixture by itself.
+    /// Number of seeded groups that are left out in turn, or `None` for each mixture by itself.
     pub folds: Option<usize>,
-    /// Told [`FitStage::LeftOut`] after each mixture, from any thread; may end the work.
+    /// Receives [`FitStage::LeftOut`] after each mixture, from any thread, and may end the work.
     pub watch: Watch<'a>,
 }
 
@@ -178,16 +187,19 @@ const HALVINGS: usize = 12;
 fn least_error(error: impl Fn(f64) -> f64) -> f64 {
     let range = 4f64.ln();
     let at = |log: f64| (error(log.exp()), log);
-    let nearer = |a: (f64, f64), b: (f64, f64)| if b.0 < a.0 { b } else { a };
     let last = f64::from(STRENGTHS - 1);
     let coarse = (0..STRENGTHS).map(|i| at(range * (2.0 * f64::from(i) / last - 1.0)));
-    let mut best = coarse.reduce(nearer).expect("there are strengths");
+    let mut best = coarse.reduce(lower_error).expect("there are strengths");
     let mut step = range / last;
     for _ in 0..HALVINGS {
-        best = [best.1 - step, best.1 + step].map(at).into_iter().fold(best, nearer);
+        best = [best.1 - step, best.1 + step].map(at).into_iter().fold(best, lower_error);
         step /= 2.0;
     }
     best.0
+}
+
+fn lower_error(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    if b.0 < a.0 { b } else { a }
 }
 
 /// Part of the errors in mixtures with each pigment.
@@ -196,7 +208,6 @@ fn by_pigment(
     mixtures: &[&Observation],
     errors: &[SampleEvidence],
 ) -> Vec<PigmentError> {
-    let square = |error: &SampleEvidence| error.delta_e * error.delta_e;
     let total: f64 = errors.iter().map(square).sum();
     let all = set.pigments.iter().enumerate().map(|(index, name): (usize, &String)| {
         let pairs = mixtures.iter().zip(errors).filter(|(mixture, _)| mixture.shares[index] > 0.0);
@@ -208,6 +219,10 @@ fn by_pigment(
     let mut found: Vec<PigmentError> = all.filter(|pigment| pigment.mixtures > 0).collect();
     found.sort_by(|a, b| b.share.total_cmp(&a.share));
     found
+}
+
+fn square(error: &SampleEvidence) -> f64 {
+    error.delta_e * error.delta_e
 }
 
 /// Refits without each film of two pigments or more, for absolute amounts, and predicts it.
@@ -241,7 +256,7 @@ pub fn leave_out_films(
     }))
 }
 
-/// Prediction of a left-out sample; `None` if a pigment would not be identified without it.
+/// Prediction of a left-out sample, or `None` if a pigment would not be identified without it.
 struct Prediction {
     index: usize,
     /// Predicted reflectance, and the colour error that remains if the strength is free.
@@ -279,4 +294,396 @@ fn summary<'a>(
         by_pigment: Vec::new(),
         mixtures: Vec::new(),
     }
+}
+
+/// All that fits of parts of the same samples have in common.
+pub(crate) struct Refits<'a> {
+    pub(crate) set: &'a SwatchSet,
+    pub(crate) observations: &'a [Observation],
+    pub(crate) reference: PigmentId,
+    pub(crate) surface: Surface,
+    pub(crate) settings: &'a FitSettings,
+    pub(crate) state: Option<RefinedState>,
+    /// Of each fit.
+    pub(crate) watch: Watch<'a>,
+}
+
+/// A fit of the other samples.
+pub(crate) struct Refit {
+    grid: Grid,
+    curves: Vec<Curves>,
+    /// Pigments of `curves`, by their places in the set.
+    identified: Vec<PigmentId>,
+    unknown: Vec<Unidentified>,
+}
+
+impl Refits<'_> {
+    /// Mixtures that can be left out. They have two pigments or more, and the full fit identifies all of
+    /// these.
+    pub(crate) fn mixtures(&self) -> impl Iterator<Item = usize> {
+        let shares = self.observations.iter().map(|o| o.shares.as_slice());
+        let unknown = unidentified(shares, self.reference);
+        (0..self.observations.len()).filter(move |&i| {
+            let target = &self.observations[i];
+            (target.shares.iter().filter(|s| **s > 0.0).count() > 1)
+                && unknown.iter().all(|u| target.shares[u.pigment.index()] == 0.0)
+        })
+    }
+
+    /// Fits all samples except the samples of `group`.
+    pub(crate) fn without(&self, group: &[usize]) -> Result<Refit, CalibrationError> {
+        let rest: Vec<Observation> = all_but(self.observations.len(), group)
+            .iter()
+            .map(|&i| self.observations[i].clone())
+            .collect();
+        let unknown = unidentified(rest.iter().map(|o| o.shares.as_slice()), self.reference);
+        let (solvable, identified) = without(&rest, &unknown);
+        let among =
+            identified.iter().position(|&p| p == self.reference).ok_or(FitError::Reference)?;
+        let problem = Problem::new(self.set.grid, self.surface, &solvable, PigmentId(among))?;
+        let how = Refinement::prediction(self.settings.smoothness, self.state);
+        let how = Refinement { watch: self.watch, ..how };
+        let curves = solve(&problem, self.settings.method, how)?.curves;
+        Ok(Refit { grid: self.set.grid, curves, identified, unknown })
+    }
+
+    /// Library of a fit of this set. Title, licence, source and evidence are empty.
+    pub(crate) fn library(&self, refit: &Refit) -> PigmentLibrary {
+        let name = |id: PigmentId| self.set.pigments[id.index()].clone();
+        let pigments = refit.identified.iter().zip(&refit.curves);
+        PigmentLibrary {
+            reference: Some(name(self.reference)),
+            settings: Some(self.settings.clone()),
+            pigments: pigments.map(|(&id, curves)| pigment(&name(id), curves, None)).collect(),
+            ..PigmentLibrary::empty(self.set.grid, self.surface)
+        }
+    }
+}
+
+impl Refit {
+    /// Whether K and S of every pigment of `target` are known.
+    pub(crate) fn identifies(&self, target: &Observation) -> bool {
+        self.unknown.iter().all(|u| target.shares[u.pigment.index()] == 0.0)
+    }
+
+    /// Predicted reflectance of `target` in a film that hides, where the amounts of all pigments but its
+    /// main one are multiplied by `strength`.
+    pub(crate) fn film(&self, target: &Observation, surface: Surface, strength: f64) -> Vec<f64> {
+        let main = (0..target.shares.len())
+            .reduce(|a: usize, b: usize| if target.shares[b] > target.shares[a] { b } else { a })
+            .map(PigmentId);
+        let parts = self.identified.iter().zip(&self.curves).map(|(pigment, curves)| {
+            let (absorption, scattering) = curves.as_slices();
+            let share = target.shares[pigment.index()];
+            let scale = if Some(*pigment) == main { 1.0 } else { strength };
+            (share * scale, absorption, scattering)
+        });
+        Curves::weighted_sum(self.grid, parts).hiding(surface)
+    }
+}
+
+/// Pigments that a report names for their part of the error.
+const NAMED_PIGMENTS: usize = 4;
+
+/// Options of [`validate`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ValidationOptions {
+    /// Options of the fits.
+    pub fit: FitOptions,
+    /// Number of seeded groups that are left out in turn, 2 and up. Default: each mixture by itself;
+    /// for absolute amounts 10 groups.
+    pub folds: Option<usize>,
+    /// Names of pigments; only mixtures with one of them are left out. Default: all mixtures.
+    pub with: Vec<String>,
+}
+
+/// A measured mixture, and a library that was fitted to all other samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeftOut {
+    /// Measured and predicted film of the mixture.
+    pub mixture: LeftOutMixture,
+    /// Library of the other samples.
+    pub library: PigmentLibrary,
+}
+
+/// Errors of mixtures that were predicted without their own measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitValidation {
+    /// Errors of the mixtures that were left out.
+    pub errors: Validation,
+    /// Fit of all samples.
+    pub fit: Fit,
+    /// Number of groups that were left out in turn, or `None` for each mixture by itself.
+    pub folds: Option<usize>,
+    viewing: Viewing,
+}
+
+impl FitValidation {
+    /// Report of the colour errors of all mixtures.
+    #[must_use]
+    pub fn report(&self) -> ErrorReport<'_> {
+        let Validation { rms, delta_e, per_sample, .. } = &self.errors;
+        let count = per_sample.len();
+        let manner = match self.folds {
+            Some(folds) => format!("in {}", documents::counted(folds.min(count), "group")),
+            None => "one by one".to_owned(),
+        };
+        let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];
+        let title = format!("{}, left out {manner}", documents::counted(count, "mixture"));
+        ErrorReport::new(title, delta_e, *rms, light, per_sample).with_lines(self.findings())
+    }
+
+    /// Measured and predicted films of the mixtures that were left out, rounded as their file has them: by
+    /// these, pigment maps know how far the library's predictions err.
+    ///
+    /// # Errors
+    /// [`FittingError::AbsoluteResiduals`] for absolute amounts, because their films do not hide.
+    pub fn residuals(&self) -> Result<Residuals, FittingError> {
+        let library = &self.fit.library;
+        if library.amounts == AmountKind::Absolute {
+            return Err(FittingError::AbsoluteResiduals);
+        }
+        let residuals = Residuals {
+            grid: library.grid,
+            saunderson: library.saunderson,
+            settings: library.settings.clone().unwrap_or_default(),
+            folds: self.folds,
+            inputs: library.inputs.clone(),
+            mixtures: self.errors.mixtures.clone(),
+        };
+        Ok(residuals.rounded())
+    }
+
+    /// Which pigments carry the error, and how much of it is strength.
+    fn findings(&self) -> Vec<String> {
+        let pigments: Vec<String> = (self.errors.by_pigment.iter().take(NAMED_PIGMENTS))
+            .map(|p| format!("{} {:.0} % in {}", p.pigment, 100.0 * p.share, p.mixtures))
+            .collect();
+        let by_pigment = (!pigments.is_empty())
+            .then(|| format!("by pigment, in number of mixtures: {}", pigments.join(", ")));
+        let strength = self.errors.strength_free.map(|free| {
+            format!("with the strength of each mixture free the mean would be {:.2}", free.mean)
+        });
+        by_pigment.into_iter().chain(strength).collect()
+    }
+
+    /// Names the mixtures that could not be left out.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        self.errors
+            .needed
+            .iter()
+            .map(|sample: &String| {
+                format!("{sample}: not left out, a pigment would not be identified without it")
+            })
+            .collect()
+    }
+}
+
+/// Leaves each mixture of two pigments or more out in turn, fits the rest, and predicts it: the error of
+/// mixtures that a fit has not seen.
+///
+/// ```no_run
+/// use calibrate::{Readings, ValidationOptions};
+///
+/// let readings = Readings::open("swatches.csv")?;
+/// let validation = calibrate::validate(&readings, &ValidationOptions::default())?;
+/// println!("{}", validation.report());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`FittingError`] as for [`crate::fit()`], or if no mixture can be left out.
+pub fn validate(
+    readings: &Readings,
+    options: &ValidationOptions,
+) -> Result<FitValidation, FittingError> {
+    let prepared = PreparedFit::new(readings, &options.fit, Watch::default())?;
+    prepared.validate(options, Watch::default())
+}
+
+impl PreparedFit {
+    /// Number of mixtures that [`Self::validate`] leaves out at most.
+    ///
+    /// # Errors
+    /// [`FittingError`] if a name of `options` is unknown, or options exclude each other.
+    pub fn mixtures(&self, options: &ValidationOptions) -> Result<usize, FittingError> {
+        let chosen = self.chosen(options)?;
+        let amounts = self.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
+        Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
+    }
+
+    /// Validates like [`validate`], with these readings and fit options. `watch` is told the stages of the
+    /// first fit and [`FitStage::LeftOut`] after each mixture, and may end the work.
+    ///
+    /// # Errors
+    /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
+    pub fn validate(
+        &self,
+        options: &ValidationOptions,
+        watch: Watch<'_>,
+    ) -> Result<FitValidation, FittingError> {
+        self.validate_fit(self.fit_watched(watch)?, options, watch)
+    }
+
+    /// Validates like [`Self::validate`], where `fit` is the fit of all samples that [`Self::fit`] made.
+    ///
+    /// # Errors
+    /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
+    pub fn validate_fit(
+        &self,
+        fit: Fit,
+        options: &ValidationOptions,
+        watch: Watch<'_>,
+    ) -> Result<FitValidation, FittingError> {
+        if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
+            return Err(FittingError::Folds { folds });
+        }
+        let chosen = self.chosen(options)?;
+        let folds = match self.model {
+            FilmModel::Relative { .. } => options.folds,
+            FilmModel::Absolute(_) => options.folds.or(Some(DEFAULT_FOLDS)),
+        };
+        let viewing = self.viewing().clone();
+        let plan = ValidationPlan {
+            settings: &self.settings,
+            viewing: &viewing,
+            state: fit.state,
+            folds,
+            watch,
+        };
+        let errors = match self.model {
+            FilmModel::Relative { reference, surface } => {
+                leave_out(&self.set, reference, surface, &plan, |o: &Observation| {
+                    chosen.selects(&o.shares)
+                })?
+            }
+            FilmModel::Absolute(film) => leave_out_films(&self.set, film, &plan)?,
+        };
+        if errors.per_sample.is_empty() {
+            return Err(FittingError::NothingToLeaveOut { needed: errors.needed });
+        }
+        Ok(FitValidation { errors, fit, folds, viewing })
+    }
+
+    /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`],
+    /// and returns the library of each fit. Mixtures without which the rest cannot be fitted, or a
+    /// pigment would not be identified, are passed over, as are films of absolute amounts, which do not
+    /// hide. `watch` receives [`FitStage::LeftOut`] after each, from any thread.
+    ///
+    /// # Errors
+    /// [`FittingError`] if readings cannot be used, the fit of all samples fails, or the work was cancelled.
+    pub fn left_out(&self, watch: Watch<'_>) -> Result<Vec<LeftOut>, FittingError> {
+        let FilmModel::Relative { reference, surface } = self.model else {
+            return Ok(Vec::new());
+        };
+        let set = &self.set;
+        let settings = &self.settings;
+        let observations = observations(set, surface, settings.below_surface);
+        let observations = observations.map_err(CalibrationError::from)?;
+        let state = self.fit_watched(watch.quiet())?.state;
+        let viewing = self.viewing();
+        let plan = ValidationPlan { settings, viewing, state, folds: None, watch };
+        let refits = plan.refits(set, &observations, reference, surface);
+        let mixtures: Vec<usize> = refits.mixtures().collect();
+        let left_out = |&index: &usize| -> Result<Option<LeftOut>, FittingError> {
+            let target = &observations[index];
+            let refit = refits.without(&[index]);
+            watch.tell(FitStage::LeftOut);
+            let refit = match refit {
+                Err(CalibrationError::Fit(error)) if !matches!(error, FitError::Cancelled(_)) => {
+                    return Ok(None);
+                }
+                other => other?,
+            };
+            Ok(refit.identifies(target).then(|| LeftOut {
+                mixture: left_out_mixture(set, target, &refit.film(target, surface, 1.0)),
+                library: refits.library(&refit),
+            }))
+        };
+        let found = mixtures.par_iter().map(left_out).collect::<Result<Vec<_>, _>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// One half of the readings, ready to be fitted: all films of one pigment, and every second mixture,
+    /// from mixture `half` (0 or 1) on.
+    #[must_use]
+    pub fn half(&self, half: usize) -> Self {
+        let mixtures: Vec<&str> = (self.set.swatches.iter())
+            .filter(|swatch| swatch.shares.iter().filter(|share| **share > 0.0).count() > 1)
+            .map(|swatch| swatch.sample.as_str())
+            .collect();
+        let out: Vec<&str> = mixtures.iter().copied().skip(1 - half % 2).step_by(2).collect();
+        let mut part = self.clone();
+        part.set = self.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
+        if let FilmModel::Relative { reference, .. } = &mut part.model {
+            let white = &self.set.pigments[reference.index()];
+            let place = part.set.pigments.iter().position(|name| name == white);
+            *reference = PigmentId(place.unwrap_or(reference.index()));
+        }
+        part
+    }
+
+    fn chosen(&self, options: &ValidationOptions) -> Result<ChosenPigments, FittingError> {
+        if !options.with.is_empty() && matches!(self.model, FilmModel::Absolute(_)) {
+            return Err(FittingError::AbsoluteWith);
+        }
+        let with = options.with.iter().map(|name| index_of(&self.set.pigments, name, "pigment"));
+        with.collect::<Result<_, _>>().map(ChosenPigments)
+    }
+}
+
+fn is_mixture(amounts: &[f64]) -> bool {
+    amounts.iter().filter(|a| **a > 0.0).count() > 1
+}
+
+/// Pigments of which a mixture must contain one, or none for every mixture.
+struct ChosenPigments(Vec<usize>);
+
+impl ChosenPigments {
+    fn selects(&self, amounts: &[f64]) -> bool {
+        self.0.is_empty() || self.0.iter().any(|&pigment| amounts[pigment] > 0.0)
+    }
+}
+
+impl Fit {
+    /// Errors of the fit as JSON: `samples` and `pigments` as numbers, `rms`, `delta_e`, `per_sample`,
+    /// `shares_of_squares` of the colour errors with the greatest first, `warnings`.
+    #[must_use]
+    pub fn errors_json(&self) -> Map<String, Value> {
+        let Evidence { rms, delta_e, per_sample, warnings, .. } = self.evidence();
+        errors_json(self.library.pigments.len(), *rms, delta_e, per_sample, warnings)
+    }
+}
+
+impl FitValidation {
+    /// Errors of the mixtures that were left out, with the keys of [`Fit::errors_json`].
+    #[must_use]
+    pub fn errors_json(&self) -> Map<String, Value> {
+        let pigments = self.fit.library.pigments.len();
+        let errors = &self.errors;
+        errors_json(pigments, errors.rms, &errors.delta_e, &errors.per_sample, &self.warnings())
+    }
+}
+
+fn errors_json(
+    pigments: usize,
+    rms: f64,
+    delta_e: &Summary,
+    per_sample: &[SampleEvidence],
+    warnings: &[String],
+) -> Map<String, Value> {
+    let shares = shares_of_squares(per_sample)
+        .into_iter()
+        .map(|(sample, share): (&str, f64)| json!({ "sample": sample, "share": share }));
+    let pairs = [
+        ("samples", json!(per_sample.len())),
+        ("pigments", json!(pigments)),
+        ("rms", json!(rms)),
+        ("delta_e", json!(delta_e)),
+        ("per_sample", json!(per_sample)),
+        ("shares_of_squares", shares.collect()),
+        ("warnings", json!(warnings)),
+    ];
+    pairs.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }

@@ -12,7 +12,7 @@ use maps::{Book, MapSettings, Mapper, ModelError};
 use pigment::PigmentLibrary;
 
 fn main() {
-    // Figures are those of one core.
+    // The numbers are measured on one core.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     pool.expect("the first pool");
     divan::main();

@@ -83,9 +83,6 @@ fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error:
     let named = NamedGroups::of(&samples, &groups);
     println!("1. {} measured mixtures, each left out of its library", samples.len());
     println!("  {:44} {:17} groups", "precision, recall, share error of", "pigments");
-    let row = |name: &str, trials: &SwatchTrials| {
-        println!("  {name:44} {} {}", Scores::of(&trials.pigments), Scores::of(&trials.groups));
-    };
     for baseline in Baseline::ALL {
         row(baseline.name(), &SwatchTrials::baseline(&samples, &named, baseline, 0.1));
     }
@@ -101,7 +98,6 @@ fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error:
         let settings = MapSettings { penalty, ..MapSettings::default() };
         let trials = swatch_trials(&samples, &settings, &groups)?;
         row(&format!("two constants, penalty {penalty}"), &trials);
-        let best = |trials: &[Trial]| trials.iter().map(Trial::of_best_set).collect();
         let best = SwatchTrials { pigments: best(&trials.pigments), groups: best(&trials.groups) };
         row("  present if in the best set", &best);
         of_penalty.push((penalty, trials));
@@ -110,6 +106,14 @@ fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error:
     row(&format!("penalty chosen on other folds {:?}", choice.penalties), &choice.trials);
     told(&choice.trials.groups);
     Ok(())
+}
+
+fn best(trials: &[Trial]) -> Vec<Trial> {
+    trials.iter().map(Trial::of_best_set).collect()
+}
+
+fn row(name: &str, trials: &SwatchTrials) {
+    println!("  {name:44} {} {}", Scores::of(&trials.pigments), Scores::of(&trials.groups));
 }
 
 fn paintings(

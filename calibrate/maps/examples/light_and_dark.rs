@@ -1,7 +1,7 @@
 //! Maps a scan into light and dark: `light_and_dark SCAN MAPS [WHITE]`.
 //!
-//! The share of light is the mean reflectance of a pixel, so that every reader of the maps can be
-//! checked against the scan. WHITE is the value of a white, for scans that do not tell it.
+//! The share of light is the mean reflectance of a pixel, so that every reader of the maps can be checked
+//! against the scan. WHITE is the value of a white, for scans that do not state it.
 
 use std::convert::Infallible;
 use std::error::Error;

@@ -1,13 +1,15 @@
-//! Maps a whole cube shard by shard, in bounded memory.
+//! Maps a cube shard by shard, in bounded memory, and writes the maps to the disk.
 
 use std::error::Error;
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use documents::hint::{Explain, Fault, Hint};
 
 use crate::cube::{Block, Cube, CubeError};
-use crate::pixel_maps::BlockMaps;
-use crate::store::{MapStore, Shard, StoreError};
+use crate::pixel_maps::{BlockMaps, MapError};
+use crate::store::{MapStore, Shard, StoreError, StoreMode};
+use crate::surveyed::SurveyedScan;
 
 pub use crate::pixel_maps::PixelCounts;
 
@@ -20,7 +22,7 @@ const MOST_PIXELS: usize = 256 * 2048;
 /// State of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MapProgress {
-    /// Pixels that are done, those of finished shards included.
+    /// Pixels that are done, including finished shards.
     pub done: u64,
     /// Pixels of the run.
     pub all: u64,
@@ -75,12 +77,11 @@ impl<E: Explain + 'static> Explain for RunError<E> {
     }
 }
 
-/// Maps every shard of `store` that is not finished. `map` maps a block; it is called for one block
-/// at a time and may use all threads. Its result must depend on each pixel alone, so that the bytes
-/// of the store do not depend on the blocks.
+/// Maps every shard of `store` that is not finished. `map` maps a block. It is called for one block at a
+/// time and may use all threads. Its result must depend on each pixel alone, so that the bytes of the
+/// store do not depend on the blocks.
 ///
-/// `progress` is called after each block. If it breaks, the run ends; the shard under way is not
-/// written.
+/// `progress` is called after each block. If it breaks, the run ends. The shard under way is not written.
 ///
 /// # Errors
 /// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.
@@ -90,7 +91,6 @@ pub fn map_cube<E: Error + 'static>(
     map: impl Fn(&Block) -> Result<BlockMaps, E>,
     mut progress: impl FnMut(MapProgress) -> ControlFlow<()>,
 ) -> Result<MapOutcome, RunError<E>> {
-    let pixels = |shard: &Shard| shard.rows.len() as u64 * shard.columns.len() as u64;
     let shards = store.shards();
     let mut state = MapProgress {
         done: 0,
@@ -122,6 +122,10 @@ pub fn map_cube<E: Error + 'static>(
         state.done = before + pixels(shard);
     }
     Ok(outcome)
+}
+
+fn pixels(shard: &Shard) -> u64 {
+    shard.rows.len() as u64 * shard.columns.len() as u64
 }
 
 /// Maps one shard and writes it, whether it is finished or not. `progress` is called after each block
@@ -157,4 +161,46 @@ pub fn map_shard<E: Error + 'static>(
     }
     writer.finish()?;
     Ok(Some(counts))
+}
+
+impl SurveyedScan {
+    /// Begins or resumes the maps at `path`.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
+    pub fn store(&self, path: impl AsRef<Path>, mode: StoreMode) -> Result<MapStore, StoreError> {
+        MapStore::create(path, self.about(), mode)
+    }
+
+    /// Maps every shard that is not finished, on all cores and in bounded memory. `progress` is called after
+    /// each block; if it breaks, the run ends, and the shard under way is not written.
+    ///
+    /// # Errors
+    /// [`RunError`] if the scan cannot be read or the maps not be written.
+    pub fn map(
+        &self,
+        store: &MapStore,
+        progress: impl FnMut(MapProgress) -> ControlFlow<()>,
+    ) -> Result<MapOutcome, RunError<MapError>> {
+        map_cube(self.cube(), store, |block| self.map_block(block), progress)
+    }
+
+    /// Maps the shard at `place` in the order of the store, unless it is finished. `None` if it was, or if
+    /// `progress`, called after each block with the number of finished pixels, broke.
+    ///
+    /// # Errors
+    /// [`RunError`] if the scan cannot be read or the shard not be written.
+    pub fn map_shard(
+        &self,
+        store: &MapStore,
+        place: usize,
+        progress: impl FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Option<PixelCounts>, RunError<MapError>> {
+        match store.shards().get(place) {
+            Some(shard) if !store.is_finished(shard) => {
+                map_shard(self.cube(), store, shard, |block| self.map_block(block), progress)
+            }
+            _ => Ok(None),
+        }
+    }
 }

@@ -1,6 +1,19 @@
 //! Maps of the pixels of one block: shares, presence, errors and masks as flat vectors.
+//!
+//! This file also holds what stored maps say about their run, the precision of stored numbers, and the
+//! reasons why spectra cannot be mapped with a library.
 
+use std::ops::Range;
+
+use calibrate::ResidualsError;
+use documents::Cancelled;
+use documents::hint::{Explain, Fault, Hint};
+use half::f16;
+use pigment::RecipeError;
 use serde::{Deserialize, Serialize};
+#[cfg(feature = "files")]
+use serde_json::json;
+use serde_json::{Map, Value};
 
 /// Tells whether a pixel is mapped, or why it is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -122,7 +135,7 @@ pub struct BlockMaps {
     pub chi2: Vec<f32>,
     /// Root mean square of the residual in reflectance over the bands.
     pub rms: Vec<f32>,
-    /// Second-best set of each pixel: bit `i` is pigment `i`; 0 where there is none.
+    /// Second-best set of each pixel: bit `i` is pigment `i`, or 0 where there is none.
     pub second: Vec<u64>,
     /// Whether each pixel is mapped, or why not.
     pub mask: Vec<Mask>,
@@ -203,6 +216,255 @@ impl BlockMaps {
         self.pigments <= Self::MOST_PIGMENTS
             && of_pigments.iter().all(|values| Some(values.len()) == numbers)
             && of_pixels.iter().all(|&length| length == pixels)
+    }
+}
+
+/// Number by which a probability of 1 is stored.
+pub(crate) const PRESENCE_ONE: f32 = 250.0;
+/// Number that stands for no probability.
+pub(crate) const NO_PRESENCE: u8 = 255;
+
+/// Share or deviation as it is stored. Every NaN has the same bits.
+pub(crate) fn half_of(value: f32) -> f16 {
+    if value.is_nan() { f16::NAN } else { f16::from_f32(value) }
+}
+
+/// Probability as it is stored.
+pub(crate) fn code_of(presence: f32) -> u8 {
+    match presence.is_nan() {
+        true => NO_PRESENCE,
+        false => (presence.clamp(0.0, 1.0) * PRESENCE_ONE).round() as u8,
+    }
+}
+
+/// Probability of a stored number.
+pub(crate) fn presence_of(code: u8) -> f32 {
+    match code {
+        NO_PRESENCE => f32::NAN,
+        code => f32::from(code) / PRESENCE_ONE,
+    }
+}
+
+impl BlockMaps {
+    /// The maps as they are read from a store: shares and their deviations in half precision, presence in
+    /// steps of 1/250.
+    #[must_use]
+    pub fn as_kept(mut self) -> Self {
+        for value in self.share.iter_mut().chain(&mut self.share_sd) {
+            *value = half_of(*value).to_f32();
+        }
+        for value in &mut self.presence {
+            *value = presence_of(code_of(*value));
+        }
+        self
+    }
+}
+
+/// Everything on which the bytes of maps depend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapsAbout {
+    /// Names of the pigments or groups, in the order of the maps; at most 64, all different.
+    pub pigments: Vec<String>,
+    /// SHA-256 of the library's file, in hexadecimal digits.
+    pub library_sha256: String,
+    /// SHA-256 of the survey's book, in hexadecimal digits.
+    pub book_sha256: String,
+    /// SHA-256 or another sign of the scan, by which another scan is told apart.
+    pub scan: String,
+    /// Rows of the scan that are mapped.
+    pub rows: Range<usize>,
+    /// Columns of the scan that are mapped.
+    pub columns: Range<usize>,
+    /// Settings of the run.
+    pub settings: Map<String, Value>,
+}
+
+impl MapsAbout {
+    /// Attributes of the group.
+    #[cfg(feature = "files")]
+    pub(crate) fn attributes(&self) -> Map<String, Value> {
+        let all = json!({
+            "title": "pigment maps",
+            "impasto_version": env!("CARGO_PKG_VERSION"),
+            "library_sha256": self.library_sha256,
+            "book_sha256": self.book_sha256,
+            "scan": self.scan,
+            "pigments": self.pigments,
+            "rows": [self.rows.start, self.rows.end],
+            "columns": [self.columns.start, self.columns.end],
+            "settings": self.settings,
+        });
+        match all {
+            Value::Object(map) => map,
+            _ => Map::new(),
+        }
+    }
+}
+
+/// A library, wavelengths or settings with which no map can be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MapError {
+    /// The wavelengths of the scan do not rise.
+    #[error("wavelengths must rise strictly, found `{after}` nm at band {band} after {before} nm")]
+    Order {
+        /// Number of the band, counted from 1.
+        band: usize,
+        /// Wavelength of the band before, in nm.
+        before: f64,
+        /// Wavelength of this band, in nm.
+        after: f64,
+    },
+    /// Too few bands lie within the library's wavelengths.
+    #[error(
+        "{inside} of {bands} bands lie within {start_nm} to {end_nm} nm, where the library's K and S are known; {needed} are needed"
+    )]
+    Overlap {
+        /// Number of bands of the scan.
+        bands: usize,
+        /// Number of them within the library's wavelengths.
+        inside: usize,
+        /// Least number that is needed.
+        needed: usize,
+        /// First wavelength of the library in nm.
+        start_nm: f64,
+        /// Last wavelength of the library in nm.
+        end_nm: f64,
+    },
+    /// A name matches no pigment of the library, or several.
+    #[error(transparent)]
+    Name(#[from] RecipeError),
+    /// Residuals do not suit the library.
+    #[error(transparent)]
+    Residuals(#[from] ResidualsError),
+    /// Too few or too many pigments take part.
+    #[error("1 to {most} pigments can take part in a map, found `{found}`")]
+    Pigments {
+        /// Number of pigments that would take part.
+        found: usize,
+        /// Greatest number that can.
+        most: usize,
+    },
+    /// A pigment belongs to two groups.
+    #[error("{pigment} is in the group `{first}` and in the group `{second}`")]
+    TwoGroups {
+        /// Name of the pigment.
+        pigment: String,
+        /// Name of the first group.
+        first: String,
+        /// Name of the second group.
+        second: String,
+    },
+    /// The ground is no reflectance, or does not cover the bands of the scan.
+    #[error("the spectrum of the ground {problem}")]
+    Ground {
+        /// The fault, as a sentence part.
+        problem: String,
+    },
+    /// A setting is out of its range.
+    #[error("{name} must be {range}, found `{value}`")]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Range of the setting, in words.
+        range: &'static str,
+        /// Value that was given.
+        value: f64,
+    },
+    /// The number of reflectances is not a whole number of pixels.
+    #[error("{values} reflectances are no whole number of pixels of {bands} bands")]
+    Length {
+        /// Number of reflectances.
+        values: usize,
+        /// Bands of a pixel.
+        bands: usize,
+    },
+    /// The number of masks is not the number of pixels.
+    #[error("{masks} masks for {pixels} pixels")]
+    Masks {
+        /// Number of masks.
+        masks: usize,
+        /// Number of pixels.
+        pixels: usize,
+    },
+    /// No pixel of the survey can be mapped.
+    #[error("none of {pixels} surveyed pixels holds a reflectance that can be mapped")]
+    NothingToSurvey {
+        /// Number of pixels that were surveyed.
+        pixels: usize,
+    },
+    /// A book was made with another library, other wavelengths or other settings.
+    #[error("the book of the survey was made for `{found}`, not for `{expected}`")]
+    OtherBook {
+        /// Identity of the book.
+        found: String,
+        /// Identity of the mapper.
+        expected: String,
+    },
+    /// A book was made with another error of the library's predictions.
+    #[error("the survey was made with {found}, not with {expected}")]
+    OtherModelError {
+        /// Error of the book, in words.
+        found: String,
+        /// Error of the mapper, in words.
+        expected: String,
+    },
+    /// A file of a book cannot be read.
+    #[error("the book of a survey is not valid: {reason}")]
+    Book {
+        /// Reason, in words.
+        reason: String,
+    },
+    /// The survey was ended before all its pixels were searched.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Explain for MapError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Order { .. } => {
+                Some(Hint::new("sort the bands of the scan by wavelength, in nm"))
+            }
+            Self::Overlap { .. } => Some(Hint::new(
+                "check that the wavelengths are in nm, or fit a library from readings that cover the scan",
+            )),
+            Self::Name(error) => error.hint(),
+            Self::Residuals(error) => error.hint(),
+            Self::Pigments { .. } => Some(Hint::new("name the pigments with [palette]")),
+            Self::TwoGroups { .. } => Some(Hint::new("name each pigment in one [group]")),
+            Self::Setting { .. } => None,
+            Self::Book { .. } => Some(Hint::new(
+                "survey the scan again: without this file, or with another one as the [survey]",
+            )),
+            Self::Ground { .. } => Some(Hint::new(
+                "give reflectances from 0 to 1 at rising wavelengths that cover the scan, or a region of bare ground in the scan, as the [ground]",
+            )),
+            Self::Length { .. } => {
+                Some(Hint::new("give the reflectances pixel after pixel, all bands of each"))
+            }
+            Self::Masks { .. } => Some(Hint::new("give one mask for each pixel, or none at all")),
+            Self::NothingToSurvey { .. } => Some(Hint::new(
+                "check that the scan holds reflectances from 0 to 1 rather than raw counts or percent",
+            )),
+            Self::Cancelled(error) => error.hint(),
+            Self::OtherBook { .. } => Some(Hint::new("survey the scan again with these settings")),
+            Self::OtherModelError { .. } => Some(Hint::new(
+                "give the same [residuals] or [model_error] as for the survey, or survey the scan again",
+            )),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Residuals(error) => error.fault(),
+            Self::Name(_)
+            | Self::Pigments { .. }
+            | Self::TwoGroups { .. }
+            | Self::Ground { .. }
+            | Self::Setting { .. } => Fault::Setting,
+            Self::Cancelled(error) => error.fault(),
+            _ => Fault::Input,
+        }
     }
 }
 

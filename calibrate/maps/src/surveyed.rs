@@ -1,25 +1,22 @@
-//! A scan surveyed with a library: all that its maps depend on, ready to be mapped as a whole or shard by
-//! shard, by one process or by many.
+//! A surveyed scan: all that its maps depend on, ready to be mapped by one process or by several.
+//!
+//! A spot shows the measured spectrum of a pixel or a region beside the spectrum of its mapped mixture.
 
 use std::ops::{ControlFlow, Range};
 
 use documents::hint::{Explain, Fault, Hint};
-use pigment::PigmentLibrary;
 use pigment::library::Input;
+use pigment::{PigmentLibrary, RecipeError};
 use serde_json::{Map, Value, json};
 
 use crate::cube::{Block, Cube, CubeError};
-use crate::films::ground::Ground;
-use crate::films::noise::ModelError;
-use crate::films::settings::MapSettings;
-use crate::map_error::MapError;
-use crate::mapping::book::Book;
+use crate::films::bands::Ground;
+use crate::films::settings::{MapSettings, ModelError};
+use crate::mapping::Mapper;
+use crate::mapping::book::{Book, OpenBook};
 use crate::mapping::groups::Column;
-use crate::mapping::mapper::Mapper;
-use crate::mapping::open_book::OpenBook;
 use crate::mapping::survey::SURVEYED;
-use crate::maps_about::MapsAbout;
-use crate::pixel_maps::BlockMaps;
+use crate::pixel_maps::{BlockMaps, MapError, MapsAbout};
 
 /// A rectangle of a scan, in rows and columns from 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -179,8 +176,8 @@ impl SurveyedScan {
         self.mapper.map(&self.opened, spectra, &[])
     }
 
-    /// Pigments of the best set of one pixel with their shares, the greatest first; `None` if it cannot be
-    /// mapped.
+    /// Pigments of the best set of one pixel with their shares, the greatest first, or `None` if it
+    /// cannot be mapped.
     ///
     /// # Errors
     /// [`MapError`] unless `spectrum` has one reflectance a band.
@@ -229,11 +226,14 @@ fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
 fn inside(cube: &Cube, region: Option<Region>) -> Result<Region, SurveyError> {
     let whole = Region { rows: 0..cube.lines(), columns: 0..cube.samples() };
     let Some(region) = region else { return Ok(whole) };
-    let fits = |part: &Range<usize>, all: &Range<usize>| !part.is_empty() && part.end <= all.end;
     if fits(&region.rows, &whole.rows) && fits(&region.columns, &whole.columns) {
         return Ok(region);
     }
     Err(SurveyError::Region { region, lines: whole.rows.end, samples: whole.columns.end })
+}
+
+fn fits(part: &Range<usize>, all: &Range<usize>) -> bool {
+    !part.is_empty() && part.end <= all.end
 }
 
 /// Settings as the maps tell them.
@@ -302,6 +302,131 @@ impl Explain for SurveyError {
             Self::Cube(error) => error.fault(),
             Self::Map(error) => error.fault(),
             Self::Region { .. } => Fault::Setting,
+        }
+    }
+}
+
+/// Share below which a pigment takes no part in the mapped mixture of a spot.
+const LEAST_SHARE: f32 = 1e-4;
+
+/// A pigment or group in a spot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpotPigment {
+    /// Name of the pigment or group.
+    pub name: String,
+    /// Share of the paint, 0 to 1.
+    pub share: f64,
+    /// Standard deviation of the share.
+    pub share_sd: f64,
+    /// Probability that it is there, 0 to 1.
+    pub presence: f64,
+}
+
+/// A pixel or region of a scan, its mean spectrum mapped as one pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spot {
+    /// Rows and columns.
+    pub region: Region,
+    /// Number of pixels in the mean. Each could be mapped.
+    pub pixels: usize,
+    /// Wavelengths of the scan's bands in nm.
+    pub measured_nm: Vec<f64>,
+    /// Mean measured reflectance of each band.
+    pub measured: Vec<f64>,
+    /// Wavelengths of the library in nm.
+    pub mapped_nm: Vec<f64>,
+    /// Reflectance of the mapped mixture, of its single pigments.
+    pub mapped: Vec<f64>,
+    /// Pigments and groups with a share, the greatest first, or none where the spectrum is out of gamut.
+    pub pigments: Vec<SpotPigment>,
+    /// Chi-square per degree of freedom.
+    pub chi2: f64,
+    /// Root mean square difference in reflectance.
+    pub rms: f64,
+}
+
+impl SurveyedScan {
+    /// Maps the mean spectrum of `region`. `library` must be the library of the survey.
+    ///
+    /// # Errors
+    /// [`SpotError`] if the region is not within the scan, or none of its pixels can be mapped.
+    pub fn spot(&self, library: &PigmentLibrary, region: Region) -> Result<Spot, SpotError> {
+        let (pixels, measured) = self.cube().mean(region.rows.clone(), region.columns.clone())?;
+        if pixels == 0 {
+            return Err(SpotError::NothingMapped { region });
+        }
+        let mean: Vec<f32> = measured.iter().map(|value| *value as f32).collect();
+        let maps = self.map_pixels(&mean)?;
+        if !maps.mask[0].is_compared() {
+            return Err(SpotError::NothingMapped { region });
+        }
+        let columns = self.mapper().columns();
+        let Some(set) = self.best_set(&mean)? else {
+            return Err(SpotError::NothingMapped { region });
+        };
+        let mixture = library.mix(library.recipe(set)?)?;
+        let told = columns.iter().enumerate().map(|(place, column)| SpotPigment {
+            name: column.name.clone(),
+            share: f64::from(maps.share[place]),
+            share_sd: f64::from(maps.share_sd[place]),
+            presence: f64::from(maps.presence[place]),
+        });
+        let mut pigments: Vec<SpotPigment> =
+            told.filter(|pigment| pigment.share > f64::from(LEAST_SHARE)).collect();
+        pigments.sort_by(|a, b| b.share.total_cmp(&a.share));
+        Ok(Spot {
+            region,
+            pixels,
+            measured_nm: self.cube().wavelengths_nm().to_vec(),
+            measured,
+            mapped_nm: library.grid.wavelengths_nm().collect(),
+            mapped: mixture.hiding(library.saunderson),
+            pigments,
+            chi2: f64::from(maps.chi2[0]),
+            rms: f64::from(maps.rms[0]),
+        })
+    }
+}
+
+/// A spot that cannot be told.
+#[derive(Debug, thiserror::Error)]
+pub enum SpotError {
+    /// The region is not within the scan, or the scan cannot be read.
+    #[error(transparent)]
+    Cube(#[from] CubeError),
+    /// The spectrum does not fit the survey.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The library lacks a pigment of the survey.
+    #[error(transparent)]
+    Recipe(#[from] RecipeError),
+    /// No pixel of the region can be mapped.
+    #[error(
+        "rows {}..{}, columns {}..{}: none of these pixels can be mapped",
+        region.rows.start, region.rows.end, region.columns.start, region.columns.end
+    )]
+    NothingMapped {
+        /// Region of the spot.
+        region: Region,
+    },
+}
+
+impl Explain for SpotError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Cube(error) => error.hint(),
+            Self::Map(error) => error.hint(),
+            Self::Recipe(error) => error.hint(),
+            Self::NothingMapped { .. } => Some(Hint::new("choose another [spot]")),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Cube(error) => error.fault(),
+            Self::Map(error) => error.fault(),
+            Self::Recipe(error) => error.fault(),
+            Self::NothingMapped { .. } => Fault::Setting,
         }
     }
 }

@@ -278,13 +278,13 @@ fn settings_out_of_range_are_refused() {
         let error = Mapper::new(&oils, &nm, &wrong).unwrap_err();
         assert!(matches!(error, MapError::Setting { .. }), "{error}");
     }
-    let group = |name: &str| PigmentGroup {
-        name: name.to_owned(),
-        pigments: vec!["Zinc White".to_owned()],
-    };
     let twice = MapSettings { groups: vec![group("a"), group("b")], ..usual };
     let error = Mapper::new(&oils, &nm, &twice).unwrap_err();
     assert!(matches!(error, MapError::TwoGroups { .. }), "{error}");
+}
+
+fn group(name: &str) -> PigmentGroup {
+    PigmentGroup { name: name.to_owned(), pigments: vec!["Zinc White".to_owned()] }
 }
 
 #[test]

@@ -1,19 +1,23 @@
 //! Predicts the spectrum and colour of a mixture given by pigment names and parts.
+//!
+//! [`Backing`] is the ground under the film, [`Appearance`] the colour under one light in the forms that people
+//! use, and [`IlluminantChange`] names a metamerism index.
 
-use documents::hint::{Explain, Fault, Hint};
-use spectra::color::{Lab, Rgb, Xyz};
-use spectra::{Reflectance, Spectrum, SpectrumError};
+use std::str::FromStr;
 
-use crate::appearance::Appearance;
-use crate::backing::{Backing, BackingError};
-use crate::evaluate::Viewing;
+use documents::hint::Explain;
+use serde_json::{Value, json};
+use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
+use spectra::{
+    Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum, SpectrumError,
+};
+
+use crate::evaluate::{BandError, Remark, Viewing, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary, RecipeError};
 use crate::recipe::Recipe;
-use crate::remark::Remark;
-use crate::visible_band::{BandError, check_visible_band};
 
 /// Greatest thickness of a film. A film of this thickness hides its ground if K and S exceed 1e-7.
-const THICKEST: f64 = 1e9;
+pub(crate) const THICKEST: f64 = 1e9;
 
 /// A film of given thickness over a ground.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,11 +47,11 @@ pub struct MixtureColor {
     pub xyz: Xyz,
     /// CIELAB relative to the light's own white.
     pub lab: Lab,
-    /// Encoded sRGB, adapted from the light to the display (Bradford); outside 0..1 where sRGB cannot
+    /// Encoded sRGB, adapted from the light to the display (Bradford). Outside 0..1 where sRGB cannot
     /// show the colour.
     pub srgb: Rgb,
-    /// Warnings: pigments that were guessed or whose S is unknown, and a ground or a library that covers only
-    /// part of the visible band.
+    /// Warnings: guessed pigments, pigments with unknown S, and a ground or a library that covers only part
+    /// of the visible band.
     pub remarks: Vec<Remark>,
 }
 
@@ -142,14 +146,17 @@ impl PigmentLibrary {
     }
 }
 
-/// A mixture whose colour cannot be predicted.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// Reasons why the colour of a mixture cannot be predicted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ColorError {
     /// The recipe cannot be mixed.
     #[error(transparent)]
+    #[fault(Input)]
     Recipe(#[from] RecipeError),
     /// The thickness of the film is impossible.
     #[error("a film's thickness is above 0 and up to 1e9, found `{thickness}`")]
+    #[hint("leave [thickness] out for a film that hides")]
+    #[fault(Setting)]
     Thickness {
         /// Thickness that was given.
         thickness: f64,
@@ -159,30 +166,175 @@ pub enum ColorError {
     Backing(#[from] BackingError),
     /// The library has no visible wavelength.
     #[error(transparent)]
+    #[fault(Input)]
     Band(#[from] BandError),
     /// K and S of the library make an impossible reflectance.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
 }
 
-impl Explain for ColorError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Recipe(error) => error.hint(),
-            Self::Thickness { .. } => {
-                Some(Hint::new("leave [thickness] out for a film that hides"))
-            }
-            Self::Backing(error) => error.hint(),
-            Self::Band(error) => error.hint(),
-            Self::Spectrum(_) => None,
+/// A colour under one light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Appearance {
+    /// Tristimulus values, Y = 100 for the white.
+    pub xyz: Xyz,
+    /// CIELAB relative to the light's own white.
+    pub lab: Lab,
+    /// Encoded sRGB, adapted from the light to the display (Bradford). Outside 0..1 where sRGB cannot
+    /// show the colour.
+    pub srgb: Rgb,
+}
+
+impl Appearance {
+    /// Computes the appearance of `xyz` under a light with the white point `white`.
+    #[must_use]
+    pub fn of(xyz: Xyz, white: Xyz) -> Self {
+        Self {
+            xyz,
+            lab: Lab::from_xyz(xyz, white),
+            srgb: RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford),
         }
     }
+}
 
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Thickness { .. } => Fault::Setting,
-            Self::Backing(error) => error.fault(),
-            Self::Recipe(_) | Self::Band(_) | Self::Spectrum(_) => Fault::Input,
+/// Measured reflectance of the bare ground under a film, surface included.
+///
+/// ```
+/// use pigment::Backing;
+///
+/// let paper: Backing = "0.85".parse()?;
+/// assert_eq!(paper, Backing::even(0.85)?);
+/// assert!("grey".parse::<Backing>().is_err());
+/// # Ok::<(), pigment::BackingError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub enum Backing {
+    /// One reflectance at every wavelength, 0 to 1.
+    Even(f64),
+    /// A measured spectrum.
+    Measured(Spectrum<Reflectance>),
+}
+
+impl Default for Backing {
+    /// A perfect white.
+    fn default() -> Self {
+        Self::Even(1.0)
+    }
+}
+
+impl Backing {
+    /// Backing with one reflectance at every wavelength.
+    ///
+    /// # Errors
+    /// [`BackingError::Reflectance`] unless it is 0 to 1.
+    pub fn even(reflectance: f64) -> Result<Self, BackingError> {
+        if (0.0..=1.0).contains(&reflectance) {
+            return Ok(Self::Even(reflectance));
         }
+        Err(BackingError::Reflectance { text: reflectance.to_string() })
+    }
+
+    /// Reflectance at each wavelength of `grid`. Where a measured spectrum is shorter, its end values
+    /// are held, and a warning says so.
+    ///
+    /// # Errors
+    /// [`BackingError::Band`] if the spectrum has no wavelength within the grid.
+    pub fn on_grid(&self, grid: Grid) -> Result<(Vec<f64>, Option<Remark>), BackingError> {
+        let spectrum = match self {
+            Self::Even(value) => return Ok((vec![*value; grid.count()], None)),
+            Self::Measured(spectrum) => spectrum,
+        };
+        let from = spectrum.grid();
+        let start = from.start_nm();
+        let end = from.end_nm();
+        if start > grid.end_nm() || end < grid.start_nm() {
+            return Err(BackingError::Band { start_nm: start, end_nm: end, wanted: grid });
+        }
+        let shorter = start > grid.start_nm() || end < grid.end_nm();
+        let warning = shorter.then(|| {
+            Remark::warning(format!(
+                "the ground is measured from {start} to {end} nm; beyond, its end values are held"
+            ))
+        });
+        let resampled =
+            spectrum.resampled(grid, Interpolation::best_for(from), Extrapolation::Hold)?;
+        Ok((resampled.into_values(), warning))
+    }
+}
+
+impl FromStr for Backing {
+    type Err = BackingError;
+
+    /// Reads `white`, `black`, or a reflectance from 0 to 1.
+    fn from_str(text: &str) -> Result<Self, BackingError> {
+        match text {
+            "white" => Ok(Self::Even(1.0)),
+            "black" => Ok(Self::Even(0.0)),
+            _ => text
+                .parse()
+                .ok()
+                .and_then(|value| Self::even(value).ok())
+                .ok_or_else(|| BackingError::Reflectance { text: text.to_owned() }),
+        }
+    }
+}
+
+/// A backing that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum BackingError {
+    /// The reflectance is not a number from 0 to 1.
+    #[error("the ground's reflectance is 0 to 1, white or black, found `{text}`")]
+    #[hint("try [over=0.85] or [over=paper.csv#SAMPLE]")]
+    #[fault(Setting)]
+    Reflectance {
+        /// Text or number that was given.
+        text: String,
+    },
+    /// The spectrum has no wavelength in common with the library.
+    #[error("the ground is measured from {start_nm} to {end_nm} nm only")]
+    #[hint("the library stands on {wanted}")]
+    Band {
+        /// First wavelength of the spectrum in nm.
+        start_nm: f64,
+        /// Last wavelength of the spectrum in nm.
+        end_nm: f64,
+        /// Wavelengths of the library.
+        wanted: Grid,
+    },
+    /// The spectrum cannot be interpolated.
+    #[error(transparent)]
+    Interpolate(#[from] InterpolateError),
+}
+
+/// The change of lights that a special metamerism index is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IlluminantChange<'a> {
+    /// Name of the light under which the pair should match.
+    pub reference: &'a str,
+    /// Name of the light to which the pair is brought.
+    pub test: &'a str,
+}
+
+impl IlluminantChange<'_> {
+    /// Meaning of a column of these indices, as a line for its table.
+    pub const LEGEND: &'static str = "metamerism: special metamerism index, change of illuminant, in CIEDE2000 (CIE 15:2018, 9.2)";
+
+    /// Both lights, for the heading of a column.
+    #[must_use]
+    pub fn heading(self) -> String {
+        format!("{} to {}", self.reference, self.test)
+    }
+
+    /// The index with its name, lights and unit as JSON. Null where it is not defined.
+    #[must_use]
+    pub fn to_json(self, index: Option<f64>) -> Value {
+        json!({
+            "kind": "special metamerism index, change of illuminant",
+            "change": self.heading(),
+            "from": self.reference,
+            "to": self.test,
+            "unit": "CIEDE2000",
+            "index": index,
+        })
     }
 }

@@ -1,9 +1,14 @@
-//! Colours and colour differences of reflectances, and their summary.
+//! Colours and colour differences of reflectances and their summary, remarks on a result, rounding for
+//! files, and the check that a wavelength grid covers the visible band.
 
+use std::fmt;
+
+use documents::hint::{Explain, Hint};
 use serde::{Deserialize, Serialize};
-use spectra::TristimulusWeights;
-pub use spectra::Viewing;
 use spectra::color::{Lab, delta_e_ciede2000};
+use spectra::{Grid, TristimulusWeights};
+
+pub use spectra::Viewing;
 
 /// CIELAB of a reflectance on the grid of `weights`.
 #[must_use]
@@ -32,7 +37,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Summarises `errors`; every number is 0 where there are none.
+    /// Summarises `errors`. Every number is 0 where there are none.
     #[must_use]
     pub fn of(errors: &[f64]) -> Self {
         Self {
@@ -47,13 +52,13 @@ impl Summary {
     #[must_use]
     pub fn rounded(&self) -> Self {
         let Self { mean, median, p90, max } = *self;
-        let [mean, median, p90, max] = [mean, median, p90, max].map(crate::digits::rounded);
+        let [mean, median, p90, max] = [mean, median, p90, max].map(rounded);
         Self { mean, median, p90, max }
     }
 }
 
 /// Value that `percent` of `values` do not exceed, interpolated linearly between order statistics
-/// (Hyndman and Fan 1996, definition 7, as numpy does); 0 for no values.
+/// (Hyndman and Fan 1996, definition 7, as numpy does), 0 for no values.
 #[must_use]
 pub fn percentile(values: &[f64], percent: f64) -> f64 {
     let Some(last) = values.len().checked_sub(1) else { return 0.0 };
@@ -64,6 +69,124 @@ pub fn percentile(values: &[f64], percent: f64) -> f64 {
     let (_, &mut low, above) = partly_sorted.select_nth_unstable_by(below, f64::total_cmp);
     let high = above.iter().copied().min_by(f64::total_cmp).unwrap_or(low);
     low + fraction * (high - low)
+}
+
+/// Kind of a [`Remark`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RemarkKind {
+    /// A choice that was made for the caller, or progress.
+    Note,
+    /// A warning about the result.
+    Warning,
+}
+
+/// One sentence about a computation, for its user.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// Whether it is a note or a warning.
+    pub kind: RemarkKind,
+    /// The sentence, in lower case and without a full stop.
+    pub text: String,
+    /// Advice on another choice, if a setting allows one.
+    pub hint: Option<Hint>,
+}
+
+impl Remark {
+    /// A note: something that was read or chosen.
+    #[must_use]
+    pub fn note(text: impl Into<String>) -> Self {
+        Self { kind: RemarkKind::Note, text: text.into(), hint: None }
+    }
+
+    /// A warning about the result.
+    #[must_use]
+    pub fn warning(text: impl Into<String>) -> Self {
+        Self { kind: RemarkKind::Warning, text: text.into(), hint: None }
+    }
+
+    /// The remark with a hint. The hint puts settings in square brackets.
+    #[must_use]
+    pub fn with_hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(Hint::new(hint)), ..self }
+    }
+}
+
+impl fmt::Display for Remark {
+    /// Writes the sentence, `warning: ` before a warning, and the hint behind a semicolon.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.kind == RemarkKind::Warning {
+            f.write_str("warning: ")?;
+        }
+        f.write_str(&self.text)?;
+        self.hint.as_ref().map_or(Ok(()), |hint| write!(f, "; {hint}"))
+    }
+}
+
+/// Rounds `value` to six significant digits: more than any reading carries, and few enough that a
+/// file has the same bytes on every machine.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// Band in nm that a grid must touch to have a colour at all.
+const NEEDED_NM: [f64; 2] = [400.0, 700.0];
+/// Band in nm that a grid should cover: it holds nearly all of the luminance and chroma.
+pub(crate) const WANTED_NM: [f64; 2] = [420.0, 680.0];
+
+/// Part of the visible band that a grid covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BandCoverage {
+    /// 420 to 680 nm or more.
+    Full,
+    /// Only a part. Colours take the end values for the rest.
+    Partial,
+    /// Nothing from 400 to 700 nm.
+    Missing,
+}
+
+impl BandCoverage {
+    /// Coverage of `grid`.
+    #[must_use]
+    pub fn of(grid: Grid) -> Self {
+        let start = grid.start_nm();
+        let end = grid.end_nm();
+        if end < NEEDED_NM[0] || start > NEEDED_NM[1] {
+            Self::Missing
+        } else if start > WANTED_NM[0] || end < WANTED_NM[1] {
+            Self::Partial
+        } else {
+            Self::Full
+        }
+    }
+}
+
+/// Checks that spectra on `grid` have colours. Returns a warning where the grid covers only a part of the
+/// visible band.
+///
+/// # Errors
+/// [`BandError`] for a grid without any visible wavelength.
+pub fn check_visible_band(grid: Grid) -> Result<Option<Remark>, BandError> {
+    let start_nm = grid.start_nm();
+    let end_nm = grid.end_nm();
+    match BandCoverage::of(grid) {
+        BandCoverage::Full => Ok(None),
+        BandCoverage::Partial => Ok(Some(Remark::warning(format!(
+            "spectra from {start_nm} to {end_nm} nm; colours take the end values for the rest of the visible band"
+        )))),
+        BandCoverage::Missing => Err(BandError { start_nm, end_nm }),
+    }
+}
+
+/// Spectra without any visible wavelength have no colour.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
+#[hint("measure from 400 to 700 nm or more")]
+#[error("spectra from {start_nm} to {end_nm} nm have no colour")]
+pub struct BandError {
+    /// First wavelength of the spectra in nm.
+    pub start_nm: f64,
+    /// Last wavelength of the spectra in nm.
+    pub end_nm: f64,
 }
 
 #[cfg(test)]

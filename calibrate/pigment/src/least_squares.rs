@@ -1,8 +1,12 @@
-//! Bounded nonlinear least squares by the Levenberg-Marquardt method.
+//! Nonlinear least squares within bounds, by the Levenberg-Marquardt method.
 //!
-//! Marquardt 1963, with Nielsen's damping (1999). A parameter that stands at its bound while its
-//! gradient points outwards is fixed for one step, and every trial point is projected into the
+//! [`minimise`] fits many parameters (Marquardt 1963, with Nielsen's damping, 1999). A parameter at its bound
+//! with a gradient that points outwards is fixed for one step, and every trial point is projected into the
 //! bounds (Kanzow, Yamashita and Fukushima 2004, the projected variant).
+//!
+//! [`descend_within_bounds`] fits the shares of a recipe, which keep their sum. Its quadratic step comes from
+//! the primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at most nine unknowns, which are
+//! kept on the stack.
 
 use std::ops::Range;
 
@@ -12,7 +16,7 @@ use rayon::prelude::*;
 
 /// First damping: Nielsen's choice for a start near the minimum.
 const FIRST_DAMPING: f64 = 1e-3;
-/// Damping stays above this, so that the matrix keeps a Cholesky factor; chosen by eye.
+/// Damping stays above this, so that the matrix keeps a Cholesky factor, chosen by eye.
 const LEAST_DAMPING: f64 = 1e-12;
 /// The search ends beyond this damping: steps are then below rounding.
 const MOST_DAMPING: f64 = 1e12;
@@ -41,7 +45,7 @@ impl NormalEquations {
             }
             let scaled = weight * d;
             self.gradient[j] += scaled * residual;
-            // Fills the lower triangle only; the solver reads no other entries.
+            // Fills the lower triangle only. The solver reads no other entries.
             for (target, other) in
                 columns[j * count + j..(j + 1) * count].iter_mut().zip(&derivatives[j..])
             {
@@ -64,7 +68,7 @@ pub(crate) struct SparseRows {
 struct Group {
     residuals: [f64; 3],
     runs: Range<usize>,
-    /// Where its derivatives begin.
+    /// Index of its first derivative.
     first: usize,
 }
 
@@ -85,7 +89,7 @@ impl SparseRows {
 
     /// Residuals, runs and derivatives of each group.
     fn groups(&self) -> impl Iterator<Item = ([f64; 3], &[Range<usize>], &[[f64; 3]])> {
-        self.groups.iter().map(|group: &Group| {
+        self.groups.iter().map(|group| {
             let derivatives = &self.derivatives[group.first..];
             (group.residuals, &self.runs[group.runs.clone()], derivatives)
         })
@@ -96,11 +100,10 @@ impl NormalEquations {
     /// Equations of `count` parameters. Each column of the matrix is added up in the order of the rows,
     /// so that its bits do not depend on the number of threads.
     pub(crate) fn of_rows(count: usize, parts: &[SparseRows]) -> Self {
-        let groups = || parts.iter().flat_map(SparseRows::groups);
         let mut equations = Self::zeros(count);
         // Products that each column takes.
         let mut work = vec![0; count];
-        for (residuals, runs, derivatives) in groups() {
+        for (residuals, runs, derivatives) in parts.iter().flat_map(SparseRows::groups) {
             equations.cost += 0.5 * dot(residuals, residuals);
             let mut left: usize = runs.iter().map(|run| run.len()).sum();
             for (place, &slopes) in runs.iter().cloned().flatten().zip(derivatives) {
@@ -117,7 +120,7 @@ impl NormalEquations {
             tasks.push((range, part));
         }
         tasks.into_par_iter().for_each(|(range, columns)| {
-            for (_, runs, derivatives) in groups() {
+            for (_, runs, derivatives) in parts.iter().flat_map(SparseRows::groups) {
                 add_columns(&range, columns, count, runs, derivatives);
             }
         });
@@ -288,26 +291,261 @@ fn lower_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> f64 {
     total
 }
 
+/// A cost below this is good enough: it is half the square of a colour difference of 1e-4.
+const NEAR_ENOUGH: f64 = 0.5e-8;
+/// The descent ends beyond this damping: steps are then below rounding.
+const MOST_DAMPING_OF_SHARES: f64 = 1e9;
+/// The descent ends where a step is shorter than this in every unknown, chosen by eye.
+const LEAST_STEP: f64 = 1e-9;
+/// The descent ends where a step lowers the cost by less than this fraction, chosen by eye.
+const LEAST_DECREASE: f64 = 1e-6;
+
+/// Half a sum of squares at one point, with its gradient over the unknowns and the Gauss-Newton
+/// matrix.
+#[derive(Debug, Clone, Copy)]
+pub struct Cost {
+    /// Half the sum of squared residuals.
+    pub value: f64,
+    /// Derivative of `value` with respect to each unknown.
+    pub gradient: [f64; UNKNOWNS],
+    /// Sums of products of the residuals' derivatives. Symmetric.
+    pub matrix: [[f64; UNKNOWNS]; UNKNOWNS],
+}
+
+/// Minimises a sum of squares from `point` by the Levenberg-Marquardt method with steps that stay
+/// within `bounds` (Marquardt 1963, with Nielsen's damping of 1999), in at most `steps` steps. Moves
+/// `point` to the least cost found and returns that cost.
+///
+/// `point` must lie within the bounds.
+pub fn descend_within_bounds(
+    mut cost_at: impl FnMut(&[f64; UNKNOWNS]) -> Cost,
+    point: &mut [f64; UNKNOWNS],
+    bounds: &Bounds,
+    steps: usize,
+) -> Cost {
+    let count = bounds.count;
+    let mut cost = cost_at(point);
+    let mut damping = FIRST_DAMPING;
+    let mut growth = 2.0;
+    for _ in 0..steps {
+        if cost.value < NEAR_ENOUGH {
+            break;
+        }
+        let step = bounded_step(&damped(&cost, damping, count), &cost.gradient, point, bounds);
+        let moved: [f64; UNKNOWNS] = std::array::from_fn(|i| point[i] + step[i]);
+        if step.iter().all(|d| d.abs() < LEAST_STEP) {
+            break;
+        }
+        let promised = -(0..count)
+            .map(|i| {
+                let curved: f64 = (0..count).map(|j| cost.matrix[i][j] * step[j]).sum();
+                step[i] * (cost.gradient[i] + 0.5 * curved)
+            })
+            .sum::<f64>();
+        let tried = cost_at(&moved);
+        let gained = cost.value - tried.value;
+        if gained > 0.0 {
+            let ratio = gained / promised.max(1e-300);
+            damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).max(1.0 / 3.0);
+            growth = 2.0;
+            let little = gained < LEAST_DECREASE * cost.value;
+            (*point, cost) = (moved, tried);
+            if little {
+                break;
+            }
+        } else {
+            damping *= growth;
+            growth *= 2.0;
+            if damping > MOST_DAMPING_OF_SHARES {
+                break;
+            }
+        }
+    }
+    cost
+}
+
+/// Copy of the matrix with its diagonal raised by a fraction of itself and of its largest entry.
+fn damped(cost: &Cost, damping: f64, count: usize) -> [[f64; UNKNOWNS]; UNKNOWNS] {
+    let mut matrix = cost.matrix;
+    let largest = (0..count).map(|i| matrix[i][i]).fold(1e-12, f64::max);
+    for (i, row) in matrix.iter_mut().enumerate().take(count) {
+        row[i] += damping * row[i] + 1e-9 * largest;
+    }
+    matrix
+}
+
+/// Most pigments of one recipe. It sets the size of the arrays below.
+pub const MAX_PIGMENTS: usize = 8;
+/// Most unknowns of one descent: the shares of eight pigments, and the logarithm of the thickness.
+pub const UNKNOWNS: usize = MAX_PIGMENTS + 1;
+
+/// Bounds of each unknown. The first `shares` unknowns keep their sum.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds {
+    /// Number of unknowns, up to [`UNKNOWNS`].
+    pub count: usize,
+    /// Number of unknowns, from the first, that keep their sum.
+    pub shares: usize,
+    /// Lower bound of each unknown.
+    pub lower: [f64; UNKNOWNS],
+    /// Upper bound of each unknown.
+    pub upper: [f64; UNKNOWNS],
+}
+
+/// Returns the step d from `point` that minimises g d + d H d / 2 within the bounds. `matrix` must be
+/// positive definite and `point` within the bounds.
+pub(super) fn bounded_step(
+    matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
+    gradient: &[f64; UNKNOWNS],
+    point: &[f64; UNKNOWNS],
+    bounds: &Bounds,
+) -> [f64; UNKNOWNS] {
+    let count = bounds.count;
+    let room = |i: usize| (bounds.lower[i] - point[i], bounds.upper[i] - point[i]);
+    let mut step = [0.0; UNKNOWNS];
+    let mut held = [false; UNKNOWNS];
+    for (i, held) in held.iter_mut().enumerate().take(count) {
+        let (down, up) = room(i);
+        *held = down >= 0.0 || up <= 0.0;
+    }
+    // Each round fixes or frees one unknown. Far more rounds than ever needed.
+    for _ in 0..8 * UNKNOWNS {
+        let slope: [f64; UNKNOWNS] = std::array::from_fn(|i| {
+            gradient[i] + (0..count).map(|j| matrix[i][j] * step[j]).sum::<f64>()
+        });
+        let (toward, multiplier) = free_step(matrix, &slope, &held, bounds);
+        let mut length = 1.0;
+        let mut blocking = None;
+        for i in (0..count).filter(|&i| !held[i] && toward[i].abs() > 1e-14) {
+            let (down, up) = room(i);
+            let limit = if toward[i] < 0.0 { down } else { up };
+            let to_limit = ((limit - step[i]) / toward[i]).max(0.0);
+            if to_limit < length {
+                (length, blocking) = (to_limit, Some((i, limit)));
+            }
+        }
+        for i in (0..count).filter(|&i| !held[i]) {
+            step[i] += length * toward[i];
+        }
+        if let Some((i, limit)) = blocking {
+            (step[i], held[i]) = (limit, true);
+            continue;
+        }
+        let Some(freed) = wrongly_held(matrix, gradient, &step, &held, multiplier, bounds, &room)
+        else {
+            break;
+        };
+        held[freed] = false;
+    }
+    step
+}
+
+/// Minimum over the unknowns that are not held, and Lagrange's multiplier for the sum of shares.
+fn free_step(
+    matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
+    slope: &[f64; UNKNOWNS],
+    held: &[bool; UNKNOWNS],
+    bounds: &Bounds,
+) -> ([f64; UNKNOWNS], Option<f64>) {
+    let mut free = [0; UNKNOWNS];
+    let mut count = 0;
+    for i in (0..bounds.count).filter(|&i| !held[i]) {
+        free[count] = i;
+        count += 1;
+    }
+    let free = &free[..count];
+    let mut factor = [[0.0; UNKNOWNS]; UNKNOWNS];
+    for i in 0..count {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|m| factor[i][m] * factor[j][m]).sum();
+            let rest = matrix[free[i]][free[j]] - known;
+            factor[i][j] = if i == j { rest.max(1e-300).sqrt() } else { rest / factor[j][j] };
+        }
+    }
+    let solve = |right: &dyn Fn(usize) -> f64| {
+        let mut x = [0.0; UNKNOWNS];
+        for i in 0..count {
+            let known: f64 = (0..i).map(|m| factor[i][m] * x[m]).sum();
+            x[i] = (right(free[i]) - known) / factor[i][i];
+        }
+        for i in (0..count).rev() {
+            let known: f64 = (i + 1..count).map(|m| factor[m][i] * x[m]).sum();
+            x[i] = (x[i] - known) / factor[i][i];
+        }
+        x
+    };
+    let is_share = |i: usize| if i < bounds.shares { 1.0 } else { 0.0 };
+    let plain = solve(&|i| -slope[i]);
+    let along = solve(&is_share);
+    let of_shares = |x: &[f64; UNKNOWNS]| -> f64 {
+        free.iter().zip(x).map(|(&i, value)| is_share(i) * value).sum()
+    };
+    let multiplier = (of_shares(&along) > 0.0).then(|| of_shares(&plain) / of_shares(&along));
+    let mut step = [0.0; UNKNOWNS];
+    for (place, &i) in free.iter().enumerate() {
+        step[i] = plain[place] - multiplier.unwrap_or(0.0) * along[place];
+    }
+    (step, multiplier)
+}
+
+/// Index of the held unknown that would lower the model most if it were free.
+fn wrongly_held(
+    matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
+    gradient: &[f64; UNKNOWNS],
+    step: &[f64; UNKNOWNS],
+    held: &[bool; UNKNOWNS],
+    multiplier: Option<f64>,
+    bounds: &Bounds,
+    room: &dyn Fn(usize) -> (f64, f64),
+) -> Option<usize> {
+    let slope =
+        |i: usize| gradient[i] + (0..bounds.count).map(|j| matrix[i][j] * step[j]).sum::<f64>();
+    // If no share is free, none can change alone, since their sum is fixed. The multiplier is then minus the
+    // mean slope of all shares, and the share with the slope farthest from this mean is freed.
+    let shared = multiplier.unwrap_or_else(|| {
+        let shares = bounds.shares.max(1);
+        -(0..bounds.shares).map(slope).sum::<f64>() / shares as f64
+    });
+    let mut worst = (1e-12, None);
+    for i in (0..bounds.count).filter(|&i| held[i]) {
+        let (down, up) = room(i);
+        if up - down <= 0.0 {
+            continue;
+        }
+        let pull = slope(i) + if i < bounds.shares { shared } else { 0.0 };
+        // Moving inwards lowers the model where the slope is negative at the lower bound, or positive at the
+        // upper bound.
+        let gain = if step[i] <= down { -pull } else { pull };
+        if gain > worst.0 {
+            worst = (gain, Some(i));
+        }
+    }
+    worst.1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn rosenbrock(upper: f64) -> Minimum {
         let bounds = (DVector::from_element(2, -2.0), DVector::from_element(2, upper));
-        let residuals = |p: &DVector<f64>| [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]];
         minimise(
             DVector::from_vec(vec![-1.2, 0.4]),
             (&bounds.0, &bounds.1),
             Stop { iterations: 500, relative_decrease: 1e-15, cancellation: None },
             |p| {
-                let [r1, r2] = residuals(p);
+                let [r1, r2] = rosenbrock_residuals(p);
                 let mut equations = NormalEquations::zeros(2);
                 equations.add(r1, &[-20.0 * p[0], 10.0], 1.0);
                 equations.add(r2, &[-1.0, 0.0], 1.0);
                 equations
             },
-            |p| residuals(p).iter().map(|r| 0.5 * r * r).sum(),
+            |p| rosenbrock_residuals(p).iter().map(|r| 0.5 * r * r).sum(),
         )
+    }
+
+    fn rosenbrock_residuals(p: &DVector<f64>) -> [f64; 2] {
+        [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]
     }
 
     #[test]
@@ -317,15 +555,14 @@ mod tests {
         let mut wanted = NormalEquations::zeros(count);
         for number in 0..40_usize {
             let runs = [0..5, 7 + number % 4..12 + number % 3, 20 + number % 30..53 - number % 3];
-            let slopes = |place: usize| [1.0, 2.0, 3.0].map(|c| (c * place as f64 + c).sin());
             let places: Vec<usize> = runs.iter().cloned().flatten().collect();
-            let derivatives: Vec<[f64; 3]> = places.iter().map(|&place| slopes(place)).collect();
+            let derivatives: Vec<[f64; 3]> = places.iter().map(|&place| slopes_at(place)).collect();
             let residuals = [0.1, 0.2, 0.3].map(|c| (c * number as f64).cos());
             // Groups in the order of the parts.
             parts[number / 14].push(residuals, &runs, &derivatives);
             for (row, residual) in residuals.into_iter().enumerate() {
                 let mut full = vec![0.0; count];
-                places.iter().for_each(|&place| full[place] = slopes(place)[row]);
+                places.iter().for_each(|&place| full[place] = slopes_at(place)[row]);
                 wanted.add(residual, &full, 1.0);
             }
         }
@@ -336,6 +573,10 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().unwrap();
         let on_five = pool.install(|| NormalEquations::of_rows(count, &parts));
         assert_eq!(on_five.matrix, found.matrix, "bits do not depend on the number of threads");
+    }
+
+    fn slopes_at(place: usize) -> [f64; 3] {
+        [1.0, 2.0, 3.0].map(|c| (c * place as f64 + c).sin())
     }
 
     #[test]
@@ -359,5 +600,94 @@ mod tests {
         // With x and y limited to 0.5 or less, the minimum of 100 (y - x^2)^2 + (1 - x)^2 on the
         // edge y = 0.5 is at the corner x = 0.5.
         assert!((minimum.point[0] - 0.5).abs() < 1e-6, "{minimum:?}");
+    }
+
+    /// Least value of the quadratic model over a fine grid of three shares.
+    fn by_grid(matrix: [[f64; 3]; 3], gradient: [f64; 3], point: [f64; 3], least: f64) -> f64 {
+        let value = |d: [f64; 3]| -> f64 {
+            (0..3)
+                .map(|i| {
+                    gradient[i] * d[i]
+                        + (0..3).map(|j| 0.5 * d[i] * matrix[i][j] * d[j]).sum::<f64>()
+                })
+                .sum()
+        };
+        let steps = 400;
+        let mut best = f64::INFINITY;
+        for i in 0..=steps {
+            for j in 0..=steps - i {
+                let k = steps - i - j;
+                let shares =
+                    [i, j, k].map(|n| least + (1.0 - 3.0 * least) * n as f64 / steps as f64);
+                best = best.min(value(std::array::from_fn(|c| shares[c] - point[c])));
+            }
+        }
+        best
+    }
+
+    #[test]
+    fn the_step_is_as_good_as_the_best_of_a_fine_grid() {
+        let point = [0.02, 0.3, 0.68];
+        let least = 0.02;
+        let cases = [
+            ([[2.0, 0.3, 0.1], [0.3, 1.0, 0.2], [0.1, 0.2, 3.0]], [0.5, -1.0, 0.2]),
+            ([[2.0, 0.3, 0.1], [0.3, 1.0, 0.2], [0.1, 0.2, 3.0]], [-5.0, 1.0, 4.0]),
+            ([[9.0, 2.0, 0.0], [2.0, 5.0, 1.0], [0.0, 1.0, 1.0]], [1.0, 1.0, -3.0]),
+            ([[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]], [3.0, 2.0, 2.5]),
+        ];
+        for (small, slope) in cases {
+            let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+            let mut gradient = [0.0; UNKNOWNS];
+            let mut start = [0.0; UNKNOWNS];
+            for i in 0..3 {
+                matrix[i][..3].copy_from_slice(&small[i]);
+                (gradient[i], start[i]) = (slope[i], point[i]);
+            }
+            let bounds =
+                Bounds { count: 3, shares: 3, lower: [least; UNKNOWNS], upper: [1.0; UNKNOWNS] };
+            let step = bounded_step(&matrix, &gradient, &start, &bounds);
+            let value: f64 = (0..3)
+                .map(|i| {
+                    slope[i] * step[i]
+                        + (0..3).map(|j| 0.5 * step[i] * small[i][j] * step[j]).sum::<f64>()
+                })
+                .sum();
+            assert!(step.iter().sum::<f64>().abs() < 1e-12, "the shares' sum stays: {step:?}");
+            for i in 0..3 {
+                assert!(point[i] + step[i] >= least - 1e-12, "{step:?}");
+            }
+            let wanted = by_grid(small, slope, point, least);
+            assert!(value <= wanted + 1e-9, "{value} for {wanted}: {step:?}");
+        }
+    }
+
+    #[test]
+    fn an_upper_bound_is_kept() {
+        let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+        (matrix[0][0], matrix[1][1]) = (1.0, 2.0);
+        let mut gradient = [0.0; UNKNOWNS];
+        gradient[1] = -30.0;
+        let mut upper = [1.0; UNKNOWNS];
+        upper[1] = 9.0;
+        let bounds = Bounds { count: 2, shares: 1, lower: [0.0; UNKNOWNS], upper };
+        let mut point = [0.0; UNKNOWNS];
+        point[0] = 1.0;
+        let step = bounded_step(&matrix, &gradient, &point, &bounds);
+        assert_eq!(step[..2], [0.0, 9.0]);
+    }
+
+    #[test]
+    fn an_unknown_that_is_no_share_moves_independently() {
+        let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+        (matrix[0][0], matrix[1][1]) = (1.0, 2.0);
+        let mut gradient = [0.0; UNKNOWNS];
+        (gradient[0], gradient[1]) = (5.0, -3.0);
+        let mut bounds =
+            Bounds { count: 2, shares: 1, lower: [0.0; UNKNOWNS], upper: [1.0; UNKNOWNS] };
+        bounds.upper[1] = 9.0;
+        let mut point = [0.0; UNKNOWNS];
+        point[0] = 1.0;
+        let step = bounded_step(&matrix, &gradient, &point, &bounds);
+        assert!(step[0] == 0.0 && (step[1] - 1.5).abs() < 1e-12, "{step:?}");
     }
 }

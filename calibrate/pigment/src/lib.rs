@@ -24,35 +24,48 @@
 //!
 //! Measuring and fitting are in the crate `calibrate`, instruments' files in `spectra`. Modules are ordered
 //! by dependence: each uses only modules declared above it.
-
-pub mod digits;
-pub mod remark;
 pub mod evaluate;
-pub mod visible_band;
-pub mod appearance;
-pub mod curves;
 pub mod recipe;
-pub mod backing;
 mod least_squares;
 pub mod smooth_reflectance;
-pub mod fit_settings;
 pub mod library;
 pub mod color;
 pub mod curation;
 pub mod quadrature;
 pub mod palette;
-mod illuminant_change;
 pub mod matching;
 
-pub use appearance::Appearance;
-pub use backing::{Backing, BackingError};
-pub use color::{ColorError, FilmOver, MixtureColor};
-pub use curves::Curves;
-pub use evaluate::Viewing;
-pub use illuminant_change::IlluminantChange;
+pub use color::{
+    Appearance, Backing, BackingError, ColorError, FilmOver, IlluminantChange, MixtureColor,
+};
+pub use evaluate::{Remark, RemarkKind, Viewing};
 pub use library::{LibraryError, Pigment, PigmentLibrary, RecipeError};
 pub use matching::{
     ColorTarget, MatchError, MatchOptions, PriceList, RecipeMatch, RecipeMatches, ViewingCondition,
 };
-pub use recipe::{PigmentId, Recipe};
-pub use remark::{Remark, RemarkKind};
+pub use recipe::{Curves, PigmentId, Recipe};
+
+/// Numbers rounded to significant digits.
+pub mod digits {
+    pub use crate::evaluate::rounded;
+}
+
+/// K and S over wavelength.
+pub mod curves {
+    pub use crate::recipe::Curves;
+}
+
+/// Remarks that accompany a result.
+pub mod remark {
+    pub use crate::evaluate::{Remark, RemarkKind};
+}
+
+/// The check that spectra cover the visible band.
+pub mod visible_band {
+    pub use crate::evaluate::{BandError, check_visible_band};
+}
+
+/// How a library was fitted.
+pub mod fit_settings {
+    pub use crate::library::{BelowSurface, FitSettings, Method, Smoothness};
+}

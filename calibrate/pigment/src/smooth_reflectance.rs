@@ -29,8 +29,8 @@ pub struct Recovered {
     pub delta_e: f64,
 }
 
-/// Returns the smoothest reflectance under `surface` whose colour is `wanted`. Where no reflectance
-/// has that colour, returns one whose colour is near it.
+/// Returns the smoothest reflectance under `surface` with the colour `wanted`. If no reflectance has this
+/// colour, returns one with a colour near it.
 #[must_use]
 pub fn smoothest_reflectance(
     weights: &TristimulusWeights,
@@ -42,8 +42,8 @@ pub fn smoothest_reflectance(
     let z = problem.exact(flat.clone()).unwrap_or_else(|| problem.nearest(flat));
     let internal: Vec<f64> = z.iter().map(|z| internal(*z)[0]).collect();
     let xyz = problem.xyz(&z);
-    let lab = |xyz| Lab::from_xyz(xyz, weights.white());
-    Recovered { internal, xyz, delta_e: delta_e_ciede2000(lab(wanted), lab(xyz)) }
+    let [wanted, found] = [wanted, xyz].map(|xyz| Lab::from_xyz(xyz, weights.white()));
+    Recovered { internal, xyz, delta_e: delta_e_ciede2000(wanted, found) }
 }
 
 /// Internal reflectance at z with its first and second derivative.
@@ -76,7 +76,7 @@ impl Problem<'_> {
         self.weights.xyz(&reflectance)
     }
 
-    /// Newton's method on Lagrange's conditions; each step is shortened until the residual falls.
+    /// Newton's method on Lagrange's conditions. Each step is shortened until the residual falls.
     /// Returns `None` if it does not converge, as for a colour that no reflectance has.
     fn exact(&self, mut z: DVector<f64>) -> Option<DVector<f64>> {
         let count = z.len();
@@ -145,10 +145,10 @@ impl Problem<'_> {
         (residual, matrix)
     }
 
-    /// Reflectance whose colour comes near the requested one, by least squares in the local metric of
-    /// CIEDE2000 at the requested colour. A small weight keeps it smooth.
+    /// Reflectance with a colour near the requested one, by least squares in the local metric of CIEDE2000 at
+    /// the requested colour. A small weight keeps it smooth.
     fn nearest(&self, start: DVector<f64>) -> DVector<f64> {
-        /// Weight of the squared steps of z; chosen by eye, small against one CIEDE2000.
+        /// Weight of the squared steps of z, chosen by eye, small against one CIEDE2000.
         const SMOOTH: f64 = 1e-5;
         let white = self.weights.white();
         let wanted = Lab::from_xyz(self.wanted, white);
@@ -159,35 +159,40 @@ impl Problem<'_> {
             let by_lab: [f64; 3] = std::array::from_fn(|i| found[i] - wanted.to_array()[i]);
             (xyz, metric.apply(by_lab))
         };
-        let cost = |z: &DVector<f64>| {
-            let color: f64 = difference(z).1.iter().map(|d| d * d).sum();
-            let steps: f64 = (1..z.len()).map(|i| (z[i] - z[i - 1]).powi(2)).sum();
-            0.5 * (color + SMOOTH * steps)
-        };
-        let build = |z: &DVector<f64>| {
-            let mut equations = NormalEquations::zeros(z.len());
-            let (xyz, color) = difference(z);
-            let lab_over_xyz = Lab::slopes_over_xyz(xyz, white);
-            let columns: Vec<[f64; 3]> = (self.weights.weights().iter().zip(z.iter()))
-                .map(|(w, z)| {
-                    let slope = self.measured(*z)[1];
-                    metric.apply(lab_over_xyz.apply(w.map(|w| w * slope)))
-                })
-                .collect();
-            for channel in 0..3 {
-                let derivatives: Vec<f64> = columns.iter().map(|c| c[channel]).collect();
-                equations.add(color[channel], &derivatives, 1.0);
-            }
-            for i in 1..z.len() {
-                let mut derivatives = vec![0.0; z.len()];
-                (derivatives[i - 1], derivatives[i]) = (-1.0, 1.0);
-                equations.add(z[i] - z[i - 1], &derivatives, SMOOTH);
-            }
-            equations
-        };
         let bound = DVector::from_element(start.len(), 6.0);
         let stop = Stop { iterations: 500, relative_decrease: 1e-9, cancellation: None };
-        minimise(start, (&-&bound, &bound), stop, build, cost).point
+        minimise(
+            start,
+            (&-&bound, &bound),
+            stop,
+            |z: &DVector<f64>| {
+                let mut equations = NormalEquations::zeros(z.len());
+                let (xyz, color) = difference(z);
+                let lab_over_xyz = Lab::slopes_over_xyz(xyz, white);
+                let columns: Vec<[f64; 3]> = (self.weights.weights().iter().zip(z.iter()))
+                    .map(|(w, z)| {
+                        let slope = self.measured(*z)[1];
+                        metric.apply(lab_over_xyz.apply(w.map(|w| w * slope)))
+                    })
+                    .collect();
+                for channel in 0..3 {
+                    let derivatives: Vec<f64> = columns.iter().map(|c| c[channel]).collect();
+                    equations.add(color[channel], &derivatives, 1.0);
+                }
+                for i in 1..z.len() {
+                    let mut derivatives = vec![0.0; z.len()];
+                    (derivatives[i - 1], derivatives[i]) = (-1.0, 1.0);
+                    equations.add(z[i] - z[i - 1], &derivatives, SMOOTH);
+                }
+                equations
+            },
+            |z: &DVector<f64>| {
+                let color: f64 = difference(z).1.iter().map(|d| d * d).sum();
+                let steps: f64 = (1..z.len()).map(|i| (z[i] - z[i - 1]).powi(2)).sum();
+                0.5 * (color + SMOOTH * steps)
+            },
+        )
+        .point
     }
 }
 
@@ -206,7 +211,7 @@ mod tests {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         colors
-            .map(|rgb: Rgb| {
+            .map(|rgb| {
                 let xyz =
                     RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
                 (rgb, smoothest_reflectance(&weights, surface, xyz))
@@ -258,7 +263,6 @@ mod tests {
         let wanted = Xyz { x: 20.0, y: 25.0, z: 30.0 };
         let problem = Problem { weights: &weights, surface, wanted };
         let best = problem.exact(DVector::zeros(31)).unwrap();
-        let rough = |z: &DVector<f64>| -> f64 { (1..31).map(|i| (z[i] - z[i - 1]).powi(2)).sum() };
         let mut random = ChaCha8Rng::seed_from_u64(3);
         for _ in 0..20 {
             let nudge = DVector::from_fn(31, |_, _| random.random_range(-0.05..0.05));
@@ -274,7 +278,16 @@ mod tests {
                 other += jacobian.transpose() * across.lu().solve(&off).unwrap();
             }
             assert!((problem.xyz(&other).y - 25.0).abs() < 1e-9, "the same colour");
-            assert!(rough(&other) > rough(&best), "{} {}", rough(&other), rough(&best));
+            assert!(
+                roughness(&other) > roughness(&best),
+                "{} {}",
+                roughness(&other),
+                roughness(&best)
+            );
         }
+    }
+
+    fn roughness(z: &DVector<f64>) -> f64 {
+        (1..31).map(|i| (z[i] - z[i - 1]).powi(2)).sum()
     }
 }

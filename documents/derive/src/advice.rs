@@ -158,7 +158,7 @@ impl Parse for FaultAttribute {
     }
 }
 
-/// The value of an expression; a path to a function is called with the error.
+/// The value of an expression. A path to a function is called with the error.
 pub(crate) fn called(expression: &Expr) -> TokenStream {
     match expression {
         Expr::Path(path) => quote_spanned!(path.span()=> #path(self)),

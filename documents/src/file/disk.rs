@@ -1,4 +1,4 @@
-//! The file system: that of the machine or, in a page, one in memory (`memory`).
+//! The file system of the machine or, in a page, one in memory (`memory`).
 //!
 //! Both have the same calls, those of [`std::fs`], so that code that keeps files runs in a page too.
 
@@ -37,7 +37,7 @@ pub fn is_dir(path: &Path) -> bool {
 /// `path` from the root on, without a look at the disk.
 ///
 /// # Errors
-/// Those of [`std::path::absolute`]; none in a page, whose current folder is the root.
+/// As [`std::path::absolute`]. A page has the root as its current folder, and never fails.
 pub fn absolute(path: &Path) -> std::io::Result<PathBuf> {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]
     return Ok(super::memory::from_root(path));
@@ -48,7 +48,7 @@ pub fn absolute(path: &Path) -> std::io::Result<PathBuf> {
 /// `path` from the root on, without links.
 ///
 /// # Errors
-/// Those of [`std::fs::canonicalize`]: nothing lies there.
+/// As [`std::fs::canonicalize`]: nothing lies there.
 pub fn canonicalize(path: &Path) -> std::io::Result<PathBuf> {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]
     return metadata(path).map(|_| super::memory::from_root(path));
@@ -56,7 +56,7 @@ pub fn canonicalize(path: &Path) -> std::io::Result<PathBuf> {
     std::fs::canonicalize(path)
 }
 
-/// Number of this process; in a page, which has none, the time of its start in ms.
+/// Number of this process, or in a page, which has none, the time of its start in ms.
 #[must_use]
 pub fn process_number() -> u32 {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]

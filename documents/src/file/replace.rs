@@ -17,7 +17,7 @@ pub fn sync_folder(folder: &Path) {
     }
 }
 
-/// Checks that [`replace`] could write `path`; leaves no file behind.
+/// Checks that [`replace`] could write `path`, and leaves no file behind.
 pub(super) fn check(path: &Path) -> io::Result<()> {
     let (target, folder) = target(path)?;
     regular_file(&target)?;
@@ -99,7 +99,7 @@ pub(super) fn unnamed(error: io::Error) -> io::Error {
 }
 
 /// A file that is written piece by piece. Until [`FileInPieces::finish`] the path holds what it held
-/// before; if this value is dropped instead, nothing remains of it.
+/// before. If you drop this value instead, nothing remains of it.
 ///
 /// ```
 /// use documents::file::FileInPieces;

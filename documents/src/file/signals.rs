@@ -22,8 +22,8 @@ pub fn end_cleanly_on_signals() {
 #[cfg(not(unix))]
 pub fn end_cleanly_on_signals() {}
 
-/// Whether the process was started to ignore a signal. Linux lists the signals as bits; where the
-/// system does not tell, SIGHUP is left alone.
+/// Whether the process was started to ignore a signal. Linux lists the signals as bits. Where the
+/// system does not list them, SIGHUP is left alone.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let Ok(status) = std::fs::read_to_string("/proc/self/status") else {

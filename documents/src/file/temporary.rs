@@ -1,5 +1,5 @@
 //! Temporary files beside the files that they become: known while they live, so that a program
-//! that is told to end can remove them, and recognisable afterwards, so that the next one can.
+//! that has to end can remove them, and recognisable afterwards, so that the next one can.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -32,7 +32,7 @@ fn known() -> MutexGuard<'static, Known> {
 /// A temporary file that is removed when dropped.
 #[derive(Debug)]
 pub(super) struct Temporary {
-    /// The file; `None` once it was renamed or removed.
+    /// The file. `None` once it was renamed or removed.
     file: Option<NamedTempFile>,
     path: PathBuf,
 }
@@ -46,7 +46,7 @@ impl Temporary {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // The permissions of a newly created file; the user's umask applies.
+            // The permissions of a newly created file, to which the user's umask applies.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         // Created while the list is locked, so that no file exists that is not in it.
@@ -85,7 +85,7 @@ impl Drop for Temporary {
 }
 
 /// Removes the temporary files of all writes under way, and lets no further write begin or end:
-/// threads that write wait for ever. For a program that was told to end, and ends then.
+/// threads that write wait for ever. For a program that has to end, and ends then.
 ///
 /// Nothing that was written whole is lost: a file is renamed before or after this call.
 pub fn abandon_writes() {
@@ -124,7 +124,7 @@ struct Writer<'n> {
 }
 
 impl<'n> Writer<'n> {
-    /// The writer of a file of this name; `None` for any other file.
+    /// The writer of a file of this name. `None` for any other file.
     fn of(name: &'n str) -> Option<Self> {
         let inside = name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
         let mut parts = inside.split('-');
@@ -157,7 +157,7 @@ fn machine() -> &'static str {
     })
 }
 
-/// Whether a process of this machine runs; `None` where that cannot be told.
+/// Whether a process of this machine runs. `None` where we cannot find out.
 fn is_running(process: u32) -> Option<bool> {
     let processes = Path::new("/proc");
     // Without the folder of this process there is no list of processes.

@@ -78,7 +78,7 @@ impl Explain for FileError {
 }
 
 /// Reads all bytes of a file. The path `-` is standard input, which is read to its end once and
-/// kept, so that every reader of it gets the same bytes; a file of that name is `./-`.
+/// kept, so that every reader of it gets the same bytes. A file called `-` is `./-`.
 ///
 /// # Errors
 /// [`FileError`] with the path.
@@ -93,11 +93,11 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 /// Replaces the file at `path` by `bytes`, or creates it. The bytes are written to a
 /// temporary file in the same folder, flushed to the disk and renamed, so that `path`
 /// always holds either the old content or the new one. A symbolic link is kept and its
-/// target replaced; an existing file keeps its permissions. Temporary files that ended runs
+/// target replaced. An existing file keeps its permissions. Temporary files that ended runs
 /// left in the folder are removed.
 ///
 /// # Errors
-/// [`FileError`] with the path; also if `path` is a folder or a device. In a browser
+/// [`FileError`] with the path, also if `path` is a folder or a device. In a browser
 /// (wasm32-unknown-unknown) files lie in memory ([`super::disk`]).
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     replace(path, bytes).map_err(|reason| error(path, FileAction::Write, reason))

@@ -14,16 +14,16 @@
 /// | --- | --- |
 /// | `as "key"` | the key in the file, where it is not the name of the field |
 /// | `Takes(limits)` | a variant of [`Takes`](crate::settings::Takes) |
-/// | `"unit"` | the unit of the numbers; left out, there is none |
-/// | `Scales` | `Length` or `Area`, which change with the size of a picture; left out, it does not |
+/// | `"unit"` | the unit of the numbers. Without it there is none |
+/// | `Scales` | `Length` or `Area`, which change with the size of a picture. Without it the setting does not |
 /// | `"Meaning"` | a sentence without its full stop: the doc comment of the field and the comment in the file |
 /// | `like "example"` | only with the type `Option<String>`: a value for the file's comment where there is none |
 ///
 /// After the rows come nested tables: `[field as "key"]: Type => "meaning";`.
 ///
 /// `pub struct Name: File { .. }` is a whole file and has the functions `open`, `from_toml`, `changed`,
-/// `valid` and `documented`; `File(path)` also checks by the function at `path` what belongs together,
-/// which takes the settings and the [`KeyPath`](crate::text::KeyPath) of their table.
+/// `valid` and `documented`. `File(path)` also checks by the function at `path` what belongs together:
+/// it takes the settings and the [`KeyPath`](crate::text::KeyPath) of their table.
 ///
 /// The crate that declares settings depends on `serde` with its derive macros.
 #[macro_export]

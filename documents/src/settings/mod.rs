@@ -193,7 +193,7 @@ fn is_within(value: &Value, least: f64, most: f64) -> bool {
     value.as_float().is_some_and(|number| (least..=most).contains(&as_written(number)))
 }
 
-/// A number of single precision with the digits that it has in a file; others as they are.
+/// A number of single precision with the digits that it has in a file. Others as they are.
 fn as_written(number: f64) -> f64 {
     let single = number as f32;
     if f64::from(single) != number {

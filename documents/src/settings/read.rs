@@ -157,7 +157,7 @@ fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
     })
 }
 
-/// The settings as a table of TOML. It fails for whole numbers beyond those of TOML.
+/// The settings as a table of TOML. It fails for whole numbers that TOML does not have.
 fn toml_of<T: Table>(settings: &T, base: &KeyPath) -> Result<Toml, Box<ValueFault>> {
     Toml::try_from(settings).map_err(|error| {
         ValueFault::new(base, "values of TOML", error, "whole numbers reach to 2^63 - 1")

@@ -142,7 +142,7 @@ impl Node {
         offset
     }
 
-    /// The path of the innermost key or value whose text holds these bytes.
+    /// The path of the innermost key or value that holds these bytes.
     pub(super) fn path_at(&self, bytes: &Range<usize>) -> Option<KeyPath> {
         self.inner.path_at(&KeyPath::default(), bytes)
     }
@@ -261,7 +261,7 @@ impl JsonWalk<'_> {
         }
     }
 
-    /// Goes on to `wanted`, or beyond `end`; whether it is there.
+    /// Goes on to `wanted`, or beyond `end`. Returns whether it is there.
     fn skip_to(&mut self, wanted: u8, end: u8) -> bool {
         while let Some(byte) = self.byte() {
             if byte == wanted {

@@ -302,7 +302,7 @@ pub enum TextError {
         file: String,
         /// Place of the fault.
         place: Place,
-        /// Path of the value; none where the text cannot be parsed at all.
+        /// Path of the value. `None` where the text cannot be parsed at all.
         key: Option<KeyPath>,
         /// Reason, with the value.
         reason: String,

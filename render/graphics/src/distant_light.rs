@@ -24,8 +24,8 @@ impl DistantLight {
         Self::WithCamera(Vec3::new(sin_a * cos_e, cos_a * cos_e, sin_e))
     }
 
-    /// The direction towards the light in model coordinates, of length 1; zero if the
-    /// light's own vector is zero.
+    /// The direction towards the light in model coordinates, of length 1, zero if the light's own
+    /// vector is zero.
     #[must_use]
     pub fn direction(self, camera: &Camera) -> Vec3 {
         let direction = match self {
@@ -45,14 +45,16 @@ mod tests {
 
     #[test]
     fn a_light_with_the_camera_turns_with_it_and_one_with_the_model_stays() {
-        let camera = |eye: Vec3| Camera {
-            eye,
-            target: Vec3::ZERO,
-            up: Vec3::Y,
-            field_of_view_deg: 30.0,
-            near: 0.1,
-            far: 10.0,
-        };
+        fn camera(eye: Vec3) -> Camera {
+            Camera {
+                eye,
+                target: Vec3::ZERO,
+                up: Vec3::Y,
+                field_of_view_deg: 30.0,
+                near: 0.1,
+                far: 10.0,
+            }
+        }
         let front = camera(Vec3::Z * 3.0);
         let side = camera(Vec3::X * 3.0);
         let with_camera = DistantLight::with_camera(0.0, 90.0);

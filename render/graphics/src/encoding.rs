@@ -5,7 +5,7 @@ use spectra::color::{Lab, Rgb, RgbSpace};
 
 use crate::field::Field;
 
-/// Linear sRGB of a picture of encoded sRGB; the fourth value stays.
+/// Linear sRGB of a picture of encoded sRGB. The fourth value stays.
 #[must_use]
 pub fn linear_from_encoded(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     map_pixels(picture, |[r, g, b, a]| {
@@ -14,8 +14,7 @@ pub fn linear_from_encoded(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     })
 }
 
-/// Encoded sRGB of a picture of linear sRGB, which is clipped to 0..1; the fourth value
-/// stays.
+/// Encoded sRGB of a picture of linear sRGB, which is clipped to 0..1. The fourth value stays.
 #[must_use]
 pub fn encoded_from_linear(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     map_pixels(picture, encoded)

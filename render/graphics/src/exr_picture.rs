@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
@@ -15,14 +15,15 @@ use crate::picture::{MOST_PIXELS, Picture};
 /// First bytes of every OpenEXR file.
 const MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 
-/// Largest difference of a chromaticity from that of sRGB that counts as rounding.
+/// Largest difference of a chromaticity from sRGB that counts as rounding.
 const ROUNDING: f32 = 1e-3;
 
 /// An OpenEXR file cannot be read as a picture.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum ExrPictureError {
     /// The file is damaged, or has no channels R, G and B.
     #[error("{name}: not an OpenEXR picture with channels R, G and B: {reason}")]
+    #[hint("save it as OpenEXR with channels R, G and B, or as PNG")]
     NoPicture {
         /// Path of the file.
         name: String,
@@ -31,6 +32,7 @@ pub enum ExrPictureError {
     },
     /// The picture has more than [`MOST_PIXELS`] pixels.
     #[error("{name}: a picture has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
+    #[hint("make it smaller")]
     TooLarge {
         /// Path of the file.
         name: String,
@@ -41,25 +43,16 @@ pub enum ExrPictureError {
     },
 }
 
-impl Explain for ExrPictureError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NoPicture { .. } => "save it as OpenEXR with channels R, G and B, or as PNG",
-            Self::TooLarge { .. } => "make it smaller",
-        }))
-    }
-}
-
 /// Whether `bytes` begin like an OpenEXR file.
 #[must_use]
 pub fn is_exr(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// Decodes the first part of an OpenEXR file with channels R, G and B to linear sRGB; values
-/// above 1 stay, those that are not finite become 0. The primaries and the white of
-/// attribute `chromaticities` are converted; without it they are those of sRGB. Transparent
-/// parts are over black. `name` stands for the path in errors.
+/// Decodes the first part of an OpenEXR file with channels R, G and B to linear sRGB. Values above
+/// 1 stay, those that are not finite become 0. The primaries and the white of attribute
+/// `chromaticities` are converted, without it they are sRGB's. Transparent parts are over black.
+/// `name` stands for the path in errors.
 ///
 /// # Errors
 /// [`ExrPictureError`] for another file, a damaged one, and one that is too large.
@@ -75,14 +68,14 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
             return Err(ExrPictureError::TooLarge { name: name.to_owned(), width, height });
         }
     }
-    let finite = |value: f32| if value.is_finite() { value } else { 0.0 };
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
         .rgba_channels(
             |size, _| Field::filled(size.width(), size.height(), [0.0_f32; 3]),
             move |picture: &mut Picture, at, (r, g, b, _): (f32, f32, f32, f32)| {
-                picture[(at.x(), at.y())] = [r, g, b].map(finite);
+                picture[(at.x(), at.y())] =
+                    [r, g, b].map(|value: f32| if value.is_finite() { value } else { 0.0 });
             },
         )
         .first_valid_layer()
@@ -98,8 +91,8 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
     Ok(picture)
 }
 
-/// Matrix from linear light of other primaries to linear sRGB; `None` for those of sRGB, and
-/// for primaries that span no colours.
+/// Matrix from linear light of other primaries to linear sRGB, `None` for the primaries of sRGB,
+/// and for primaries that span no colours.
 fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
     let Chromaticities { red, green, blue, white } = chromaticities;
     let srgb = [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06), (0.3127, 0.3290)];
@@ -127,17 +120,19 @@ fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
     matrix.0.iter().flatten().all(|value| value.is_finite()).then_some(matrix)
 }
 
-/// A picture of `width` x `height` cells at most as large as `picture`: the mean of the pixels
-/// whose centres are in each cell.
+/// A picture of `width` x `height` cells at most as large as `picture`: the mean of the pixels that
+/// have their centre in each cell.
 ///
 /// # Panics
-/// If a side is 0 or longer than that of `picture`.
+/// If a side is 0 or longer than the side of `picture`.
 #[must_use]
 pub fn reduced(picture: &Picture, width: usize, height: usize) -> Picture {
     let columns = picture.width();
     let rows = picture.height();
     assert!((1..=columns).contains(&width) && (1..=rows).contains(&height), "{width} x {height}");
-    let edge = |cell: usize, cells: usize, pixels: usize| cell * pixels / cells;
+    fn edge(cell: usize, cells: usize, pixels: usize) -> usize {
+        cell * pixels / cells
+    }
     let mut small = Field::filled(width, height, [0.0_f32; 3]);
     small.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         let lines = edge(y, height, rows)..edge(y + 1, height, rows);

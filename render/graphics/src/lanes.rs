@@ -26,7 +26,7 @@ pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
     }
 }
 
-/// Name of the vector instructions that [`vectorized`] uses; none on a machine without.
+/// Name of the vector instructions that [`vectorized`] uses, none on a machine without.
 #[must_use]
 pub fn vector_instructions() -> Option<&'static str> {
     if cfg!(target_arch = "wasm32") {
@@ -36,8 +36,8 @@ pub fn vector_instructions() -> Option<&'static str> {
     }
 }
 
-/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once; else, and in
-/// WebAssembly, two operations, because a fused one would be a slow library call.
+/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once. Otherwise, and
+/// in WebAssembly, it is two operations, because a fused one would be a slow library call.
 #[inline(always)]
 pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
     let has_fused =
@@ -45,13 +45,13 @@ pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
     if has_fused { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// The greater of two numbers; `b` if one is NaN. One instruction, unlike [`f32::max`].
+/// The greater of two numbers, `b` if one is NaN. One instruction, unlike [`f32::max`].
 #[inline(always)]
 pub fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The lesser of two numbers; `b` if one is NaN.
+/// The lesser of two numbers, `b` if one is NaN.
 #[inline(always)]
 pub fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
@@ -68,8 +68,8 @@ const EXP2_MINUS_1: [f32; 6] = [
     0.000_154_035_12,
 ];
 
-/// `(exp(-x), 1 - exp(-x))` for `x` of 0 and up. Where exp(-x) is above 1e-3, the relative
-/// errors are below 5e-7 and 2e-7; elsewhere the absolute errors are below 1e-7.
+/// `(exp(-x), 1 - exp(-x))` for `x` of 0 and up. Where exp(-x) is above 1e-3, the relative errors
+/// are below 5e-7 and 2e-7. Elsewhere the absolute errors are below 1e-7.
 #[inline(always)]
 pub fn decay<S: Simd>(x: f32) -> (f32, f32) {
     // exp(-x) = 2^n 2^r. Results below 2^-126 are negligible, so the exponent ends there.

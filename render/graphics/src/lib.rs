@@ -7,8 +7,7 @@
 //! export: PNG, OpenEXR, GIF, APNG, folders of frames <----------------+
 //! ```
 //!
-//! A [`Field`](field::Field) holds one value per pixel. Files of pictures are encoded in
-//! memory:
+//! A [`Field`](field::Field) holds one value per pixel. Files of pictures are encoded in memory:
 //!
 //! ```
 //! use graphics::export::{PictureFormat, picture_file};
@@ -23,10 +22,9 @@
 //! # }
 //! ```
 //!
-//! In scope: values over pixels, the graphics device, meshes and cameras, what a
-//! camera sees, noise that stays on surfaces, and files of pictures and animations.
-//! Out of scope: pigments and paint (crate `paint`), and painting techniques (crate
-//! `render`).
+//! In scope: values over pixels, the graphics device, meshes and cameras, what a camera sees, noise
+//! that stays on surfaces, and files of pictures and animations. Out of scope: pigments and paint
+//! (crate `paint`), and painting techniques (the crates below `render/techniques`).
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
@@ -34,12 +32,8 @@ pub mod noise;
 pub mod tile;
 pub mod field;
 pub mod lanes;
-mod smoothstep;
-pub mod blur;
 pub mod encoding;
-pub mod jpeg_end;
 pub mod picture_formats;
-pub mod color_profile;
 pub mod picture;
 pub mod exr_picture;
 pub mod orientation;
@@ -53,9 +47,17 @@ pub mod surface;
 pub mod coherence;
 pub mod morphology;
 pub mod segmentation;
-mod kernels;
 pub mod export;
 
-pub use blur::blurred;
-pub use kernels::kernels;
-pub use smoothstep::smoothstep;
+use crate::coherence::{ANCHOR_TEXTURES, DEPTHS, GATHER_SPLATS};
+use crate::gpu::Kernel;
+use crate::morphology::EXTREMUM;
+use crate::surface::ADD_STENCIL;
+
+pub use field::{blurred, smoothstep};
+
+/// Every compute kernel of this crate.
+#[must_use]
+pub fn kernels() -> Vec<&'static Kernel> {
+    vec![&DEPTHS, &GATHER_SPLATS, &ANCHOR_TEXTURES, &EXTREMUM, &ADD_STENCIL]
+}

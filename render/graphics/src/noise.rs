@@ -22,7 +22,7 @@ pub struct Hills {
 
 impl Hills {
     /// Variance of the heights. Each of four corners adds a slope of `STEEPNESS` in a random
-    /// direction, times the blend along x and y. The squared blend integrates to 181/462;
+    /// direction, times the blend along x and y. The squared blend integrates to 181/462,
     /// multiplied by the squared distance, to 535/18018.
     pub const VARIANCE: f64 = 4.0 * STEEPNESS * STEEPNESS * (181.0 / 462.0) * (535.0 / 18018.0);
 
@@ -74,7 +74,7 @@ pub struct SolidHills {
 /// add three components of variance `STEEPEST^2 / 3`, times the blends as for [`Hills`].
 const STEEPEST: f32 = 1.746;
 
-/// Odd factors (those of xxHash32, Collet 2012) that keep the axes of the lattice apart.
+/// Odd factors (from xxHash32, Collet 2012) that keep the axes of the lattice apart.
 const FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
 
 impl SolidHills {
@@ -87,7 +87,7 @@ impl SolidHills {
         Self { seed: random.random() }
     }
 
-    /// The number that tells these hills from others, for twins of this code in shaders.
+    /// The number that distinguishes these hills from others, for twins of this code in shaders.
     #[must_use]
     pub fn seed(self) -> u32 {
         self.seed
@@ -168,7 +168,7 @@ fn slope(bits: u32, [x, y, z]: [f32; 3]) -> f32 {
     (a * x + b * y + c * z) * (2.0 / 1023.0) - (x + y + z)
 }
 
-/// Random numbers for `seed`; each `kind` gives an independent stream.
+/// Random numbers for `seed`. Each `kind` gives an independent stream.
 pub fn random(seed: u64, kind: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(kind);
@@ -182,8 +182,9 @@ mod tests {
     /// Heights on a lattice of 20 x 20 x 20 places, 0.37 units apart.
     fn heights(seed: u64) -> Vec<f32> {
         let hills = SolidHills::new(&mut random(seed, 0));
-        let at = |i: usize| [i % 20, i / 20 % 20, i / 400].map(|n| n as f32 * 0.37 - 3.0);
-        (0..8000).map(|i| hills.at(at(i))).collect()
+        (0..8000)
+            .map(|i| hills.at([i % 20, i / 20 % 20, i / 400].map(|n| n as f32 * 0.37 - 3.0)))
+            .collect()
     }
 
     #[test]
@@ -204,8 +205,11 @@ mod tests {
     #[test]
     fn solid_hills_are_smooth_and_differ_by_seed() {
         let hills = SolidHills::new(&mut random(1, 0));
-        let line = |i: i32| hills.at([i as f32 / 256.0 - 4.0, 0.3, -0.7]);
-        let steepest = (0..2048).map(|i| (line(i + 1) - line(i)).abs()).fold(0.0, f32::max);
+        fn line(i: i32, hills: &SolidHills) -> f32 {
+            hills.at([i as f32 / 256.0 - 4.0, 0.3, -0.7])
+        }
+        let steepest =
+            (0..2048).map(|i| (line(i + 1, &hills) - line(i, &hills)).abs()).fold(0.0, f32::max);
         assert!((0.001..0.02).contains(&steepest), "{steepest}");
         assert_ne!(heights(1), heights(2));
         assert_eq!(hills.at([3.0, -2.0, 5.0]), 0.0, "corners of the lattice have height 0");
@@ -213,7 +217,7 @@ mod tests {
 
     #[test]
     fn solid_hills_are_the_same_on_every_machine() {
-        // From a second implementation in numpy; other bits would change every world made before.
+        // From a second implementation in numpy. Other bits would change every world made before.
         let hills = SolidHills { seed: 0x1234_5678 };
         let found =
             [[0.5, 0.5, 0.5], [-7.3, 12.9, 0.1], [1000.2, -0.4, 33.3]].map(|at| hills.at(at));

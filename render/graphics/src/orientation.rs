@@ -1,15 +1,14 @@
 //! Orientation field of a picture: the direction along edges, extended into flat regions.
 //!
-//! The structure tensor of all three channels (Di Zenzo 1986) is smoothed; its minor
-//! eigenvector is the direction (Kyprianidis and Kang 2011). Litwinowicz 1997 interpolates
-//! directions from strong gradients into flat regions; here the tensor itself is spread
-//! by Gaussians of doubling width and falling weight, which together decay like a power
-//! of the distance, so that stronger and nearer edges dominate.
+//! The structure tensor of all three channels (Di Zenzo 1986) is smoothed. Its minor eigenvector is
+//! the direction (Kyprianidis and Kang 2011). Litwinowicz 1997 interpolates directions from strong
+//! gradients into flat regions. Here the tensor itself is spread by Gaussians of doubling width and
+//! falling weight, which together decay like a power of the distance, so that stronger and nearer
+//! edges dominate.
 
 use rayon::prelude::*;
 
-use crate::blur::blurred;
-use crate::field::Field;
+use crate::field::{Field, blurred};
 
 /// Weight of each Gaussian relative to the one half as wide (chosen by eye).
 const WIDER: f32 = 0.25;
@@ -101,7 +100,7 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     tensor
 }
 
-/// Difference of the tensor's eigenvalues by their sum; 0 where there is no gradient.
+/// Difference of the tensor's eigenvalues by their sum, 0 where there is no gradient.
 fn agreement(tensor: &[f32; 3]) -> f32 {
     let [xx, xy, yy] = *tensor;
     if xx + yy < 1e-12 {
@@ -110,7 +109,7 @@ fn agreement(tensor: &[f32; 3]) -> f32 {
     ((xx - yy).powi(2) + 4.0 * xy * xy).sqrt() / (xx + yy)
 }
 
-/// Minor eigenvector of the tensor; along x where there is no gradient.
+/// Minor eigenvector of the tensor, along x where there is no gradient.
 fn weak_direction(tensor: &[f32; 3]) -> [f32; 2] {
     let [xx, xy, yy] = tensor.map(f64::from);
     if xx + yy < 1e-12 {

@@ -1,4 +1,5 @@
-//! Formats of pictures that are read: their names in messages, endings of file names, first bytes.
+//! Formats of pictures that are read: their names in messages, endings of file names, first bytes,
+//! and a check for JPEG files that were cut off. Decoders paint the missing part grey.
 
 use std::path::Path;
 
@@ -10,7 +11,7 @@ pub const NAMES: &str = "PNG, JPEG, TIFF or WebP";
 /// Endings of the names of such files, in lower case.
 pub const ENDINGS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "webp"];
 
-/// Whether a file name ends like that of a picture, in letters of either case.
+/// Whether a file name ends like the name of a picture, in letters of either case.
 #[must_use]
 pub fn has_picture_ending(path: &Path) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str());
@@ -24,12 +25,67 @@ pub fn begins_like_picture(bytes: &[u8]) -> bool {
     matches!(image::guess_format(bytes), Ok(Png | Jpeg | Tiff | WebP))
 }
 
+/// First bytes of every JPEG file: the marker that starts the picture.
+const START: [u8; 2] = [0xff, 0xd8];
+/// Second byte of the marker that ends the picture.
+const END: u8 = 0xd9;
+
+/// Reason given for a file that [`is_cut_off_jpeg`].
+pub const CUT_OFF: &str = "the JPEG file is cut off: its end marker is missing";
+
+/// Whether `bytes` are a JPEG file that stops before its end marker (ISO/IEC 10918-1, B.1.1). Other formats
+/// are not: their decoders refuse cut files.
+#[must_use]
+pub fn is_cut_off_jpeg(bytes: &[u8]) -> bool {
+    if !bytes.starts_with(&START) {
+        return false;
+    }
+    let mut at = START.len();
+    // Between markers lie segments, which state their length and may hold a whole thumbnail, and the
+    // coded data of scans, in which 0xff is followed by 0.
+    while let Some(found) = bytes[at..].windows(2).position(|pair| is_marker(pair[0], pair[1])) {
+        let marker = at + found;
+        if bytes[marker + 1] == END {
+            return false;
+        }
+        let Some(length) = bytes.get(marker + 2..marker + 4) else { return true };
+        at = marker + 2 + usize::from(u16::from_be_bytes([length[0], length[1]]));
+        if at >= bytes.len() {
+            return true;
+        }
+    }
+    true
+}
+
+/// Whether `bytes` are a JPEG file of four components: inks (CMYK or YCCK). Its frame header
+/// (ISO/IEC 10918-1, B.2.2) gives their number.
+#[must_use]
+pub fn is_of_inks(bytes: &[u8]) -> bool {
+    let mut at = START.len();
+    while bytes.starts_with(&START) {
+        let Some(head) = bytes.get(at..at + 10) else { return false };
+        let frame = matches!(head[1], 0xc0..=0xcf) && !matches!(head[1], 0xc4 | 0xc8 | 0xcc);
+        match head {
+            [0xff, 0xff, ..] => at += 1,
+            [0xff, _, _, _, .., components] if frame => return *components == 4,
+            [0xff, _, high, low, ..] => at += 2 + usize::from(u16::from_be_bytes([*high, *low])),
+            _ => return false,
+        }
+    }
+    false
+}
+
+/// Whether two bytes are a marker other than padding, stuffed data, a restart or the start.
+fn is_marker(first: u8, second: u8) -> bool {
+    first == 0xff && !matches!(second, 0x00 | 0x01 | 0xd0..=0xd8 | 0xff)
+}
+
 #[cfg(test)]
 mod tests {
-    use std::io::Cursor;
-
     use super::*;
     use crate::picture::Photograph;
+    use image::codecs::jpeg::JpegEncoder;
+    use std::io::Cursor;
 
     #[test]
     fn each_ending_is_that_of_a_picture_that_is_known_by_its_bytes_and_read() {
@@ -50,5 +106,49 @@ mod tests {
         for other in [&b"\x76\x2f\x31\x01"[..], b"{\"format\"", b"RIFF\x24\0\0\0WAVEfmt ", b""] {
             assert!(!begins_like_picture(other), "{other:?}");
         }
+    }
+
+    #[test]
+    fn a_jpeg_is_cut_off_wherever_its_end_is_missing() {
+        let picture = image::RgbImage::from_fn(64, 48, |x, y| {
+            let [r, g, b, _] = (x * 7919 + y * 104_729).wrapping_mul(2_654_435_761).to_le_bytes();
+            image::Rgb([r, g, b])
+        });
+        let mut whole = Vec::new();
+        JpegEncoder::new_with_quality(&mut whole, 100).encode_image(&picture).unwrap();
+        // Coded data hold bytes of 0xff, each with a 0 behind it.
+        assert!(whole.windows(2).any(|pair| pair == [0xff, 0]), "no such byte");
+        assert!(!is_cut_off_jpeg(&whole));
+        for length in 2..whole.len() {
+            assert!(is_cut_off_jpeg(&whole[..length]), "{length} of {} bytes", whole.len());
+        }
+        // A camera's preview has an end marker of its own, inside a segment.
+        let preview: Vec<u8> =
+            [&[0xff, 0xe1, 0, 6, 0xff, 0xd9, 0xff, 0xd9][..], &whole[2..]].concat();
+        let with_preview = [&START[..], &preview].concat();
+        assert!(!is_cut_off_jpeg(&with_preview));
+        assert!(is_cut_off_jpeg(&with_preview[..with_preview.len() - 2]));
+        assert!(!is_cut_off_jpeg(b"\x89PNG"));
+    }
+
+    #[test]
+    fn components_are_counted_in_the_frame_header_behind_other_segments() {
+        fn file(kind: u8, components: u8) -> Vec<u8> {
+            let mut file = START.to_vec();
+            // A segment that holds a marker, and a table with a tenth byte of 4.
+            file.extend([0xff, 0xe0, 0, 6, 0xff, 0xc0, 0, 8]);
+            file.extend([0xff, 0xc4, 0, 12, 0, 1, 2, 3, 3, 4, 5, 6, 7, 8]);
+            // Markers may have bytes of 0xff before them.
+            file.extend([0xff, 0xff, 0xff, kind, 0, 20, 8, 0, 8, 0, 8, components, 1, 0x11, 0]);
+            file
+        }
+        for kind in [0xc0, 0xc1, 0xc2, 0xc9] {
+            assert!(is_of_inks(&file(kind, 4)), "{kind:x}");
+            assert!(!is_of_inks(&file(kind, 3)) && !is_of_inks(&file(kind, 1)), "{kind:x}");
+        }
+        for length in 0..file(0xc0, 4).len() - 4 {
+            assert!(!is_of_inks(&file(0xc0, 4)[..length]), "cut off after {length} bytes");
+        }
+        assert!(!is_of_inks(b"\x89PNG\r\n\x1a\n\x04\x04\x04"), "no JPEG");
     }
 }

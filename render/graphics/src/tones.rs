@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
-use crate::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
-use crate::picture_formats::NAMES;
+use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
@@ -20,9 +19,9 @@ pub struct ToneRamp {
 }
 
 impl ToneRamp {
-    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light); one level is 0.5
-    /// throughout. `softness` in 0..1 is the share of a step's width over which it blends
-    /// into the next.
+    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light). One level is 0.5
+    /// throughout. `softness` in 0..1 is the share of a step's width over which it blends into the
+    /// next.
     #[must_use]
     pub fn steps(levels: usize, softness: f32) -> Self {
         let levels = levels.max(1) as f32;
@@ -39,11 +38,11 @@ impl ToneRamp {
         })
     }
 
-    /// A ramp through the given greys (0..1), at equal cosine intervals from shade (0) to
-    /// light (1).
+    /// A ramp through the given greys (0..1), at equal cosine intervals from shade (0) to light
+    /// (1).
     ///
     /// # Errors
-    /// [`ToneRampError::Empty`]; [`ToneRampError::OutOfRange`].
+    /// [`ToneRampError::Empty`], [`ToneRampError::OutOfRange`].
     pub fn from_greys(greys: &[f32]) -> Result<Self, ToneRampError> {
         if greys.is_empty() {
             return Err(ToneRampError::Empty);
@@ -66,16 +65,19 @@ impl ToneRamp {
     /// # Errors
     /// [`ToneRampError::NoPicture`] with the path.
     pub fn open(path: &Path) -> Result<Self, ToneRampError> {
-        let rejected =
-            |reason: String| ToneRampError::NoPicture { name: path.display().to_string(), reason };
+        fn rejected(reason: String, path: &Path) -> ToneRampError {
+            ToneRampError::NoPicture { name: path.display().to_string(), reason }
+        }
         let bytes =
-            documents::file::disk::read(path).map_err(|error| rejected(error.to_string()))?;
+            documents::file::disk::read(path).map_err(|error| rejected(error.to_string(), path))?;
         if is_cut_off_jpeg(&bytes) {
-            return Err(rejected(CUT_OFF.to_owned()));
+            return Err(rejected(CUT_OFF.to_owned(), path));
         }
         let reader = image::ImageReader::new(std::io::Cursor::new(bytes));
-        let reader = reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
-        let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_rgb16();
+        let reader =
+            reader.with_guessed_format().map_err(|error| rejected(error.to_string(), path))?;
+        let picture =
+            reader.decode().map_err(|error| rejected(error.to_string(), path))?.into_rgb16();
         let y = picture.height() / 2;
         Self::from_greys(
             &(0..picture.width())
@@ -93,7 +95,7 @@ impl ToneRamp {
         Self { greys: Box::new(greys) }
     }
 
-    /// Grey at a cosine; negative cosines count as 0.
+    /// Grey at a cosine. Negative cosines count as 0.
     #[must_use]
     #[inline]
     pub fn grey(&self, cosine: f32) -> f32 {
@@ -111,13 +113,15 @@ impl ToneRamp {
 }
 
 /// A tone ramp cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ToneRampError {
     /// The list of greys is empty.
     #[error("a tone ramp has at least one grey, found `0`")]
+    #[hint("give greys from 0 (black, dense paint) to 1 (white, thin paint)")]
     Empty,
     /// A grey is outside 0..1.
     #[error("grey {index} of the tone ramp is not within 0 to 1: `{grey}`")]
+    #[hint("give greys from 0 (black, dense paint) to 1 (white, thin paint)")]
     OutOfRange {
         /// Index of the grey, from 0.
         index: usize,
@@ -126,25 +130,13 @@ pub enum ToneRampError {
     },
     /// The file is not a picture that can be read.
     #[error("{name}: {reason}")]
+    #[hint("give a picture ({NAMES}) whose middle row runs from shade to light")]
     NoPicture {
         /// Path of the file.
         name: String,
         /// Reason given by the decoder.
         reason: String,
     },
-}
-
-impl Explain for ToneRampError {
-    fn hint(&self) -> Option<Hint> {
-        Some(match self {
-            Self::Empty | Self::OutOfRange { .. } => {
-                Hint::new("give greys from 0 (black, dense paint) to 1 (white, thin paint)")
-            }
-            Self::NoPicture { .. } => Hint::new(format!(
-                "give a picture ({NAMES}) whose middle row runs from shade to light"
-            )),
-        })
-    }
 }
 
 #[cfg(test)]

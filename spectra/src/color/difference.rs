@@ -1,9 +1,11 @@
-//! Colour differences in CIELAB.
+//! Colour differences in CIELAB, and metamerism: the difference under one light of two colours that match under
+//! another.
 //!
-//! CIE94 and CMC are asymmetric by definition: their first colour is the standard.
+//! CIE94 and CMC are asymmetric by definition. Their first colour is the standard.
 
-use super::lab::Lab;
-use super::matrix::Matrix3;
+use documents::hint::Explain;
+
+use super::xyz::{Lab, Matrix3, Xyz};
 
 /// CIE 1976 colour difference, the Euclidean distance in CIELAB (ISO/CIE 11664-4).
 #[must_use]
@@ -103,8 +105,8 @@ pub fn delta_e_cmc(standard: Lab, sample: Lab, weights: Cmc) -> f64 {
     (l * l + c * c + d_h_squared / (s_h * s_h)).sqrt()
 }
 
-/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6; mean hue by
-/// Sharma, Wu and Dalal 2005, equation 14).
+/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6, mean hue by Sharma, Wu and
+/// Dalal 2005, equation 14).
 ///
 /// Not taken from the crate `palette`: its version 0.7.7 leaves a mean hue above 360 degrees
 /// unreduced, an error of 2e-5 where two hues lie on either side of 0.
@@ -114,9 +116,9 @@ pub fn delta_e_ciede2000(first: Lab, second: Lab) -> f64 {
     (l * l + c * c + h * h + r_t * c * h).max(0.0).sqrt()
 }
 
-/// Three residuals whose squares sum to the squared CIEDE2000 difference, at any distance, for
-/// least squares. They are the weighted differences of lightness, chroma and hue, the last two
-/// rotated so that the cross term of the formula vanishes.
+/// Three residuals with squares that sum to the squared CIEDE2000 difference, at any distance, for least
+/// squares. They are the weighted differences of lightness, chroma and hue, the last two rotated so that the
+/// cross term of the formula vanishes.
 #[must_use]
 pub fn ciede2000_residuals(first: Lab, second: Lab) -> [f64; 3] {
     let [l, c, h, r_t] = ciede2000_terms(first, second);
@@ -171,7 +173,7 @@ pub fn ciede2000_metric(center: Lab) -> Matrix3 {
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(chroma));
     let a = center.a * stretch;
     let c = a.hypot(center.b);
-    // Unit vector of rising chroma; that of rising hue is at a right angle to it.
+    // Unit vector of rising chroma. Hue rises at a right angle to it.
     let (cos, sin) = if c > 1e-9 { (a / c, center.b / c) } else { (1.0, 0.0) };
     let hue = hue_degrees(a, center.b);
     let [s_l, s_c, s_h, r_t] = ciede2000_weights(center.lightness, c, hue);
@@ -185,9 +187,10 @@ pub fn ciede2000_metric(center: Lab) -> Matrix3 {
 
 /// S_L, S_C, S_H and R_T at a mean lightness, chroma and hue (in degrees).
 fn ciede2000_weights(lightness: f64, chroma: f64, hue: f64) -> [f64; 4] {
-    let cos = |degrees: f64| degrees.to_radians().cos();
-    let t = 1.0 - 0.17 * cos(hue - 30.0) + 0.24 * cos(2.0 * hue) + 0.32 * cos(3.0 * hue + 6.0)
-        - 0.20 * cos(4.0 * hue - 63.0);
+    let t = 1.0 - 0.17 * cos_degrees(hue - 30.0)
+        + 0.24 * cos_degrees(2.0 * hue)
+        + 0.32 * cos_degrees(3.0 * hue + 6.0)
+        - 0.20 * cos_degrees(4.0 * hue - 63.0);
     let from_middle = (lightness - 50.0).powi(2);
     let rotation = 30.0 * (-((hue - 275.0) / 25.0).powi(2)).exp();
     [
@@ -196,6 +199,10 @@ fn ciede2000_weights(lightness: f64, chroma: f64, hue: f64) -> [f64; 4] {
         1.0 + 0.015 * chroma * t,
         -2.0 * seventh_root_share(chroma) * (2.0 * rotation).to_radians().sin(),
     ]
+}
+
+fn cos_degrees(degrees: f64) -> f64 {
+    degrees.to_radians().cos()
 }
 
 /// The factor sqrt(C^7 / (C^7 + 25^7)) of CIEDE2000.
@@ -218,6 +225,61 @@ fn lightness_chroma_hue(first: Lab, second: Lab) -> (f64, f64, f64) {
 fn hue_degrees(a: f64, b: f64) -> f64 {
     let degrees = b.atan2(a).to_degrees();
     if degrees < 0.0 { degrees + 360.0 } else { degrees }
+}
+
+/// Corrects a sample under the test light for its difference from the standard under the
+/// reference light: each tristimulus value is multiplied by the ratio of standard to sample
+/// under the reference light (CIE 15:2018, section 9.2).
+///
+/// # Errors
+/// [`MetamerismError`] if the sample is black under the reference light, which leaves the ratio
+/// undefined.
+pub fn corrected_to_match(
+    sample_test: Xyz,
+    standard_reference: Xyz,
+    sample_reference: Xyz,
+) -> Result<Xyz, MetamerismError> {
+    let sample = sample_reference.to_array();
+    if sample.iter().any(|&v| v <= 0.0) {
+        return Err(MetamerismError { xyz: sample });
+    }
+    let mut corrected = sample_test.to_array();
+    for (value, (standard, sample)) in
+        corrected.iter_mut().zip(standard_reference.to_array().into_iter().zip(sample))
+    {
+        *value *= standard / sample;
+    }
+    Ok(corrected.into())
+}
+
+/// Special metamerism index for a change of illuminant (CIE 15:2018, section 9.2): the
+/// CIEDE2000 difference of the pair under the test light after [`corrected_to_match`].
+/// `standard` and `sample` each hold XYZ under the reference light and under the test light.
+///
+/// # Errors
+/// [`MetamerismError`] if the sample is black under the reference light.
+pub fn metamerism_index(
+    standard: [Xyz; 2],
+    sample: [Xyz; 2],
+    test_white: Xyz,
+) -> Result<f64, MetamerismError> {
+    let [standard_reference, standard_test] = standard;
+    let [sample_reference, sample_test] = sample;
+    let corrected = corrected_to_match(sample_test, standard_reference, sample_reference)?;
+    Ok(delta_e_ciede2000(
+        Lab::from_xyz(standard_test, test_white),
+        Lab::from_xyz(corrected, test_white),
+    ))
+}
+
+/// A sample that is black under the reference light.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
+#[error(
+    "a sample that is black under the reference light has no metamerism index, found XYZ `{xyz:?}`"
+)]
+pub struct MetamerismError {
+    /// XYZ of the sample under the reference light.
+    pub xyz: [f64; 3],
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
-//! Display RGB: sRGB and Display P3.
+//! Display RGB (sRGB and Display P3), colours as text, and colours outside the gamut of a display, which are moved
+//! to the most colourful displayable colour of the same hue and lightness.
 
+use std::str::FromStr;
+use std::sync::LazyLock;
+
+use documents::hint::Explain;
 use palette::encoding::{FromLinear, IntoLinear, Srgb};
 
-use super::adaptation::{Adaptation, adapt};
-use super::matrix::Matrix3;
-use super::xyz::{Xyy, Xyz};
+use super::xyz::{Adaptation, KAPPA, Lab, Matrix3, TOE, Xyy, Xyz, adapt};
 
 /// The RGB space of a display. Both have the white point D65 (x 0.3127, y 0.3290) and the
 /// transfer curve of IEC 61966-2-1.
@@ -45,7 +48,7 @@ impl RgbSpace {
     }
 
     /// The matrix from linear RGB (white 1) to XYZ (white Y = 100). Computed from the primaries
-    /// at full precision; the standards list a rounded one.
+    /// at full precision. The standards list a rounded one.
     #[must_use]
     pub fn xyz_from_linear(self) -> Matrix3 {
         let columns = self.primaries().map(|(x, y)| [x / y, 1.0, (1.0 - x - y) / y]);
@@ -109,18 +112,21 @@ impl Rgb {
         self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)
     }
 
-    /// Parses encoded RGB from `#rrggbb` or `#rgb`; the `#` may be missing. `None` for any
-    /// other text.
+    /// Parses encoded RGB from `#rrggbb` or `#rgb`. The `#` may be missing. This returns `None` for any other
+    /// text.
     #[must_use]
     pub fn from_hex(text: &str) -> Option<Self> {
         let digits = text.strip_prefix('#').unwrap_or(text);
         if !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
             return None;
         }
-        let value = |from: usize, to: usize| u8::from_str_radix(&digits[from..to], 16).ok();
         let bytes = match digits.len() {
-            3 => [17 * value(0, 1)?, 17 * value(1, 2)?, 17 * value(2, 3)?],
-            6 => [value(0, 2)?, value(2, 4)?, value(4, 6)?],
+            3 => [
+                17 * hex_value(digits, 0, 1)?,
+                17 * hex_value(digits, 1, 2)?,
+                17 * hex_value(digits, 2, 3)?,
+            ],
+            6 => [hex_value(digits, 0, 2)?, hex_value(digits, 2, 4)?, hex_value(digits, 4, 6)?],
             _ => return None,
         };
         Some(Self(bytes.map(|byte| f64::from(byte) / 255.0)))
@@ -133,8 +139,8 @@ impl Rgb {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// The code of [`Rgb::to_hex`] for people: a colour outside of `space` is marked, since its code is that of
-    /// another colour.
+    /// The code of [`Rgb::to_hex`] for people: a colour outside of `space` is marked, since its code belongs
+    /// to another colour.
     #[must_use]
     pub fn to_hex_with_note(self, space: RgbSpace) -> String {
         let hex = self.to_hex();
@@ -142,8 +148,158 @@ impl Rgb {
     }
 }
 
+fn hex_value(digits: &str, from: usize, to: usize) -> Option<u8> {
+    u8::from_str_radix(&digits[from..to], 16).ok()
+}
+
+/// The colour of an object under one light, in XYZ, CIELAB and sRGB.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColorValues {
+    /// Tristimulus values. Y = 100 for the perfect diffuser.
+    pub xyz: Xyz,
+    /// CIELAB relative to the white of the light.
+    pub lab: Lab,
+    /// Encoded sRGB, adapted from the light's white to the display's (Bradford). Outside
+    /// 0 to 1 where the display cannot show the colour.
+    pub srgb: Rgb,
+}
+
+impl ColorValues {
+    /// The colour `xyz` under a light with the white point `white`.
+    #[must_use]
+    pub fn from_xyz(xyz: Xyz, white: Xyz) -> Self {
+        Self {
+            xyz,
+            lab: Lab::from_xyz(xyz, white),
+            srgb: RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford),
+        }
+    }
+
+    /// The colour as `#rrggbb`, clipped to the sRGB gamut.
+    #[must_use]
+    pub fn hex(&self) -> String {
+        self.srgb.to_hex()
+    }
+}
+
+/// A colour as a user types it: `#rrggbb` or `#rgb` in sRGB, or CIELAB as `L,a,b`.
+///
+/// ```
+/// use spectra::color::ColorCode;
+///
+/// let blue: ColorCode = "#2a5caa".parse()?;
+/// assert_eq!(blue.lab().lightness.round(), 40.0);
+/// assert!("blue".parse::<ColorCode>().is_err());
+/// # Ok::<(), spectra::color::ColorCodeError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ColorCode {
+    /// Encoded sRGB, each channel 0 to 1.
+    Srgb(Rgb),
+    /// CIELAB relative to the white of any light.
+    Lab(Lab),
+}
+
+impl ColorCode {
+    /// CIELAB of the colour, relative to the display's white for sRGB.
+    #[must_use]
+    pub fn lab(self) -> Lab {
+        match self {
+            Self::Srgb(_) => {
+                let white = RgbSpace::Srgb.white();
+                Lab::from_xyz(self.xyz(white), white)
+            }
+            Self::Lab(lab) => lab,
+        }
+    }
+
+    /// XYZ of the colour under a light with the given white. sRGB is adapted from the
+    /// display's white (Bradford).
+    #[must_use]
+    pub fn xyz(self, white: Xyz) -> Xyz {
+        match self {
+            Self::Srgb(rgb) => RgbSpace::Srgb.xyz_from_encoded(rgb, white, Adaptation::Bradford),
+            Self::Lab(lab) => lab.to_xyz(white),
+        }
+    }
+}
+
+impl FromStr for ColorCode {
+    type Err = ColorCodeError;
+
+    fn from_str(text: &str) -> Result<Self, ColorCodeError> {
+        let rgb = Rgb::from_hex(text).map(Self::Srgb);
+        rgb.or_else(|| Lab::from_text(text).map(Self::Lab))
+            .ok_or_else(|| ColorCodeError { text: text.to_owned() })
+    }
+}
+
+/// A text that is not a colour.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[hint("try \"#2a5caa\" or 40,5,-45")]
+#[error("a colour is #rrggbb or L,a,b, found `{text}`")]
+pub struct ColorCodeError {
+    /// The text that was given.
+    pub text: String,
+}
+
+/// Halvings of the range of chroma: to a 16,000th of it, below a step of 8 bits.
+const HALVINGS: usize = 14;
+
+/// XYZ relative to the white of sRGB from linear sRGB, and the inverse.
+static MATRICES: LazyLock<[Matrix3; 2]> = LazyLock::new(|| {
+    let white = RgbSpace::Srgb.white().to_array();
+    let from_white = Matrix3::diagonal(white.map(f64::recip));
+    let xyz_from_rgb = from_white.after(&RgbSpace::Srgb.xyz_from_linear());
+    [xyz_from_rgb, xyz_from_rgb.inverse()]
+});
+
+impl Rgb {
+    /// The linear sRGB colour itself if the display can show it (bit for bit), else the most
+    /// colourful one that it can show of the same lightness L* and hue angle of CIELAB. Lighter
+    /// than white is white, darker than black is black.
+    ///
+    /// On the line from a colour to the grey of its lightness, f(X) and f(Z) of CIELAB move evenly
+    /// to f(Y), which stays (ISO/CIE 11664-4, equations 1 to 6).
+    #[must_use]
+    pub fn mapped_into_gamut(self) -> Self {
+        if self.in_gamut() || self.0.iter().any(|value| value.is_nan()) {
+            return self;
+        }
+        let [xyz_from_rgb, rgb_from_xyz] = &*MATRICES;
+        let xyz = xyz_from_rgb.apply(self.0.map(|value| value.clamp(-1e3, 1e3)));
+        let y = xyz[1];
+        if y >= 1.0 || y <= 0.0 {
+            return Self([if y > 0.0 { 1.0 } else { 0.0 }; 3]);
+        }
+        let [x, grey, z] = xyz.map(root);
+        let at = |chroma: f64| {
+            let [x, z] = [x, z].map(|end| cubed(grey + chroma * (end - grey)));
+            Self(rgb_from_xyz.apply([x, y, z]))
+        };
+        let mut inside = 0.0;
+        let mut outside = 1.0;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            *if at(middle).in_gamut() { &mut inside } else { &mut outside } = middle;
+        }
+        Self(at(inside).0.map(|value| value.clamp(0.0, 1.0)))
+    }
+}
+
+/// The function f of CIELAB.
+fn root(t: f64) -> f64 {
+    if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 }
+}
+
+/// The inverse of [`root`].
+fn cubed(f: f64) -> f64 {
+    if f > 6.0 / 29.0 { f * f * f } else { (116.0 * f - 16.0) / KAPPA }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::xyz::{Lab, Lch};
     use super::*;
 
     #[test]
@@ -174,5 +330,36 @@ mod tests {
             let back = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).0;
             assert!(rgb.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-9), "{rgb:?} {back:?}");
         }
+    }
+
+    fn lch(rgb: Rgb) -> Lch {
+        let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb.0);
+        Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white()).to_lch()
+    }
+
+    #[test]
+    fn colors_that_a_display_shows_keep_their_bits() {
+        for rgb in [[0.0, 0.5, 1.0], [1.0, 1.0, 1.0], [0.2, 1e-9, 0.7], [-1e-7, 0.3, 1.0 + 1e-7]] {
+            assert_eq!(Rgb(rgb).mapped_into_gamut(), Rgb(rgb));
+        }
+        assert!(Rgb([f64::NAN, 0.0, 2.0]).mapped_into_gamut().0[0].is_nan());
+    }
+
+    #[test]
+    fn others_keep_hue_and_lightness_and_come_to_the_edge_of_the_gamut() {
+        for rgb in [[-0.1, 0.2, 0.6], [0.7, -0.05, 0.02], [-0.2, 0.5, 0.1], [1.2, 0.6, -0.02]] {
+            let mapped = Rgb(rgb).mapped_into_gamut();
+            let exact = lch(Rgb(rgb));
+            let shown = lch(mapped);
+            assert!((exact.lightness - shown.lightness).abs() < 1e-3, "{exact:?} {shown:?}");
+            assert!((exact.hue_degrees - shown.hue_degrees).abs() < 0.01, "{exact:?} {shown:?}");
+            let kept = shown.chroma / exact.chroma;
+            assert!(kept > 0.3 && kept < 1.0, "{exact:?} {shown:?}");
+            assert!(mapped.0.iter().all(|value| (0.0..=1.0).contains(value)), "{mapped:?}");
+            let edge = mapped.0.iter().any(|value| value.min(1.0 - value) < 1e-3);
+            assert!(edge, "{rgb:?}: {mapped:?}");
+        }
+        assert_eq!(Rgb([3.0, 2.0, 1.5]).mapped_into_gamut(), Rgb([1.0; 3]));
+        assert_eq!(Rgb([-0.3, -0.1, 0.0]).mapped_into_gamut(), Rgb([0.0; 3]));
     }
 }

@@ -1,11 +1,10 @@
 //! CIE whiteness and tint.
 
 use super::xyz::Xyz;
-use crate::illuminant::Illuminant;
-use crate::observer::Observer;
-use documents::hint::{Explain, Fault, Hint};
+use crate::illuminant::{Illuminant, Observer};
+use documents::hint::Explain;
 
-/// Least whiteness to which the formula applies; the greatest is 5 Y - 280.
+/// Least whiteness to which the formula applies. The greatest is 5 Y - 280.
 const LEAST_WHITENESS: f64 = 40.0;
 /// Range of tints to which the formula applies.
 const TINTS: [f64; 2] = [-4.0, 2.0];
@@ -73,16 +72,20 @@ impl Whiteness {
 }
 
 /// A colour that has no CIE whiteness.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum WhitenessError {
     /// The formula is made for daylight.
     #[error("whiteness is defined under D65 and C, not under {name}")]
+    #[hint("choose [illuminant=D65]")]
+    #[fault(Setting)]
     Light {
         /// Name of the light.
         name: String,
     },
     /// The formula is made for the observers of 1931 and 1964.
     #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {observer}")]
+    #[hint("choose [observer=10]")]
+    #[fault(Setting)]
     Observer {
         /// Observer that was asked for.
         observer: Observer,
@@ -105,23 +108,6 @@ pub enum WhitenessError {
     },
 }
 
-impl Explain for WhitenessError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Light { .. } => "choose [illuminant=D65]",
-            Self::Observer { .. } => "choose [observer=10]",
-            Self::NotWhite { .. } | Self::Tinted { .. } => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Light { .. } | Self::Observer { .. } => Fault::Setting,
-            Self::NotWhite { .. } | Self::Tinted { .. } => Fault::Input,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,15 +126,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_white_is_told_with_its_reason() {
+    fn what_is_not_white_is_reported_with_its_reason() {
         let deg2 = Observer::Cie1931Deg2;
-        let says = |xyz, light, observer| of(xyz, light, observer).unwrap_err().to_string();
-        let dark = says([30.0, 31.0, 33.0], "D65", deg2);
+        let dark = message([30.0, 31.0, 33.0], "D65", deg2);
         assert!(dark.contains("not white: W ") && dark.contains("5 Y - 280 = -125.0"), "{dark}");
-        let green = says([80.0, 88.0, 94.0], "D65", deg2);
+        let green = message([80.0, 88.0, 94.0], "D65", deg2);
         assert!(green.contains("not white: T "), "{green}");
-        assert!(says([90.0, 95.0, 100.0], "A", deg2).contains("not under A"));
-        let deg2015 = says([90.0, 95.0, 100.0], "D65", Observer::Cie2015Deg2);
+        assert!(message([90.0, 95.0, 100.0], "A", deg2).contains("not under A"));
+        let deg2015 = message([90.0, 95.0, 100.0], "D65", Observer::Cie2015Deg2);
         assert!(deg2015.contains("2015-2"), "{deg2015}");
+    }
+
+    fn message(xyz: [f64; 3], light: &str, observer: Observer) -> String {
+        of(xyz, light, observer).unwrap_err().to_string()
     }
 }

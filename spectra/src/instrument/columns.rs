@@ -1,14 +1,14 @@
 //! Columns of numbers: a wavelength and one or more values, with or without headings.
 //!
 //! Cells are separated by semicolon, tab, spaces or comma. A decimal comma is read where commas
-//! do not separate cells. Lines that start with `#` are comments.
+//! do not separate cells. Lines that start with `#` are comments. Bruker OPUS data point tables (.dpt) are
+//! columns without a heading.
 
-use super::axis::Axis;
-use super::error::InstrumentError;
-use super::layout::Layout;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::decode::{Decimal, lines, number, required_number};
+use super::measured::{
+    InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, contains_any, stem,
+};
 use super::points::{Duplicates, Point, ordered};
-use super::text::lines;
 
 /// Whether `text` consists of such columns: most lines are numbers, and the first number of
 /// each is a wavelength.
@@ -76,9 +76,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
 
 /// Whether the lines above the rows state figures of a light, as light meters do.
 fn is_of_a_light(words: &str) -> bool {
-    let is_figure = |word: &str| ["lux", "cct", "cri", "ppfd", "duv"].contains(&word);
     let lower = words.to_ascii_lowercase();
-    lower.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| is_figure(word)).count() > 1
+    lower
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .filter(|word| ["lux", "cct", "cri", "ppfd", "duv"].contains(word))
+        .count()
+        > 1
 }
 
 /// Whether a heading names a sample rather than a quantity.
@@ -101,7 +104,7 @@ pub(super) struct NumberTable<'a> {
     pub(super) above: Vec<&'a str>,
     /// `None` if there are no rows.
     layout: Option<Layout>,
-    /// Rows with their line numbers; all have the same number of cells, at least 2.
+    /// Rows with their line numbers. All have the same number of cells, at least 2.
     pub(super) rows: Vec<(usize, Vec<f64>)>,
 }
 
@@ -175,6 +178,160 @@ fn content(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
     lines.into_iter()
 }
 
+/// The unit of an abscissa.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Wavelength in nm.
+    Nanometres,
+    /// Wavelength in micrometres.
+    Micrometres,
+    /// Waves per centimetre.
+    Wavenumbers,
+}
+
+impl Axis {
+    /// The unit named in `words`, for example in the heading of a column. `None` if they name no unit.
+    pub(super) fn of_words(words: &str) -> Option<Self> {
+        let lower = words.to_lowercase();
+
+        if contains_any(&lower, &["1/cm", "cm-1", "cm^-1", "wavenumber", "wave number"]) {
+            Some(Self::Wavenumbers)
+        } else if contains_any(&lower, &["micromet", "micron", "\u{b5}m", "\u{3bc}m"])
+            || lower.trim() == "um"
+        {
+            Some(Self::Micrometres)
+        } else if contains_any(&lower, &["nm", "nanomet", "wavelength"]) {
+            Some(Self::Nanometres)
+        } else {
+            None
+        }
+    }
+
+    /// Wavelength in nm at the abscissa `x`, not finite for a wavenumber of 0.
+    pub(super) fn nm(self, x: f64) -> f64 {
+        match self {
+            Self::Nanometres => x,
+            Self::Micrometres => 1000.0 * x,
+            Self::Wavenumbers => 1e7 / x,
+        }
+    }
+}
+
+/// Separator and decimal sign of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Layout {
+    /// Character between cells. `None` for any run of blanks.
+    pub(super) separator: Option<char>,
+    pub(super) decimal: Decimal,
+}
+
+impl Layout {
+    /// The layout under which the most lines are rows of two or more numbers. `None` if no line
+    /// is. A comma counts as separator only if no other separator fits as well.
+    pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Option<Self> {
+        let mut best: (usize, Option<Self>) = (0, None);
+        for separator in [Some(';'), Some('\t'), None, Some(',')] {
+            let cells = lines.clone().map(|line| split(line, separator));
+            let rows = cells.filter(|cells| is_row(cells));
+            let mut count = 0;
+            let mut commas = false;
+            for row in rows {
+                count += 1;
+                commas |= row.iter().any(|cell| cell.contains(','));
+            }
+            if count > best.0 {
+                let decimal = if commas { Decimal::Comma } else { Decimal::Point };
+                best = (count, Some(Self { separator, decimal }));
+            }
+        }
+        best.1
+    }
+
+    /// The cells of a line, trimmed, without empty ones at its end.
+    pub(super) fn cells<'a>(&self, line: &'a str) -> Vec<&'a str> {
+        split(line, self.separator)
+    }
+
+    /// Whether all cells of a line are numbers, and there are at least two.
+    pub(super) fn is_row(&self, line: &str) -> bool {
+        is_row(&split(line, self.separator))
+    }
+
+    /// The numbers of a line. It must have `width` cells, or any number of 2 and more if
+    /// `width` is 0.
+    pub(super) fn numbers(
+        &self,
+        file: &str,
+        line: usize,
+        text: &str,
+        width: usize,
+    ) -> Result<Vec<f64>, InstrumentError> {
+        let cells = self.cells(text);
+        if cells.len() < 2 || (width > 0 && cells.len() != width) {
+            let expected = "a wavelength and as many values as in the lines before";
+            return Err(InstrumentError::line(file, line, expected, text));
+        }
+        let parsed = cells.iter().enumerate().map(|(column, cell)| {
+            let expected = if column == 0 { "a wavelength" } else { "a value" };
+            required_number(file, line, expected, cell, self.decimal)
+        });
+        parsed.collect()
+    }
+}
+
+fn split(line: &str, separator: Option<char>) -> Vec<&str> {
+    let mut cells: Vec<&str> = match separator {
+        Some(separator) => {
+            // A separator between quotes is part of its cell.
+            let mut quoted = false;
+            let cells = line.split(|c: char| {
+                quoted ^= c == '"';
+                c == separator && !quoted
+            });
+            cells.map(|cell| cell.trim().trim_matches('"')).collect()
+        }
+        None => line.split_whitespace().collect(),
+    };
+    let kept = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
+    cells.truncate(kept);
+    cells
+}
+
+fn is_row(cells: &[&str]) -> bool {
+    cells.len() > 1
+        && cells.iter().all(|cell: &&str| {
+            number(cell, Decimal::Point).is_some() || number(cell, Decimal::Comma).is_some()
+        })
+}
+
+/// An abscissa above this must be a wavenumber: no colour instrument measures longer
+/// wavelengths.
+const LONGEST_NM: f64 = 3300.0;
+
+pub(super) fn read_bruker(
+    file: &str,
+    text: &str,
+) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+    let table = table(file, text)?;
+    let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
+    let wide = table.rows.iter().any(|(_, row)| row[0] > LONGEST_NM);
+    let axis = if wide { Axis::Wavenumbers } else { Axis::Nanometres };
+    let unit = if wide { "as wavenumbers in 1/cm" } else { "as wavelengths in nm" };
+    let remark = format!("the file does not state the unit of its first column; read {unit}");
+    let width = first.len();
+    (1..width)
+        .map(|column| {
+            let name = if width > 2 { format!("{} {column}", stem(file)) } else { stem(file) };
+            let quantity = MeasuredQuantity::Unstated;
+            let unit = Unit::Unstated;
+            let mut record =
+                table.spectrum(file, column, axis, ColumnLabel { name, quantity, unit })?;
+            record.remarks.insert(0, remark.clone());
+            Ok(record)
+        })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -231,5 +388,39 @@ mod tests {
         assert!(!is_column_text("name,400,410\nA,0.1,0.2\nB,0.1,0.2\n"));
         assert!(!is_column_text("0.1,0.2\n0.3,0.4\n"));
         assert!(!is_column_text("hello\n"));
+    }
+
+    #[test]
+    fn separators_and_decimal_commas_are_distinguished() {
+        use Decimal::{Comma, Point};
+        for (line, separator, decimal) in [
+            ("400;0,5", Some(';'), Comma),
+            ("400;0.5;", Some(';'), Point),
+            ("400\t0,5", Some('\t'), Comma),
+            ("400,5 0,123", None, Comma),
+            ("  400   0.5", None, Point),
+            ("400,0.5", Some(','), Point),
+            ("400, 0.5", Some(','), Point),
+            ("400 , 0.5", Some(','), Point),
+            ("\"400\",\"0,5\"", Some(','), Comma),
+            ("400,\"0,5\"", Some(','), Comma),
+        ] {
+            assert_eq!(
+                Layout::of([line].into_iter()),
+                Some(Layout { separator, decimal }),
+                "{line}"
+            );
+        }
+        assert_eq!(Layout::of(["wavelength,value"].into_iter()), None);
+    }
+
+    #[test]
+    fn the_first_column_is_nm_or_wavenumbers_by_its_size() {
+        let found = &read_bruker("x/a.0.dpt", "25000.0,0.2\n20000.0,0.1\n").unwrap()[0];
+        assert_eq!((found.name.as_str(), &found.wavelengths_nm), ("a.0", &vec![400.0, 500.0]));
+        assert_eq!(found.values, [0.2, 0.1]);
+        let found = &read_bruker("a.dpt", "400.0,0.2\n500.0,0.1\n").unwrap()[0];
+        assert_eq!(found.wavelengths_nm, [400.0, 500.0]);
+        assert!(found.remarks[0].contains("nm"), "{:?}", found.remarks);
     }
 }

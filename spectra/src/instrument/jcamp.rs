@@ -5,14 +5,11 @@
 //! readable form", Applied Spectroscopy 42 (1988) 151. Supported are XYDATA= (X++(Y..Y)) in
 //! every packed form, XYPOINTS= (XY..XY), and the pages of NTUPLES.
 
-use super::axis::Axis;
-use super::error::InstrumentError;
-use super::jcamp_data::{Field, Scaling, StatedStep, points, runs};
-use super::jcamp_tuples::pages;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::number::{Decimal, required_number};
+use super::columns::Axis;
+use super::decode::{Decimal, lines, required_number};
+use super::jcamp_data::{Field, Scaling, StatedStep, pages, points, runs};
+use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
-use super::text::lines;
 
 /// A processed spectrum with all values above this percentage is in fact counts.
 const MOST_PERCENT: f64 = 200.0;
@@ -87,26 +84,31 @@ impl Block<'_> {
         let title = self.field("TITLE").map_or("", |(_, title)| title);
         let pages = pages(file, &self.fields)?;
         let several = pages.len() > 1;
-        let spectrum = |page: super::jcamp_tuples::Page| {
-            let axis = axis(file, page.line, &page.x_units)?;
-            let ordered = in_nm(file, page.points, axis)?;
-            let words = format!("{} {}", page.units, page.variable);
-            let is_percent = words.contains('%') || words.to_ascii_lowercase().contains("percent");
-            let mut details = self.details();
-            details.extend((!page.name.is_empty()).then(|| ("PAGE".to_owned(), page.name.clone())));
-            Ok(MeasuredSpectrum {
-                name: if several { format!("{title} {}", page.name) } else { title.to_owned() },
-                quantity: MeasuredQuantity::of_words(&words),
-                role: Role::Main,
-                unit: if is_percent { Unit::Percent } else { Unit::Unstated },
-                wavelengths_nm: ordered.wavelengths_nm,
-                values: ordered.values,
-                line: page.line,
-                details,
-                remarks: ordered.remarks,
+        pages
+            .into_iter()
+            .map(|page| {
+                let axis = axis(file, page.line, &page.x_units)?;
+                let ordered = in_nm(file, page.points, axis)?;
+                let words = format!("{} {}", page.units, page.variable);
+                let is_percent =
+                    words.contains('%') || words.to_ascii_lowercase().contains("percent");
+                let mut details = self.details();
+                details.extend(
+                    (!page.name.is_empty()).then(|| ("PAGE".to_owned(), page.name.clone())),
+                );
+                Ok(MeasuredSpectrum {
+                    name: if several { format!("{title} {}", page.name) } else { title.to_owned() },
+                    quantity: MeasuredQuantity::of_words(&words),
+                    role: Role::Main,
+                    unit: if is_percent { Unit::Percent } else { Unit::Unstated },
+                    wavelengths_nm: ordered.wavelengths_nm,
+                    values: ordered.values,
+                    line: page.line,
+                    details,
+                    remarks: ordered.remarks,
+                })
             })
-        };
-        pages.into_iter().map(spectrum).collect()
+            .collect()
     }
 
     /// The step that DELTAX states.
@@ -120,10 +122,8 @@ impl Block<'_> {
 
     /// The spectrum of the block, if it has one.
     fn spectrum(&self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
-        let Some(data) = self
-            .fields
-            .iter()
-            .find(|field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str()))
+        let Some(data) =
+            self.fields.iter().find(|field| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str()))
         else {
             return Ok(None);
         };
@@ -250,7 +250,7 @@ fn axis(file: &str, line: usize, units: &str) -> Result<Axis, InstrumentError> {
     Axis::of_words(units).ok_or_else(|| InstrumentError::line(file, line, expected, units))
 }
 
-/// Points whose abscissas have the unit `axis`, in order of wavelength.
+/// Points with abscissas in the unit `axis`, in order of wavelength.
 fn in_nm(file: &str, raw: Vec<Point>, axis: Axis) -> Result<Ordered, InstrumentError> {
     let in_nm = raw.into_iter().map(|point| Point { nm: axis.nm(point.nm), ..point });
     ordered(file, in_nm.collect(), Duplicates::Average)
@@ -309,20 +309,21 @@ mod tests {
 
     #[test]
     fn the_announced_step_is_checked_and_used() {
-        let text = |delta: &str| {
-            block("A", &format!("##DELTAX= {delta}\n##XYDATA= (X++(Y..Y))\n800 120 130 130 95"))
-        };
         for delta in ["10", "-10", "10.00", "0", "1E1"] {
-            assert!(read("f", &text(delta)).is_ok(), "{delta}");
+            assert!(read("f", &stepped(delta)).is_ok(), "{delta}");
         }
-        let error = read("f", &text("5")).unwrap_err().to_string();
+        let error = read("f", &stepped("5")).unwrap_err().to_string();
         assert!(
             error.starts_with("f, line 10: expected a DELTAX") && error.contains("10 does"),
             "{error}"
         );
-        let alone = text("10").replace("##LASTX= 430\n", "");
+        let alone = stepped("10").replace("##LASTX= 430\n", "");
         assert_eq!(read("f", &alone).unwrap()[0].wavelengths_nm, [400.0, 410.0, 420.0, 430.0]);
         assert!(read("f", &alone.replace("##DELTAX= 10\n", "")).is_err(), "no step at all");
+    }
+
+    fn stepped(delta: &str) -> String {
+        block("A", &format!("##DELTAX= {delta}\n##XYDATA= (X++(Y..Y))\n800 120 130 130 95"))
     }
 
     const TUPLES: &str = "##TITLE= Paint\n##JCAMP-DX= 5.01\n##NTUPLES= UV/VIS SPECTRUM\n\

@@ -1,12 +1,17 @@
-//! The data of JCAMP-DX: pairs, and rows of ordinates, plain or packed.
+//! The data of JCAMP-DX: pairs, rows of ordinates, plain or packed, and the pages of NTUPLES.
 //!
 //! A packed ordinate (ASDF form) begins with a letter that encodes its first digit and sign:
 //! SQZ for a value, DIF for the difference from the previous value, DUP for the number of
 //! repetitions of the previous item. If a row ends with a difference, the next row repeats the
 //! last value as a check.
+//!
+//! NTUPLES are tables with variables that are described in lists (Lampen, Hillig, Davies and Linscheid,
+//! "JCAMP-DX for mass spectrometry", Applied Spectroscopy 48 (1994) 1545). `##SYMBOL=` names the variables.
+//! `##FACTOR=`, `##FIRST=`, `##LAST=`, `##VAR_DIM=` and `##UNITS=` describe each in its place. Each `##PAGE=` has a
+//! `##DATA TABLE=` of two of them.
 
-use super::error::InstrumentError;
-use super::number::{Decimal, number, required_number};
+use super::decode::{Decimal, number, required_number};
+use super::measured::InstrumentError;
 use super::points::Point;
 
 /// Maximum number of points, more than any spectrometer writes. It bounds the memory that a DUP
@@ -184,7 +189,7 @@ enum Token {
     Times(usize),
 }
 
-/// The tokens of a row; `None` if one is invalid.
+/// The tokens of a row. `None` if one is invalid.
 fn tokens(text: &str) -> Option<Vec<Token>> {
     let mut found = Vec::new();
     let mut rest = text.trim_start_matches(is_blank);
@@ -217,7 +222,7 @@ fn body_length(body: &str) -> usize {
     let bytes = body.as_bytes();
     let digits = bytes.iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
     let exponent = &bytes[digits..];
-    // `E` alone is the packed digit 5; only a sign makes it an exponent.
+    // `E` alone is the packed digit 5. Only a sign makes it an exponent.
     if let [b'E' | b'e', b'+' | b'-', digit, ..] = exponent
         && digit.is_ascii_digit()
     {
@@ -236,17 +241,140 @@ enum Kind {
 /// Decodes the first character of a number: its kind and, if packed, its first digit with its
 /// sign.
 fn packed(first: char) -> (Kind, Option<String>) {
-    let after = |zero: char| (first as u32).wrapping_sub(zero as u32);
-    let digit = |sign: &str, digit: u32| Some(format!("{sign}{digit}"));
     match first {
         '@' => (Kind::Value, digit("", 0)),
-        'A'..='I' => (Kind::Value, digit("", 1 + after('A'))),
-        'a'..='i' => (Kind::Value, digit("-", 1 + after('a'))),
+        'A'..='I' => (Kind::Value, digit("", 1 + letters_after(first, 'A'))),
+        'a'..='i' => (Kind::Value, digit("-", 1 + letters_after(first, 'a'))),
         '%' => (Kind::Difference, digit("", 0)),
-        'J'..='R' => (Kind::Difference, digit("", 1 + after('J'))),
-        'j'..='r' => (Kind::Difference, digit("-", 1 + after('j'))),
-        'S'..='Z' => (Kind::Times, digit("", 1 + after('S'))),
+        'J'..='R' => (Kind::Difference, digit("", 1 + letters_after(first, 'J'))),
+        'j'..='r' => (Kind::Difference, digit("-", 1 + letters_after(first, 'j'))),
+        'S'..='Z' => (Kind::Times, digit("", 1 + letters_after(first, 'S'))),
         's' => (Kind::Times, digit("", 9)),
         _ => (Kind::Value, None),
+    }
+}
+
+fn digit(sign: &str, digit: u32) -> Option<String> {
+    Some(format!("{sign}{digit}"))
+}
+
+fn letters_after(first: char, zero: char) -> u32 {
+    (first as u32).wrapping_sub(zero as u32)
+}
+
+/// One page of a file.
+pub(super) struct Page {
+    /// The value of the page variable, for example `N=1`.
+    pub(super) name: String,
+    /// Name of the dependent variable.
+    pub(super) variable: String,
+    /// Unit of the dependent variable.
+    pub(super) units: String,
+    /// Unit of the independent variable.
+    pub(super) x_units: String,
+    /// Line on which the table begins.
+    pub(super) line: usize,
+    /// Points. Their `nm` holds the independent variable in its unit.
+    pub(super) points: Vec<Point>,
+}
+
+/// The pages of a block with the labelled records `fields`.
+pub(super) fn pages(file: &str, fields: &[Field<'_>]) -> Result<Vec<Page>, InstrumentError> {
+    let lists = Lists { file, fields };
+    let symbols = lists.list("SYMBOL");
+    let mut name = String::new();
+    let mut found = Vec::new();
+    for field in fields {
+        let (line, value) = field.lines[0];
+        if field.label == "PAGE" {
+            value.clone_into(&mut name);
+        } else if field.label == "DATATABLE" {
+            let form: String = value.chars().filter(|c| !c.is_whitespace()).collect();
+            let end = form.rfind(')').map_or(0, |end| end + 1);
+            let form = form[..end].to_ascii_uppercase();
+            let variables = variables(&symbols, &form);
+            let Some((x, y, is_run)) = variables else {
+                let expected = "(X++(Y..Y)) or (XY..XY) of variables that ##SYMBOL= names";
+                return Err(InstrumentError::line(file, line, expected, value));
+            };
+            let scaling = Scaling {
+                x: lists.number("FACTOR", x)?.unwrap_or(1.0),
+                y: lists.number("FACTOR", y)?.unwrap_or(1.0),
+                first_x: lists.number("FIRST", x)?,
+                last_x: lists.number("LAST", x)?,
+                count: lists.number("VARDIM", x)?,
+                stated_step: None,
+            };
+            let lines = &field.lines[1..];
+            let points =
+                if is_run { runs(file, lines, &scaling)? } else { points(file, lines, &scaling)? };
+            let count = points.len();
+            if let Some(expected) = scaling.count.filter(|stated| *stated != count as f64) {
+                let line = field.lines[field.lines.len() - 1].0;
+                let what = "points (VAR_DIM)";
+                let expected = expected.max(0.0) as usize;
+                let file = file.to_owned();
+                return Err(InstrumentError::Count { file, line, what, expected, found: count });
+            }
+            let text = |label: &str, place: usize| {
+                lists.list(label).get(place).map_or_else(String::new, |text| (*text).to_owned())
+            };
+            found.push(Page {
+                name: name.clone(),
+                variable: text("VARNAME", y),
+                units: text("UNITS", y),
+                x_units: [text("UNITS", x), text("VARNAME", x)]
+                    .into_iter()
+                    .find(|text| !text.is_empty())
+                    .unwrap_or_default(),
+                line,
+                points,
+            });
+        }
+    }
+    found.retain(|page: &Page| !page.points.is_empty());
+    Ok(found)
+}
+
+/// Places of the two variables that a form such as `(X++(R..R))` or `(XY..XY)` names, and whether
+/// the first is given once for each row only.
+fn variables(symbols: &[&str], form: &str) -> Option<(usize, usize, bool)> {
+    let pairs = (0..symbols.len()).flat_map(|x| (0..symbols.len()).map(move |y| (x, y)));
+    pairs.filter(|(x, y)| !symbols[*x].is_empty() && !symbols[*y].is_empty()).find_map(|(x, y)| {
+        let is_run = form_of(symbols, "(X++(Y..Y))".to_owned(), x, y) == form;
+        let is_pairs = form_of(symbols, "(XY..XY)".to_owned(), x, y) == form;
+        (x != y && (is_run || is_pairs)).then_some((x, y, is_run))
+    })
+}
+
+fn form_of(symbols: &[&str], form: String, x: usize, y: usize) -> String {
+    let x = symbols[x].to_ascii_uppercase();
+    let y = symbols[y].to_ascii_uppercase();
+    form.replace('X', "\0").replace('Y', &y).replace('\0', &x)
+}
+
+/// The lists that describe the variables.
+struct Lists<'a> {
+    file: &'a str,
+    fields: &'a [Field<'a>],
+}
+
+impl<'a> Lists<'a> {
+    fn field(&self, label: &str) -> Option<(usize, &'a str)> {
+        self.fields.iter().find(|field| field.label == label)?.lines.first().copied()
+    }
+
+    fn list(&self, label: &str) -> Vec<&'a str> {
+        let (_, text) = self.field(label).unwrap_or((1, ""));
+        text.split(',').map(str::trim).collect()
+    }
+
+    fn number(&self, label: &str, place: usize) -> Result<Option<f64>, InstrumentError> {
+        let text = self.list(label).get(place).copied().unwrap_or_default();
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let line = self.field(label).map_or(1, |(line, _)| line);
+        required_number(self.file, line, "a number", text, Decimal::Point).map(Some)
     }
 }

@@ -1,9 +1,15 @@
-//! One spectrum out of an instrument's file.
+//! One spectrum out of an instrument's file, the choice of one by name, and errors in these files with their
+//! place.
+
+use std::path::Path;
+
+use documents::file::disk::is_file;
+use documents::hint::Explain;
 
 use crate::grid::Grid;
-use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
-use crate::spectrum::{Reflectance, Spectrum, SpectrumError};
-use documents::hint::{Explain, Hint};
+use crate::spectrum::{
+    IrregularSpectrum, IrregularSpectrumError, Reflectance, Spectrum, SpectrumError,
+};
 
 /// The quantity that an instrument measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,24 +29,27 @@ pub enum MeasuredQuantity {
 }
 
 impl MeasuredQuantity {
-    /// The quantity named in `words`, such as the heading of a column.
+    /// The quantity named in `words`, for example in the heading of a column.
     pub(super) fn of_words(words: &str) -> Self {
         let lower = words.to_ascii_lowercase();
-        let has = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
-        if has(&["reflect"]) {
+        if contains_any(&lower, &["reflect"]) {
             Self::Reflectance
-        } else if has(&["transmi"]) {
+        } else if contains_any(&lower, &["transmi"]) {
             Self::Transmittance
-        } else if has(&["absorb", "absorpt"]) {
+        } else if contains_any(&lower, &["absorb", "absorpt"]) {
             Self::Absorbance
-        } else if has(&["count", "scope", "raw"]) {
+        } else if contains_any(&lower, &["count", "scope", "raw"]) {
             Self::Counts
-        } else if has(&["radian", "power", "emission", "w/m", "w/nm", "watt"]) {
+        } else if contains_any(&lower, &["radian", "power", "emission", "w/m", "w/nm", "watt"]) {
             Self::Power
         } else {
             Self::Unstated
         }
     }
+}
+
+pub(super) fn contains_any(text: &str, stems: &[&str]) -> bool {
+    stems.iter().any(|stem| text.contains(stem))
 }
 
 impl std::fmt::Display for MeasuredQuantity {
@@ -92,7 +101,7 @@ pub struct MeasuredSpectrum {
     pub role: Role,
     /// Unit of `values`.
     pub unit: Unit,
-    /// Wavelengths in nm, strictly rising; at least one.
+    /// Wavelengths in nm, strictly rising, at least one.
     pub wavelengths_nm: Vec<f64>,
     /// One finite value for each wavelength, as written in the file.
     pub values: Vec<f64>,
@@ -134,26 +143,34 @@ impl MeasuredSpectrum {
     /// 0 to 2.
     pub fn reflectance(&self) -> Result<Spectrum<Reflectance>, ReflectanceError> {
         use MeasuredQuantity::{Reflectance, Unstated};
-        let name = || self.name.clone();
         if !matches!(self.quantity, Reflectance | Unstated) {
-            return Err(ReflectanceError::Quantity { name: name(), found: self.quantity });
+            return Err(ReflectanceError::Quantity {
+                name: self.name.clone(),
+                found: self.quantity,
+            });
         }
         let scale = if self.is_percent() { 0.01 } else { 1.0 };
         let values = self.values.iter().map(|value| value * scale).collect();
         let irregular = IrregularSpectrum::new(self.wavelengths_nm.clone(), values)
-            .map_err(|reason| ReflectanceError::Wavelengths { name: name(), reason })?;
+            .map_err(|reason| ReflectanceError::Wavelengths { name: self.name.clone(), reason })?;
         let grid = Grid::suited_to(&self.wavelengths_nm)
             .expect("an irregular spectrum has rising wavelengths");
         Spectrum::new(grid, irregular.on_grid(grid))
-            .map_err(|reason| ReflectanceError::Values { name: name(), reason })
+            .map_err(|reason| ReflectanceError::Values { name: self.name.clone(), reason })
     }
 }
 
 /// A measured spectrum that is not a reflectance.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ReflectanceError {
     /// The spectrum is another quantity.
     #[error("`{name}` must be a reflectance, found `{found}`")]
+    #[hint(if *found == MeasuredQuantity::Counts, "reference counts to a white and a dark reading first")]
+    #[hint(
+        if *found == MeasuredQuantity::Power,
+        "the light of a lamp is no reflectance; it can be the light under which colours are seen"
+    )]
+    #[hint("export the spectrum as reflectance")]
     Quantity {
         /// Name of the spectrum.
         name: String,
@@ -169,7 +186,7 @@ pub enum ReflectanceError {
         #[source]
         reason: SpectrumError,
     },
-    /// The wavelengths do not rise, or their number is not that of the values.
+    /// The wavelengths do not rise, or there is not one for each value.
     #[error("`{name}` is not a spectrum")]
     Wavelengths {
         /// Name of the spectrum.
@@ -180,24 +197,245 @@ pub enum ReflectanceError {
     },
 }
 
-impl Explain for ReflectanceError {
-    fn hint(&self) -> Option<Hint> {
-        let sentence = match self {
-            Self::Quantity { found: MeasuredQuantity::Counts, .. } => {
-                "reference counts to a white and a dark reading first"
-            }
-            Self::Quantity { found: MeasuredQuantity::Power, .. } => {
-                "the light of a lamp is no reflectance; it can be the light under which colours are seen"
-            }
-            Self::Quantity { .. } => "export the spectrum as reflectance",
-            Self::Values { .. } | Self::Wavelengths { .. } => return None,
-        };
-        Some(Hint::new(sentence))
+/// Name for a spectrum without one: the file name without folder and extension.
+pub(super) fn stem(file: &str) -> String {
+    let path = Path::new(file);
+    path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Maximum number of names listed in an error.
+const LISTED: usize = 8;
+
+/// Splits `FILE#NAME` into file and name. The name of a plain `FILE` is `None`. If the whole
+/// text is the path of a file, it is not split.
+#[must_use]
+pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
+    match text.rsplit_once('#') {
+        Some((file, name)) if !is_file(Path::new(text)) => (file, Some(name)),
+        _ => (text, None),
     }
 }
 
-/// Name for a spectrum without one: the file name without folder and extension.
-pub(super) fn stem(file: &str) -> String {
-    let path = std::path::Path::new(file);
-    path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
+/// Selects the spectrum called `name` from `spectra`, the content of `file`. Without a name,
+/// selects the only main spectrum ([`Role::Main`]), or the only spectrum if there is no main
+/// one.
+///
+/// # Errors
+/// [`ChoiceError`] if no spectrum or more than one qualifies.
+pub fn choose_spectrum<'a>(
+    file: &str,
+    spectra: &'a [MeasuredSpectrum],
+    name: Option<&str>,
+) -> Result<&'a MeasuredSpectrum, ChoiceError> {
+    let has_main = spectra.iter().any(|spectrum| spectrum.role == Role::Main);
+    let found: Vec<&MeasuredSpectrum> = spectra
+        .iter()
+        .filter(|spectrum| match name {
+            Some(name) => spectrum.name == name,
+            None => spectrum.role == Role::Main || !has_main,
+        })
+        .collect();
+    let file = file.to_owned();
+    match (found.as_slice(), name) {
+        ([one], _) => Ok(one),
+        ([], Some(name)) => {
+            Err(ChoiceError::Unknown { file, name: name.to_owned(), names: names(spectra.iter()) })
+        }
+        _ => {
+            let names = names(found.iter().copied());
+            Err(ChoiceError::Several { file, count: found.len(), names })
+        }
+    }
+}
+
+fn names<'a>(spectra: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String> {
+    spectra.take(LISTED).map(|spectrum| spectrum.name.clone()).collect()
+}
+
+/// A selection that does not determine one spectrum.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum ChoiceError {
+    /// No spectrum has the name.
+    #[error("{file}: no spectrum is called `{name}`")]
+    #[hint(verbatim, "spectra: {}", names.join(", "))]
+    Unknown {
+        /// Path of the file.
+        file: String,
+        /// The name that was given.
+        name: String,
+        /// Names of the first few spectra of the file.
+        names: Vec<String>,
+    },
+    /// Several spectra qualify and no name was given, or they share the name.
+    #[error("{file}: expected one spectrum, found `{count}`")]
+    #[hint(verbatim, "name one: \"{file}#{}\"", names.join("\" or \"#"))]
+    Several {
+        /// Path of the file.
+        file: String,
+        /// Number of spectra that qualify.
+        count: usize,
+        /// Names of the first few of them.
+        names: Vec<String>,
+    },
+}
+
+/// An instrument's file that cannot be read. Every variant names the file, and the line where
+/// possible.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum InstrumentError {
+    /// The content matches none of the formats in `Format`.
+    #[error("{file}: no known format of an instrument")]
+    #[hint("name the format with [format], or save as CSV: a column `sample`, then wavelengths")]
+    Unrecognised {
+        /// Path of the file.
+        file: String,
+    },
+    /// The file is of a format that is known and not read.
+    #[error("{file}: this is {kind}, which is not read")]
+    #[hint("{way}")]
+    NotRead {
+        /// Path of the file.
+        file: String,
+        /// The kind of file, with its article.
+        kind: &'static str,
+        /// The way to a file that is read.
+        way: &'static str,
+    },
+    /// A binary file, or a part of it, does not follow its format.
+    #[error("{file}: faulty {format} file: {fault}")]
+    #[hint("the file may be cut off: copy it again, or export text from the instrument's program")]
+    Faulty {
+        /// Path of the file.
+        file: String,
+        /// Name of the format as which it was read.
+        format: &'static str,
+        /// The fault, and its place in the file.
+        fault: String,
+    },
+    /// The file contains no spectrum.
+    #[error("{file}: no spectrum in this {format} file")]
+    #[hint("check that the export holds spectra, or name the format with [format]")]
+    Empty {
+        /// Path of the file.
+        file: String,
+        /// Name of the format as which it was read.
+        format: &'static str,
+    },
+    /// A workbook has no sheet of the wanted name.
+    #[error("{file}: no sheet is called `{sheet}`; its sheets are {sheets}")]
+    #[hint("name the sheet as the workbook does: FILE.xlsx#SHEET")]
+    NoSheet {
+        /// Path of the workbook.
+        file: String,
+        /// The wanted name.
+        sheet: String,
+        /// Names of the sheets that are not empty.
+        sheets: String,
+    },
+    /// A line does not follow the format.
+    #[error("{file}, line {line}: expected {expected}, found `{text}`")]
+    Line {
+        /// Path of the file.
+        file: String,
+        /// Line number, from 1.
+        line: usize,
+        /// Description of the expected content.
+        expected: &'static str,
+        /// The content of the line or cell, shortened to 60 characters.
+        text: String,
+    },
+    /// A wavelength occurs twice in one spectrum.
+    #[error("{file}, line {line}: the wavelength {nm} nm occurs twice, first in line {first}")]
+    #[hint("remove one of the two")]
+    Duplicate {
+        /// Path of the file.
+        file: String,
+        /// Line number of the second occurrence, from 1.
+        line: usize,
+        /// The wavelength in nm.
+        nm: f64,
+        /// Line number of the first occurrence.
+        first: usize,
+    },
+    /// A wavelength occurs more than once, with values too different to be averaged.
+    #[error(
+        "{file}, line {line}: {nm} nm occurs more than once, with different values from {least} to `{most}`"
+    )]
+    #[hint("remove the wrong one; nearly equal values would be averaged")]
+    Unlike {
+        /// Path of the file.
+        file: String,
+        /// Line number of the last occurrence, from 1.
+        line: usize,
+        /// The wavelength in nm.
+        nm: f64,
+        /// Smallest value at the wavelength.
+        least: f64,
+        /// Largest value at the wavelength.
+        most: f64,
+    },
+    /// The wavelengths neither rise nor fall throughout.
+    #[error("{file}, line {line}: wavelengths must rise or fall throughout, found `{nm}` nm")]
+    Order {
+        /// Path of the file.
+        file: String,
+        /// Line number of the first wavelength against the direction, from 1.
+        line: usize,
+        /// That wavelength in nm.
+        nm: f64,
+    },
+    /// The wavelengths of a spectrum are not given.
+    #[error(
+        "{file}, line {line}: {element} has no {missing}, and neither has the specification `{specification}`"
+    )]
+    #[hint(
+        "export the file with its colour specifications, or save as CSV: a column `sample`, then wavelengths"
+    )]
+    Incomplete {
+        /// Path of the file.
+        file: String,
+        /// Line number of the spectrum, from 1.
+        line: usize,
+        /// XML element of the spectrum.
+        element: String,
+        /// The missing attribute.
+        missing: &'static str,
+        /// The colour specification that the spectrum refers to.
+        specification: String,
+    },
+    /// The number of values differs from the number stated in the file.
+    #[error("{file}, line {line}: the file states {expected} {what}, found `{found}`")]
+    #[hint("the file may be cut off; export it again")]
+    Count {
+        /// Path of the file.
+        file: String,
+        /// Line number of the last value, from 1.
+        line: usize,
+        /// The things that are counted, in the plural.
+        what: &'static str,
+        /// The stated number.
+        expected: usize,
+        /// The number found.
+        found: usize,
+    },
+}
+
+impl InstrumentError {
+    /// An error for a line that does not follow the format. Its text is shortened and made
+    /// printable.
+    pub(super) fn line(file: &str, line: usize, expected: &'static str, text: &str) -> Self {
+        const LONGEST: usize = 60;
+        let text = text.trim();
+        let mut short: String = text.chars().take(LONGEST).collect();
+        if short.len() < text.len() {
+            short.push_str(" ..");
+        }
+        let text = short.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        Self::Line { file: file.to_owned(), line, expected, text }
+    }
+
+    /// An error for a binary file that does not follow its format.
+    pub(super) fn faulty(file: &str, format: &'static str, fault: impl Into<String>) -> Self {
+        Self::Faulty { file: file.to_owned(), format, fault: fault.into() }
+    }
 }

@@ -1,18 +1,22 @@
-//! Ocean Optics: SpectraSuite, OceanView and Jaz. Lines `Key: value`, then data from
-//! `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or in Jaz files wavelength,
-//! dark, reference, sample and processed (W D R S P).
+//! Ocean Optics and Ocean Insight: text of SpectraSuite, OceanView and Jaz, and `.ProcSpec`.
 //!
-//! With a reference the software writes percent of it (or absorbance) and does not state which;
-//! without one it writes counts. Jaz files contain the counts as well. Absolute irradiance is told only
-//! by the first line of a Jaz file, or by the ending (`.JazIrrad`, `.OVIrrad`).
+//! Text has lines `Key: value`, then data from `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or
+//! in Jaz files wavelength, dark, reference, sample and processed (W D R S P). With a reference the software
+//! writes percent of it (or absorbance) and does not state which. Without one it writes counts. Jaz files contain
+//! the counts as well. Only the first line of a Jaz file or the ending (`.JazIrrad`, `.OVIrrad`) says that the
+//! values are absolute irradiance.
+//!
+//! `.ProcSpec` is a zip archive with the file `ps_N.xml`, in which lists of `double` hold wavelengths, counts of
+//! sample, white and dark, and the processed spectrum. Element names are those that the R package lightr reads.
+//! SpectraSuite writes bytes into the XML that are not text, and these are left out.
 
-use super::axis::Axis;
-use super::columns::{ColumnLabel, table};
-use super::error::InstrumentError;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::text::lines;
+use super::columns::{Axis, ColumnLabel, table};
+use super::decode::{Archive, Decimal, lines, required_number};
+use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::points::{Duplicates, Point, ordered};
+use super::xml::{Element, parse};
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut blocks: Vec<Vec<MeasuredSpectrum>> = Vec::new();
     let mut details: Vec<(String, String)> = Vec::new();
     // Lines outside the data are left empty, so that the others keep their line numbers.
@@ -114,9 +118,135 @@ fn spectra(
     Ok(records)
 }
 
+const FORMAT: &str = "Ocean Optics ProcSpec";
+
+/// Whether the file of an archive holds the spectrum.
+pub(super) fn is_spectrum(name: &str) -> bool {
+    let number = name.strip_prefix("ps_").and_then(|rest| rest.strip_suffix(".xml"));
+    number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+pub(super) fn read_procspec(
+    file: &str,
+    bytes: &[u8],
+) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+    let mut archive = Archive::open(file, bytes)?;
+    let Some(name) = archive.find(is_spectrum) else {
+        return Err(InstrumentError::faulty(file, FORMAT, "it has no file `ps_N.xml`"));
+    };
+    let text: String = archive
+        .read(&name)?
+        .into_iter()
+        .filter(|byte| byte.is_ascii_graphic() || b" \n\r\t".contains(byte))
+        .map(char::from)
+        .collect();
+    let root = parse(file, &text)?;
+    let white_element = find(&root, "referenceSpectrum", &[]);
+    let dark_element = find(&root, "darkSpectrum", &[]);
+    let apart = ["referenceSpectrum", "darkSpectrum"];
+    let [nm, processed, sample] = ["channelWavelengths", "processedPixels", "pixelValues"]
+        .map(|name| numbers(file, find(&root, name, &apart)));
+    let nm = nm?;
+    let processed = processed?;
+    let sample = sample?;
+    let [white, dark] = [white_element, dark_element].map(|element| {
+        numbers(file, element.and_then(|element| find(element, "pixelValues", &[])))
+    });
+    let white = white?;
+    let dark = dark?;
+    let quantity = if has_irradiance(&root) {
+        MeasuredQuantity::Power
+    } else if processed.is_empty() {
+        MeasuredQuantity::Counts
+    } else {
+        MeasuredQuantity::Unstated
+    };
+    let mut details = Vec::new();
+    for key in
+        ["userName", "spectrometerSerialNumber", "integrationTime", "scansToAverage", "boxcarWidth"]
+    {
+        let found = find(&root, key, &apart);
+        details.extend(found.map(|element| (key.to_owned(), element.text.trim().to_owned())));
+    }
+    let has_white = if white.is_empty() { "No" } else { "Yes" };
+    details.push(("Reference Spectrum Present".to_owned(), has_white.to_owned()));
+    let stem = stem(file);
+    let mut records = Vec::new();
+    let main = if processed.is_empty() { &sample } else { &processed };
+    let counts = MeasuredQuantity::Counts;
+    for (values, name, quantity, role) in [
+        (main, stem.clone(), quantity, Role::Main),
+        (&sample, format!("{stem} (S)"), counts, Role::Sample),
+        (&white, format!("{stem} (R)"), counts, Role::White),
+        (&dark, format!("{stem} (D)"), counts, Role::Dark),
+    ] {
+        if values.is_empty() || (processed.is_empty() && role == Role::Sample) {
+            continue;
+        }
+        if values.len() != nm.len() {
+            let fault =
+                format!("{} wavelengths for the {} values of {name}", nm.len(), values.len());
+            return Err(InstrumentError::faulty(file, FORMAT, fault));
+        }
+        let points = nm.iter().zip(values);
+        let points = points.map(|(&(line, nm), &(_, value))| Point { line, nm, value });
+        let ordered = ordered(file, points.collect(), Duplicates::Average)?;
+        records.push(MeasuredSpectrum {
+            name,
+            quantity,
+            role,
+            unit: Unit::Unstated,
+            wavelengths_nm: ordered.wavelengths_nm,
+            values: ordered.values,
+            line: values[0].0,
+            details: details.clone(),
+            remarks: ordered.remarks,
+        });
+    }
+    Ok(records)
+}
+
+fn numbers(file: &str, element: Option<&Element>) -> Result<Vec<(usize, f64)>, InstrumentError> {
+    element.map_or_else(|| Ok(Vec::new()), |element| doubles(file, element))
+}
+
+/// The first descendant called `name` that is in none of the elements `apart`.
+fn find<'a>(element: &'a Element, name: &str, apart: &[&str]) -> Option<&'a Element> {
+    element.children.iter().find_map(|child| {
+        if child.name == name {
+            Some(child)
+        } else if apart.contains(&child.name.as_str()) {
+            None
+        } else {
+            find(child, name, apart)
+        }
+    })
+}
+
+/// Line and value of every `double` in an element.
+fn doubles(file: &str, element: &Element) -> Result<Vec<(usize, f64)>, InstrumentError> {
+    let mut found = Vec::new();
+    for child in &element.children {
+        if child.name == "double" {
+            let value = required_number(file, child.line, "a number", &child.text, Decimal::Point)?;
+            found.push((child.line, value));
+        } else {
+            found.extend(doubles(file, child)?);
+        }
+    }
+    Ok(found)
+}
+
+/// Whether the spectrum was processed to irradiance, which the class of a processor names.
+fn has_irradiance(element: &Element) -> bool {
+    let class = element.attribute("class").unwrap_or_default();
+    class.to_ascii_lowercase().contains("irradiance") || element.children.iter().any(has_irradiance)
+}
+
 #[cfg(test)]
-mod tests {
-    use super::super::choice::choose_spectrum;
+pub(super) mod tests {
+    use super::super::decode::tests::archive;
+    use super::super::measured::choose_spectrum;
     use super::*;
 
     #[test]
@@ -124,18 +254,18 @@ mod tests {
         let text = "SpectraSuite Data File\r\nUser: A\r\nReference Spectrum Present: Yes\r\n\
             Number of Pixels in Processed Spectrum: 2\r\n>>>>>Begin Processed Spectral Data<<<<<\r\n\
             400,25\t12,5\r\n401,5\t1,2E1\r\n>>>>>End Processed Spectral Data<<<<<\r\n";
-        let found = &read("d/Red.txt", text).unwrap()[0];
+        let found = &read_text("d/Red.txt", text).unwrap()[0];
         assert_eq!((found.name.as_str(), found.line), ("Red", 6));
         assert_eq!(found.quantity, MeasuredQuantity::Unstated);
         assert_eq!(
             (&found.wavelengths_nm, &found.values),
             (&vec![400.25, 401.5], &vec![12.5, 12.0])
         );
-        let raw = &read("d/Red.txt", &text.replace("Yes", "No")).unwrap()[0];
+        let raw = &read_text("d/Red.txt", &text.replace("Yes", "No")).unwrap()[0];
         assert_eq!(raw.quantity, MeasuredQuantity::Counts);
-        let cut = read("d/Red.txt", &text.replace("401,5\t1,2E1\r\n", ""));
+        let cut = read_text("d/Red.txt", &text.replace("401,5\t1,2E1\r\n", ""));
         assert!(matches!(cut, Err(InstrumentError::Count { line: 7, found: 1, .. })), "{cut:?}");
-        let bad = read("d/Red.txt", &text.replace("1,2E1", "1,2Z1"));
+        let bad = read_text("d/Red.txt", &text.replace("1,2E1", "1,2Z1"));
         assert!(matches!(bad, Err(InstrumentError::Line { line: 7, .. })), "{bad:?}");
     }
 
@@ -143,31 +273,13 @@ mod tests {
     fn jaz_files_give_the_processed_column_and_the_counts() {
         let text = "Jaz Data File\nProcessed Spectrum Present: Yes\n>>>>>Begin Processed\n\
             W\tD\tR\tS\tP\n400.0\t1\t100\t50\t49.5\n401.0\t1\t100\t20\t19.2\n>>>>>End\n";
-        let summary = |text: &str| -> Vec<_> {
-            read("a.jaz", text)
-                .unwrap()
-                .into_iter()
-                .map(|r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values))
-                .collect()
-        };
-        let counts_of = |number: &str| {
-            let counts = |letter: &str, role, values: [f64; 2]| {
-                let name = format!("a{number} ({letter})");
-                (name, MeasuredQuantity::Counts, role, values.to_vec())
-            };
-            let sample = counts("S", Role::Sample, [50.0, 20.0]);
-            let white = counts("R", Role::White, [100.0, 100.0]);
-            let dark = counts("D", Role::Dark, [1.0, 1.0]);
-            let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
-            vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
-        };
         assert_eq!(summary(text), counts_of(""));
         assert_eq!(summary(&text.repeat(2)), [counts_of(" 1"), counts_of(" 2")].concat());
         let raw = text.replace("Yes", "No\nReference Spectrum Present: No");
         let sample = ("a".to_owned(), MeasuredQuantity::Counts, Role::Main, vec![50.0, 20.0]);
         assert_eq!(summary(&raw), [sample, counts_of("").remove(3)]);
         // Without a name the main spectrum is selected.
-        let records = read("a.jaz", text).unwrap();
+        let records = read_text("a.jaz", text).unwrap();
         assert_eq!(choose_spectrum("a.jaz", &records, None).unwrap().name, "a");
         assert_eq!(choose_spectrum("a.jaz", &records[3..], None).unwrap().name, "a (D)");
     }
@@ -176,14 +288,102 @@ mod tests {
     fn absolute_irradiance_is_the_power_of_a_light() {
         let text = "Jaz Absolute Irradiance File\nReference Spectrum Present: Yes\n\
             >>>>>Begin Processed\nW\tD\tS\tP\n400.0\t1\t50\t0.5\n700.0\t1\t20\t0.7\n>>>>>End\n";
-        let quantity = |file: &str, text: &str| read(file, text).unwrap()[0].quantity;
         assert_eq!(quantity("a.txt", text), MeasuredQuantity::Power);
         let data = text.replace("Absolute Irradiance", "Data");
         assert_eq!(quantity("a.jaz", &data), MeasuredQuantity::Unstated);
         for file in ["sun.JazIrrad", "b/sun.OVIrrad"] {
             assert_eq!(quantity(file, &data), MeasuredQuantity::Power, "{file}");
-            let lamp = crate::lamp::lamp_from_bytes(file, data.as_bytes(), None);
+            let lamp = crate::light::lamp_from_bytes(file, data.as_bytes(), None);
             assert!(lamp.is_ok(), "{lamp:?}");
         }
+    }
+
+    fn list(name: &str, values: &[f64]) -> String {
+        let doubles = values.iter().map(|value| format!("<double>{value}</double>\n"));
+        format!("<{name}>\n{}</{name}>\n", doubles.collect::<String>())
+    }
+
+    /// The XML of a spectrum, with the class of its processor.
+    fn xml(class: &str) -> String {
+        format!(
+            "<?xml version=\"1.0\"?>\n<com.Processed>\n<source>\n<userName>A\u{1}nna</userName>\n\
+             <darkSpectrum>{}</darkSpectrum><referenceSpectrum>{}</referenceSpectrum>{}{}\n\
+             <processor class=\"{class}\"/></source>{}</com.Processed>\n",
+            list("pixelValues", &[1.0, 1.0]),
+            list("pixelValues", &[101.0, 201.0]),
+            list("channelWavelengths", &[400.0, 401.5]),
+            list("pixelValues", &[11.0, 101.0]),
+            list("processedPixels", &[10.0, 50.0])
+        )
+    }
+
+    pub(in super::super) fn procspec(class: &str) -> Vec<u8> {
+        archive(&[("OOISignatures.xml", b"<x/>"), ("ps_0.xml", xml(class).as_bytes())])
+    }
+
+    #[test]
+    fn the_processed_spectrum_and_its_counts_are_read() {
+        let found = read_procspec("a/red.ProcSpec", &procspec("Reflection")).unwrap();
+        let names: Vec<&str> = found.iter().map(|record| record.name.as_str()).collect();
+        assert_eq!(names, ["red", "red (S)", "red (R)", "red (D)"]);
+        assert_eq!(
+            (&found[0].wavelengths_nm, &found[0].values),
+            (&vec![400.0, 401.5], &vec![10.0, 50.0])
+        );
+        assert_eq!((&found[1].values, &found[2].values), (&vec![11.0, 101.0], &vec![101.0, 201.0]));
+        assert_eq!((found[0].quantity, found[2].role), (MeasuredQuantity::Unstated, Role::White));
+        assert!(found[0].is_relative_to_white(), "its white makes it no lamp");
+        assert_eq!(found[0].details[0].1, "Anna");
+        let lamp = read_procspec("f", &procspec("com.AbsoluteIrradianceProcessor")).unwrap();
+        assert_eq!(lamp[0].quantity, MeasuredQuantity::Power);
+    }
+
+    #[test]
+    fn faults_are_reported_with_file_and_line() {
+        let error = fault_with("<double>10<", "<double>1O<");
+        assert!(error.starts_with("some.ProcSpec, line") && error.contains("`1O`"), "{error}");
+        let error = fault_with("<double>10</double>", "");
+        assert!(error.contains("2 wavelengths for the 1 values of some"), "{error}");
+        assert!(fault_with("</com.Processed>", "").contains("never closed"));
+    }
+
+    #[test]
+    fn an_archive_that_is_cut_anywhere_is_refused_by_name() {
+        let bytes = procspec("");
+        for length in 4..bytes.len() {
+            let error = read_procspec("some.ProcSpec", &bytes[..length]).unwrap_err().to_string();
+            assert!(error.starts_with("some.ProcSpec"), "{error}");
+        }
+    }
+
+    fn fault_with(old: &str, new: &str) -> String {
+        let text = xml("").replacen(old, new, 1);
+        read_procspec("some.ProcSpec", &archive(&[("ps_0.xml", text.as_bytes())]))
+            .unwrap_err()
+            .to_string()
+    }
+
+    fn quantity(file: &str, text: &str) -> MeasuredQuantity {
+        read_text(file, text).unwrap()[0].quantity
+    }
+
+    fn counts_of(number: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
+        let counts = |letter: &str, role, values: [f64; 2]| {
+            let name = format!("a{number} ({letter})");
+            (name, MeasuredQuantity::Counts, role, values.to_vec())
+        };
+        let sample = counts("S", Role::Sample, [50.0, 20.0]);
+        let white = counts("R", Role::White, [100.0, 100.0]);
+        let dark = counts("D", Role::Dark, [1.0, 1.0]);
+        let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
+        vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
+    }
+
+    fn summary(text: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
+        read_text("a.jaz", text)
+            .unwrap()
+            .into_iter()
+            .map(|r| (r.name, r.quantity, r.role, r.values))
+            .collect()
     }
 }

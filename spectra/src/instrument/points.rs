@@ -1,6 +1,6 @@
 //! The points of a spectrum in order of wavelength.
 
-use super::error::InstrumentError;
+use super::measured::InstrumentError;
 
 /// Treatment of a wavelength that occurs more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,7 +10,7 @@ pub(super) enum Duplicates {
     /// The mean, with a remark. Dense exports round the wavelengths of neighbouring pixels to
     /// the same number.
     Average,
-    /// The mean, with a remark, if the values differ by at most this; otherwise an error.
+    /// The mean, with a remark, if the values differ by at most this, otherwise an error.
     AverageWithin(f64),
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Ordered {
     pub(super) remarks: Vec<String>,
 }
 
-/// Brings points to rising order of wavelength; falling points are reversed.
+/// Brings points to rising order of wavelength. Falling points are reversed.
 ///
 /// # Errors
 /// [`InstrumentError`] for a wavelength that is not above 0, for wavelengths that neither rise
@@ -50,8 +50,9 @@ pub(super) fn ordered(
     }
     let direction = points.windows(2).map(|pair| pair[1].nm - pair[0].nm).find(|d| *d != 0.0);
     let falls = direction.is_some_and(|d| d < 0.0);
-    let back = |pair: &&[Point]| (pair[1].nm - pair[0].nm) * direction.unwrap_or(1.0) < 0.0;
-    if let Some(pair) = points.windows(2).find(back) {
+    if let Some(pair) =
+        points.windows(2).find(|pair| (pair[1].nm - pair[0].nm) * direction.unwrap_or(1.0) < 0.0)
+    {
         let file = file.to_owned();
         let line = pair[1].line;
         let nm = pair[1].nm;
@@ -70,9 +71,8 @@ pub(super) fn ordered(
             let file = file.to_owned();
             return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
         }
-        let values = || group.iter().map(|point| point.value);
-        let least = values().fold(first.value, f64::min);
-        let most = values().fold(first.value, f64::max);
+        let least = group.iter().map(|point| point.value).fold(first.value, f64::min);
+        let most = group.iter().map(|point| point.value).fold(first.value, f64::max);
         if let Duplicates::AverageWithin(apart) = duplicates
             && most - least > apart
         {
@@ -85,7 +85,7 @@ pub(super) fn ordered(
         ordered.wavelengths_nm.push(first.nm);
         // Each value is scaled before summing, because a sum of finite values may overflow.
         let share = 1.0 / group.len() as f64;
-        ordered.values.push(values().map(|value| value * share).sum());
+        ordered.values.push(group.iter().map(|point| point.value).map(|value| value * share).sum());
     }
     if repeated > 0 {
         let repeated = documents::counted_as(repeated, "wavelength occurs", "wavelengths occur");
@@ -96,7 +96,7 @@ pub(super) fn ordered(
 }
 
 /// Sorts points, for formats that give every value its own wavelength. Repeated equal points
-/// are kept once; different values at one wavelength are kept. Returns the points and a remark
+/// are kept once. Different values at one wavelength are kept. Returns the points and a remark
 /// if their order changed.
 pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
     let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);

@@ -1,11 +1,9 @@
 //! Datacolor QTX: lines `KEY=value`, starting with `STD_` for a standard and with `BAT_` for a
 //! batch. Reflectance is in percent, from `REFLLOW` nm in steps of `REFLINTERVAL`.
 
-use super::error::InstrumentError;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
-use super::number::{Decimal, required_number};
+use super::decode::{Decimal, lines, required_number};
+use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use super::points::{Duplicates, Point, ordered};
-use super::text::lines;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();
@@ -95,7 +93,7 @@ impl Section {
         let ordered = ordered(file, points, Duplicates::Refuse)?;
         let pairs = self.values.iter();
         let name = pairs.clone().rev().find(|(_, key, value)| key == "NAME" && !value.is_empty());
-        let is_detail = |key: &str| key != "NAME" && !key.starts_with("REFL");
+
         Ok(MeasuredSpectrum {
             name: name.map_or(unnamed, |(_, _, name)| name.clone()),
             quantity: MeasuredQuantity::Reflectance,
@@ -105,7 +103,7 @@ impl Section {
             values: ordered.values,
             line: name.map_or(at, |(line, _, _)| *line),
             details: pairs
-                .filter(|(_, key, _)| is_detail(key))
+                .filter(|(_, key, _)| key != "NAME" && !key.starts_with("REFL"))
                 .map(|(_, key, value)| (key.clone(), value.clone()))
                 .collect(),
             remarks: ordered.remarks,

@@ -1,19 +1,25 @@
-//! Reading a file of any format.
+//! Reading an instrument's file of any format, from bytes or by path.
 
-use super::content_kind::ContentKind;
-use super::error::InstrumentError;
-use super::file_text::FileText;
-use super::format::Format;
-use super::measured::MeasuredSpectrum;
-use super::{asd, avantes, avasoft7, avasoft8, bruker, cgats, columns, cxf, jcamp, ocean_optics};
-use super::{procspec, qtx, sekonic, spectral_evolution, svc, tm27, uprtek};
+use std::path::Path;
+
+use documents::file::{self, FileError};
+use documents::hint::Explain;
+
+use super::format::{ContentKind, FileText, Format};
+use super::measured::{
+    ChoiceError, InstrumentError, MeasuredSpectrum, choose_spectrum, split_file_and_name,
+};
+use super::workbook::split_file_and_sheet;
+use super::{
+    avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, ocean_optics, qtx,
+};
 
 /// The content of an instrument's file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InstrumentFile {
-    /// Format as which the file was read.
+    /// Format in which the file was read.
     pub format: Format,
-    /// The spectra in the order of the file; at least one.
+    /// The spectra in the order of the file, at least one.
     pub spectra: Vec<MeasuredSpectrum>,
 }
 
@@ -28,8 +34,8 @@ pub fn read(
     format: Option<Format>,
 ) -> Result<InstrumentFile, InstrumentError> {
     let Some(text) = FileText::of(file, bytes)? else { return read_binary(file, bytes, format) };
-    let told = format.filter(|format| *format != Format::Workbook);
-    let found = told
+    let stated = format.filter(|format| *format != Format::Workbook);
+    let found = stated
         .or_else(|| Format::detect(&text.file, &text.text))
         .ok_or_else(|| InstrumentError::Unrecognised { file: text.file.clone() })?;
     let file = text.file.as_str();
@@ -37,19 +43,19 @@ pub fn read(
         Format::Cgats => cgats::read(file, &text.text),
         Format::Jcamp => jcamp::read(file, &text.text),
         Format::Qtx => qtx::read(file, &text.text),
-        Format::OceanOptics => ocean_optics::read(file, &text.text),
-        Format::Avantes => avantes::read(file, &text.text),
-        Format::Bruker => bruker::read(file, &text.text),
+        Format::OceanOptics => ocean_optics::read_text(file, &text.text),
+        Format::Avantes => avantes::read_text(file, &text.text),
+        Format::Bruker => columns::read_bruker(file, &text.text),
         Format::Columns | Format::Workbook => columns::read(file, &text.text),
         Format::Cxf => cxf::read(file, &text.text),
-        Format::Tm27 => tm27::read(file, &text.text),
-        Format::Sekonic => sekonic::read(file, &text.text),
-        Format::Asd => asd::read_text(file, &text.text),
-        Format::SpectralEvolution => spectral_evolution::read(file, &text.text),
-        Format::Svc => svc::read(file, &text.text),
-        Format::Uprtek => uprtek::read(file, &text.text),
+        Format::Tm27 => light_meters::read_tm27(file, &text.text),
+        Format::Sekonic => light_meters::read_sekonic(file, &text.text),
+        Format::Asd => field_spectrometers::read_asd_text(file, &text.text),
+        Format::SpectralEvolution => field_spectrometers::read_sed(file, &text.text),
+        Format::Svc => field_spectrometers::read_sig(file, &text.text),
+        Format::Uprtek => light_meters::read_uprtek(file, &text.text),
     }?;
-    let format = if text.is_sheet && told.is_none() { Format::Workbook } else { found };
+    let format = if text.is_sheet && stated.is_none() { Format::Workbook } else { found };
     let mut found = checked(file, format, spectra)?;
     for spectrum in &mut found.spectra {
         spectrum.remarks.extend(text.remark.clone());
@@ -77,10 +83,10 @@ fn read_binary(
         });
     }
     let spectra = match ContentKind::of(file, bytes)? {
-        ContentKind::Asd => asd::read_binary(file, bytes),
-        ContentKind::ProcSpec => procspec::read(file, bytes),
-        ContentKind::AvaSoft7 => avasoft7::read(file, bytes),
-        ContentKind::AvaSoft8 => avasoft8::read(file, bytes),
+        ContentKind::Asd => field_spectrometers::read_asd_binary(file, bytes),
+        ContentKind::ProcSpec => ocean_optics::read_procspec(file, bytes),
+        ContentKind::AvaSoft7 => avantes::read_avasoft7(file, bytes),
+        ContentKind::AvaSoft8 => avantes::read_avasoft8(file, bytes),
         ContentKind::Text | ContentKind::Workbook => Ok(Vec::new()),
     }?;
     checked(file, own, spectra)
@@ -97,9 +103,68 @@ fn checked(
     Ok(InstrumentFile { format, spectra })
 }
 
+/// Bytes of a file that is given as `FILE` or `FILE.xlsx#SHEET`.
+///
+/// # Errors
+/// [`FileError`] if the file cannot be read.
+pub fn bytes_of(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
+    let path = path.as_ref();
+    let sheet = path.to_str().map(split_file_and_sheet).filter(|(_, sheet)| sheet.is_some());
+    file::read(sheet.map_or(path, |(file, _)| Path::new(file)))
+}
+
+/// Reads all spectra of an instrument's file, or of the sheet `FILE.xlsx#SHEET`. The format is detected from
+/// the content.
+///
+/// # Errors
+/// [`OpenError`] if the file cannot be read or is faulty.
+pub fn open(path: impl AsRef<Path>) -> Result<InstrumentFile, OpenError> {
+    let path = path.as_ref();
+    Ok(read(&path.display().to_string(), &bytes_of(path)?, None)?)
+}
+
+/// One spectrum of a file, with the content of that file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpenedSpectrum {
+    /// Path of the file, as it was given.
+    pub file: String,
+    /// All bytes of the file, for a checksum.
+    pub bytes: Vec<u8>,
+    /// The selected spectrum.
+    pub spectrum: MeasuredSpectrum,
+}
+
+/// Reads one spectrum, given as `FILE` or `FILE#NAME`. For one sheet of a workbook write
+/// `FILE.xlsx#SHEET#NAME`.
+///
+/// # Errors
+/// [`OpenError`] if the file cannot be read or is faulty, or if the spectrum is not
+/// determined: no spectrum of that name, or several in a file given without a name.
+pub fn open_spectrum(file_and_name: &str) -> Result<OpenedSpectrum, OpenError> {
+    let (file, name) = split_file_and_name(file_and_name);
+    let bytes = bytes_of(file)?;
+    let found = read(file, &bytes, None)?.spectra;
+    let spectrum = choose_spectrum(file, &found, name)?.clone();
+    Ok(OpenedSpectrum { file: file.to_owned(), bytes, spectrum })
+}
+
+/// A file of an instrument that cannot be opened.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum OpenError {
+    /// The file cannot be read from the disk.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The content is faulty or of no known format.
+    #[error(transparent)]
+    Instrument(#[from] InstrumentError),
+    /// The requested spectrum is not determined.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{asd, avasoft7, avasoft8, procspec, workbook};
+    use super::super::{avantes, field_spectrometers, ocean_optics, workbook};
     use super::*;
 
     /// Name, bytes and format of a small file of every binary format.
@@ -107,10 +172,14 @@ mod tests {
         let counts = [100.0, 200.0, 600.0, 700.0];
         let pixels = [30.0, 110.0, 10.0, 20.0, 90.0, 10.0, 60.0, 110.0, 10.0];
         vec![
-            ("some.asd", asd::tests::asd(0, &counts, Some(&[1000.0; 4])), Format::Asd),
-            ("some.trm", avasoft7::tests::avasoft7(70.0, &pixels), Format::Avantes),
-            ("some.rfl8", avasoft8::tests::avasoft8(b"AVS82", 2, 4), Format::Avantes),
-            ("some.ProcSpec", procspec::tests::procspec("x"), Format::OceanOptics),
+            (
+                "some.asd",
+                field_spectrometers::tests::asd(0, &counts, Some(&[1000.0; 4])),
+                Format::Asd,
+            ),
+            ("some.trm", avantes::tests::avasoft7(70.0, &pixels), Format::Avantes),
+            ("some.rfl8", avantes::avasoft8_tests::avasoft8(b"AVS82", 2, 4), Format::Avantes),
+            ("some.ProcSpec", ocean_optics::tests::procspec("x"), Format::OceanOptics),
             (
                 "some.xlsx",
                 workbook::tests::workbook(&[("A", workbook::tests::ROWS)]),
@@ -125,20 +194,14 @@ mod tests {
             let found = read(file, &bytes, None).unwrap();
             assert_eq!(found.format, format, "{file}");
             assert_eq!(read("other.txt", &bytes, Some(format)).unwrap().format, format, "{file}");
-            let told = read(file, &bytes, Some(Format::Cgats)).unwrap_err();
-            assert!(matches!(told, InstrumentError::NotRead { .. }), "{told}");
+            let stated = read(file, &bytes, Some(Format::Cgats)).unwrap_err();
+            assert!(matches!(stated, InstrumentError::NotRead { .. }), "{stated}");
         }
     }
 
     #[test]
     fn columns_in_a_workbook_are_read() {
-        let cell = |name: &str, value: &str| format!("<c r=\"{name}\"><v>{value}</v></c>");
         let heading = "<row r=\"1\"><c r=\"A1\" t=\"str\"><v>nm</v></c><c r=\"B1\" t=\"str\"><v>Reflectance</v></c></row>";
-        let row = |row: usize, nm: &str, value: &str| {
-            let nm = cell(&format!("A{row}"), nm);
-            let value = cell(&format!("B{row}"), value);
-            format!("<row r=\"{row}\">{nm}{value}</row>")
-        };
         let rows = format!(
             "{heading}{}{}{}",
             row(2, "400", "0.25"),
@@ -158,6 +221,16 @@ mod tests {
         )]);
         let error = read("a/red.xlsx", &bad, None).unwrap_err().to_string();
         assert!(error.starts_with("a/red.xlsx, sheet `Data`, line 4: "), "{error}");
+    }
+
+    fn row(row: usize, nm: &str, value: &str) -> String {
+        let nm = cell(&format!("A{row}"), nm);
+        let value = cell(&format!("B{row}"), value);
+        format!("<row r=\"{row}\">{nm}{value}</row>")
+    }
+
+    fn cell(name: &str, value: &str) -> String {
+        format!("<c r=\"{name}\"><v>{value}</v></c>")
     }
 
     #[test]
@@ -184,9 +257,9 @@ mod tests {
             }
             for copy in damaged {
                 if let Err(error) = read(file, &copy, None) {
-                    let told = error.to_string();
-                    assert!(told.contains(file), "{told}");
-                    assert!(told.chars().all(|c: char| !c.is_control()), "{told:?}");
+                    let stated = error.to_string();
+                    assert!(stated.contains(file), "{stated}");
+                    assert!(stated.chars().all(|c: char| !c.is_control()), "{stated:?}");
                 }
             }
         }

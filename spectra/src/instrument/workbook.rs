@@ -1,13 +1,13 @@
 //! Workbooks (`.xlsx`): the sheet with the most numbers, as text with tabs between the cells.
 //!
-//! A cell keeps its row and column, so that places in messages are those of the sheet. Formulas count
-//! with the values that the spreadsheet program stored.
+//! A cell keeps its row and column, so that messages name the places of the sheet. Formulas count with the
+//! values that the spreadsheet program stored.
 
 use std::io::Cursor;
 
 use calamine::{DataRef, DataType, Reader, Xlsx};
 
-use super::error::InstrumentError;
+use super::measured::InstrumentError;
 use documents::name_list;
 
 const FORMAT: &str = "Excel workbook";
@@ -23,7 +23,7 @@ const MOST_BYTES: usize = 512 << 20;
 #[derive(Debug, PartialEq)]
 pub(super) struct Sheet {
     pub(super) name: String,
-    /// Cells of a row between tabs; line number and row number agree.
+    /// Cells of a row between tabs. Line number and row number agree.
     pub(super) text: String,
     /// Names of the other sheets that are not empty.
     pub(super) others: Vec<String>,
@@ -53,7 +53,7 @@ pub fn split_file_and_sheet(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The sheet that `file` names as `FILE.xlsx#SHEET`; otherwise the sheet with the most numbers, the first of
+/// The sheet that `file` names as `FILE.xlsx#SHEET`, otherwise the sheet with the most numbers, the first of
 /// several.
 pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> {
     let (file, wanted) = split_file_and_sheet(file);
@@ -82,15 +82,11 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
             sheets.push((name, cells));
         }
     }
-    let numbers = |(_, cells): &(String, Vec<Cell>)| {
-        cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
-    };
-    let most = sheets.iter().map(numbers).max().unwrap_or(0);
-    let is_chosen = |sheet: &(String, Vec<Cell>)| match wanted {
+    let most = sheets.iter().map(count_numbers).max().unwrap_or(0);
+    let Some(chosen) = sheets.iter().position(|sheet| match wanted {
         Some(wanted) => sheet.0 == wanted,
-        None => numbers(sheet) == most,
-    };
-    let Some(chosen) = sheets.iter().position(is_chosen) else {
+        None => count_numbers(sheet) == most,
+    }) else {
         let names: Vec<String> = sheets.into_iter().map(|(name, _)| name).collect();
         return Err(match wanted.filter(|_| !names.is_empty()) {
             Some(sheet) => InstrumentError::NoSheet {
@@ -107,27 +103,32 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
     Ok(Sheet { name, text, others: sheets.into_iter().map(|(name, _)| name).collect() })
 }
 
-/// Content of a cell; `None` if it is empty.
+fn count_numbers((_, cells): &(String, Vec<Cell>)) -> usize {
+    cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
+}
+
+/// Content of a cell. `None` if it is empty.
 fn content(cell: &DataRef<'_>) -> Option<Content> {
-    let text = |text: &str| {
-        let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let plain = plain.trim().to_owned();
-        (!plain.is_empty()).then_some(Content::Text(plain))
-    };
     match cell {
         DataRef::Empty => None,
         DataRef::Int(_) | DataRef::Float(_) | DataRef::DateTime(_) => {
             cell.as_f64().map(Content::Number)
         }
-        DataRef::String(found) => text(found),
-        DataRef::SharedString(found) => text(found),
-        DataRef::Bool(found) => text(if *found { "TRUE" } else { "FALSE" }),
-        DataRef::DateTimeIso(found) | DataRef::DurationIso(found) => text(found),
-        DataRef::Error(found) => text(&found.to_string()),
+        DataRef::String(found) => text_content(found),
+        DataRef::SharedString(found) => text_content(found),
+        DataRef::Bool(found) => text_content(if *found { "TRUE" } else { "FALSE" }),
+        DataRef::DateTimeIso(found) | DataRef::DurationIso(found) => text_content(found),
+        DataRef::Error(found) => text_content(&found.to_string()),
     }
 }
 
-/// The text of a sheet; `None` if it is too long. Numbers get a decimal comma where texts have one, as in
+fn text_content(text: &str) -> Option<Content> {
+    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let plain = plain.trim().to_owned();
+    (!plain.is_empty()).then_some(Content::Text(plain))
+}
+
+/// The text of a sheet. `None` if it is too long. Numbers get a decimal comma where texts have one, as in
 /// a column that was pasted as text.
 fn text(mut cells: Vec<Cell>) -> Option<String> {
     cells.sort_by_key(|cell| (cell.row, cell.column));
@@ -175,18 +176,19 @@ fn text(mut cells: Vec<Cell>) -> Option<String> {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::super::zip_archive::tests::archive;
+    use super::super::decode::tests::archive;
     use super::*;
 
     /// A workbook with sheets of this name and XML of rows.
     pub(in super::super) fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
-        let numbered = || sheets.iter().zip(1..);
-        let list: String = numbered()
+        let list: String = sheets
+            .iter()
+            .zip(1..)
             .map(|((name, _), id)| {
                 format!("<sheet name=\"{name}\" sheetId=\"{id}\" r:id=\"rId{id}\"/>")
             })
             .collect();
-        let relations: String = numbered()
+        let relations: String = sheets.iter().zip(1..)
             .map(|(_, id)| {
                 format!(
                     "<Relationship Id=\"rId{id}\" Type=\"http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet\" Target=\"worksheets/sheet{id}.xml\"/>"
@@ -208,7 +210,7 @@ pub(super) mod tests {
             ("xl/_rels/workbook.xml.rels".to_owned(), relations),
             ("xl/sharedStrings.xml".to_owned(), strings),
         ];
-        for ((_, rows), id) in numbered() {
+        for ((_, rows), id) in sheets.iter().zip(1..) {
             let sheet =
                 format!("<worksheet xmlns=\"{main}\"><sheetData>{rows}</sheetData></worksheet>");
             files.push((format!("xl/worksheets/sheet{id}.xml"), sheet));

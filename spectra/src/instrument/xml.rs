@@ -9,7 +9,7 @@ use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-use super::error::InstrumentError;
+use super::measured::InstrumentError;
 
 const DEEPEST: usize = 64;
 
@@ -19,7 +19,7 @@ pub(super) struct Element {
     /// Local name, without its prefix.
     pub(super) name: String,
     attributes: Vec<(String, String)>,
-    /// Text of the element itself, joined, without that of its children.
+    /// Text of the element itself, joined, without the text of its children.
     pub(super) text: String,
     /// Number of the line on which the element begins, from 1.
     pub(super) line: usize,
@@ -136,10 +136,11 @@ fn append(open: &mut [Element], text: &str) {
 
 /// Number of line ends: LF, CR LF, or CR alone.
 fn newlines(bytes: &[u8]) -> usize {
-    let ends = |(i, &byte): (usize, &u8)| {
-        byte == b'\n' || (byte == b'\r' && bytes.get(i + 1) != Some(&b'\n'))
-    };
-    bytes.iter().enumerate().filter(|&at| ends(at)).count()
+    bytes
+        .iter()
+        .enumerate()
+        .filter(|&(i, &byte)| byte == b'\n' || (byte == b'\r' && bytes.get(i + 1) != Some(&b'\n')))
+        .count()
 }
 
 #[cfg(test)]

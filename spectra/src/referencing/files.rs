@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::ReferencingError;
-use super::reference::{LEAST_LIGHT, Referencing};
-use super::tile::{Dark, Tile};
+use super::{Dark, LEAST_LIGHT, Referencing, ReferencingError, Tile};
 use crate::instrument::{MeasuredSpectrum, OpenError, open_spectrum, split_file_and_name};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 /// The files of a reference measurement. Each spectrum is given as `FILE`, or as
 /// `FILE#NAME` where the file holds several.
@@ -18,7 +16,7 @@ pub struct ReferenceFiles {
     pub dark: DarkFiles,
     /// Reflectance of the white itself.
     pub tile: TileSource,
-    /// Largest count of the detector, 0 and up; `None` to estimate it from the readings.
+    /// Largest count of the detector, 0 and up. `None` to estimate it from the readings.
     pub full_scale: Option<f64>,
     /// Least light of the white as a fraction of its peak, 0 and up (default 0.01).
     pub least_light: f64,
@@ -29,11 +27,11 @@ pub struct ReferenceFiles {
 pub enum DarkFiles {
     /// The dark is already subtracted.
     Subtracted,
-    /// One reading for each integration time; none for power, which needs no dark.
+    /// One reading for each integration time, none for power, which needs no dark.
     Files(Vec<String>),
 }
 
-/// Where the white's own reflectance comes from.
+/// The source of the white's own reflectance.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TileSource {
     /// A constant, above 0 and at most 1.2.
@@ -52,7 +50,7 @@ pub struct OpenedReferences {
 }
 
 impl ReferenceFiles {
-    /// A white without dark readings whose tile reflects everything.
+    /// A white without dark readings. Its tile reflects everything.
     #[must_use]
     pub fn new(white: impl Into<String>) -> Self {
         Self {
@@ -117,13 +115,14 @@ impl ReferenceFiles {
 }
 
 /// Reference files that cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ReferenceFilesError {
     /// A file cannot be opened.
     #[error(transparent)]
     Open(#[from] OpenError),
     /// The file does not hold the reflectance of a tile.
     #[error("{file}: cannot be used as the reflectance of the white tile")]
+    #[hint(inner = reason)]
     Tile {
         /// The tile's `FILE` or `FILE#NAME`.
         file: String,
@@ -136,30 +135,12 @@ pub enum ReferenceFilesError {
     Constant(#[from] ReferencingError),
     /// A setting is negative or not finite.
     #[error("{} must be a number from 0 up, found `{value}`", setting.replace('_', " "))]
+    #[hint("leave [{setting}] out for the default")]
+    #[fault(Setting)]
     Setting {
         /// Name of the setting, `full_scale` or `least_light`.
         setting: &'static str,
         /// The value that was given.
         value: f64,
     },
-}
-
-impl Explain for ReferenceFilesError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Open(error) => error.hint(),
-            Self::Tile { reason, .. } | Self::Constant(reason) => reason.hint(),
-            Self::Setting { setting, .. } => {
-                Some(Hint::new(format!("leave [{setting}] out for the default")))
-            }
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Open(error) => error.fault(),
-            Self::Setting { .. } => Fault::Setting,
-            Self::Tile { .. } | Self::Constant(_) => Fault::Input,
-        }
-    }
 }

@@ -5,9 +5,8 @@ use calibrate::library::AmountKind;
 use calibrate::palette::{
     Cards, MixingRow, PainterRules, Palette, graded, hiding_powers, mixing_chart,
 };
-use reports::figure::Figure;
+use reports::figure::{Cell, Figure};
 use reports::style::{Color, PAPER};
-use reports::table::Cell;
 use reports::{Report, Subject};
 
 use calibrate::evaluate::Viewing;

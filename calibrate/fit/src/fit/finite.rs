@@ -3,25 +3,24 @@
 use spectra::optics::UnevenFilm;
 use spectra::{Grid, TristimulusWeights};
 
-use super::curves::{CurveTable, Layout};
 use super::forward::{Data, Finite};
-use super::problem::FitError;
+use super::problem::{CurveTable, FitError, Layout};
 use super::refined::{Refined, Refinement, refine};
 use pigment::{Curves, Recipe};
-/// Values of S that are tried as a start, evenly spaced in their logarithm; chosen by eye.
+/// Values of S that are tried as a start, evenly spaced in their logarithm (chosen by eye).
 const STARTS: i32 = 44;
 /// Least of these values of S.
 const LEAST_START: f64 = 0.012;
 /// Ratio of the greatest to the least of these values.
 const START_RANGE: f64 = 1000.0;
-/// Range of K in the starting point of a fit; chosen by eye.
+/// Range of K in the starting point of a fit (chosen by eye).
 const START_K: [f64; 2] = [4e-4, 120.0];
-/// Values of K in the coarse grid of the first wavelength; chosen by eye.
+/// Values of K in the coarse grid of the first wavelength (chosen by eye).
 const COARSE_STEPS: i32 = 25;
 /// Residual at which the robust loss of a start turns linear, as a cube root of reflectance (0 to 1): 0.02,
 /// about 2 units of lightness.
 const START_KNEE: f64 = 0.02;
-/// Most Gauss-Newton steps of a start; chosen by eye.
+/// Most Gauss-Newton steps of a start (chosen by eye).
 const START_STEPS: usize = 12;
 
 /// Films of known amounts over known backings.
@@ -31,7 +30,7 @@ pub struct FiniteProblem {
     pub grid: Grid,
     /// Number of pigments.
     pub pigments: usize,
-    /// Standard deviation of repeated readings, root mean square over films; 0 if none were repeated.
+    /// Standard deviation of repeated readings, root mean square over films, or 0 if none were repeated.
     pub reading_sd: f64,
     /// Films on backings of known reflectance.
     pub films: Vec<MeasuredFilm>,
@@ -90,16 +89,26 @@ pub fn fit_finite(
     // Bounds and starts suit amounts near 1, so amounts are divided by their median total.
     let totals: Vec<f64> = problem.films.iter().map(|film| film.recipe.total()).collect();
     let unit = pigment::evaluate::percentile(&totals, 50.0);
-    let in_unit = |film: &MeasuredFilm| -> Vec<(usize, f64)> {
-        film.recipe.iter().map(|&(p, amount)| (p.index(), amount / unit)).collect()
-    };
-    let recipes: Vec<Vec<(usize, f64)>> = problem.films.iter().map(in_unit).collect();
+    let recipes: Vec<Vec<(usize, f64)>> = problem
+        .films
+        .iter()
+        .map(|film: &MeasuredFilm| -> Vec<(usize, f64)> {
+            film.recipe.iter().map(|&(p, amount)| (p.index(), amount / unit)).collect()
+        })
+        .collect();
     let reflectance: Vec<Vec<f64>> = problem.films.iter().map(|f| f.reflectance.clone()).collect();
-    let below = |measured: &f64| {
-        film.surface.internal_from_measured(*measured).unwrap_or(0.0).clamp(0.0, 1.0)
-    };
-    let backing: Vec<Vec<f64>> =
-        problem.films.iter().map(|f| f.bare.iter().map(below).collect()).collect();
+    let backing: Vec<Vec<f64>> = problem
+        .films
+        .iter()
+        .map(|f| {
+            f.bare
+                .iter()
+                .map(|measured: &f64| {
+                    film.surface.internal_from_measured(*measured).unwrap_or(0.0).clamp(0.0, 1.0)
+                })
+                .collect()
+        })
+        .collect();
     let layout =
         Layout { pigments: problem.pigments, reference: None, wavelengths: problem.grid.count() };
     let start = Start { film, recipes: &recipes, target: &reflectance, backing: &backing };

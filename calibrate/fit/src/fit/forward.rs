@@ -1,11 +1,19 @@
-//! The two optical models that predict films in a fit: films that hide, and films over a known backing.
+//! Models that predict films in a fit: films that hide, and films over a known backing.
+//!
+//! This file also holds what needs the equations alone, before any fit: the colour term of the cost, the rank
+//! and condition of the equations, and the pigments that the mixtures determine.
+//!
+//! The equations K = Q S of the mixtures are homogeneous except for the reference white. We know the S of a
+//! pigment only through mixtures that connect it, directly or through others, to this white.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, SymmetricEigen};
+use pigment::{Curves, PigmentId};
 use rayon::prelude::*;
+use spectra::TristimulusWeights;
+use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 use spectra::optics::{Surface, UnevenFilm, infinite_film, infinite_film_slope};
 
-use super::curves::{CurveTable, Layout};
-use super::problem::Problem;
+use super::problem::{CurveTable, Layout, Problem};
 
 /// Model of the measured reflectance of a film, from K and S of its mixture.
 pub(super) trait Forward: Sync {
@@ -63,7 +71,7 @@ pub(super) struct Data<'a, F> {
     pub(super) target: &'a [Vec<f64>],
     /// Cube roots of the measured reflectance.
     pub(super) roots: Vec<Vec<f64>>,
-    /// Standard deviation of repeated readings in measured reflectance; 0 if unknown.
+    /// Standard deviation of repeated readings in measured reflectance, or 0 if unknown.
     pub(super) reading_sd: f64,
     /// Places of each sample's unknowns within a wavelength.
     places: Vec<Vec<usize>>,
@@ -176,5 +184,231 @@ impl<'a, F: Forward> Data<'a, F> {
                 s + amount * curves.scattering[pigment][at],
             )
         })
+    }
+}
+
+/// Measured colours that a fit should reproduce.
+#[derive(Debug, Clone)]
+pub(super) struct ColorTerm<'a> {
+    weights: &'a TristimulusWeights,
+    /// By sample: its measured colour, and the local metric of CIEDE2000 there.
+    targets: Vec<(Lab, Matrix3)>,
+}
+
+/// Colour residual of one sample, with its slopes over reflectance.
+pub(super) struct ColorResidual {
+    /// Three components. Their length is the colour difference.
+    pub(super) residual: [f64; 3],
+    /// By wavelength: derivatives of the components over reflectance.
+    pub(super) slopes: Vec<[f64; 3]>,
+}
+
+impl<'a> ColorTerm<'a> {
+    pub(super) fn new(weights: &'a TristimulusWeights, target: &[Vec<f64>]) -> Self {
+        let targets = target
+            .iter()
+            .map(|reflectance| {
+                let lab = Lab::from_xyz(weights.xyz(reflectance), weights.white());
+                (lab, ciede2000_metric(lab))
+            })
+            .collect();
+        Self { weights, targets }
+    }
+
+    /// Colour difference of sample `index` at `reflectance`.
+    pub(super) fn difference(&self, index: usize, reflectance: &[f64]) -> f64 {
+        let residual = self.components(index, self.weights.xyz(reflectance));
+        residual.iter().map(|v| v * v).sum::<f64>().sqrt()
+    }
+
+    pub(super) fn linear(&self, index: usize, reflectance: &[f64]) -> ColorResidual {
+        let xyz = self.weights.xyz(reflectance);
+        let map = self.targets[index].1.after(&Lab::slopes_over_xyz(xyz, self.weights.white()));
+        let slopes = self.weights.weights().iter().map(|w| map.apply(*w)).collect();
+        ColorResidual { residual: self.components(index, xyz), slopes }
+    }
+
+    /// Movement of the colour, in CIEDE2000, per unit of reflectance at each wavelength, by sample.
+    pub(super) fn sensitivity(&self, target: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        (0..self.targets.len())
+            .map(|index| {
+                self.linear(index, &target[index])
+                    .slopes
+                    .iter()
+                    .map(|v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt())
+                    .collect()
+            })
+            .collect()
+    }
+
+    fn components(&self, index: usize, xyz: Xyz) -> [f64; 3] {
+        let (target, metric) = &self.targets[index];
+        let lab = Lab::from_xyz(xyz, self.weights.white());
+        metric.apply([lab.lightness - target.lightness, lab.a - target.a, lab.b - target.b])
+    }
+}
+
+/// How well the mixtures determine K and S, at the wavelength where they do so worst.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition {
+    /// Number of unknowns per wavelength.
+    pub unknowns: usize,
+    /// Least rank over all wavelengths.
+    pub rank: usize,
+    /// Largest condition number among the wavelengths of that rank.
+    pub number: f64,
+    /// Wavelength of that condition number, in nm.
+    pub nm: f64,
+}
+
+/// Eigenvalues of the normal matrix below this fraction of the largest are attributed to rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Computes rank and condition of the derivatives of measured reflectance over log K and log S, with
+/// columns scaled to length 1. A singular value below 3e-7 of the largest counts as 0, since rounding of
+/// the normal matrix ends there.
+#[must_use]
+pub fn condition(problem: &Problem, curves: &[Curves]) -> Condition {
+    let curves = CurveTable::off_zero(curves, [f64::NEG_INFINITY; 2]);
+    let data = Data::hiding(problem);
+    let linear = data.linear(&curves);
+    let unknowns = data.layout.per_wavelength();
+    let mut worst =
+        Condition { unknowns, rank: unknowns, number: 0.0, nm: problem.grid.start_nm() };
+    for at in 0..data.layout.wavelengths {
+        let normal = data.normal(&linear, at);
+        let lengths: Vec<f64> = (0..unknowns).map(|i| normal[(i, i)].sqrt()).collect();
+        let unit = |i: usize| if lengths[i] > 0.0 { lengths[i] } else { 1.0 };
+        let scaled =
+            DMatrix::from_fn(unknowns, unknowns, |i, j| normal[(i, j)] / (unit(i) * unit(j)));
+        let eigenvalues = SymmetricEigen::new(scaled).eigenvalues;
+        let largest = eigenvalues.max();
+        let rank = eigenvalues.iter().filter(|&&v| v > ROUNDING * largest).count();
+        let number = (largest / eigenvalues.min().max(1e-16 * largest)).sqrt();
+        if rank < worst.rank || (rank == worst.rank && number > worst.number) {
+            (worst.rank, worst.number, worst.nm) = (rank, number, problem.grid.nm(at));
+        }
+    }
+    worst
+}
+
+/// Quantity of a pigment that the data do not identify.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// Its S. We know its K/S from a masstone.
+    Scattering,
+    /// Both K and S.
+    Everything,
+}
+
+/// A pigment that the data do not identify.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unidentified {
+    /// Place of the pigment in the list of pigments.
+    pub pigment: PigmentId,
+    /// Quantity that is not identified.
+    pub unknown: Unknown,
+    /// Indices of the samples that contain the pigment.
+    pub samples: Vec<usize>,
+}
+
+/// Two recipes are equal if their shares, summed over pigments, differ by less than this.
+const SAME_RECIPE: f64 = 1e-9;
+
+/// Finds the pigments that the mixtures do not identify, given the `reference` with S = 1. `shares` are
+/// the shares of all pigments, by sample.
+///
+/// A pigment is identified if it occurs in two or more samples of different recipe, at least one of them
+/// a mixture with an identified pigment.
+#[must_use]
+pub fn unidentified<'a>(
+    shares: impl IntoIterator<Item = &'a [f64]>,
+    reference: PigmentId,
+) -> Vec<Unidentified> {
+    let collected: Vec<&[f64]> = shares.into_iter().collect();
+    let shares = collected.as_slice();
+    let pigments = shares.first().map_or(0, |shares| shares.len());
+    let holding = |pigment: usize| -> Vec<usize> {
+        (0..shares.len()).filter(|&s| shares[s][pigment] > 0.0).collect()
+    };
+    let partners = |sample: usize, pigment: usize| {
+        (0..pigments).filter(move |&other| other != pigment && shares[sample][other] > 0.0)
+    };
+    let different = |samples: &[usize]| {
+        samples.iter().any(|&s| {
+            let pairs = shares[s].iter().zip(shares[samples[0]]);
+            pairs.map(|(a, b)| (a - b).abs()).sum::<f64>() > SAME_RECIPE
+        })
+    };
+    let mut known = vec![false; pigments];
+    known[reference.index()] = true;
+    loop {
+        let found = (0..pigments).filter(|&p| !known[p]).find(|&pigment| {
+            let samples = holding(pigment);
+            !samples.is_empty()
+                && different(&samples)
+                && samples.iter().any(|&s| partners(s, pigment).any(|other| known[other]))
+        });
+        match found {
+            Some(pigment) => known[pigment] = true,
+            None => break,
+        }
+    }
+    (0..pigments)
+        .filter(|&pigment| !known[pigment])
+        .map(|pigment| {
+            let samples = holding(pigment);
+            let masstone = samples.iter().any(|&s| partners(s, pigment).next().is_none());
+            let unknown = if masstone { Unknown::Scattering } else { Unknown::Everything };
+            Unidentified { pigment: PigmentId(pigment), unknown, samples }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(shares: &[Vec<f64>]) -> Vec<Unidentified> {
+        unidentified(shares.iter().map(Vec::as_slice), PigmentId(0))
+    }
+
+    #[test]
+    fn a_masstone_alone_identifies_only_the_ratio() {
+        let shares = vec![vec![1.0, 0.0], vec![0.0, 1.0]];
+        let found = found(&shares);
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].pigment, found[0].unknown), (PigmentId(1), Unknown::Scattering));
+        assert_eq!(found[0].samples, vec![1]);
+    }
+
+    #[test]
+    fn a_single_mixture_identifies_nothing() {
+        let found = found(&[vec![1.0, 0.0], vec![0.5, 0.5]]);
+        assert_eq!((found[0].pigment, found[0].unknown), (PigmentId(1), Unknown::Everything));
+    }
+
+    #[test]
+    fn masstone_and_tint_identify_a_pigment_through_a_chain_to_the_white() {
+        let shares = vec![
+            vec![1.0, 0.0, 0.0],
+            vec![0.0, 1.0, 0.0],
+            vec![0.5, 0.5, 0.0],
+            vec![0.0, 0.0, 1.0],
+            vec![0.0, 0.5, 0.5],
+        ];
+        assert!(found(&shares).is_empty(), "pigment 2 is mixed with 1, and 1 with the white");
+    }
+
+    #[test]
+    fn two_pigments_mixed_only_with_each_other_do_not_reach_the_white() {
+        let shares = vec![
+            vec![1.0, 0.0, 0.0],
+            vec![0.0, 1.0, 0.0],
+            vec![0.0, 0.0, 1.0],
+            vec![0.0, 0.5, 0.5],
+        ];
+        let found: Vec<usize> = found(&shares).iter().map(|u| u.pigment.index()).collect();
+        assert_eq!(found, vec![1, 2]);
     }
 }

@@ -10,36 +10,21 @@
 //!
 //! Absolute amounts on known backings have a method of their own, [`fit_finite`], which fits the finite
 //! layer equation.
-
-mod stage;
-mod curves;
 mod problem;
 mod program;
-mod weighted;
 mod banded;
 mod forward;
-mod color_term;
-mod noise;
 mod objective;
-mod deviations;
 mod refined;
 mod finite;
-mod expected;
-mod identification;
-mod condition;
 
-pub use condition::{Condition, condition};
-pub use deviations::linear_deviations;
-pub(crate) use expected::{AssumedPaints, PRIOR_INFORMATION, Slopes};
 pub use finite::{FiniteProblem, MeasuredFilm, fit_finite};
-pub use identification::{Unidentified, Unknown, unidentified};
-pub use noise::ExpectedNoise;
+pub use forward::{Condition, Unidentified, Unknown, condition, unidentified};
+pub use objective::ExpectedNoise;
 pub use pigment::fit_settings::{FitSettings, Method, Smoothness};
 pub(crate) use problem::root_mean_square;
-pub use problem::{FitError, Problem};
-pub use program::fit_qp;
-pub(crate) use program::fit_qp_watched;
-pub use refined::{Refined, RefinedState, Refinement, fit_refined};
-pub use stage::{FitStage, Watch};
-pub use weighted::fit_weighted;
-pub(crate) use weighted::fit_weighted_watched;
+pub use problem::{FitError, FitStage, Problem, Watch};
+pub use program::{fit_qp, fit_weighted};
+pub(crate) use program::{fit_qp_watched, fit_weighted_watched};
+pub(crate) use refined::{AssumedPaints, PRIOR_INFORMATION, Slopes};
+pub use refined::{Refined, RefinedState, Refinement, fit_refined, linear_deviations};

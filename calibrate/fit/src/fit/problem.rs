@@ -1,13 +1,16 @@
-//! Data of a fit as arrays.
+//! Data of a fit as arrays: K/S of the mixtures, K and S of all pigments, and the stages of a fit.
+//!
+//! A caller follows a fit through its stages and can end it between them.
 
-use documents::Cancelled;
+use std::fmt;
+
 use documents::hint::{Explain, Fault, Hint};
+use documents::{Cancellation, Cancelled};
+use pigment::{Curves, PigmentId};
 use spectra::Grid;
 use spectra::optics::Surface;
 
-use super::curves::CurveTable;
 use crate::observation::Observation;
-use pigment::PigmentId;
 
 /// Mixtures of known shares, with the K/S observed for each.
 #[derive(Debug, Clone)]
@@ -18,9 +21,10 @@ pub struct Problem {
     pub surface: Surface,
     /// Number of pigments.
     pub pigments: usize,
-    /// Pigment whose S is 1.
+    /// Pigment with S = 1.
     pub reference: PigmentId,
-    /// Standard deviation of repeated readings, root mean square over samples; 0 if none were repeated.
+    /// Standard deviation of repeated readings, root mean square over samples, or 0 if none were
+    /// repeated.
     pub(crate) reading_sd: f64,
     /// Pigments of each mixture with their shares.
     pub(crate) recipes: Vec<Vec<(usize, f64)>>,
@@ -57,9 +61,6 @@ impl Problem {
         if !observations.iter().any(|o| o.shares.get(reference.index()).is_some_and(|&s| s > 0.0)) {
             return Err(FitError::Reference);
         }
-        let recipe = |o: &Observation| {
-            o.shares.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect()
-        };
         Ok(Self {
             grid,
             surface,
@@ -91,7 +92,11 @@ impl Problem {
     }
 }
 
-/// Root mean square of `values`; 0 for no values.
+fn recipe(o: &Observation) -> Vec<(usize, f64)> {
+    o.shares.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect()
+}
+
+/// Root mean square of `values`, or 0 for no values.
 pub(crate) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     let (squares, count) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v * v, n + 1.0));
     f64::sqrt(squares / f64::max(count, 1.0))
@@ -148,5 +153,216 @@ impl Explain for FitError {
             Self::Cancelled(error) => error.fault(),
             _ => Fault::Input,
         }
+    }
+}
+
+/// K and S of all pigments, by pigment and wavelength.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CurveTable {
+    pub(crate) absorption: Vec<Vec<f64>>,
+    pub(crate) scattering: Vec<Vec<f64>>,
+}
+
+impl CurveTable {
+    /// Table of `curves`, with K of at least `least[0]` and S of at least `least[1]`, since the logarithm
+    /// of 0 has no slope.
+    pub(crate) fn off_zero(curves: &[Curves], least: [f64; 2]) -> Self {
+        Self {
+            absorption: curves.iter().map(|c| clamped(&c.absorption, least[0])).collect(),
+            scattering: curves.iter().map(|c| clamped(&c.scattering, least[1])).collect(),
+        }
+    }
+
+    /// The curves by pigment.
+    pub(crate) fn into_curves(self, grid: Grid) -> Vec<Curves> {
+        let pairs = self.absorption.into_iter().zip(self.scattering);
+        pairs.map(|(absorption, scattering)| Curves { grid, absorption, scattering }).collect()
+    }
+}
+
+fn clamped(curve: &[f64], least: f64) -> Vec<f64> {
+    curve.iter().map(|v| v.max(least)).collect()
+}
+
+/// Lower limits of K and S, applied to a solution that may contain 0 before logarithms are taken.
+pub(crate) const OFF_ZERO: [f64; 2] = [1e-4, 1e-3];
+
+/// Bounds of log K and log S: from 1e-5, below which a pigment does not show, to 1e4.
+pub(super) const LOWER: f64 = -11.512_925_464_970_229;
+pub(super) const UPPER: f64 = 9.210_340_371_976_184;
+
+/// Places of the unknowns: by wavelength, log K of every pigment, then log S of every pigment except the
+/// reference, with S = 1. Absolute amounts have no reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub(super) pigments: usize,
+    pub(super) reference: Option<usize>,
+    pub(super) wavelengths: usize,
+}
+
+impl Layout {
+    /// Number of unknowns per wavelength.
+    pub(super) fn per_wavelength(self) -> usize {
+        2 * self.pigments - usize::from(self.reference.is_some())
+    }
+
+    /// Number of unknowns in all.
+    pub(super) fn len(self) -> usize {
+        self.per_wavelength() * self.wavelengths
+    }
+
+    /// Place of log S of `pigment` within its wavelength, or `None` for the reference.
+    pub(super) fn scattering(self, pigment: usize) -> Option<usize> {
+        match self.reference {
+            Some(reference) if pigment == reference => None,
+            Some(reference) if pigment > reference => Some(self.pigments + pigment - 1),
+            _ => Some(self.pigments + pigment),
+        }
+    }
+
+    /// Unknowns of `curves`, clamped to the bounds.
+    pub(super) fn unknowns(self, curves: &CurveTable) -> Vec<f64> {
+        let mut unknowns = Vec::with_capacity(self.len());
+        for at in 0..self.wavelengths {
+            unknowns.extend((0..self.pigments).map(|p| log(curves.absorption[p][at])));
+            let others = (0..self.pigments).filter(|&p| Some(p) != self.reference);
+            unknowns.extend(others.map(|p| log(curves.scattering[p][at])));
+        }
+        unknowns
+    }
+
+    /// K and S of `unknowns`.
+    pub(super) fn curves(self, unknowns: &[f64]) -> CurveTable {
+        let per = self.per_wavelength();
+        let curve = |place: usize| -> Vec<f64> {
+            (0..self.wavelengths).map(|at| unknowns[at * per + place].exp()).collect()
+        };
+        CurveTable {
+            absorption: (0..self.pigments).map(curve).collect(),
+            scattering: (0..self.pigments)
+                .map(|p| self.scattering(p).map_or_else(|| vec![1.0; self.wavelengths], curve))
+                .collect(),
+        }
+    }
+}
+
+fn log(value: f64) -> f64 {
+    value.max(f64::MIN_POSITIVE).ln().clamp(LOWER, UPPER)
+}
+
+/// A stage of a fit that has begun or come further.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FitStage {
+    /// Quadratic programs, from which the refinement starts: one of several rounds.
+    Programs {
+        /// Round, from 1.
+        round: usize,
+        /// Number of rounds.
+        of: usize,
+    },
+    /// Refinement by spectra: a round of one estimate of noise and smoothness.
+    Spectra {
+        /// Estimate of noise and smoothness, from 1.
+        estimate: usize,
+        /// Round in which the scale of the residuals is set anew, from 1.
+        round: usize,
+    },
+    /// Refinement by colour differences.
+    Colors,
+    /// Standard deviations of K and S: samples computed so far.
+    Deviations {
+        /// Number of these samples.
+        done: usize,
+        /// Number of all samples.
+        of: usize,
+    },
+    /// Choice of the film model of absolute amounts: a fit that was made for it.
+    FilmModel,
+    /// Validation: a mixture that was left out and predicted.
+    LeftOut,
+}
+
+impl fmt::Display for FitStage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Programs { round, of } => write!(f, "quadratic programs, round {round} of {of}"),
+            Self::Spectra { estimate, round } => {
+                write!(f, "refinement by spectra, estimate {estimate}, round {round}")
+            }
+            Self::Colors => write!(f, "refinement by colours"),
+            Self::Deviations { done, of } => {
+                write!(f, "standard deviations, sample {done} of {of}")
+            }
+            Self::FilmModel => write!(f, "choice of the film model"),
+            Self::LeftOut => write!(f, "mixture left out"),
+        }
+    }
+}
+
+/// Follows a fit or a validation: a function that receives each stage, and a request to end it.
+///
+/// ```
+/// use calibrate::fit::Watch;
+/// use calibrate::{FitOptions, PreparedFit, Readings};
+/// use documents::Cancellation;
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.csv");
+///
+/// let readings = Readings::open(path)?;
+/// let cancellation = Cancellation::default();
+/// let told = |stage| eprintln!("{stage}");
+/// let watch = Watch::new(&told).until(&cancellation);
+/// let prepared = PreparedFit::new(&readings, &FitOptions::default(), watch)?;
+/// // Another thread may ask for it at any time.
+/// cancellation.cancel();
+/// assert!(prepared.fit_watched(watch).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Default)]
+pub struct Watch<'a> {
+    told: Option<&'a (dyn Fn(FitStage) + Sync)>,
+    cancellation: Option<&'a Cancellation>,
+}
+
+impl<'a> Watch<'a> {
+    /// Watches a fit by a function, which any thread may call.
+    #[must_use]
+    pub fn new(told: &'a (dyn Fn(FitStage) + Sync)) -> Self {
+        Self { told: Some(told), cancellation: None }
+    }
+
+    /// Ends the work with [`Cancelled`] once `cancellation` asks for it.
+    #[must_use]
+    pub fn until(self, cancellation: &'a Cancellation) -> Self {
+        Self { cancellation: Some(cancellation), ..self }
+    }
+
+    /// The watch for a part of the work that does not report its stages.
+    #[must_use]
+    pub(crate) fn quiet(self) -> Self {
+        Self { told: None, ..self }
+    }
+
+    pub(crate) fn tell(self, stage: FitStage) {
+        if let Some(told) = self.told {
+            told(stage);
+        }
+    }
+
+    /// Whether the work was asked to end. Its loops then end early, and [`Self::check`] refuses what they
+    /// leave behind.
+    #[must_use]
+    pub(crate) fn is_cancelled(self) -> bool {
+        self.cancellation.is_some_and(Cancellation::is_cancelled)
+    }
+
+    pub(crate) fn check(self) -> Result<(), Cancelled> {
+        self.cancellation.map_or(Ok(()), Cancellation::check)
+    }
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("Watch");
+        shown.field("told", &self.told.is_some()).field("cancellation", &self.cancellation).finish()
     }
 }

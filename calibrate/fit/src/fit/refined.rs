@@ -1,55 +1,55 @@
-//! The refinement: from the weighted program to the final K and S.
+//! The refinement: from the weighted program to the final K and S and their standard deviations.
+//!
+//! Plans use the same equations to forecast the information that planned mixtures will give.
 
+use pigment::evaluate::{Viewing, percentile};
+use pigment::fit_settings::Smoothness;
+use pigment::{Curves, PigmentId};
+use rayon::prelude::*;
+use spectra::optics::Surface;
 use spectra::{Grid, TristimulusWeights};
 
-use super::banded::Spare;
-use super::color_term::ColorTerm;
-use super::curves::{CurveTable, OFF_ZERO};
-use super::deviations::{share_of_scattering_known, standard_deviations};
-use super::forward::{Data, Forward};
-use super::noise::Noise;
-use super::objective::{ColorPart, Objective, RIDGE};
-use super::problem::{FitError, Problem};
-use super::stage::{FitStage, Watch};
-use super::weighted::weighted;
-use pigment::Curves;
-use pigment::fit_settings::Smoothness;
+use super::banded::{BandedCholesky, Spare, TOGETHER};
+use super::forward::{ColorTerm, Data, Forward};
+use super::objective::{ColorPart, ExpectedNoise, Noise, Objective, RIDGE};
+use super::problem::{CurveTable, FitError, FitStage, Layout, OFF_ZERO, Problem, Watch};
+use super::program::weighted;
 
-/// Knee of the spectral loss, in standard deviations; chosen by eye.
+/// Knee of the spectral loss, in standard deviations (chosen by eye).
 const KNEE: f64 = 3.0;
 /// One over the variance of each sample's colour difference: a standard deviation of 0.32 CIEDE2000, the
 /// repeatability of a good instrument.
 const COLOR_STRENGTH: f64 = 10.0;
-/// Knee of the colour loss, in medians of all colour differences; chosen by eye.
+/// Knee of the colour loss, in medians of all colour differences (chosen by eye).
 const COLOR_KNEE: f64 = 5.0;
 /// Least median of the colour differences for that knee, in CIEDE2000: about the repeatability of a good
 /// instrument.
 const LEAST_MEDIAN_COLOR: f64 = 0.3;
-/// Most steps of the colour stage, which starts near its minimum; chosen by eye.
+/// Most steps of the colour stage, which starts near its minimum (chosen by eye).
 const COLOR_STEPS: usize = 12;
-/// Relative decrease of the cost at which the colour stage ends; chosen by eye.
+/// Relative decrease of the cost at which the colour stage ends (chosen by eye).
 const COLOR_DECREASE: f64 = 1e-5;
 /// Strength of the pull of log S towards a pigment's start where amounts are absolute: a standard
 /// deviation of 0.32. Chosen by eye.
 const SCATTERING_RIDGE: f64 = 10.0;
-/// Smoothness with which its estimation starts, for a wavelength step of 10 nm; chosen by eye.
+/// Smoothness with which its estimation starts, for a wavelength step of 10 nm (chosen by eye).
 const FIRST_SMOOTHNESS: f64 = 10.0;
-/// Most rounds in which noise and smoothness are estimated alternately; chosen by eye.
+/// Most rounds in which noise and smoothness are estimated alternately (chosen by eye).
 const ESTIMATION_ROUNDS: usize = 5;
-/// Change of log smoothness below which its estimate has settled; chosen by eye.
+/// Change of log smoothness below which its estimate has settled (chosen by eye).
 const SETTLED_SMOOTHNESS: f64 = 0.15;
-/// Most rounds in which the residuals' scale is set anew; chosen by eye.
+/// Most rounds in which the residuals' scale is set anew (chosen by eye).
 const SCALE_ROUNDS: usize = 20;
-/// Rounds after which the scale may count as settled; chosen by eye.
+/// Rounds after which the scale may count as settled (chosen by eye).
 const LEAST_SCALE_ROUNDS: usize = 3;
-/// Relative change of the scale below which it has settled; chosen by eye.
+/// Relative change of the scale below which it has settled (chosen by eye).
 const SETTLED_SCALE: f64 = 0.1;
 /// Largest factor by which the scale may fall in one round. If it fell faster, samples that are still fitted
 /// badly in early rounds would be treated as outliers for good. Chosen by eye.
 const SCALE_FALL: f64 = 3.0;
-/// Steps of a round before and after the scale has settled; chosen by eye.
+/// Steps of a round before and after the scale has settled (chosen by eye).
 const SCALE_STEPS: [usize; 2] = [5, 60];
-/// Relative decrease of the cost at which the descent of a round ends; chosen by eye.
+/// Relative decrease of the cost at which the descent of a round ends (chosen by eye).
 const SCALE_DECREASE: f64 = 1e-6;
 
 /// Result of a refinement, with what it estimated about the noise.
@@ -57,11 +57,11 @@ const SCALE_DECREASE: f64 = 1e-6;
 pub struct Refined {
     /// K and S by pigment.
     pub curves: Vec<Curves>,
-    /// Standard deviations of K and S by pigment, 0 for the S of the reference; `None` if they were not
-    /// requested.
+    /// Standard deviations of K and S by pigment, 0 for the S of the reference, or `None` if they were
+    /// not requested.
     pub deviations: Option<Vec<Curves>>,
     /// By pigment, the fraction (0 to 1) of the information on S that comes from the data rather than
-    /// from the prior; empty if standard deviations were not requested.
+    /// from the prior, or empty if standard deviations were not requested.
     pub scattering_known: Vec<f64>,
     /// Estimates of noise and smoothness.
     pub state: RefinedState,
@@ -81,11 +81,11 @@ pub struct RefinedState {
 pub struct Refinement<'a> {
     /// Smoothing of K and S over wavelength.
     pub smoothness: Smoothness,
-    /// Estimates of another fit of nearly the same data, to be reused; `None` to estimate them.
+    /// Estimates of another fit of nearly the same data, to be reused, or `None` to estimate them.
     pub state: Option<RefinedState>,
-    /// Whether standard deviations are computed; predictions do without them.
+    /// Whether standard deviations are computed. Predictions do without them.
     pub deviations: bool,
-    /// Who is told the stages of the fit, and may end it.
+    /// Receives the stages of the fit, and may end it.
     pub watch: Watch<'a>,
 }
 
@@ -203,7 +203,7 @@ pub(super) fn refine<F: Forward>(
         .enumerate()
         .map(|(index, values)| term.difference(index, values))
         .collect();
-    let median = pigment::evaluate::percentile(&differences, 50.0);
+    let median = percentile(&differences, 50.0);
     let knee = COLOR_KNEE * median.max(LEAST_MEDIAN_COLOR);
     objective.color = Some(ColorPart { term: &term, strength: COLOR_STRENGTH, knee });
     objective.descend(&mut unknowns, COLOR_STEPS, COLOR_DECREASE);
@@ -270,3 +270,236 @@ fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f6
     let determined = (count - objective.smoothness * trace).max(1.0);
     determined / objective.roughness(unknowns).max(f64::MIN_POSITIVE)
 }
+
+/// Least K and S for the slopes of [`linear_deviations`].
+const LEAST: f64 = 1e-4;
+
+/// Standard deviations of K and S at the minimum of `objective`.
+///
+/// The larger of two estimates: from the normal matrix, priors included, as if all residuals were
+/// independent; and from the spread of the samples' own gradients, H^-1 (sum of g g') H^-1 with g the
+/// gradient of one sample over all wavelengths (Liang and Zeger 1986). The second takes into account
+/// that a sample painted wrongly is wrong at every wavelength, but is 0 where the few samples of a
+/// pigment are fitted exactly.
+pub(super) fn standard_deviations<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+    curves: &CurveTable,
+    watch: Watch<'_>,
+) -> CurveTable {
+    let layout = objective.data.layout;
+    let per = layout.per_wavelength();
+    // Without data only the ridge remains.
+    let mut variances = vec![RIDGE.recip(); layout.len()];
+    if let Some(factor) = objective.local(unknowns).matrix.cholesky() {
+        let inverse = factor.inverse_band();
+        let spread = spread_of_gradients(objective, unknowns, &factor, watch);
+        for (i, variance) in variances.iter_mut().enumerate() {
+            *variance = f64::max(inverse.at(i, i), spread[i]);
+        }
+    }
+    let of_logs = |place: usize, curve: &[f64]| -> Vec<f64> {
+        let sd = |at: usize| variances[at * per + place].sqrt();
+        curve.iter().enumerate().map(|(at, value)| value * sd(at)).collect()
+    };
+    let absorption =
+        curves.absorption.iter().enumerate().map(|(p, curve)| of_logs(p, curve)).collect();
+    let scattering = curves
+        .scattering
+        .iter()
+        .enumerate()
+        .map(|(p, curve)| match layout.scattering(p) {
+            Some(place) => of_logs(place, curve),
+            None => vec![0.0; curve.len()],
+        })
+        .collect();
+    CurveTable { absorption, scattering }
+}
+
+/// Sum over samples of the squared steps that their own gradients alone would make, by unknown. Samples
+/// are added in their order, on any number of threads. Incomplete if the watch ends the fit.
+fn spread_of_gradients<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+    factor: &BandedCholesky,
+    watch: Watch<'_>,
+) -> Vec<f64> {
+    let layout = objective.data.layout;
+    let linear = objective.data.linear(&layout.curves(unknowns));
+    let samples: Vec<usize> = (0..objective.data.recipes.len()).collect();
+    let mut spread = vec![0.0; layout.len()];
+    for several in samples.chunks(TOGETHER * rayon::current_num_threads()) {
+        if watch.is_cancelled() {
+            break;
+        }
+        watch.tell(FitStage::Deviations { done: several[0], of: samples.len() });
+        let steps = several.par_chunks(TOGETHER).map(|group| {
+            let mut right = vec![[0.0; TOGETHER]; layout.len()];
+            for (place, &index) in group.iter().enumerate() {
+                for (unknown, value) in objective.gradient_of_sample(&linear, index) {
+                    right[unknown][place] += value;
+                }
+            }
+            factor.solve_together(&mut right);
+            right
+        });
+        let steps: Vec<Vec<[f64; TOGETHER]>> = steps.collect();
+        spread.par_iter_mut().enumerate().for_each(|(unknown, total)| {
+            for group in &steps {
+                group[unknown].iter().for_each(|pull| *total += pull * pull);
+            }
+        });
+    }
+    spread
+}
+
+/// By pigment, the fraction (0 to 1) of the information on its log S that comes from the data rather than
+/// from the prior (median over wavelength).
+///
+/// Compares the data's information on log S, with the pigment's own K unknown, with the ridge.
+/// `objective` must have no smoothness, which would count the prior of one wavelength as data of its
+/// neighbours.
+pub(super) fn share_of_scattering_known<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+) -> Vec<f64> {
+    let layout = objective.data.layout;
+    let matrix = objective.local(unknowns).matrix;
+    let share = |pigment: usize, at: usize| {
+        let Some(place) = layout.scattering(pigment) else { return 1.0 };
+        let k = at * layout.per_wavelength() + pigment;
+        let s = at * layout.per_wavelength() + place;
+        let of_k = (matrix.diagonal(k) - objective.ridge(k)).max(f64::MIN_POSITIVE);
+        let of_s = matrix.diagonal(s) - objective.ridge(s);
+        let information = (of_s - matrix.at(s, k).powi(2) / of_k).max(0.0);
+        information / (information + objective.ridge(s))
+    };
+    (0..layout.pigments)
+        .map(|pigment| {
+            let shares: Vec<f64> = (0..layout.wavelengths).map(|at| share(pigment, at)).collect();
+            percentile(&shares, 50.0)
+        })
+        .collect()
+}
+
+/// Standard deviations of K and S for a fit that has none of its own, by pigment and wavelength.
+///
+/// Each wavelength is treated by itself: the variance of its residuals of measured reflectance times the
+/// inverse of the normal matrix of their derivatives over K and S. A value that no mixture determines
+/// gets a deviation of its own size or more. The S of the reference gets 0.
+#[must_use]
+pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
+    // The program may set a pigment to 0, where the slopes are not finite.
+    let curves = CurveTable::off_zero(curves, [LEAST, LEAST]);
+    let data = Data::hiding(problem);
+    let layout = data.layout;
+    let linear = data.linear(&curves);
+    let unknowns = layout.per_wavelength();
+    let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;
+    let zeros = || vec![vec![0.0; layout.wavelengths]; layout.pigments];
+    let mut deviations = CurveTable { absorption: zeros(), scattering: zeros() };
+    for at in 0..layout.wavelengths {
+        let mut normal = data.normal(&linear, at);
+        let pairs = linear.values.iter().zip(&problem.reflectance);
+        let squares: f64 = pairs.map(|(value, read)| (value[at] - read[at]).powi(2)).sum();
+        let variance = squares / freedom;
+        // The unknowns are logarithms. This term limits their deviations to 1, the deviation of a value that
+        // no mixture determines.
+        for i in 0..unknowns {
+            normal[(i, i)] += variance.max(f64::MIN_POSITIVE);
+        }
+        let Some(inverse) = normal.cholesky().map(|factor| factor.inverse()) else { continue };
+        let sd = |place: usize| (variance * inverse[(place, place)]).sqrt();
+        for (pigment, curve) in deviations.absorption.iter_mut().enumerate() {
+            curve[at] = curves.absorption[pigment][at] * sd(pigment);
+        }
+        for (pigment, curve) in deviations.scattering.iter_mut().enumerate() {
+            if let Some(place) = layout.scattering(pigment) {
+                curve[at] = curves.scattering[pigment][at] * sd(place);
+            }
+        }
+    }
+    deviations.into_curves(problem.grid)
+}
+
+/// Assumed K and S of the paints.
+#[derive(Debug, Clone)]
+pub(crate) struct AssumedPaints {
+    pub(crate) surface: Surface,
+    /// Paint with S = 1.
+    pub(crate) reference: PigmentId,
+    /// K and S by paint; at least one.
+    pub(crate) curves: Vec<Curves>,
+}
+
+/// Derivatives of the reflectances of mixtures over the unknowns of a fit (log K of every paint and log S
+/// of all except the reference), divided by the standard deviation of a reading.
+#[derive(Debug, Clone)]
+pub(crate) struct Slopes {
+    layout: Layout,
+    /// Places of each mixture's unknowns within a wavelength.
+    pub(crate) places: Vec<Vec<usize>>,
+    /// By mixture: for each wavelength in turn, one slope for each of its places.
+    pub(crate) slopes: Vec<Vec<f64>>,
+}
+
+impl Slopes {
+    /// Slopes of `recipes` as films that hide, under the noise model of the refinement. Recipes are lists
+    /// of paints with their shares.
+    pub(crate) fn of(
+        paints: &AssumedPaints,
+        recipes: Vec<Vec<(usize, f64)>>,
+        noise: ExpectedNoise,
+    ) -> Self {
+        let curves = CurveTable::off_zero(&paints.curves, OFF_ZERO);
+        let grid = paints.curves[0].grid;
+        let mut problem = Problem {
+            grid,
+            surface: paints.surface,
+            pigments: paints.curves.len(),
+            reference: paints.reference,
+            reading_sd: 0.0,
+            recipes,
+            ratio: Vec::new(),
+            reflectance: Vec::new(),
+        };
+        problem.reflectance = problem.predicted(&curves);
+        let weights = Viewing::default().weights(grid).expect("the method fits the grid");
+        let term = ColorTerm::new(&weights, &problem.reflectance);
+        let precision = Noise::new(&term, &problem.reflectance, 0.0).precision(noise);
+        let data = Data::hiding(&problem);
+        let mut slopes = data.linear(&curves).slopes;
+        let places: Vec<Vec<usize>> =
+            (0..problem.recipes.len()).map(|index| data.places(index).to_vec()).collect();
+        for ((slopes, places), precision) in slopes.iter_mut().zip(&places).zip(&precision) {
+            for (chunk, precision) in slopes.chunks_exact_mut(places.len()).zip(precision) {
+                chunk.iter_mut().for_each(|slope| *slope *= precision);
+            }
+        }
+        Self { layout: data.layout, places, slopes }
+    }
+
+    /// Number of unknowns per wavelength.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.layout.per_wavelength()
+    }
+
+    pub(crate) fn wavelengths(&self) -> usize {
+        self.layout.wavelengths
+    }
+
+    /// Place of log S of `paint` within a wavelength, or `None` for the reference. The place of log K is
+    /// the paint's own number.
+    pub(crate) fn scattering(&self, paint: usize) -> Option<usize> {
+        self.layout.scattering(paint)
+    }
+
+    /// Slopes of mixture `index` at wavelength `at`, one for each of its places.
+    pub(crate) fn at(&self, index: usize, at: usize) -> &[f64] {
+        let count = self.places[index].len();
+        &self.slopes[index][at * count..(at + 1) * count]
+    }
+}
+
+/// Information that a fit has on each log K and log S before any data, from its prior.
+pub(crate) const PRIOR_INFORMATION: f64 = RIDGE;

@@ -1,10 +1,12 @@
-//! Meaning of the columns of a measurement file, by their headers.
+//! Meaning of the columns of a measurement file, found from their headers.
+//!
+//! Programs of instruments write a title or lines about the measurement above the headings, and spreadsheets
+//! write a line `sep=;`. This file finds the row of headings, the column of names, and columns of colour
+//! coordinates, which are skipped.
 
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 
-use super::coordinates::is_coordinate;
 use super::error::MeasurementError;
-use super::name_column::{name_column, name_rank};
 
 /// Meaning of one column.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,9 +33,9 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row whose cells stand at `place`: one meaning per column. `pigments` are the headings
-/// that name pigments; without them, every other heading does. Checks that there is a column of names,
-/// that no name occurs twice and that wavelengths rise or fall throughout.
+/// Reads a header row with its cells at `place`: one meaning per column. `pigments` are the headings that
+/// name pigments; without them, every other heading does. Checks that there is a column of names, that no
+/// name occurs twice and that wavelengths rise or fall throughout.
 pub(super) fn columns(
     place: &dyn Fn(usize) -> CellPlace,
     headers: &[String],
@@ -42,11 +44,11 @@ pub(super) fn columns(
 ) -> Result<Vec<Column>, MeasurementError> {
     let file = || headers.first().map_or_else(String::new, |_| place(0).file);
     // A header such as R254 may be a pigment (Pigment Red 254) or a wavelength.
-    let plain = |header: &String| {
-        let lower = header.trim().to_ascii_lowercase();
-        !is_letter_and_number(&lower) && wavelength_of_header(&lower).is_some()
-    };
-    let letters = kind == TableKind::Readings && !headers.iter().any(plain);
+    let letters = kind == TableKind::Readings
+        && !headers.iter().any(|header: &String| {
+            let lower = header.trim().to_ascii_lowercase();
+            !is_letter_and_number(&lower) && wavelength_of_header(&lower).is_some()
+        });
     let names: Vec<&str> = headers.iter().map(|header| header.trim()).collect();
     let sample = name_column(&names, is_wavelength_heading);
     let has_included = names.iter().any(|name| has_word(name, "sci"));
@@ -132,13 +134,13 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// Whether `heading` is that of a wavelength at which paint is measured.
+/// Whether `heading` names a wavelength at which paint is measured.
 pub(super) fn is_wavelength_heading(heading: &str) -> bool {
     let nm = wavelength_of_header(&heading.trim().to_ascii_lowercase());
     nm.is_some_and(|nm| MEASURABLE_NM.contains(&nm))
 }
 
-/// Whether `heading` is that of readings without the specular component, such as `SCE 400nm`.
+/// Whether `heading` names readings without the specular component, for example `SCE 400nm`.
 pub(super) fn excludes_specular(heading: &str) -> bool {
     has_word(heading, "sce") && is_wavelength_heading(heading)
 }
@@ -156,8 +158,8 @@ fn has_word(heading: &str, word: &str) -> bool {
     words.into_iter().any(|found| found.eq_ignore_ascii_case(word))
 }
 
-/// Meaning of the header `name`; `None` for a number outside the wavelengths at which paint is measured.
-/// `letters` says whether `R400` is a wavelength: beside plain numbers it is a pigment.
+/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which paint is
+/// measured. `letters` says whether `R400` is a wavelength: beside plain numbers it is a pigment.
 fn column(name: &str, letters: bool) -> Option<Column> {
     let lower = name.to_ascii_lowercase();
     let pigment = || Some(Column::Pigment(name.to_owned()));
@@ -184,7 +186,7 @@ fn column(name: &str, letters: bool) -> Option<Column> {
     }
 }
 
-/// Whether a column headed `name` is read as a pigment, in a file whose wavelengths are plain numbers.
+/// Whether a column headed `name` is read as a pigment, in a file with plain numbers as wavelengths.
 #[must_use]
 pub fn names_a_pigment(name: &str) -> bool {
     let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
@@ -244,6 +246,192 @@ const NO_PIGMENTS: [&str; 47] = [
     "aperture",
     "filter",
 ];
+
+/// Headings of names in lower case without spaces and signs, the most specific first. Later ones name
+/// samples only in tables without the earlier: running numbers, and the word that stands above the names
+/// where wavelengths are the headings of all other columns.
+const NAMES: [&str; 19] = [
+    "sample",
+    "samplename",
+    "dataname",
+    "usercolorname",
+    "usercolourname",
+    "colorname",
+    "colourname",
+    "name",
+    "originalcolorname",
+    "specimen",
+    "swatch",
+    "patch",
+    "label",
+    "sampleid",
+    "sampleno",
+    "samplenumber",
+    "wavelength",
+    "wavelengthnm",
+    "nm",
+];
+
+/// First of [`NAMES`] that names samples only where all other columns are wavelengths.
+const OVER_NAMES: &str = "wavelength";
+
+/// Place of a heading among those that name samples, 0 for the most specific, or `None` for any other
+/// heading.
+pub(super) fn name_rank(heading: &str) -> Option<usize> {
+    let letters = heading.chars().filter(|c| c.is_alphanumeric());
+    let plain: String = letters.flat_map(char::to_lowercase).collect();
+    NAMES.iter().position(|name| *name == plain)
+}
+
+/// The column of names among `headings`. `is_wavelength` says which of the headings are wavelengths: where
+/// all the others are, an unnamed first column holds the names, and so does one headed `wavelength`.
+pub(super) fn name_column(
+    headings: &[&str],
+    is_wavelength: impl Fn(&str) -> bool,
+) -> Option<usize> {
+    let ranked = headings.iter().enumerate();
+    let ranked = ranked.filter_map(|(index, heading)| Some((name_rank(heading)?, index)));
+    let others_are_wavelengths = |place: usize| {
+        let mut others = headings.iter().enumerate().filter(|(index, _)| *index != place);
+        headings.len() > 2 && others.all(|(_, heading)| is_wavelength(heading))
+    };
+    let over_names = NAMES.iter().position(|name| *name == OVER_NAMES).unwrap_or(NAMES.len());
+    match ranked.min() {
+        Some((rank, index)) if rank < over_names || others_are_wavelengths(index) => Some(index),
+        _ => (headings.first() == Some(&"") && others_are_wavelengths(0)).then_some(0),
+    }
+}
+
+/// The first of the columns `places` in which every row has a name, or the first one if none has.
+pub(super) fn filled_column(places: &[usize], rows: &[CsvRow]) -> Option<usize> {
+    places
+        .iter()
+        .find(|place: &&usize| {
+            rows.iter().all(|row| row.cells.get(**place).is_some_and(|name| !name.is_empty()))
+        })
+        .or(places.first())
+        .copied()
+}
+
+/// Most lines above the headings of a table (chosen by eye).
+const MOST_ABOVE: usize = 200;
+
+/// Separators of cells, in the order in which they are tried.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
+/// Where the headings of a table stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct HeadingRow {
+    /// The character between cells, an ASCII character.
+    pub(super) separator: u8,
+    /// Number of bytes of the text before the row.
+    pub(super) offset: usize,
+}
+
+impl HeadingRow {
+    /// The headings of a table in `text`. The first line is that row if a cell of it is `sample`.
+    /// Otherwise the row is the one with the most wavelengths (of a file of recipes, the most cells)
+    /// among those with a column for names.
+    pub(super) fn of(text: &str, kind: TableKind) -> Option<Self> {
+        let mut best: Option<(usize, Self)> = None;
+        let mut offset = 0;
+        let mut is_first = true;
+        for line in text.split_inclusive(['\n', '\r']).take(2 * MOST_ABOVE) {
+            let at = offset;
+            offset += line.len();
+            if line.trim().is_empty() {
+                continue;
+            }
+            for separator in SEPARATORS {
+                let cells = cells(line, separator);
+                let found = Self { separator, offset: at };
+                if is_first && cells.iter().any(|cell| cell.eq_ignore_ascii_case("sample")) {
+                    return Some(found);
+                }
+                if let Some(score) = score(&cells, kind)
+                    && best.is_none_or(|(most, _)| score > most)
+                {
+                    best = Some((score, found));
+                }
+            }
+            is_first = false;
+        }
+        best.map(|(_, found)| found)
+    }
+
+    /// The first row that is not empty, with the separator that occurs most often in it.
+    pub(super) fn first(text: &str) -> Self {
+        let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
+        let line = text[offset..].lines().next().unwrap_or_default();
+        let count = |separator: &u8| line.bytes().filter(|byte| byte == separator).count();
+        // The first of several: the maximum is searched from behind.
+        let separator = SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',');
+        Self { separator, offset }
+    }
+}
+
+/// How much a row looks like headings, or `None` if it has no column for names, or only that.
+fn score(cells: &[String], kind: TableKind) -> Option<usize> {
+    let names: Vec<&str> = cells.iter().map(String::as_str).collect();
+    let wavelengths = names.iter().filter(|cell| is_wavelength_heading(cell)).count();
+    match kind {
+        TableKind::Readings => {
+            name_column(&names, is_wavelength_heading)?;
+            (wavelengths > 1).then_some(wavelengths)
+        }
+        TableKind::Recipes => {
+            names.iter().find_map(|name| name_rank(name))?;
+            (names.len() > 1).then_some(names.len())
+        }
+    }
+}
+
+/// The cells of a line, without empty ones at its end.
+fn cells(line: &str, separator: u8) -> Vec<String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .delimiter(separator)
+        .from_reader(line.as_bytes());
+    let record = reader.records().next().and_then(Result::ok).unwrap_or_default();
+    let mut cells: Vec<String> = record.iter().map(plain_heading).collect();
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
+/// A heading. `400,5` is a wavelength where commas do not separate cells.
+pub(super) fn plain_heading(heading: &str) -> String {
+    let pointed = heading.replace(',', ".");
+    if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
+}
+
+/// Coordinates of colour that are known by standing together, as tables of instruments write them.
+const COORDINATES: [&[&str]; 6] = [
+    &["L", "a", "b"],
+    &["L", "C", "h"],
+    &["L", "u", "v"],
+    &["X", "Y", "Z"],
+    &["x", "y", "Y"],
+    &["R", "G", "B"],
+];
+
+/// Whether the heading at `index` is a coordinate of a colour, of which another stands beside it.
+pub(super) fn is_coordinate(headings: &[String], index: usize) -> bool {
+    let has = |name: &str| headings.iter().any(|heading| heading.trim() == name);
+    let own = headings[index].trim();
+    COORDINATES.iter().any(|set| {
+        set.contains(&own) && has(set[0]) && set.iter().filter(|name| has(name)).count() > 1
+    })
+}
+
+/// Cells of a row below the header, and the number of the row in the file, from 1.
+pub(super) struct CsvRow {
+    pub(super) number: u64,
+    pub(super) cells: csv::StringRecord,
+}
 
 #[cfg(test)]
 mod tests {
@@ -310,5 +498,60 @@ mod tests {
         let recipe = columns(&["sample", "R254", "a*"], TableKind::Recipes);
         assert_eq!(recipe[1], Column::Pigment("R254".into()));
         assert_eq!(recipe[2], Column::Ignored);
+    }
+
+    fn found(headings: &[&str]) -> Option<usize> {
+        name_column(headings, |heading| heading.parse::<f64>().is_ok())
+    }
+
+    #[test]
+    fn names_are_known_in_every_spelling_and_the_most_telling_is_taken() {
+        for heading in
+            ["sample", "Name", "SAMPLE_ID", "SampleName", "Data Name", "Color Name", "Sample-ID"]
+        {
+            assert_eq!(found(&["400", heading, "410"]), Some(1), "{heading}");
+        }
+        assert_eq!(found(&["SAMPLE_ID", "SAMPLE_NAME", "400"]), Some(1));
+        assert_eq!(found(&["Red", "400", "410"]), None);
+    }
+
+    #[test]
+    fn a_column_before_wavelengths_only_holds_names() {
+        assert_eq!(found(&["wavelength", "400", "410"]), Some(0));
+        assert_eq!(found(&["Wavelength (nm)", "400", "410"]), Some(0));
+        assert_eq!(found(&["", "400", "410"]), Some(0));
+        for headings in
+            [["wavelength", "400", "Red"], ["wavelength", "Red", "Blue"], ["", "400", "Red"]]
+        {
+            assert_eq!(found(&headings), None, "{headings:?}");
+        }
+    }
+
+    fn heading_row(text: &str, kind: TableKind) -> Option<(char, usize)> {
+        HeadingRow::of(text, kind).map(|row| (char::from(row.separator), row.offset))
+    }
+
+    #[test]
+    fn lines_above_the_headings_are_passed_over() {
+        assert_eq!(readings("sample,400\n"), Some((',', 0)));
+        assert_eq!(readings("My paints\n\nName;400;410\n"), Some((';', 11)));
+        assert_eq!(readings("sep=;\r\nName,Anna\r\nName;400,5;410,5\r\n"), Some((';', 18)));
+        assert_eq!(readings("Date\t1.1.26\nwavelength\t400\t410\nA\t1\t2\n"), Some(('\t', 12)));
+        assert_eq!(readings("Name,Anna\nwavelength,Red,Blue\n400,1,2\n"), None);
+        assert_eq!(readings("400,1\n410,2\n"), None);
+        assert_eq!(readings("Name,500\nwavelength,Red\n400,1\n"), None, "a name that is a number");
+    }
+
+    fn readings(text: &str) -> Option<(char, usize)> {
+        heading_row(text, TableKind::Readings)
+    }
+
+    #[test]
+    fn recipes_have_the_row_with_the_most_cells() {
+        assert_eq!(
+            heading_row("Name,Anna\nName,White,Red\nw,1,\n", TableKind::Recipes),
+            Some((',', 10))
+        );
+        assert_eq!(heading_row("White,Red\n1,2\n", TableKind::Recipes), None);
     }
 }

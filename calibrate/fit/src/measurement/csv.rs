@@ -1,15 +1,17 @@
-//! Reading a measurement CSV.
+//! Reads a measurement CSV, large ones in pieces, so that only the readings are in memory at once.
 
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use documents::file::is_standard_input;
 use spectra::Grid;
+use spectra::csv_table::{CsvTableError, RowNumbers};
 
-use super::column::{Column, TableKind};
-use super::common_grid::{grid_of, on_grid};
-use super::csv_rows::CsvRows;
+use super::column::{Column, HeadingRow, TableKind};
+use super::csv_rows::{CsvRows, RawRows};
 use super::error::MeasurementError;
-use super::heading_row::HeadingRow;
-use super::raw_rows::RawRows;
-use super::scale::ScaleChoice;
-use super::table::MeasurementTable;
+use super::table::{MeasurementTable, Scale, ScaleChoice, grid_of, on_grid};
 
 impl MeasurementTable {
     /// Reads the measurement table in `bytes`, the content of `file`.
@@ -95,4 +97,288 @@ pub fn begins_with_samples(text: &str) -> bool {
             .split(separator)
             .any(|cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample"))
     })
+}
+
+/// Bytes of one piece, about.
+const PIECE: usize = 2 << 20;
+/// Least size of a file that is read in pieces.
+const LARGE: u64 = 32 << 20;
+/// Fewest readings from which pigments are judged.
+const LEAST_ROWS: usize = 3;
+/// Most bytes of lines before the first row of readings.
+const HEAD: usize = 1 << 20;
+
+/// A large measurement CSV on the disk.
+#[derive(Debug)]
+pub(crate) struct LargeCsv {
+    path: PathBuf,
+    file: String,
+    /// Bytes of a piece.
+    piece: usize,
+    /// Lines down to the header, with their ends.
+    head: Vec<u8>,
+}
+
+/// Treatment of a large CSV's columns.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LargeCsvChoice<'a> {
+    pub(crate) scale: ScaleChoice,
+    /// Headings of the pigments; by default they are found.
+    pub(crate) pigments: Option<&'a [String]>,
+    /// Whether all columns but names and wavelengths are ignored.
+    pub(crate) spectra_only: bool,
+}
+
+impl LargeCsv {
+    /// Opens `path` if it is a measurement CSV of more than 32 MB with line feeds. This gives `None` for
+    /// all other files.
+    ///
+    /// # Errors
+    /// The system's error if the file cannot be read.
+    pub(crate) fn open(path: &Path) -> io::Result<Option<Self>> {
+        // Whoever reads the file next reports that it is missing.
+        let length = || std::fs::metadata(path).map_or(0, |found| found.len());
+        if is_standard_input(path) || length() < LARGE {
+            return Ok(None);
+        }
+        Self::in_pieces_of(path, PIECE)
+    }
+
+    /// Opens `path` of any size, to be read in pieces of about `piece` bytes.
+    fn in_pieces_of(path: &Path, piece: usize) -> io::Result<Option<Self>> {
+        let mut reader = BufReader::new(File::open(path)?);
+        let mut head = Vec::new();
+        while head.trim_ascii().is_empty() || quotes(&head) % 2 == 1 {
+            let length = reader.by_ref().take(HEAD as u64).read_until(b'\n', &mut head)?;
+            if length == 0 || head.len() >= HEAD || head.contains(&0) {
+                return Ok(None);
+            }
+        }
+        let is_csv = std::str::from_utf8(&head).is_ok_and(is_measurement_csv);
+        let file = path.display().to_string();
+        Ok(is_csv.then(|| Self { path: path.to_owned(), file, piece, head }))
+    }
+
+    /// Name of the file as the caller gave it.
+    pub(crate) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Reads the table, in two passes: the first finds pigments and unit, the second the readings.
+    ///
+    /// # Errors
+    /// [`LargeCsvError`] with row and column.
+    pub(crate) fn table(
+        &self,
+        choice: LargeCsvChoice<'_>,
+    ) -> Result<MeasurementTable, LargeCsvError> {
+        let mut scale = Scale::Fraction;
+        let mut pigments: Vec<String> = Vec::new();
+        self.each_piece(|bytes| {
+            let part = self.part(bytes, choice)?;
+            if part.scale == Scale::Percent {
+                scale = Scale::Percent;
+            }
+            // Fewer rows do not show which columns are pigments.
+            if pigments.is_empty() || part.readings.len() >= LEAST_ROWS {
+                let new = part.pigments.into_iter().filter(|name| !pigments.contains(name));
+                let new: Vec<String> = new.collect();
+                pigments.extend(new);
+            }
+            Ok(())
+        })?;
+        loop {
+            let known = LargeCsvChoice {
+                scale: ScaleChoice::Known(scale),
+                pigments: if choice.spectra_only { None } else { Some(&pigments) },
+                ..choice
+            };
+            let found = self.readings(known, choice.scale == ScaleChoice::ByFile);
+            // A column of notes may be empty in whole pieces, which makes it look like amounts of 0.
+            if let Err(LargeCsvError::Measurement(MeasurementError::Sheet(CsvTableError::Cell {
+                place,
+                ..
+            }))) = &found
+                && choice.pigments.is_none()
+                && let Some(at) = pigments.iter().position(|name| *name == place.column)
+                && !self.is_number_anywhere(&place.column)?
+            {
+                pigments.remove(at);
+                continue;
+            }
+            return found;
+        }
+    }
+
+    /// Reads the table with known pigments and unit.
+    fn readings(
+        &self,
+        known: LargeCsvChoice<'_>,
+        unit_is_found: bool,
+    ) -> Result<MeasurementTable, LargeCsvError> {
+        let mut whole: Option<MeasurementTable> = None;
+        self.each_piece(|bytes| {
+            let mut part = self.part(bytes, known)?;
+            if unit_is_found && part.scale == Scale::Percent {
+                self.check_percent(&part)?;
+            }
+            match &mut whole {
+                None => whole = Some(part),
+                Some(whole) => whole.readings.append(&mut part.readings),
+            }
+            Ok(())
+        })?;
+        let empty = MeasurementError::Empty { file: self.file.clone() };
+        whole.ok_or(LargeCsvError::Measurement(empty))
+    }
+
+    /// Whether a cell of the column holds a number in any piece.
+    fn is_number_anywhere(&self, column: &str) -> Result<bool, LargeCsvError> {
+        let mut found = false;
+        self.each_piece(|bytes| {
+            let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(bytes);
+            let headers = reader.headers().cloned().unwrap_or_default();
+            let place = headers.iter().position(|header| header.trim() == column);
+            found |= place.is_none();
+            for record in reader.records().filter_map(Result::ok) {
+                let cell = place.and_then(|place| record.get(place)).unwrap_or_default().trim();
+                found |= cell.replace(',', ".").parse::<f64>().is_ok();
+            }
+            Ok(())
+        })?;
+        Ok(found)
+    }
+
+    fn part(
+        &self,
+        bytes: &[u8],
+        choice: LargeCsvChoice<'_>,
+    ) -> Result<MeasurementTable, MeasurementError> {
+        if choice.spectra_only {
+            return MeasurementTable::spectra_from_csv(&self.file, bytes, choice.scale);
+        }
+        MeasurementTable::from_csv_with(&self.file, bytes, choice.scale, choice.pigments)
+    }
+
+    /// Refuses readings that look like fractions in a file of percent, as a whole file is checked.
+    fn check_percent(&self, part: &MeasurementTable) -> Result<(), MeasurementError> {
+        let mixed = part.readings.iter().find(|r| largest(&r.reflectance) <= 0.01);
+        mixed.map_or(Ok(()), |reading| {
+            Err(MeasurementError::MixedScale {
+                file: self.file.clone(),
+                row: reading.row,
+                largest: 100.0 * largest(&reading.reflectance),
+            })
+        })
+    }
+
+    /// Passes the file on in pieces of whole rows. Each begins with the header and as many empty lines as
+    /// keep its rows at their numbers.
+    fn each_piece(
+        &self,
+        mut read: impl FnMut(&[u8]) -> Result<(), MeasurementError>,
+    ) -> Result<(), LargeCsvError> {
+        let mut reader = BufReader::new(File::open(&self.path)?);
+        reader.seek(SeekFrom::Start(self.head.len() as u64))?;
+        let mut skipped = 0;
+        loop {
+            let mut bytes = self.head.clone();
+            bytes.resize(bytes.len() + skipped, b'\n');
+            let start = bytes.len();
+            let mut is_open = false;
+            while is_open || bytes.len() - start < self.piece {
+                let before = bytes.len();
+                if reader.read_until(b'\n', &mut bytes)? == 0 {
+                    break;
+                }
+                is_open ^= quotes(&bytes[before..]) % 2 == 1;
+            }
+            if bytes.len() == start {
+                return Ok(());
+            }
+            if !bytes[start..].trim_ascii().is_empty() {
+                read(&bytes)?;
+            }
+            skipped += lines(&bytes[start..]) as usize;
+        }
+    }
+}
+
+fn lines(bytes: &[u8]) -> u64 {
+    RowNumbers::of(bytes).at(bytes.len() as u64) - 1
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+fn quotes(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| **byte == b'"').count()
+}
+
+/// A large CSV that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum LargeCsvError {
+    #[error(transparent)]
+    System(#[from] io::Error),
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn choice() -> LargeCsvChoice<'static> {
+        LargeCsvChoice { scale: ScaleChoice::ByFile, pigments: None, spectra_only: false }
+    }
+
+    /// The table of `text` in pieces of 200 bytes, and as a whole.
+    fn both(text: &str) -> [Result<MeasurementTable, MeasurementError>; 2] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, text).unwrap();
+        let large = LargeCsv::in_pieces_of(&path, 200).unwrap().unwrap();
+        let pieces = large.table(choice()).map_err(|error| match error {
+            LargeCsvError::Measurement(error) => error,
+            LargeCsvError::System(error) => panic!("{error}"),
+        });
+        let file = path.display().to_string();
+        [pieces, MeasurementTable::from_csv(&file, text.as_bytes(), ScaleChoice::ByFile)]
+    }
+
+    #[test]
+    fn pieces_give_the_table_of_the_whole_file() {
+        let mut text = "\r\nsample,film,Note,White,Red,Lux,400,500\r\n".to_owned();
+        for row in 0..40 {
+            let white = f64::from(row % 5) / 4.0;
+            let red = f64::from(4 - row % 5) / 4.0;
+            let blank = if row % 7 == 0 { "\r\n" } else { "" };
+            let note = if row % 20 > 16 { "\"two\r\nlines\"" } else { "" };
+            text += &format!("s{row},,{note},{white},{red},{row}9,{}.5,30\r\n{blank}", row % 3);
+        }
+        let [pieces, whole] = both(&text);
+        let pieces = pieces.unwrap();
+        let whole = whole.unwrap();
+        assert_eq!(pieces, whole);
+        assert_eq!(whole.pigments, ["White", "Red"]);
+    }
+
+    #[test]
+    fn faults_in_pieces_name_the_row_of_the_file() {
+        for (place, value) in [(25, "x"), (33, "0.5"), (2, "-40")] {
+            let mut text = "sample,White,400,500\n".to_owned();
+            (0..40).for_each(|at| text += &row(at, if at == place { value } else { "40" }));
+            let text = text.replace("0.5,30", "0.5,0.4");
+            let [pieces, whole] = both(&text);
+            let pieces = pieces.unwrap_err();
+            let whole = whole.unwrap_err();
+            assert_eq!(pieces, whole);
+            assert!(whole.to_string().contains(&format!("row {}", place + 2)), "{whole}");
+        }
+    }
+
+    fn row(name: usize, value: &str) -> String {
+        format!("s{name},1,{value},30\n")
+    }
 }

@@ -1,21 +1,22 @@
 //! Rows of a measurement CSV or of a CSV of recipes, and their readings.
+//!
+//! A table may also have a column for each sample. Columns that look like pigments but hold no amounts are
+//! found here.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use spectra::csv_table::{CellPlace, CsvTableError};
+use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
 use spectra::instrument::FileText;
 
-use super::column::{Column, TableKind, columns, excludes_specular};
-use super::csv_row::CsvRow;
+use super::column::{
+    Column, CsvRow, HeadingRow, TableKind, columns, excludes_specular, filled_column,
+    is_wavelength_heading, name_rank, plain_heading,
+};
 use super::error::MeasurementError;
-use super::name_column::{filled_column, name_rank};
-use super::no_amounts::without_amounts;
-use super::raw_rows::RawRows;
-use super::scale::{Scale, ScaleChoice};
-use super::table::{Film, Reading};
+use super::table::{Film, Reading, Scale, ScaleChoice};
 
-/// Greatest reflectance of a reading, as a fraction; a value above is a mistaken unit.
+/// Greatest reflectance of a reading, as a fraction. A value above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 
 /// The finite number in a cell. With decimal commas, a point may separate thousands.
@@ -54,8 +55,9 @@ fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]
     }
 }
 
-/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, those
-/// of quoted readings are, since no reflectance has thousands; amounts alone could have them.
+/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, the
+/// commas in quoted readings are decimal signs, since no reflectance has thousands. Only amounts could
+/// have them.
 fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
     let decides = |column: &Column| match column {
         Column::Wavelength(_) => true,
@@ -67,7 +69,7 @@ fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> boo
     })
 }
 
-/// Largest amount of a pigment; beyond it sums lose their small terms.
+/// Largest amount of a pigment. Beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
@@ -80,9 +82,9 @@ pub(super) struct CsvRows {
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<CsvRow>,
-    /// Whether numbers have a decimal comma; between commas such cells are quoted.
+    /// Whether numbers have a decimal comma. Between commas such cells are quoted.
     decimal_comma: bool,
-    /// Whether the rows are those of a workbook's sheet.
+    /// Whether the rows come from a sheet of a workbook.
     is_sheet: bool,
     pub(super) spectra_only: bool,
     /// Messages about readings that are not taken: of other sheets, without the specular component.
@@ -289,7 +291,6 @@ impl CsvRows {
         readings: &mut [Reading],
         choice: ScaleChoice,
     ) -> Result<Scale, MeasurementError> {
-        let largest = |reading: &Reading| reading.reflectance.iter().copied().fold(0.0, f64::max);
         let scale = match choice {
             ScaleChoice::Known(scale) => scale,
             ScaleChoice::ByFile => {
@@ -323,5 +324,248 @@ impl CsvRows {
             }
         }
         Ok(scale)
+    }
+}
+
+fn largest(reading: &Reading) -> f64 {
+    reading.reflectance.iter().copied().fold(0.0, f64::max)
+}
+
+/// Headings and rows of a table, before their meaning is known.
+pub(super) struct RawRows {
+    /// The character between cells.
+    pub(super) separator: u8,
+    /// Row of the headings in the file, from 1.
+    pub(super) heading_row: u64,
+    pub(super) headings: Vec<String>,
+    pub(super) rows: Vec<CsvRow>,
+    /// In a table with a column for each sample: the row of the file in which each heading stands.
+    pub(super) heading_rows: Option<Vec<u64>>,
+}
+
+impl RawRows {
+    /// The table in `text`. Without a row that looks like headings, the first is taken for it.
+    pub(super) fn of(text: &str, kind: TableKind) -> Self {
+        if let Some(turned) = Self::turned(text).filter(|_| kind == TableKind::Readings) {
+            return turned;
+        }
+        let heading = HeadingRow::of(text, kind).unwrap_or_else(|| HeadingRow::first(text));
+        Self::below(text, heading)
+    }
+
+    fn below(text: &str, heading: HeadingRow) -> Self {
+        let mut numbers = RowNumbers::of(text.as_bytes());
+        let heading_row = numbers.at(heading.offset as u64);
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .delimiter(heading.separator)
+            .from_reader(&text.as_bytes()[heading.offset..]);
+        let mut records =
+            reader.records().map(|r| r.expect("decoded text can always be split into records"));
+        let headings = records.next().unwrap_or_default();
+        let mut headings: Vec<String> = headings.iter().map(plain_heading).collect();
+        // Spreadsheets often leave empty columns at the right.
+        let width = headings.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
+        headings.truncate(width);
+        let rows = records.filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
+            CsvRow { number: numbers.at(heading.offset as u64 + byte(&cells)), cells }
+        });
+        let rows = rows.collect();
+        let separator = heading.separator;
+        Self { separator, heading_row, headings, rows, heading_rows: None }
+    }
+
+    /// A table with a column for each sample and a row for each wavelength, if its first row holds the names
+    /// of the samples and other rows tell what they are: films, backings, amounts.
+    ///
+    /// Without such rows it is a spectrum a column, as instruments write them.
+    pub(super) fn turned(text: &str) -> Option<Self> {
+        let first = HeadingRow::first(text);
+        let line = text[first.offset..].lines().next().unwrap_or_default();
+        let mut cells =
+            line.split(char::from(first.separator)).map(|cell| cell.trim_matches(['"', ' ']));
+        name_rank(cells.next()?)?;
+        if cells.any(is_wavelength_heading) {
+            return None;
+        }
+        let Self { separator, heading_row, headings: names, rows, .. } = Self::below(text, first);
+        let wavelengths = rows.iter().filter(|row| is_wavelength_heading(&label(row))).count();
+        if names.len() < 2
+            || wavelengths < 2
+            || wavelengths == rows.len()
+            || !rows.iter().all(|row: &CsvRow| {
+                let surplus = row.cells.iter().skip(names.len());
+                !label(row).is_empty() && surplus.into_iter().all(str::is_empty)
+            })
+        {
+            return None;
+        }
+        let headings = std::iter::once("sample".to_owned()).chain(rows.iter().map(label)).collect();
+        let heading_rows = std::iter::once(heading_row).chain(rows.iter().map(|row| row.number));
+        Some(Self {
+            separator,
+            heading_row,
+            headings,
+            heading_rows: Some(heading_rows.collect()),
+            rows: (1..names.len())
+                .map(|column: usize| {
+                    let values = rows.iter().map(|row| row.cells.get(column).unwrap_or_default());
+                    let cells = std::iter::once(names[column].as_str()).chain(values).collect();
+                    CsvRow { number: heading_row, cells }
+                })
+                .collect(),
+        })
+    }
+}
+
+fn label(row: &CsvRow) -> String {
+    plain_heading(row.cells.get(0).unwrap_or_default())
+}
+
+fn byte(cells: &csv::StringRecord) -> u64 {
+    cells.position().map_or(0, csv::Position::byte)
+}
+
+/// Fewest rows of paint from which a column is judged by its amounts (chosen by eye).
+const LEAST_ROWS: usize = 3;
+/// Share by which sums of amounts may differ and still be one whole.
+const WHOLE: f64 = 1e-3;
+
+/// Places of the pigment columns that hold no amounts: text in every cell, amounts of bare cards, or
+/// values in every row without which the amounts of each row sum to one whole (1 or 100).
+pub(super) fn without_amounts(
+    columns: &[Column],
+    rows: &[CsvRow],
+    number: impl Fn(&str) -> Option<f64>,
+) -> Vec<usize> {
+    let film = columns.iter().position(|column| *column == Column::Film);
+    let is_bare =
+        |row: &CsvRow| film.is_some_and(|place| Film::named(&cell(row, place)) == Some(Film::None));
+    let (bare, paint): (Vec<&CsvRow>, Vec<&CsvRow>) = rows.iter().partition(|row| is_bare(row));
+    let pigments = columns.iter().enumerate();
+    let pigments: Vec<usize> = pigments
+        .filter(|(_, column)| matches!(column, Column::Pigment(_)))
+        .map(|(place, _)| place)
+        .collect();
+    let amount = |row: &CsvRow, place: usize| number(&cell(row, place));
+    let in_all = |rows: &[&CsvRow], place: usize| {
+        !rows.is_empty() && rows.iter().all(|row| amount(row, place).is_some_and(|a| a != 0.0))
+    };
+    let is_text = |place: usize| {
+        let mut cells = rows.iter().map(|row| cell(row, place)).filter(|cell| !cell.is_empty());
+        let mut texts = cells.by_ref().peekable();
+        texts.peek().is_some() && texts.all(|cell| number(&cell).is_none())
+    };
+    let mut found: Vec<usize> =
+        pigments.iter().copied().filter(|&place| is_text(place) || in_all(&bare, place)).collect();
+    let (everywhere, others): (Vec<usize>, Vec<usize>) = pigments
+        .into_iter()
+        .filter(|place| !found.contains(place))
+        .partition(|&place| in_all(&paint, place));
+    let total = |row: &&CsvRow| others.iter().filter_map(|&place| amount(row, place)).sum::<f64>();
+    let is_whole = |whole: f64| paint.iter().all(|row| (total(row) / whole - 1.0).abs() < WHOLE);
+    if paint.len() >= LEAST_ROWS && (is_whole(1.0) || is_whole(100.0)) {
+        found.extend(everywhere);
+    }
+    found.sort_unstable();
+    found
+}
+
+fn cell(row: &CsvRow, place: usize) -> String {
+    row.cells.get(place).unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::table::{MeasurementTable, ScaleChoice};
+    use super::*;
+
+    #[test]
+    fn a_table_with_a_column_for_each_sample_is_turned() {
+        for first in ["sample", "wavelength", "Wavelength (nm)"] {
+            let text = format!(
+                "{first}\tA\tB\n\nfilm\tpaint\tnone\nWhite\t1\t\n400\t0,1\t0,9\n410\t0,2\t0,8\n"
+            );
+            let found = RawRows::of(&text, TableKind::Readings);
+            assert_eq!(found.headings, ["sample", "film", "White", "400", "410"]);
+            assert_eq!(found.heading_rows, Some(vec![1, 3, 4, 5, 6]));
+            let rows: Vec<Vec<&str>> =
+                found.rows.iter().map(|row| row.cells.iter().collect()).collect();
+            assert_eq!(rows, [["A", "paint", "1", "0,1", "0,2"], ["B", "none", "", "0,9", "0,8"]]);
+        }
+    }
+
+    #[test]
+    fn other_tables_are_not_turned() {
+        for text in [
+            "sample,400,410\n400,0.1,0.2\n410,0.1,0.2\nx,1,1\n",
+            "wavelength,A,B\n400,0.1,0.2\n410,0.1,0.2\n",
+            "A,B\nfilm,paint\n400,0.1\n410,0.2\n",
+            "sample,White,400\nw,1,0.9\nr,0,0.1\n",
+            "sample,A\nfilm,paint,x\n400,0.1\n410,0.2\n",
+        ] {
+            assert!(RawRows::turned(text).is_none(), "{text}");
+        }
+    }
+
+    /// Pigments and remarks of a table with a last column headed `heading` with `cells`.
+    fn read(heading: &str, cells: [&str; 4]) -> (Vec<String>, String) {
+        let [card, white, red, mixture] = cells;
+        let text = format!(
+            "sample,film,White,Red,{heading},400,500\ncard,none,,,{card},0.9,0.9\n\
+             w,paint,1,,{white},0.8,0.8\nr,paint,,1,{red},0.1,0.2\nm,paint,0.5,0.5,{mixture},0.3,0.4\n"
+        );
+        let table = MeasurementTable::from_csv("t.csv", text.as_bytes(), ScaleChoice::ByFile);
+        let table = table.unwrap();
+        (table.pigments, table.remarks.join("\n"))
+    }
+
+    #[test]
+    fn a_column_that_holds_no_amounts_is_told_and_ignored() {
+        for (heading, cells) in [
+            ("L,a,b", ["90,0,1", "88,-1,2", "40,50,20", "60,20,-10"]),
+            ("X,Y", ["80,82", "70,72", "30,20", "50,40"]),
+            ("No", ["1", "2", "3", "4"]),
+            ("Date", ["1.1.26", "1.1.26", "2.1.26", "2.1.26"]),
+            ("Shelf", ["top", "", "top", "left"]),
+            ("Lux", ["500", "510", "505", "498"]),
+            ("Gloss85", ["", "4", "3", "5"]),
+        ] {
+            let (pigments, remarks) = read(heading, cells);
+            assert_eq!(pigments, ["White", "Red"], "{heading}");
+            let told = heading.replace(',', ", ");
+            assert!(remarks.contains(&told) && remarks.contains("ignored"), "{heading}: {remarks}");
+        }
+    }
+
+    #[test]
+    fn amounts_remain_pigments() {
+        for (heading, cells) in [
+            ("a", ["", "1", "", "1"]),
+            ("Y", ["", "0", "0.5", ""]),
+            ("Linseed oil", ["", "0.4", "0.5", "0.6"]),
+        ] {
+            let without_whole = read(heading, cells).0;
+            let expected: &[&str] = match heading {
+                // A medium beside shares that sum to 1 takes no part in them.
+                "Linseed oil" => &["White", "Red"],
+                heading => &["White", "Red", heading],
+            };
+            assert_eq!(without_whole, expected, "{heading}");
+        }
+    }
+
+    #[test]
+    fn pigments_that_are_named_are_read_and_no_others() {
+        let text = b"sample,L,a,b,Note,400,500\nw,1,,3,,0.8,0.8\nr,,1,-2,x,0.1,0.2\n";
+        let names = ["L".to_owned(), "a".to_owned()];
+        let read = |names| {
+            MeasurementTable::from_csv_with("t.csv", text, ScaleChoice::ByFile, Some(names))
+        };
+        let table = read(&names).unwrap();
+        assert_eq!(table.pigments, names);
+        assert!(table.remarks[0].contains("b, Note"), "{:?}", table.remarks);
     }
 }

@@ -120,10 +120,12 @@ impl Recipes {
         let mut remarks = table.remarks;
         remarks.extend(self.remarks.clone());
         // A bare card needs no recipe.
-        let painted = |name: &&str| {
-            table.readings.iter().any(|r| r.sample == **name && r.film == Film::Paint)
-        };
-        let left_out: Vec<&str> = unmatched.into_iter().filter(painted).collect();
+        let left_out: Vec<&str> = unmatched
+            .into_iter()
+            .filter(|name: &&str| {
+                table.readings.iter().any(|r| r.sample == **name && r.film == Film::Paint)
+            })
+            .collect();
         if !left_out.is_empty() {
             let names = left_out.join(", ");
             remarks.push(format!("samples without a recipe are left out: {names}"));

@@ -6,10 +6,8 @@ use spectra::Grid;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 
 use super::column::MEASURABLE_NM;
-use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
-use super::scale::{Scale, ScaleChoice};
-use super::table::{Film, MeasurementTable, Reading};
+use super::table::{Film, MeasurementTable, Reading, Scale, ScaleChoice, grid_of, on_grid};
 use spectra::csv_table::CellPlace;
 
 /// Wavelengths in nm that a table of readings may have.
@@ -23,7 +21,7 @@ const SOUND: RangeInclusive<f64> = 400.0..=700.0;
 /// or a dark reading a little too high. Chosen by eye.
 const NOISE_BELOW_ZERO: f64 = 0.02;
 
-/// Greatest reflectance that a surface can have, as a fraction; a reading above is a mistaken unit.
+/// Greatest reflectance that a surface can have, as a fraction. A reading above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 /// Treatment of an instrument's spectra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -37,8 +35,8 @@ pub struct RecordChoice {
 
 impl MeasurementTable {
     /// Reads `records`, the spectra of `file`, as readings of paint. Only spectra of reflectance, or of a
-    /// quantity that the file does not state, are used. The name of a record is the sample; records of one
-    /// name are repeated readings. The table has no pigments and no backings.
+    /// quantity that the file does not state, are used. The name of a record is the sample. Records of
+    /// one name are repeated readings. The table has no pigments and no backings.
     ///
     /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
     /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
@@ -104,7 +102,7 @@ struct Spectrum<'a> {
     record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
-    /// Unit of the record's values; `values` have this unit until they are made fractions.
+    /// Unit of the record's values. `values` have this unit until they are made fractions.
     scale: Scale,
 }
 
@@ -115,14 +113,15 @@ fn reflectances<'a>(
     choice: RecordChoice,
     remarks: &mut Vec<String>,
 ) -> Result<Vec<Spectrum<'a>>, MeasurementError> {
-    let is_reading = |record: &&MeasuredSpectrum| match record.quantity {
-        _ if record.role != Role::Main => false,
-        MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
-        MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
-        MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => false,
-    };
     let (kept, others): (Vec<&MeasuredSpectrum>, Vec<&MeasuredSpectrum>) =
-        records.iter().partition(is_reading);
+        records.iter().partition(|record: &&MeasuredSpectrum| match record.quantity {
+            _ if record.role != Role::Main => false,
+            MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
+            MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
+            MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => {
+                false
+            }
+        });
     if kept.is_empty() {
         let Some(record) = others.first() else {
             return Err(MeasurementError::Empty { file: file.to_owned() });
@@ -158,7 +157,7 @@ fn reflectances<'a>(
         .collect())
 }
 
-/// Determines the unit of every spectrum; returns that of the first.
+/// Determines the unit of every spectrum, and returns the unit of the first.
 fn scale(
     file: &str,
     spectra: &mut [Spectrum<'_>],
@@ -259,7 +258,6 @@ impl Spectrum<'_> {
             }
         }
         if bad > 0 {
-            let tenths = |nm: f64| (10.0 * nm).round() / 10.0;
             remarks.push(format!(
                 "{}: cut to {} to {} nm; beyond, readings are not {}",
                 name(&self.record.name),
@@ -281,14 +279,15 @@ impl Spectrum<'_> {
     }
 }
 
+fn tenths(nm: f64) -> f64 {
+    (10.0 * nm).round() / 10.0
+}
+
 /// Grid of the coarsest spectrum where all spectra overlap, and its number of wavelengths there.
 fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), MeasurementError> {
-    let first_nm = |s: &Spectrum<'_>| s.wavelengths_nm[0];
-    let last_nm = |s: &Spectrum<'_>| s.wavelengths_nm[s.wavelengths_nm.len() - 1];
     let mut latest = &spectra[0];
     let mut earliest = &spectra[0];
     let mut coarsest = &spectra[0];
-    let step = |s: &Spectrum<'_>| (last_nm(s) - first_nm(s)) / s.wavelengths_nm.len() as f64;
     for spectrum in spectra {
         latest = if first_nm(spectrum) > first_nm(latest) { spectrum } else { latest };
         earliest = if last_nm(spectrum) < last_nm(earliest) { spectrum } else { earliest };
@@ -308,4 +307,16 @@ fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), Measur
         });
     }
     Ok((grid_of(&shared), shared.len()))
+}
+
+fn step(s: &Spectrum<'_>) -> f64 {
+    (last_nm(s) - first_nm(s)) / s.wavelengths_nm.len() as f64
+}
+
+fn last_nm(s: &Spectrum<'_>) -> f64 {
+    s.wavelengths_nm[s.wavelengths_nm.len() - 1]
+}
+
+fn first_nm(s: &Spectrum<'_>) -> f64 {
+    s.wavelengths_nm[0]
 }

@@ -1,28 +1,375 @@
 //! Plans of swatches: which mixtures to prepare, so that a fit identifies K and S of every pigment.
 //!
 //! A design is a list of indices into one pool of recipes, [`candidates`]. The [`usual`] design needs no
-//! knowledge of the paint. The [`optimal`] one is chosen for its [`Information`], estimated from a library
-//! of similar paint (D-optimality: Fedorov 1972, Theory of Optimal Experiments). [`plan`] does it all.
+//! knowledge of the paint. The [`optimal`] one is chosen for its [`Information`], estimated from a library of
+//! similar paint (D-optimality: Fedorov 1972, Theory of Optimal Experiments). [`plan`] takes pigments and
+//! gives recipes with grams and an empty measurement file.
 
-mod error;
 mod paints;
-mod swatch_recipe;
-mod candidates;
-mod weighing;
-mod usual;
-mod information;
 mod exchange;
-mod form;
-mod planned;
-mod told;
 
-pub use candidates::candidates;
-pub use error::PlanError;
-pub use exchange::optimal;
-pub use form::MeasurementForm;
-pub use information::{Information, RelativeDeviation};
-pub use paints::PaintSet;
-pub use planned::{Forecast, Plan, PlanOptions, PlannedSwatch, plan, plan_until};
-pub use swatch_recipe::{Purpose, SwatchRecipe};
-pub use usual::{usual, usual_count};
-pub use weighing::Weighing;
+use documents::{Cancellation, Cancelled};
+use pigment::remark::Remark;
+use pigment::{PigmentId, PigmentLibrary, Recipe};
+use serde_json::{Map, Value, json};
+
+use crate::fit::{ExpectedNoise, unidentified};
+
+pub use exchange::{Information, RelativeDeviation, candidates, optimal, usual, usual_count};
+pub use paints::{MeasurementForm, PaintSet, PlanError, Purpose, SwatchRecipe};
+
+/// Expected error of an instrument, as a standard deviation of reflectance.
+const INSTRUMENT_ERROR: f64 = 0.002;
+/// Expected error of weighing, mixing and film for a prior without evidence (chosen by eye).
+const MIXING_ERROR: f64 = 0.01;
+/// Lower limit of that error, for a prior that reproduces its samples almost exactly (chosen by eye).
+const LEAST_MIXING_ERROR: f64 = 1e-4;
+
+/// Options of [`plan`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanOptions {
+    /// Name of a black for shades. Default: no shades.
+    pub black: Option<String>,
+    /// Library of the same or similar paint, by which the swatches are chosen. Names of pigments may then be
+    /// abbreviated to their start. Default: none, which gives the usual design.
+    pub prior: Option<PigmentLibrary>,
+    /// Number of swatches. Default: enough for each paint's masstone, two tints of each paint but the white
+    /// and, for each colour, a shade (if there is a black) and a mixture with a neighbour.
+    pub swatches: Option<usize>,
+    /// Mass of paint in one swatch, in grams. Default: 10.
+    pub grams: f64,
+    /// Step of the balance in grams. No part is smaller than fifty steps. Default: 0.01.
+    pub balance: f64,
+    /// Expected noise of a swatch's reflectance, used with a prior. Default: 0.002 for the instrument; for
+    /// weighing and mixing, the rms error of the prior's own fit, or 0.01 if the prior has no evidence.
+    pub noise: Option<ExpectedNoise>,
+}
+
+impl Default for PlanOptions {
+    fn default() -> Self {
+        Self { black: None, prior: None, swatches: None, grams: 10.0, balance: 0.01, noise: None }
+    }
+}
+
+/// One swatch of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannedSwatch {
+    /// Name of the sample, its number first: `07 Cobalt Blue tint 1:4`.
+    pub name: String,
+    /// Paints in whole parts, and the reason for the swatch.
+    pub recipe: SwatchRecipe,
+    /// Paints with their masses in grams.
+    pub grams: Recipe,
+}
+
+/// Predictions of a prior library about a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forecast {
+    /// D-efficiency of the usual design of as many swatches against the plan, 0 to 1.
+    pub usual_efficiency: f64,
+    /// Predicted relative standard deviations of K and S, by paint.
+    pub deviations: Vec<RelativeDeviation>,
+    /// Relative standard deviations for the usual design, by paint.
+    pub usual_deviations: Vec<RelativeDeviation>,
+    /// Noise for which they are predicted.
+    pub noise: ExpectedNoise,
+}
+
+/// Swatches to prepare, so that a fit identifies every pigment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Paints of the plan.
+    pub paints: PaintSet,
+    /// Swatches in the order in which they are prepared.
+    pub swatches: Vec<PlannedSwatch>,
+    /// Predictions of the prior library, or `None` without one.
+    pub forecast: Option<Forecast>,
+    /// Warnings about the prior library.
+    pub remarks: Vec<Remark>,
+}
+
+/// Plans the swatches to prepare for `pigments` and a `white`, so that a fit identifies K and S of every
+/// pigment.
+///
+/// ```
+/// use calibrate::plan::{MeasurementForm, PlanOptions};
+///
+/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &PlanOptions::default())?;
+/// assert_eq!(plan.swatches[0].name, "01 Titanium White masstone");
+/// let csv = plan.form(&MeasurementForm::default());
+/// assert!(csv.starts_with(b"sample,film,backing,replicate,Titanium White,Cobalt Blue,400"));
+/// # Ok::<(), calibrate::plan::PlanError>(())
+/// ```
+///
+/// # Errors
+/// [`PlanError`] for impossible names, masses, noise or numbers of swatches.
+pub fn plan<N: AsRef<str>>(
+    pigments: &[N],
+    white: &str,
+    options: &PlanOptions,
+) -> Result<Plan, PlanError> {
+    plan_until(pigments, white, options, &Cancellation::default())
+}
+
+/// Plans like [`plan`], until `cancellation` ends it: many swatches of many paints take minutes.
+///
+/// # Errors
+/// [`PlanError`] for impossible names, masses, noise or numbers of swatches, or if the plan was cancelled.
+pub fn plan_until<N: AsRef<str>>(
+    pigments: &[N],
+    white: &str,
+    options: &PlanOptions,
+    cancellation: &Cancellation,
+) -> Result<Plan, PlanError> {
+    if let Some(noise) = options.noise.filter(|noise| !noise.is_possible()) {
+        return Err(PlanError::Noise { constant: noise.constant, even: noise.even });
+    }
+    let paints = paint_set(pigments, white, options)?;
+    let weighing = Weighing::new(options.grams, options.balance)?;
+    let pool = candidates(&paints, weighing.least_share());
+    let count = options.swatches.unwrap_or_else(|| usual_count(&paints, &pool));
+    let mut design = usual(&paints, &pool, count)?;
+    let mut forecast = None;
+    let mut remarks = Vec::new();
+    if let Some(prior) = &options.prior {
+        let ids =
+            paints.names.iter().map(|name| prior.find(name)).collect::<Result<Vec<_>, _>>()?;
+        remarks = reservations(prior, &ids);
+        let (best, prediction) =
+            best_design(prior, (&ids, &pool), &design, options.noise, cancellation)?;
+        (design, forecast) = (best, Some(prediction));
+    }
+    let recipes: Vec<SwatchRecipe> = design.iter().map(|&index| pool[index].clone()).collect();
+    check_identified(&paints, &recipes)?;
+    let width = recipes.len().to_string().len().max(2);
+    let swatches = recipes
+        .into_iter()
+        .enumerate()
+        .map(|(index, recipe): (usize, SwatchRecipe)| PlannedSwatch {
+            name: format!("{:0width$} {}", index + 1, recipe.name(&paints)),
+            grams: weighing.grams(&recipe),
+            recipe,
+        })
+        .collect();
+    Ok(Plan { paints, swatches, forecast, remarks })
+}
+
+impl Plan {
+    /// Mass of each paint that all swatches need together, in grams, in the order of the paints' names.
+    #[must_use]
+    pub fn totals_g(&self) -> Vec<f64> {
+        let mut totals = vec![0.0; self.paints.names.len()];
+        let parts = self.swatches.iter().flat_map(|swatch| &swatch.grams);
+        parts.for_each(|(paint, grams)| totals[paint.index()] += grams);
+        totals
+    }
+
+    /// Empty measurement file (CSV) to be filled in: bare cards and every swatch over a white and a black
+    /// card, with the amounts in grams.
+    #[must_use]
+    pub fn form(&self, form: &MeasurementForm) -> Vec<u8> {
+        let swatches = self.swatches.iter().map(|swatch| (swatch.name.as_str(), &swatch.grams));
+        form.csv(&self.paints, swatches)
+    }
+}
+
+/// The paints, by their full names where a prior library knows them.
+fn paint_set<N: AsRef<str>>(
+    pigments: &[N],
+    white: &str,
+    options: &PlanOptions,
+) -> Result<PaintSet, PlanError> {
+    let full = |name: &str| -> Result<String, PlanError> {
+        Ok(match &options.prior {
+            Some(prior) => prior[prior.find(name)?].name.clone(),
+            None => name.trim().to_owned(),
+        })
+    };
+    let colors: Result<Vec<String>, PlanError> =
+        pigments.iter().map(|p| full(p.as_ref())).collect();
+    let colors = colors?;
+    let black = options.black.as_deref().map(full).transpose()?;
+    PaintSet::new(&colors, &full(white)?, black.as_deref())
+}
+
+fn reservations(prior: &PigmentLibrary, ids: &[PigmentId]) -> Vec<Remark> {
+    let unknown = ids.iter().filter(|id| !prior[**id].identified);
+    unknown.map(|id: &PigmentId| {
+        Remark::warning(format!(
+            "{}: the prior does not know its scattering, so that its swatches are chosen by a guess",
+            prior[*id].name
+        ))
+    }).collect()
+}
+
+/// The design of greatest information by `prior`, and its predictions.
+fn best_design(
+    prior: &PigmentLibrary,
+    (ids, pool): (&[PigmentId], &[SwatchRecipe]),
+    usual: &[usize],
+    noise: Option<ExpectedNoise>,
+    cancellation: &Cancellation,
+) -> Result<(Vec<usize>, Forecast), Cancelled> {
+    let left = prior.evidence.as_ref();
+    let left = left.map_or(MIXING_ERROR, |evidence| evidence.rms.max(LEAST_MIXING_ERROR));
+    let noise = noise.unwrap_or(ExpectedNoise { constant: INSTRUMENT_ERROR, even: left });
+    let information = Information::new(prior, ids, pool, noise);
+    // The first swatch of the usual design is the white alone, which every plan must contain.
+    let design = optimal(&information, usual, 1, cancellation)?;
+    let forecast = Forecast {
+        usual_efficiency: information.efficiency(usual, &design),
+        deviations: information.deviations(&design),
+        usual_deviations: information.deviations(usual),
+        noise,
+    };
+    Ok((design, forecast))
+}
+
+/// Refuses a plan from which a fit would not identify every pigment.
+fn check_identified(paints: &PaintSet, recipes: &[SwatchRecipe]) -> Result<(), PlanError> {
+    let shares = |recipe: &SwatchRecipe| -> Vec<f64> {
+        let shares = recipe.shares();
+        paints.ids().map(|paint| shares.parts_of(paint)).collect()
+    };
+    let shares: Vec<Vec<f64>> = recipes.iter().map(shares).collect();
+    let unknown = unidentified(shares.iter().map(Vec::as_slice), PaintSet::WHITE);
+    if unknown.is_empty() {
+        return Ok(());
+    }
+    let names = unknown.iter().map(|u| paints.name(u.pigment).to_owned());
+    Err(PlanError::Unidentified { paints: names.collect() })
+}
+
+/// Mass of a swatch, and the balance that weighs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weighing {
+    /// Mass of paint in one swatch, in grams.
+    grams: f64,
+    /// Step of the balance in grams.
+    resolution: f64,
+}
+
+/// Least number of balance steps in a part: half a step is then 1 % of it.
+const STEPS: f64 = 50.0;
+/// Share of the weakest tint that every plan needs: 1 part in 5.
+const NEEDED_SHARE: f64 = 0.2;
+
+impl Weighing {
+    /// Swatches of `grams` on a balance that shows steps of `resolution` grams.
+    ///
+    /// # Errors
+    /// [`PlanError::Grams`] if 1 part in 5 cannot be weighed to 1 %, [`PlanError::NotPositive`] unless
+    /// both are above 0.
+    pub fn new(grams: f64, resolution: f64) -> Result<Self, PlanError> {
+        for (what, value) in [("grams a swatch", grams), ("the step of the balance", resolution)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(PlanError::NotPositive { what, value });
+            }
+        }
+        let needed = STEPS * resolution / NEEDED_SHARE;
+        if grams < needed * (1.0 - 1e-9) {
+            return Err(PlanError::Grams { needed, resolution, grams });
+        }
+        Ok(Self { grams, resolution })
+    }
+
+    /// Smallest share that can be weighed to 1 %: fifty steps of the balance.
+    #[must_use]
+    pub fn least_share(&self) -> f64 {
+        STEPS * self.resolution / self.grams
+    }
+
+    /// Paints of `recipe` with their masses in grams, rounded to the balance's step.
+    #[must_use]
+    pub fn grams(&self, recipe: &SwatchRecipe) -> Recipe {
+        let steps = |share: f64| (share * self.grams / self.resolution).round();
+        // Dividing by the number of steps in a gram gives the nearest decimal.
+        let per_gram = (1.0 / self.resolution).round();
+        let exact = (per_gram * self.resolution - 1.0).abs() < 1e-9;
+        let weighed = |steps: f64| if exact { steps / per_gram } else { steps * self.resolution };
+        recipe.shares().iter().map(|&(paint, share)| (paint, weighed(steps(share)))).collect()
+    }
+}
+
+impl Plan {
+    /// The plan as JSON: `swatches` (sample, purpose, parts, grams, why), `totals_g` by paint, the
+    /// `unknowns` of a wavelength, `identified`, and the forecast of the `prior` library, null without one.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let swatches: Vec<Value> = self.swatches.iter().map(|s| self.swatch_json(s)).collect();
+        let totals = self.paints.ids().zip(self.totals_g());
+        let totals = totals.map(|(paint, total)| (self.name(paint), json!(rounded(total))));
+        json!({
+            "swatches": swatches,
+            "totals_g": totals.collect::<Map<String, Value>>(),
+            "unknowns": self.paints.unknowns(),
+            "identified": true,
+            "prior": self.forecast.as_ref().map(|forecast| self.forecast_json(forecast)),
+        })
+    }
+
+    fn name(&self, paint: PigmentId) -> String {
+        self.paints.name(paint).to_owned()
+    }
+
+    fn swatch_json(&self, swatch: &PlannedSwatch) -> Value {
+        let parts = swatch.recipe.parts.iter();
+        let parts = parts.map(|&(paint, parts)| (self.name(paint), json!(parts)));
+        let grams = swatch.grams.iter();
+        let grams = grams.map(|&(paint, grams)| (self.name(paint), json!(grams)));
+        json!({
+            "sample": swatch.name,
+            "purpose": swatch.recipe.purpose.word(),
+            "parts": parts.collect::<Map<String, Value>>(),
+            "grams": grams.collect::<Map<String, Value>>(),
+            "why": swatch.recipe.purpose.why(),
+        })
+    }
+
+    fn forecast_json(&self, forecast: &Forecast) -> Value {
+        let of = |deviations: &[RelativeDeviation]| -> Map<String, Value> {
+            let pairs = self.paints.ids().zip(deviations).map(|(paint, deviation)| {
+                let pair = json!({
+                    "absorption": deviation.absorption,
+                    "scattering": deviation.scattering,
+                });
+                (self.name(paint), pair)
+            });
+            pairs.collect()
+        };
+        json!({
+            "usual_efficiency": forecast.usual_efficiency,
+            "noise": {"constant": forecast.noise.constant, "even": forecast.noise.even},
+            "relative_deviations": of(&forecast.deviations),
+            "usual_relative_deviations": of(&forecast.usual_deviations),
+        })
+    }
+}
+
+/// Removes the floating-point error of a sum of balance steps.
+fn rounded(total: f64) -> f64 {
+    (1e6 * total).round() / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use super::paints::Purpose;
+    use super::*;
+    use pigment::PigmentId;
+
+    #[test]
+    fn grams_are_rounded_to_steps_of_the_balance() {
+        let weighing = Weighing::new(10.0, 0.01).unwrap();
+        let [first, second] = [PigmentId(1), PigmentId(2)];
+        let recipe = SwatchRecipe { purpose: Purpose::Cross, parts: vec![(first, 1), (second, 2)] };
+        assert_eq!(weighing.grams(&recipe), Recipe::from([(first, 3.33), (second, 6.67)]));
+        assert!((weighing.least_share() - 0.05).abs() < 1e-12, "0.5 g of 10 g");
+    }
+
+    #[test]
+    fn a_balance_too_coarse_is_refused_with_the_grams_needed() {
+        let error = Weighing::new(10.0, 0.1).unwrap_err();
+        assert!(matches!(error, PlanError::Grams { needed, .. } if needed == 25.0), "{error}");
+        assert!(Weighing::new(f64::NAN, 0.1).is_err());
+    }
+}

@@ -1,8 +1,12 @@
-//! The paints of a plan.
+//! Paints and recipes of a plan, the empty measurement file that you fill in, and reasons why a plan is
+//! impossible.
 
-use super::error::PlanError;
+use documents::Cancelled;
+use documents::hint::{Explain, Fault, Hint};
+use pigment::{PigmentId, Recipe, RecipeError};
+use spectra::Grid;
+
 use crate::measurement::names_a_pigment;
-use pigment::PigmentId;
 
 /// The paints to be measured: the white, the colours, the black.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,7 +18,7 @@ pub struct PaintSet {
 }
 
 impl PaintSet {
-    /// Place of the white, whose S is 1.
+    /// Place of the white, with S = 1.
     pub const WHITE: PigmentId = PigmentId(0);
 
     /// Collects the paints. White and black may be named among the colours too.
@@ -67,5 +71,257 @@ impl PaintSet {
     #[must_use]
     pub fn unknowns(&self) -> usize {
         2 * self.names.len() - 1
+    }
+}
+
+/// Paints of a planned swatch with their parts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SwatchRecipe {
+    /// Reason why the swatch is in the plan.
+    pub purpose: Purpose,
+    /// Paints of the set with their parts, 1 and up.
+    pub parts: Vec<(PigmentId, u32)>,
+}
+
+/// Reason why a swatch is in the plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// One paint by itself.
+    Masstone,
+    /// One paint lightened with the white.
+    Tint,
+    /// One colour darkened with the black.
+    Shade,
+    /// Two colours mixed.
+    Cross,
+    /// Two colours lightened with the white.
+    CrossTint,
+}
+
+impl SwatchRecipe {
+    /// Paints with their shares, sum 1.
+    #[must_use]
+    pub fn shares(&self) -> Recipe {
+        let total = f64::from(self.total());
+        self.parts.iter().map(|&(paint, parts)| (paint, f64::from(parts) / total)).collect()
+    }
+
+    /// Smallest share of any paint.
+    #[must_use]
+    pub fn least_share(&self) -> f64 {
+        self.shares().iter().map(|(_, share)| *share).fold(1.0, f64::min)
+    }
+
+    /// Sum of all parts.
+    #[must_use]
+    pub fn total(&self) -> u32 {
+        self.parts.iter().map(|(_, parts)| parts).sum()
+    }
+
+    /// Name of the recipe, such as `Cobalt Blue tint 1:4`.
+    #[must_use]
+    pub fn name(&self, paints: &PaintSet) -> String {
+        let names: Vec<&str> = self.parts.iter().map(|(paint, _)| paints.name(*paint)).collect();
+        let ratio: Vec<String> = self.parts.iter().map(|(_, parts)| parts.to_string()).collect();
+        let ratio = ratio.join(":");
+        match self.purpose {
+            Purpose::Masstone => format!("{} masstone", names[0]),
+            Purpose::Tint => format!("{} tint {ratio}", names[0]),
+            Purpose::Shade => format!("{} shade {ratio}", names[0]),
+            Purpose::Cross => format!("{} x {} {ratio}", names[0], names[1]),
+            Purpose::CrossTint => format!("{} x {} tint {ratio}", names[0], names[1]),
+        }
+    }
+}
+
+impl Purpose {
+    /// Purpose in a word or two.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Masstone => "masstone",
+            Self::Tint => "tint",
+            Self::Shade => "shade",
+            Self::Cross => "cross",
+            Self::CrossTint => "cross tint",
+        }
+    }
+
+    /// Information that the swatch gives, in a few words.
+    #[must_use]
+    pub fn why(self) -> &'static str {
+        match self {
+            Self::Masstone => "K/S of the paint itself",
+            Self::Tint => "ties K and S to the white's S",
+            Self::Shade => "S against a known K",
+            Self::Cross => "K of one against S of the other; checks the mixing",
+            Self::CrossTint => "two colours where both show; checks the mixing",
+        }
+    }
+}
+
+/// Names of the cards on which every film is laid, and which are read bare.
+const BACKINGS: [&str; 2] = ["white", "black"];
+
+/// Layout of the empty measurement file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasurementForm {
+    /// Wavelengths of the columns.
+    pub grid: Grid,
+    /// Number of readings of each film and card, 1 to 100.
+    pub replicates: usize,
+}
+
+impl Default for MeasurementForm {
+    /// 400 to 700 nm in steps of 10 nm, two readings each.
+    fn default() -> Self {
+        Self { grid: Grid::from_nm(400.0, 10.0, 31).expect("a regular grid"), replicates: 2 }
+    }
+}
+
+impl MeasurementForm {
+    /// Writes the file: the bare cards, then every swatch over both cards, with the grams of each paint
+    /// and empty cells for the readings. `swatches` are names with their grams.
+    pub(super) fn csv<'a>(
+        &self,
+        paints: &PaintSet,
+        swatches: impl IntoIterator<Item = (&'a str, &'a Recipe)>,
+    ) -> Vec<u8> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut write = |record: Vec<String>| {
+            writer.write_record(&record).expect("rows have one length, and memory can be written");
+        };
+        let fixed = ["sample", "film", "backing", "replicate"].map(str::to_owned);
+        let wavelengths = self.grid.wavelengths_nm().map(|nm| nm.to_string());
+        write(fixed.into_iter().chain(paints.names.iter().cloned()).chain(wavelengths).collect());
+        let mut rows = |sample: &str, film: &str, grams: &Recipe| {
+            for backing in BACKINGS {
+                for replicate in 1..=self.replicates {
+                    let mut row = vec![String::new(); paints.names.len() + self.grid.count() + 4];
+                    row[0] = sample.to_owned();
+                    row[1] = film.to_owned();
+                    row[2] = backing.to_owned();
+                    row[3] = replicate.to_string();
+                    for (paint, grams) in grams {
+                        row[4 + paint.index()] = grams.to_string();
+                    }
+                    write(row);
+                }
+            }
+        };
+        rows("card", "none", &Recipe::default());
+        for (sample, grams) in swatches {
+            rows(sample, "paint", grams);
+        }
+        writer.into_inner().expect("memory can be written")
+    }
+}
+
+/// A plan that cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A name cannot head a pigment's column of a measurement file.
+    #[error("a measurement file would not read this as a pigment's name: `{name}`")]
+    Name {
+        /// Name of the paint.
+        name: String,
+    },
+    /// Two paints have one name.
+    #[error("each paint is named once, found twice `{name}`")]
+    Twice {
+        /// Name of both paints.
+        name: String,
+    },
+    /// There is no paint besides the white.
+    #[error("a plan needs a pigment beside the white")]
+    NoColor,
+    /// The number of swatches is out of range.
+    #[error("{paints} paints are planned with {least} to {most} swatches, found `{swatches}`")]
+    Swatches {
+        /// Number of paints.
+        paints: usize,
+        /// Least number of swatches: one for each unknown of a wavelength.
+        least: usize,
+        /// Greatest number of swatches: every recipe that can be weighed.
+        most: usize,
+        /// Number of swatches that was requested.
+        swatches: usize,
+    },
+    /// The mass of a swatch is too small for the balance: a tint of 1 to 4 cannot be weighed.
+    #[error(
+        "a tint of 1 to 4 needs {needed} g a swatch on a balance that shows {resolution} g, found `{grams}`"
+    )]
+    Grams {
+        /// Least mass of a swatch in grams.
+        needed: f64,
+        /// Step of the balance in grams.
+        resolution: f64,
+        /// Mass of a swatch that was requested, in grams.
+        grams: f64,
+    },
+    /// A number is not above 0.
+    #[error("{what} must be above 0 and finite, found `{value}`")]
+    NotPositive {
+        /// Name of the quantity.
+        what: &'static str,
+        /// Value that was given.
+        value: f64,
+    },
+    /// Expected errors are out of range.
+    #[error(
+        "expected noise is two errors from 0 to below 1, one of them above 0, found `{constant}` and `{even}`"
+    )]
+    Noise {
+        /// Error of the instrument that was given.
+        constant: f64,
+        /// Error of weighing and mixing that was given.
+        even: f64,
+    },
+    /// The swatches would not identify every pigment.
+    #[error("these swatches would not identify `{}`", paints.join(", "))]
+    Unidentified {
+        /// Names of the paints that would not be identified.
+        paints: Vec<String>,
+    },
+    /// A name does not denote one pigment of the prior library.
+    #[error(transparent)]
+    Prior(#[from] RecipeError),
+    /// The search was asked to end before its time.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Explain for PlanError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Name { .. } => {
+                "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number".into()
+            }
+            Self::Twice { .. } => "remove one, or give the second paint another name".into(),
+            Self::NoColor => {
+                "name the pigments: impasto plan \"Cobalt Blue\" [white=\"Titanium White\"]".into()
+            }
+            Self::Swatches { least, most, swatches, .. } => {
+                if swatches < least {
+                    format!("try [swatches={least}] or more; K of every paint and S of all but the white are unknown")
+                } else {
+                    format!("try [swatches={most}] or fewer; [replicates] repeat one swatch")
+                }
+            }
+            Self::Grams { needed, .. } => format!("try [grams={needed}], or a finer [balance]"),
+            Self::NotPositive { .. } => "give grams, such as [grams=10] [balance=0.01]".into(),
+            Self::Noise { .. } => "try 0.002 of the instrument and 0.01 of weighing and mixing".into(),
+            Self::Unidentified { .. } => "give more [swatches]".into(),
+            Self::Prior(error) => return error.hint(),
+            Self::Cancelled(error) => return error.hint(),
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Unidentified { .. } | Self::Prior(_) => Fault::Input,
+            Self::Cancelled(error) => error.fault(),
+            _ => Fault::Setting,
+        }
     }
 }

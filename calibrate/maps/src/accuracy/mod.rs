@@ -1,23 +1,422 @@
-//! How far maps can be believed: measured mixtures and simulated paintings, whose pigments are known.
+//! How far maps can be believed: measured mixtures and simulated paintings, in which we know the pigments.
 //!
-//! No scan of a painting with known pigments is at hand. These trials use measured swatches as pixels, each
-//! with a library that was fitted without it, and simulated pixels whose real K and S are off. Linear
-//! methods that are in common use stand beside them.
+//! We have no scan of a painting with known pigments. These trials use measured swatches as pixels, each with
+//! a library that was fitted without it, and simulated pixels with K and S that differ from the library. They
+//! also run common linear methods for comparison. The readings are the Van Gogh oils that ship with impasto.
 
-mod scores;
-mod baselines;
-mod swatches;
-mod simulated;
-mod oils;
+#![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
+mod trials;
 
-pub use baselines::{Baseline, Unmixed};
-pub use oils::{
-    Missing, PaintingTrials, Told, light_palette, missing_pigment, oil_groups, painting_trials,
-    prepared_oils, tone,
+use std::ops::ControlFlow;
+
+use calibrate::fit::Watch;
+use calibrate::observation::BelowSurface;
+use calibrate::{FitOptions, FittingError, LeftOut, PreparedFit, Readings, Residuals};
+use pigment::library::PigmentLibrary;
+
+use crate::films::settings::{MapSettings, ModelError, PigmentGroup};
+use crate::mapping::Mapper;
+use crate::pixel_maps::MapError;
+
+pub use trials::{
+    Baseline, BesideTruth, Coverage, Painting, PaintingPlan, Reliability, ScoreSums, Scores, Trial,
+    Unmixed, coverage, covered, reliability,
 };
-pub use scores::{Coverage, Reliability, ScoreSums, Scores, Trial, coverage, covered, reliability};
 
-pub use simulated::{BesideTruth, Painting, PaintingPlan};
-pub use swatches::{
-    Choice, NamedGroups, SwatchTrials, choose_penalty, residuals_of, swatch_trials,
-};
+/// Groups by name. Every other pigment is by itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedGroups {
+    /// Names of all pigments of the trials.
+    pub pigments: Vec<String>,
+    /// Group of each pigment.
+    pub group_of: Vec<usize>,
+    /// Number of groups.
+    pub count: usize,
+}
+
+impl NamedGroups {
+    /// Groups of all pigments of `samples`.
+    #[must_use]
+    pub fn of(samples: &[LeftOut], groups: &[PigmentGroup]) -> Self {
+        let mut pigments: Vec<String> = Vec::new();
+        for pigment in samples.iter().flat_map(|sample| &sample.library.pigments) {
+            if pigment.identified && !pigments.contains(&pigment.name) {
+                pigments.push(pigment.name.clone());
+            }
+        }
+        let mut count = groups.len();
+        let mut group = |name: &String| {
+            let named = groups.iter().position(|group| group.pigments.contains(name));
+            named.unwrap_or_else(|| {
+                count += 1;
+                count - 1
+            })
+        };
+        let group_of = pigments.iter().map(&mut group).collect();
+        Self { pigments, group_of, count }
+    }
+
+    /// Values by name as a list by pigment.
+    fn list<'a>(&self, values: impl IntoIterator<Item = (&'a str, f64)>) -> Vec<f64> {
+        let mut list = vec![0.0; self.pigments.len()];
+        for (name, value) in values {
+            if let Some(place) = self.pigments.iter().position(|known| known == name) {
+                list[place] += value;
+            }
+        }
+        list
+    }
+}
+
+/// Trials of all swatches by one method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SwatchTrials {
+    /// Trials by single pigment.
+    pub pigments: Vec<Trial>,
+    /// Trials by group.
+    pub groups: Vec<Trial>,
+}
+
+impl SwatchTrials {
+    /// Trials by a baseline, which tells each pigment of a share above `least` as present.
+    #[must_use]
+    pub fn baseline(
+        samples: &[LeftOut],
+        named: &NamedGroups,
+        baseline: Baseline,
+        least: f64,
+    ) -> Self {
+        let trial = |sample: &LeftOut| -> Option<Trial> {
+            let library = &sample.library;
+            let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+            let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
+            let paints = crate::films::film::Paints::new(library, &[], &bands).ok()?;
+            let shares = baseline.unmix(&paints, &sample.mixture.measured).shares;
+            let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
+            let truth = named.list(true_shares(sample));
+            let present = told.iter().map(|share| *share > least).collect();
+            let probability = Vec::new();
+            let sd = Vec::new();
+            Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
+        };
+        let pigments: Vec<Trial> = samples.iter().filter_map(trial).collect();
+        let groups = pigments.iter().map(|t| t.joined(&named.group_of, named.count)).collect();
+        Self { pigments, groups }
+    }
+}
+
+/// Pigments of a sample with their shares.
+fn true_shares(sample: &LeftOut) -> impl Iterator<Item = (&str, f64)> {
+    sample.mixture.shares.iter().map(|(name, share)| (name.as_str(), *share))
+}
+
+/// Errors of the predictions for `samples`, or `None` if there are none.
+#[must_use]
+pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Option<Residuals> {
+    let mut samples = samples.into_iter().peekable();
+    let library = &samples.peek()?.library;
+    Some(Residuals {
+        grid: library.grid,
+        saunderson: library.saunderson,
+        settings: library.settings.clone().unwrap_or_default(),
+        folds: None,
+        inputs: Vec::new(),
+        mixtures: samples.map(|sample| sample.mixture.clone()).collect(),
+    })
+}
+
+/// Maps each of `samples` with its own library and the residuals of all others: by single pigment, and by the
+/// groups `groups`.
+///
+/// # Errors
+/// [`MapError`] if a library cannot be used.
+pub fn swatch_trials(
+    samples: &[LeftOut],
+    settings: &MapSettings,
+    groups: &[PigmentGroup],
+) -> Result<SwatchTrials, MapError> {
+    use rayon::prelude::*;
+    let named = NamedGroups::of(samples, groups);
+    let trial = |index: usize| -> Result<(Trial, Trial), MapError> {
+        let sample = &samples[index];
+        let others = samples.iter().enumerate().filter(|(other, _)| *other != index);
+        let residuals = residuals_of(others.map(|(_, sample)| sample));
+        let library = &sample.library;
+        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+        let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
+        let own = |groups: &[PigmentGroup]| MapSettings {
+            groups: groups.to_vec(),
+            group_alike: false,
+            model_error: settings
+                .model_error
+                .clone()
+                .or(residuals.clone().map(ModelError::Residuals)),
+            ..settings.clone()
+        };
+        let truth = named.list(true_shares(sample));
+        let single = Mapper::new(library, &nm, &own(&[]))?;
+        let maps = single.search(&spectrum)?;
+        let names = || single.columns().iter().map(|column| column.name.as_str());
+        let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
+        let list = |values: &[f64]| named.list(names().zip(values.iter().copied()));
+        let pigments = Trial {
+            truth: truth.clone(),
+            told: list(&plain.told),
+            present: list(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
+            probability: list(&plain.probability),
+            sd: list(&plain.sd),
+            chi2: plain.chi2,
+            least: 0.0,
+        };
+        let joined = Mapper::new(library, &nm, &own(groups))?;
+        let maps = joined.search(&spectrum)?;
+        let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
+        let mut sums = vec![0.0; named.count];
+        truth.iter().zip(&named.group_of).for_each(|(share, &group)| sums[group] += share);
+        let by_group = |values: &[f64]| {
+            let mut list = vec![0.0; named.count];
+            for (column, value) in joined.columns().iter().zip(values) {
+                let place = named.pigments.iter().position(|known| *known == column.pigments[0]);
+                list[place.map_or(0, |place| named.group_of[place])] = *value;
+            }
+            list
+        };
+        let groups = Trial {
+            truth: sums,
+            told: by_group(&plain.told),
+            present: by_group(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
+            probability: by_group(&plain.probability),
+            sd: by_group(&plain.sd),
+            chi2: plain.chi2,
+            least: 0.0,
+        };
+        Ok((pigments, groups))
+    };
+    let found: Vec<(Trial, Trial)> =
+        (0..samples.len()).into_par_iter().map(trial).collect::<Result<_, _>>()?;
+    let (pigments, groups) = found.into_iter().unzip();
+    Ok(SwatchTrials { pigments, groups })
+}
+
+/// Trials with the penalty of each fold chosen on the other folds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// Trials, each with the penalty that suits the other folds best.
+    pub trials: SwatchTrials,
+    /// Penalty of each fold.
+    pub penalties: Vec<f64>,
+}
+
+/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own:
+/// swatch `i` is in fold `i` modulo `folds`, and takes the penalty with the best harmonic mean of
+/// precision and recall, of pigments and groups alike, is greatest in the other folds.
+#[must_use]
+pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choice {
+    let count = of_penalty.first().map_or(0, |(_, trials)| trials.groups.len());
+    let mut trials = SwatchTrials { pigments: Vec::new(), groups: Vec::new() };
+    let value = |trials: &SwatchTrials, fold: usize| {
+        let others = |list: &[Trial]| {
+            let kept = list.iter().enumerate().filter(|(index, _)| index % folds != fold);
+            Scores::of(kept.map(|(_, trial)| trial)).f1()
+        };
+        others(&trials.groups) + others(&trials.pigments)
+    };
+    let best = |fold: usize| {
+        (0..of_penalty.len())
+            .reduce(|a: usize, b: usize| {
+                if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) { b } else { a }
+            })
+            .unwrap_or(0)
+    };
+    let chosen: Vec<usize> = (0..folds).map(best).collect();
+    for index in 0..count {
+        let (_, own) = &of_penalty[chosen[index % folds]];
+        trials.pigments.push(own.pigments[index].clone());
+        trials.groups.push(own.groups[index].clone());
+    }
+    Choice { trials, penalties: chosen.iter().map(|&index| of_penalty[index].0).collect() }
+}
+
+/// Groups of the Van Gogh oils that look alike from 400 to 700 nm, for which figures are told.
+#[must_use]
+pub fn oil_groups() -> Vec<PigmentGroup> {
+    let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
+    let lakes = ["Eosin Lake (wax)", "Eosin Lake", "Eosin Lake (lead, wax)", "Cochineal Lake"];
+    let chromes = ["Chrome Yellow", "Chrome Yellow (Otero)"];
+    let named = [("whites", &whites[..]), ("red lakes", &lakes), ("chrome yellows", &chromes)];
+    named
+        .into_iter()
+        .map(|(name, pigments): (&str, &[&str])| PigmentGroup {
+            name: name.to_owned(),
+            pigments: pigments.iter().map(|&name| name.to_owned()).collect(),
+        })
+        .collect()
+}
+
+/// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, because other
+/// pigments hardly show in mixtures with them.
+#[must_use]
+pub fn light_palette() -> Vec<String> {
+    let names = [
+        "Zinc White",
+        "Chrome Yellow",
+        "Minium",
+        "Vermilion",
+        "Viridian",
+        "Emerald Green",
+        "Cobalt Blue",
+        "Ultramarine",
+    ];
+    names.map(str::to_owned).to_vec()
+}
+
+/// Readings of the Van Gogh oils with the options by which their library is fitted.
+///
+/// # Errors
+/// [`FittingError`] if `readings` are others.
+pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
+    let below_surface = Some(BelowSurface::Floor);
+    PreparedFit::new(
+        readings,
+        &FitOptions { below_surface, ..FitOptions::default() },
+        Watch::default(),
+    )
+}
+
+/// Trials of simulated paintings of several seeds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PaintingTrials {
+    /// Trials of pixels that were searched whole.
+    pub searched: Vec<Trial>,
+    /// Trials of pixels that were mapped with a survey.
+    pub mapped: Vec<Trial>,
+    /// Best set of each searched pixel beside its true pigments.
+    pub beside: Vec<BesideTruth>,
+    /// Tone of each pixel: 0 dark, 1 middle, 2 light.
+    pub tones: Vec<usize>,
+}
+
+impl PaintingTrials {
+    /// Share of the pixels in which the search ended at a worse score than the true pigments have.
+    #[must_use]
+    pub fn worse(&self) -> f64 {
+        let worse = self.beside.iter().filter(|beside| beside.is_worse).count();
+        worse as f64 / self.beside.len().max(1) as f64
+    }
+
+    /// Mapped trials of one tone.
+    pub fn of_tone(&self, tone: usize) -> impl Iterator<Item = &Trial> + Clone {
+        let pairs = self.mapped.iter().zip(&self.tones);
+        pairs.filter(move |(_, own)| **own == tone).map(|(trial, _)| trial)
+    }
+}
+
+/// Ends of dark and of middle paint, in mean reflectance.
+const TONES: [f32; 2] = [0.1, 0.3];
+
+/// Tone of a mean reflectance: 0 dark, below 0.1; 1 middle; 2 light, 0.3 or more.
+#[must_use]
+pub fn tone(mean_reflectance: f32) -> usize {
+    TONES.iter().filter(|end| mean_reflectance >= **end).count()
+}
+
+/// Knowledge of the pigments that a painting holds, beside the library.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told {
+    /// No pigment of it is named.
+    Nothing,
+    /// All its pigments are named, and no others.
+    Palette,
+}
+
+/// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with the library
+/// `known`, `settings`, and the palette of the painting if it is told.
+///
+/// # Errors
+/// [`MapError`] if library and settings cannot be used.
+pub fn painting_trials(
+    (real, known): (&PigmentLibrary, &PigmentLibrary),
+    plan: &PaintingPlan,
+    seeds: std::ops::Range<u64>,
+    (settings, told): (&MapSettings, Told),
+) -> Result<PaintingTrials, MapError> {
+    let nm: Vec<f64> = real.grid.wavelengths_nm().collect();
+    let mut trials = PaintingTrials::default();
+    for seed in seeds {
+        let painting = Painting::simulate(real, known, &PaintingPlan { seed, ..plan.clone() });
+        let palette = match told {
+            Told::Nothing => settings.palette.clone(),
+            Told::Palette => painting.pigments.clone(),
+        };
+        let mapper = Mapper::new(known, &nm, &MapSettings { palette, ..settings.clone() })?;
+        trials.searched.extend(painting.trials(&mapper, &mapper.search(&painting.spectra)?));
+        let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(()))?;
+        let maps = mapper.map_block(&book, &painting.spectra)?;
+        trials.mapped.extend(painting.trials(&mapper, &maps));
+        trials.beside.extend(painting.beside_truth(&mapper)?);
+        let tones = (0..painting.truth.len()).map(|index| tone(painting.mean_reflectance(index)));
+        trials.tones.extend(tones);
+    }
+    Ok(trials)
+}
+
+/// Trials of pixels with one pigment that the library lacks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Missing {
+    /// Median chi-square per degree of freedom of pixels without the pigment, and of those with it.
+    pub chi2: [f64; 2],
+    /// Share of the pixels containing the pigment that have a chi-square above the 95th percentile of
+    /// pixels without it.
+    pub noticed: f64,
+    /// Mean number of pigments that are told to be present but are not, in pixels without the missing one,
+    /// and with it.
+    pub false_presences: [f64; 2],
+}
+
+/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each: the first that is
+/// in no group of `settings`, because another of its group would take its place.
+///
+/// # Errors
+/// [`MapError`] if library and settings cannot be used.
+pub fn missing_pigment(
+    library: &PigmentLibrary,
+    plan: &PaintingPlan,
+    seeds: std::ops::Range<u64>,
+    settings: &MapSettings,
+) -> Result<Missing, MapError> {
+    let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+    let mut chi2 = [Vec::new(), Vec::new()];
+    let mut wrong = [0.0, 0.0];
+    for seed in seeds {
+        let painting = Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
+        let alike = |name: &String| settings.groups.iter().any(|g| g.pigments.contains(name));
+        let Some(lacking) = painting.pigments.iter().position(|name| !alike(name)) else {
+            continue;
+        };
+        let missing = &painting.pigments[lacking];
+        let known = library.pigments.iter().filter(|p| p.identified && p.name != *missing);
+        let palette = known.map(|pigment| pigment.name.clone()).collect();
+        let mapper = Mapper::new(library, &nm, &MapSettings { palette, ..settings.clone() })?;
+        let maps = mapper.search(&painting.spectra)?;
+        for (trial, truth) in painting.trials(&mapper, &maps).iter().zip(&painting.truth) {
+            let with = usize::from(truth.iter().any(|(place, _)| *place == lacking));
+            chi2[with].push(trial.chi2);
+            let pairs = trial.present.iter().zip(&trial.truth);
+            wrong[with] +=
+                pairs.filter(|(present, truth)| **present && **truth == 0.0).count() as f64;
+        }
+    }
+    chi2.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));
+    let usual = at_share(&chi2[0], 0.95);
+    let count = |with: usize| chi2[with].len().max(1) as f64;
+    Ok(Missing {
+        chi2: [at_share(&chi2[0], 0.5), at_share(&chi2[1], 0.5)],
+        noticed: chi2[1].iter().filter(|value| **value > usual).count() as f64 / count(1),
+        false_presences: [wrong[0] / count(0), wrong[1] / count(1)],
+    })
+}
+
+fn at_share(values: &[f64], part: f64) -> f64 {
+    let place = (part * values.len() as f64) as usize;
+    values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+}

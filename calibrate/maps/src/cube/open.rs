@@ -1,21 +1,33 @@
-//! Opens a cube of any kind by its content.
+//! Opens a cube of any kind. The kind is found by content.
+//!
+//! This includes folders of Specim cameras (capture/ with the counts and their readings, results/ with
+//! reflectance) and spectral OpenEXR files, as this engine exports paintings.
+//!
+//! OpenEXR follows A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral Images" (Journal
+//! of Computer Graphics Techniques 10(3), 2021): each wavelength has a channel such as `T.550,000000nm`.
 
+use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use super::envi;
-use super::error::CubeError;
-use super::kinds::refuse_other_kinds;
-use super::opened::Opened;
-use super::options::CubeOptions;
-use super::reading_files::{OwnReadings, readings};
+use exr::block::chunk::TileCoordinates;
+use exr::block::lines::LineRef;
+use exr::block::reader::ChunksReader;
+use exr::block::{BlockIndex, UncompressedBlock};
+use exr::meta::MetaData;
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header;
+use half::f16;
+
+use super::error::{CubeError, CubeOptions, refuse_other_kinds};
+use super::listed::{OwnReadings, readings};
+use super::raw_file::Interleave;
 use super::scan::Cube;
-use super::specim;
-use super::spectral_exr;
-use super::stack;
-use super::wavelength_file::wavelengths_of;
-use super::zarr_cube;
+use super::side_files::{Spool, wavelengths_of};
+use super::window::{Opened, Values};
+use super::{envi, stack, zarr_cube};
+use crate::numbers::NumberType;
 
 impl Cube {
     /// Opens the cube at `path`: a header or data of ENVI, a folder of a Specim camera, a Zarr
@@ -35,16 +47,15 @@ impl Cube {
     pub fn open_with(path: impl AsRef<Path>, options: &CubeOptions) -> Result<Self, CubeError> {
         let path = path.as_ref();
         options.check(path)?;
-        let (scan, own) =
-            match path.is_dir() && !zarr_cube::is_zarr(path) && specim::is_specim(path) {
-                true => {
-                    let found = specim::find(path)?;
-                    let mut scan = open_scan(&found.scan, options)?;
-                    scan.remarks.insert(0, found.remark.clone());
-                    (scan, Some(found))
-                }
-                false => (open_scan(path, options)?, None),
-            };
+        let (scan, own) = match path.is_dir() && !zarr_cube::is_zarr(path) && is_specim(path) {
+            true => {
+                let found = specim_scan(path)?;
+                let mut scan = open_scan(&found.scan, options)?;
+                scan.remarks.insert(0, found.remark.clone());
+                (scan, Some(found))
+            }
+            false => (open_scan(path, options)?, None),
+        };
         let own = own.map(OwnReadings::from);
         let open = |path: &Path| open_kind(path, options);
         let readings = readings(&scan, own.as_ref(), options, &open)?;
@@ -80,8 +91,8 @@ fn open_kind(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     if path.file_name().is_some_and(|name| name == "zarr.json") {
         return zarr_cube::open(path.parent().unwrap_or(path), options);
     }
-    if spectral_exr::is_exr(&start) {
-        return spectral_exr::open(path, options);
+    if is_exr(&start) {
+        return open_exr(path, options);
     }
     // The data of a header may begin with any bytes, so the header decides first.
     if let Some(header) = envi::header_of(path) {
@@ -127,8 +138,222 @@ fn open_folder(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> 
     }
 }
 
-impl From<specim::SpecimScan> for OwnReadings {
-    fn from(scan: specim::SpecimScan) -> Self {
+impl From<SpecimScan> for OwnReadings {
+    fn from(scan: SpecimScan) -> Self {
         Self { white: scan.white, dark: scan.dark, white_dark: scan.white_dark }
+    }
+}
+
+/// Scan of a camera's folder.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct SpecimScan {
+    /// Header of the scan.
+    pub(crate) scan: PathBuf,
+    /// Header of the white, for counts.
+    pub(crate) white: Option<PathBuf>,
+    /// Header of the dark of the scan, for counts.
+    pub(crate) dark: Option<PathBuf>,
+    /// Header of the dark of the white, where the camera took one.
+    pub(crate) white_dark: Option<PathBuf>,
+    /// Sentence about the choice.
+    pub(crate) remark: String,
+}
+
+/// Beginnings of the names of readings.
+const READINGS: [&str; 3] = ["WHITEDARKREF_", "WHITEREF_", "DARKREF_"];
+/// Beginning of the name of a scan's reflectance.
+const REFLECTANCE: &str = "REFLECTANCE_";
+
+/// Whether `folder` is one of a camera.
+fn is_specim(folder: &Path) -> bool {
+    ["capture", "results"].iter().any(|name| folder.join(name).is_dir())
+        || headers(folder).iter().any(|(name, _)| {
+            READINGS.iter().any(|start| name.starts_with(start)) || name.starts_with(REFLECTANCE)
+        })
+}
+
+/// Headers in a folder with their names in upper case, in the order of names.
+fn headers(folder: &Path) -> Vec<(String, PathBuf)> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
+    let mut found: Vec<_> = paths
+        .filter(|path: &PathBuf| {
+            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("hdr"))
+                && path.is_file()
+        })
+        .filter_map(|path: PathBuf| {
+            let name = path.file_stem()?.to_str()?.to_uppercase();
+            Some((name, path))
+        })
+        .collect();
+    found.sort();
+    found
+}
+
+/// Finds the scan of a camera's folder: its reflectance, else its counts with white and dark.
+fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
+    let inside = |name: &str| {
+        let inner = folder.join(name);
+        headers(if inner.is_dir() { &inner } else { folder })
+    };
+    let results = inside("results");
+    let computed: Vec<_> =
+        results.iter().filter(|(name, _)| name.starts_with(REFLECTANCE)).collect();
+    if let [(_, scan)] = computed[..] {
+        let remark = format!("the camera's reflectance is read: {}", scan.display());
+        let scan = scan.clone();
+        return Ok(SpecimScan { scan, white: None, dark: None, white_dark: None, remark });
+    }
+    let captured = inside("capture");
+    let scans: Vec<_> = captured.iter().filter(|(name, _)| is_scan(name)).collect();
+    let [(name, scan)] = scans[..] else {
+        let problem = match computed.len().max(scans.len()) {
+            0 => "has no header of a scan in capture/ or results/".to_owned(),
+            several => format!("has {several} scans"),
+        };
+        return Err(CubeError::format(folder, problem, "name the .hdr file of one scan"));
+    };
+    let [white_dark, white, dark] = READINGS.map(|start: &str| {
+        let wanted = format!("{start}{name}");
+        captured.iter().find(|(name, _)| *name == wanted).map(|(_, path)| path.clone())
+    });
+    let remark = format!("counts are read with the camera's white and dark: {}", scan.display());
+    Ok(SpecimScan { scan: scan.clone(), white, dark, white_dark, remark })
+}
+
+fn is_scan(name: &str) -> bool {
+    !READINGS.iter().any(|start| name.starts_with(start)) && !name.starts_with(REFLECTANCE)
+}
+
+/// Whether a file begins as OpenEXR.
+fn is_exr(start: &[u8]) -> bool {
+    start.starts_with(&[0x76, 0x2f, 0x31, 0x01])
+}
+
+/// Wavelength of a channel of reflectance in nm: `T.550,5nm`.
+fn channel_nm(name: &str) -> Option<f64> {
+    let number = name.strip_prefix("T.")?;
+    let (number, factor) = match number.strip_suffix("nm") {
+        Some(number) => (number, 1.0),
+        None => (number.strip_suffix("um")?, 1000.0),
+    };
+    let nm = number.replace(',', ".").parse::<f64>().ok()? * factor;
+    (nm.is_finite() && nm > 0.0).then_some(nm)
+}
+
+/// Layer and channels of reflectance: index of the channel in the layer, and nm, rising.
+fn channels(meta: &MetaData) -> Option<(usize, Vec<(usize, f64)>)> {
+    let layers = meta
+        .headers
+        .iter()
+        .map(|header: &Header| -> Vec<(usize, f64)> {
+            let names = header.channels.list.iter().map(|channel| channel.name.to_string());
+            let mut found: Vec<_> =
+                names.enumerate().filter_map(|(at, name)| Some((at, channel_nm(&name)?))).collect();
+            found.sort_by(|a, b| a.1.total_cmp(&b.1));
+            found
+        })
+        .enumerate();
+    layers.into_iter().find(|(_, channels)| !channels.is_empty())
+}
+
+/// Opens the file: unpacks its channels of reflectance.
+fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
+    let fault = |error: exr::error::Error| match error {
+        exr::error::Error::Io(reason) => CubeError::unpacking(path, reason),
+        other => CubeError::data(path, format!("cannot be unpacked: {other}"), "export it again"),
+    };
+    let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
+    let reader = exr::block::read(BufReader::new(file), false).map_err(fault)?;
+    let Some((layer, found)) = channels(reader.meta_data()) else {
+        return Err(CubeError::format(
+            path,
+            "is an OpenEXR file without channels of reflectance such as T.550,000000nm",
+            "export the painting with its spectra",
+        ));
+    };
+    if let Some(pair) = found.windows(2).find(|pair| pair[0].1 == pair[1].1) {
+        let problem = format!("has two channels at {} nm", pair[0].1);
+        return Err(CubeError::format(path, problem, "export each wavelength once"));
+    }
+    let header = reader.headers()[layer].clone();
+    let samples = header.layer_size.0;
+    let lines = header.layer_size.1;
+    let list = &header.channels.list;
+    if found.iter().any(|(channel, _)| list[*channel].sampling.0 * list[*channel].sampling.1 != 1) {
+        let problem = "has channels of a lower resolution";
+        return Err(CubeError::format(path, problem, "export all channels at one resolution"));
+    }
+    let places: BTreeMap<usize, usize> =
+        found.iter().enumerate().map(|(band, (channel, _))| (*channel, band)).collect();
+    let size = (lines, samples, found.len());
+    let scratch = options.scratch.as_deref();
+    let mut spool = Spool::new(scratch, size, NumberType::F32, Interleave::Bil)?;
+    let chunks = reader
+        .filter_chunks(false, |_: &MetaData, _: TileCoordinates, block: BlockIndex| {
+            block.layer == layer && block.level.0 == 0 && block.level.1 == 0
+        })
+        .map_err(fault)?;
+    let meta = chunks.meta_data().clone();
+    for chunk in chunks {
+        let block =
+            chunk.and_then(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false));
+        let block = block.map_err(fault)?;
+        for line in block.lines(&header.channels) {
+            let Some(&band) = places.get(&line.location.channel) else { continue };
+            let position = line.location.position;
+            let values = bytes_of(line, list[line.location.channel].sample_type);
+            spool.write((position.1, position.0, band), &values.map_err(fault)?)?;
+        }
+    }
+    Ok(Opened {
+        path: path.to_owned(),
+        lines,
+        samples,
+        bands: found.len(),
+        wavelengths_nm: Some(found.iter().map(|(_, nm)| *nm).collect()),
+        fwhm_nm: None,
+        good: vec![true; found.len()],
+        ignore: None,
+        // The layout says that these channels are reflectances.
+        values: Values::Divided(1.0),
+        integration_time: None,
+        remarks: Vec::new(),
+        source: Box::new(spool.finish(path)?),
+    })
+}
+
+/// Values of a line as bytes of f32.
+fn bytes_of(line: LineRef<'_>, kind: SampleType) -> exr::error::Result<Vec<u8>> {
+    match kind {
+        SampleType::F32 => collect::<f32>(line, |value| value),
+        SampleType::F16 => collect::<f16>(line, f16::to_f32),
+        SampleType::U32 => collect::<u32>(line, |value| value as f32),
+    }
+}
+
+fn collect<T: exr::io::Data>(
+    line: LineRef<'_>,
+    number: impl Fn(T) -> f32,
+) -> exr::error::Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(line.location.sample_count * size_of::<f32>());
+    for value in line.read_samples::<T>() {
+        bytes.extend(number(value?).to_ne_bytes());
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_are_read_by_their_published_names() {
+        assert_eq!(channel_nm("T.550,000000nm"), Some(550.0));
+        assert_eq!(channel_nm("T.412,345679nm"), Some(412.345_679));
+        assert_eq!(channel_nm("T.0,55um"), Some(550.0));
+        for other in ["R", "S0.550,000000nm", "T.nm", "T.-5nm", "T.550"] {
+            assert_eq!(channel_nm(other), None, "{other}");
+        }
     }
 }

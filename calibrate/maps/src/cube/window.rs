@@ -1,11 +1,13 @@
-//! A window of pixels, and the source of raw values that fills it.
+//! Windows of raw values, and blocks of pixels with their reflectances.
+//!
+//! This file also converts raw values to reflectance and gives the reasons why a pixel cannot be mapped.
 
 use std::fmt::Debug;
 use std::ops::Range;
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 
-use super::conversion::Conversion;
 use super::error::CubeError;
 use crate::pixel_maps::Mask;
 
@@ -84,5 +86,229 @@ pub(crate) trait Source: Debug + Send + Sync {
     /// Largest value at which a detector saturates, if the type of the numbers tells it.
     fn full_scale(&self) -> Option<f64> {
         None
+    }
+}
+
+/// Least reflectance of a pixel that is mapped: noise around black.
+pub const LEAST_REFLECTANCE: f32 = -0.1;
+/// Greatest reflectance of a pixel that is mapped: a little gloss on white.
+pub const GREATEST_REFLECTANCE: f32 = 1.2;
+
+/// Numbers that turn raw values into reflectance: (raw - dark) x gain.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Terms {
+    /// One gain for all values, no dark.
+    One(f32),
+    /// A dark and a gain for each band of each column, column after column. One column stands for
+    /// all.
+    Columns { dark: Vec<f32>, gain: Vec<f32> },
+}
+
+/// How raw values become reflectance.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Conversion {
+    /// Raw value that marks a pixel without data. NaN marks none but itself.
+    pub(crate) ignore: Option<f32>,
+    /// Raw value from which the detector is saturated.
+    pub(crate) saturated: Option<f32>,
+    pub(crate) terms: Terms,
+}
+
+/// Signs that the values of a pixel gave.
+#[derive(Debug, Clone, Copy, Default)]
+struct Signs {
+    ignored: bool,
+    saturated: bool,
+    outside: bool,
+}
+
+impl Conversion {
+    /// Leaves values as the file stores them.
+    pub(crate) fn none() -> Self {
+        Self { ignore: None, saturated: None, terms: Terms::One(1.0) }
+    }
+
+    /// Converts a row of raw values that starts at `column`.
+    pub(crate) fn row(&self, column: usize, values: &mut [f32], mask: &mut [Mask]) {
+        let bands = (values.len() / mask.len().max(1)).max(1);
+        for (at, (pixel, mask)) in values.chunks_exact_mut(bands).zip(mask).enumerate() {
+            *mask = self.pixel(column + at, pixel);
+        }
+    }
+
+    /// Converts the raw values of the pixel in `column` and tells whether it can be mapped.
+    pub(crate) fn pixel(&self, column: usize, values: &mut [f32]) -> Mask {
+        let signs = match &self.terms {
+            Terms::One(gain) => {
+                let gain = *gain;
+                self.each(values.iter_mut().map(|value| (value, 0.0, gain)))
+            }
+            Terms::Columns { dark, gain } => {
+                let bands = values.len();
+                let start = if dark.len() == bands { 0 } else { column * bands };
+                let dark = &dark[start..start + bands];
+                let gain = &gain[start..start + bands];
+                let terms = values.iter_mut().zip(dark.iter().zip(gain));
+                self.each(terms.map(|(value, (dark, gain))| (value, *dark, *gain)))
+            }
+        };
+        let ignores_nan = self.ignore.is_some_and(f32::is_nan);
+        let is_finite = !signs.outside || values.iter().all(|value| value.is_finite());
+        match signs {
+            _ if signs.ignored || (ignores_nan && !is_finite) => Mask::Ignored,
+            _ if !is_finite => Mask::NotFinite,
+            _ if signs.saturated => Mask::Saturated,
+            _ if signs.outside => Mask::OutOfRange,
+            _ => Mask::Mapped,
+        }
+    }
+
+    #[inline]
+    fn each<'v>(&self, values: impl Iterator<Item = (&'v mut f32, f32, f32)>) -> Signs {
+        let ignore = self.ignore.unwrap_or(f32::NAN);
+        let full = self.saturated.unwrap_or(f32::INFINITY);
+        let mut signs = Signs::default();
+        for (value, dark, gain) in values {
+            let raw = *value;
+            let reflectance = (raw - dark) * gain;
+            signs.ignored |= raw == ignore;
+            signs.saturated |= raw >= full;
+            // Also true for NaN.
+            let is_inside = (LEAST_REFLECTANCE..=GREATEST_REFLECTANCE).contains(&reflectance);
+            signs.outside |= !is_inside;
+            *value = reflectance;
+        }
+        signs
+    }
+
+    /// The conversion of these bands only: indices into the bands so far, of which there are `all`.
+    pub(crate) fn of_bands(&self, chosen: &[usize], all: usize) -> Self {
+        let of = |terms: &Vec<f32>| -> Vec<f32> {
+            let columns = terms.chunks_exact(all);
+            columns.flat_map(|column| chosen.iter().map(|&band| column[band])).collect()
+        };
+        let terms = match &self.terms {
+            Terms::One(gain) => Terms::One(*gain),
+            Terms::Columns { dark, gain } => Terms::Columns { dark: of(dark), gain: of(gain) },
+        };
+        Self { terms, ..self.clone() }
+    }
+}
+
+/// Reflectances of a rectangle of pixels.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Block {
+    /// Rows of the cube that the block holds.
+    pub rows: Range<usize>,
+    /// Columns of the cube that the block holds.
+    pub columns: Range<usize>,
+    /// Number of bands.
+    pub bands: usize,
+    /// Reflectance factors (a white is 1), pixel after pixel: row, column, band.
+    pub values: Vec<f32>,
+    /// Whether each pixel can be mapped, or why not.
+    pub mask: Vec<Mask>,
+}
+
+impl Block {
+    /// Number of pixels.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.mask.len()
+    }
+
+    /// Reflectances of a pixel, by its place in the block.
+    ///
+    /// # Panics
+    /// If the block has no such pixel.
+    #[must_use]
+    pub fn pixel(&self, index: usize) -> &[f32] {
+        &self.values[index * self.bands..(index + 1) * self.bands]
+    }
+
+    /// Reflectances and masks of all pixels in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (&[f32], Mask)> {
+        self.values.chunks_exact(self.bands.max(1)).zip(self.mask.iter().copied())
+    }
+}
+
+/// How raw values become reflectance, as far as the file tells.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Values {
+    /// The file does not tell. `are_whole`: its numbers are integers.
+    Unknown { are_whole: bool },
+    /// Reflectance is the value divided by this number.
+    Divided(f64),
+    /// Reflectance is the value times the first number plus the second, for each band.
+    Gains(Vec<(f64, f64)>),
+    /// Counts or radiance, which need a white reading.
+    Counts,
+}
+
+/// A scan before its values are interpreted.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub(crate) path: PathBuf,
+    pub(crate) lines: usize,
+    pub(crate) samples: usize,
+    /// Bands of the file.
+    pub(crate) bands: usize,
+    /// One wavelength a band, or `None` if the file has none.
+    pub(crate) wavelengths_nm: Option<Vec<f64>>,
+    /// Full width at half maximum of each band, if known.
+    pub(crate) fwhm_nm: Option<Vec<f64>>,
+    /// Whether each band is good.
+    pub(crate) good: Vec<bool>,
+    /// Value that marks pixels without data.
+    pub(crate) ignore: Option<f64>,
+    pub(crate) values: Values,
+    pub(crate) integration_time: Option<f64>,
+    /// Sentences that a user should see.
+    pub(crate) remarks: Vec<String>,
+    pub(crate) source: Box<dyn Source>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn conversion(terms: Terms) -> Conversion {
+        Conversion { ignore: Some(-999.0), saturated: Some(4095.0), terms }
+    }
+
+    #[test]
+    fn every_reason_is_told() {
+        let conversion = conversion(Terms::One(1e-4));
+        for (raw, mask) in [
+            ([5000.0, 100.0], Mask::Saturated),
+            ([4000.0, 100.0], Mask::Mapped),
+            ([-999.0, 100.0], Mask::Ignored),
+            ([-1500.0, 100.0], Mask::OutOfRange),
+            ([f32::NAN, 100.0], Mask::NotFinite),
+            ([f32::INFINITY, 100.0], Mask::NotFinite),
+            ([-999.0, f32::NAN], Mask::Ignored),
+        ] {
+            let mut values = raw;
+            assert_eq!(conversion.pixel(3, &mut values), mask, "{raw:?}");
+        }
+        let nan = Conversion { ignore: Some(f32::NAN), ..conversion };
+        assert_eq!(nan.pixel(0, &mut [f32::NAN, 1.0]), Mask::Ignored, "NaN marks no data");
+    }
+
+    #[test]
+    fn each_column_has_its_dark_and_gain() {
+        let dark = vec![10.0, 20.0, 30.0, 40.0];
+        let gain = vec![1.0 / 64.0, 1.0 / 32.0, 1.0 / 128.0, 1.0 / 1024.0];
+        let conversion = conversion(Terms::Columns { dark, gain });
+        let mut values = [42.0, 28.0];
+        assert_eq!(conversion.pixel(0, &mut values), Mask::Mapped);
+        assert_eq!(values, [0.5, 0.25]);
+        let mut values = [94.0, 552.0];
+        assert_eq!(conversion.pixel(1, &mut values), Mask::Mapped);
+        assert_eq!(values, [0.5, 0.5]);
+        let second = conversion.of_bands(&[1], 2);
+        let mut values = [552.0];
+        second.pixel(1, &mut values);
+        assert_eq!(values, [0.5], "the second band of the second column");
     }
 }

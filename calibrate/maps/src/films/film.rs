@@ -1,12 +1,16 @@
-//! Films of paint and one pixel in f32, eight bands or pigments at a time.
+//! Films of paint on the bands of a map, and one pixel in f32, eight bands or pigments at a time.
 
+use pigment::library::PigmentLibrary;
+use pigment::{PigmentId, RecipeError};
+use spectra::optics::{Surface, infinite_film};
 use wide::f32x8;
 
-use super::paints::Paints;
-use super::vectors::{Eight, Task, Vectors, by_vectors};
+use super::bands::Bands;
 use super::whitening::{
-    LANES, MOST_BLOCKS, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total,
+    Eight, LANES, MOST_BLOCKS, Spectrum, Task, Vectors, Whitening, WhiteningNoise, by_vectors, dot,
+    spectrum, total,
 };
+use crate::pixel_maps::{BlockMaps, MapError};
 
 /// Most pigments of a set.
 pub(crate) const MOST_IN_SET: usize = 4;
@@ -95,7 +99,7 @@ impl Films {
         }
     }
 
-    /// A pixel of these measured reflectances, one for each band, whose errors are like `noise`.
+    /// A pixel of these measured reflectances, one for each band, with errors like `noise`.
     pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
         let measured = spectrum(&reflectance[..self.bands], 0.3);
         let mut internal = measured;
@@ -313,12 +317,12 @@ impl Task for Products<'_> {
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
     white: Vec<f32x8>,
-    /// Mean S of each pigment relative to that of the film about which the rows are linearised, by which each
-    /// row is divided. Else pigments of little S would seem to explain every pixel.
+    /// Mean S of each pigment relative to the film about which the rows are linearised, by which each row
+    /// is divided. Else pigments of little S would seem to explain every pixel.
     sizes: Vec<f32x8>,
     inverse: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments; the upper half is valid. Row and lane of a pigment are
-    /// `before` its place.
+    /// Products of the rows of all pairs of pigments. The upper half is valid. Row and lane of a pigment
+    /// are `before` its place.
     pub(crate) products: Vec<f32x8>,
     before: usize,
 }
@@ -346,5 +350,301 @@ impl Work {
     pub(crate) fn size(&self, pigment: usize) -> f32 {
         let lane = pigment + self.before;
         self.sizes[lane / LANES].as_array()[lane % LANES]
+    }
+}
+
+/// Least K and S relative to the greatest of its pigment; below it the optics have no slope.
+const LEAST: f64 = 1e-7;
+
+/// Pigments on the bands of a map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paints {
+    /// Names of the pigments, as the library has them.
+    pub names: Vec<String>,
+    /// K by pigment and band, above 0.
+    pub absorption: Vec<Vec<f64>>,
+    /// S by pigment and band, above 0.
+    pub scattering: Vec<Vec<f64>>,
+    /// Surface of the paint.
+    pub surface: Surface,
+}
+
+impl Paints {
+    /// Pigments of `library` that are called one of `palette`; or, for an empty palette, all pigments
+    /// with measured K and S.
+    ///
+    /// # Errors
+    /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`] unless 1 to
+    /// 64 take part.
+    pub fn new(
+        library: &PigmentLibrary,
+        palette: &[String],
+        bands: &Bands,
+    ) -> Result<Self, MapError> {
+        let mut chosen: Vec<PigmentId> = if palette.is_empty() {
+            library
+                .ids()
+                .filter(|id: &PigmentId| library[*id].identified && !library[*id].guessed)
+                .collect()
+        } else {
+            palette.iter().map(|name| library.find(name)).collect::<Result<_, RecipeError>>()?
+        };
+        chosen.sort_unstable();
+        chosen.dedup();
+        if !(1..=BlockMaps::MOST_PIGMENTS).contains(&chosen.len()) {
+            let found = chosen.len();
+            let most = BlockMaps::MOST_PIGMENTS;
+            return Err(MapError::Pigments { found, most });
+        }
+        let folded = |values: &[f64]| {
+            let folded = bands.fold_library(values);
+            let greatest = folded.iter().copied().fold(0.0, f64::max).max(1e-6);
+            folded.into_iter().map(|value| value.max(LEAST * greatest)).collect::<Vec<f64>>()
+        };
+        Ok(Self {
+            names: chosen.iter().map(|&id| library[id].name.clone()).collect(),
+            absorption: chosen.iter().map(|&id| folded(&library[id].absorption)).collect(),
+            scattering: chosen.iter().map(|&id| folded(&library[id].scattering)).collect(),
+            surface: library.saunderson,
+        })
+    }
+
+    /// Number of pigments.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Number of bands.
+    #[must_use]
+    pub fn bands(&self) -> usize {
+        self.absorption.first().map_or(0, Vec::len)
+    }
+
+    /// Place of the pigment called `name`, or `None` if none is.
+    #[must_use]
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
+    /// K and S of a mixture by band, from pigments with their shares.
+    #[must_use]
+    pub fn mixed(&self, shares: &[(usize, f64)]) -> (Vec<f64>, Vec<f64>) {
+        let sum = |curves: &[Vec<f64>], band: usize| -> f64 {
+            shares.iter().map(|&(pigment, share)| share * curves[pigment][band]).sum()
+        };
+        let of = |curves: &[Vec<f64>]| (0..self.bands()).map(|band| sum(curves, band)).collect();
+        (of(&self.absorption), of(&self.scattering))
+    }
+
+    /// Measured reflectance of a mixture in a film that hides, by band.
+    #[must_use]
+    pub fn reflectance(&self, shares: &[(usize, f64)]) -> Vec<f64> {
+        let (absorption, scattering) = self.mixed(shares);
+        let pairs = absorption.iter().zip(&scattering);
+        pairs.map(|(&k, &s)| self.surface.measured_from_internal(infinite_film(k, s))).collect()
+    }
+
+    /// Slope dR/d ln(K/S) of the measured reflectance, 0 or below, at an internal reflectance.
+    #[must_use]
+    pub fn log_slope(&self, internal: f64) -> f64 {
+        -self.surface.measured_slope(internal) * internal * (1.0 - internal) / (1.0 + internal)
+    }
+
+    /// Optical strength of a pigment: the mean of K + S over the bands.
+    #[must_use]
+    pub fn strength(&self, pigment: usize) -> f64 {
+        (sum(&self.absorption[pigment]) + sum(&self.scattering[pigment])) / self.bands() as f64
+    }
+}
+
+fn sum(curve: &[f64]) -> f64 {
+    curve.iter().sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::films::bands::Bands;
+    use crate::films::settings::{ModelError, Noise, Scale};
+    use crate::films::whitening::WhiteningNoise;
+    use calibrate::{LeftOutMixture, Residuals};
+    use nalgebra::{Cholesky, DMatrix, DVector};
+    use std::collections::BTreeMap;
+
+    fn library_and_bands() -> (PigmentLibrary, Bands) {
+        let library = PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+        let bands = Bands::new(&nm, library.grid).unwrap();
+        (library, bands)
+    }
+
+    #[test]
+    fn reflectances_are_those_of_the_library() {
+        let (library, bands) = library_and_bands();
+        let paints = Paints::new(&library, &[], &bands).unwrap();
+        assert_eq!(paints.count(), 18, "two pigments have no known S");
+        let recipe = library.recipe([("Zinc White", 0.8), ("Viridian", 0.2)]).unwrap();
+        let expected = library.mix(recipe).unwrap().hiding(library.saunderson);
+        let place = |name| paints.place(name).unwrap();
+        let found = paints.reflectance(&[(place("Zinc White"), 0.8), (place("Viridian"), 0.2)]);
+        for (a, b) in found.iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_reflectance() {
+        let (library, bands) = library_and_bands();
+        let paints = Paints::new(&library, &[], &bands).unwrap();
+        for q in [1e-3, 0.1, 1.0, 30.0] {
+            let at =
+                |log: f64| paints.surface.measured_from_internal(infinite_film(f64::exp(log), 1.0));
+            let log = f64::ln(q);
+            let quotient = (at(log + 1e-5) - at(log - 1e-5)) / 2e-5;
+            let slope = paints.log_slope(infinite_film(q, 1.0));
+            assert!((quotient - slope).abs() < 1e-7, "{q}: {quotient} {slope}");
+        }
+    }
+
+    #[test]
+    fn a_palette_is_looked_up_by_name() {
+        let (library, bands) = library_and_bands();
+        let palette = ["viridian".to_owned(), "Zinc White".to_owned(), "Viridian".to_owned()];
+        let paints = Paints::new(&library, &palette, &bands).unwrap();
+        assert_eq!(paints.names, ["Zinc White", "Viridian"]);
+        let error = Paints::new(&library, &["Viridium".to_owned()], &bands).unwrap_err();
+        assert!(matches!(error, MapError::Name(_)), "{error}");
+    }
+
+    struct Oils {
+        paints: Paints,
+        bands: Bands,
+        films: Films,
+    }
+
+    fn oils(nm: &[f64]) -> Oils {
+        let library = PigmentLibrary::van_gogh_oils();
+        let bands = Bands::new(nm, library.grid).unwrap();
+        let paints = Paints::new(&library, &[], &bands).unwrap();
+        Oils { films: Films::new(&paints), paints, bands }
+    }
+
+    fn even(count: usize) -> Vec<f64> {
+        (0..count).map(|i| 400.0 + 300.0 * i as f64 / (count - 1) as f64).collect()
+    }
+
+    /// The covariance that the noise describes near a reflectance.
+    fn covariance(oils: &Oils, noise: &Noise, reflectance: &[f64]) -> DMatrix<f64> {
+        let surface = oils.paints.surface;
+        let scale = |r: f64| match noise.scale {
+            Scale::FourthRoot => 4.0 * r.powf(0.75),
+            Scale::LogRatio => {
+                oils.paints.log_slope(surface.internal_from_measured(r).unwrap()).abs()
+            }
+        };
+        DMatrix::from_fn(reflectance.len(), reflectance.len(), |i, j| {
+            let common: f64 =
+                noise.curves[i].iter().zip(&noise.curves[j]).map(|(a, b)| a * b).sum();
+            let both = scale(reflectance[i]) * scale(reflectance[j]);
+            let own = if i == j { noise.own[i] } else { 0.0 };
+            both * (common + own) + if i == j { noise.sensor[i] } else { 0.0 }
+        })
+    }
+
+    /// Errors of invented mixtures.
+    fn residuals() -> Residuals {
+        Residuals { mixtures: (0..12).map(mixture).collect(), ..Residuals::van_gogh_oils() }
+    }
+
+    fn mixture(number: usize) -> LeftOutMixture {
+        let measured = curve(number, 0.3);
+        let error = curve(number + 3, 0.01);
+        LeftOutMixture {
+            sample: number.to_string(),
+            shares: BTreeMap::new(),
+            predicted: measured.iter().zip(&error).map(|(m, e)| m - e).collect(),
+            measured,
+        }
+    }
+
+    fn curve(number: usize, scale: f64) -> Vec<f64> {
+        let wave = |i: usize| (0.3 * (i * (1 + number % 5)) as f64 + number as f64).sin();
+        (0..31).map(|i| scale * (1.1 + wave(i))).collect()
+    }
+
+    #[test]
+    fn chi_square_is_that_of_the_whole_covariance() {
+        // 29 bands leave a part of the last block empty.
+        for (count, model) in [
+            (31, ModelError::Stated(0.1)),
+            (29, ModelError::Residuals(residuals())),
+            (5, ModelError::Stated(0.3)),
+        ] {
+            let oils = oils(&even(count));
+            let noise = Noise::new(&oils.bands, 0.003, &model);
+            let shares = [(1, 0.7), (4, 0.05), (10, 0.25)];
+            let film = oils.paints.reflectance(&shares);
+            let seen: Vec<f64> = film
+                .iter()
+                .enumerate()
+                .map(|(band, r)| r * (1.0 + 0.05 * (band as f64).sin()))
+                .collect();
+            let difference = DVector::from_fn(film.len(), |band, _| seen[band] - film[band]);
+            let whole = Cholesky::new(covariance(&oils, &noise, &seen)).unwrap();
+            let expected = difference.dot(&whole.solve(&difference));
+            let narrow: Vec<f32> = seen.iter().map(|r| *r as f32).collect();
+            let pixel = oils.films.pixel(&WhiteningNoise::new(&noise), &narrow);
+            let found = oils.films.difference(&pixel, [1, 4, 10], [0.7, 0.05, 0.25]);
+            let chi2 = f64::from(found.chi2);
+            assert!((chi2 / expected - 1.0).abs() < 1e-3, "{count}: {chi2} {expected}");
+            let squares = difference.norm_squared();
+            assert!((f64::from(found.squares) / squares - 1.0).abs() < 1e-3, "{count}: squares");
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_chi_square() {
+        let oils = oils(&even(31));
+        let noise = WhiteningNoise::new(&Noise::new(&oils.bands, 0.003, &ModelError::Stated(0.1)));
+        let seen: Vec<f32> =
+            oils.paints.reflectance(&[(1, 0.6), (10, 0.4)]).iter().map(|r| *r as f32).collect();
+        let pixel = oils.films.pixel(&noise, &seen);
+        let at = |shares: [f32; 3]| oils.films.difference(&pixel, [1, 4, 10], shares);
+        let shares = [0.7, 0.05, 0.25];
+        let found = at(shares);
+        for i in 0..3 {
+            let step = 0.01 * shares[i];
+            let moved = |sign: f32| {
+                let mut moved = shares;
+                moved[i] += sign * step;
+                f64::from(at(moved).chi2)
+            };
+            let quotient = (moved(1.0) - moved(-1.0)) / (2.0 * f64::from(step));
+            let slope = -2.0 * f64::from(found.right[i]);
+            assert!((quotient / slope - 1.0).abs() < 0.02, "{i}: {quotient} {slope}");
+        }
+    }
+
+    #[test]
+    fn linearised_rows_are_zero_in_sum_at_the_truth() {
+        let oils = oils(&even(31));
+        let noise = WhiteningNoise::new(&Noise::new(&oils.bands, 0.003, &ModelError::Stated(0.1)));
+        let truth = [(1, 0.5), (4, 0.1), (10, 0.4)];
+        let seen: Vec<f32> = oils.paints.reflectance(&truth).iter().map(|r| *r as f32).collect();
+        let pixel = oils.films.pixel(&noise, &seen);
+        let (internal, inverse) = oils.films.film(&[(4, 0.5), (13, 0.5)]);
+        let mut work = Work::new(&oils.films);
+        oils.films.products(&pixel, (&internal, &inverse), &mut work);
+        let parts = truth.map(|(pigment, share)| share * f64::from(work.size(pigment)));
+        let mut sums = [0.0; 2];
+        for (i, (a, _)) in truth.iter().enumerate() {
+            for (j, (b, _)) in truth.iter().enumerate() {
+                let product = f64::from(work.product(*a.min(b), *a.max(b)));
+                sums[0] += parts[i] * parts[j] * product;
+                sums[1] += (parts[i] * parts[j] * product).abs();
+            }
+        }
+        assert!(sums[0].abs() < 1e-5 * sums[1], "{sums:?}");
     }
 }

@@ -1,9 +1,20 @@
-//! The book of a survey: spectra of some pixels with the sets of pigments that explain them.
+//! Maps of pixels by the book of a survey.
+//!
+//! The book holds spectra of some pixels with the sets of pigments that explain them. Each pixel is compared
+//! with the sets of the four nearest pixels in the book; where none explains it, all sets are searched. Its
+//! result depends only on the pixel and the book.
 
+use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::map_error::MapError;
+use crate::films::bands::{Bands, BareGround, Ground, MOST_BANDS};
+use crate::films::film::{Films, Paints, Pixel};
+use crate::films::settings::{MapSettings, ModelError, Noise};
+use crate::films::whitening::WhiteningNoise;
+use crate::pixel_maps::{MapError, Mask};
+use crate::search::set_fit::{Scores, SetFit};
+use crate::search::{Engine, Nearest, Point, Scratch, Table};
 
 /// Version of the file of a book.
 const VERSION: u32 = 3;
@@ -88,7 +99,8 @@ impl Book {
     /// Reads a book that [`Book::to_json`] wrote.
     ///
     /// # Errors
-    /// [`MapError::Book`] for text that is no book of this version, or whose numbers contradict each other.
+    /// [`MapError::Book`] for text that is not a book of this version, or with numbers that contradict
+    /// each other.
     pub fn from_json(text: &str) -> Result<Self, MapError> {
         let book: Self = serde_json::from_str(text)
             .map_err(|error| MapError::Book { reason: error.to_string() })?;
@@ -102,7 +114,7 @@ impl Book {
                 && set.iter().all(|&p| usize::from(p) < book.pigments.len())
         };
         let is_entry = |entry: &BookEntry| {
-            entry.point.len() == crate::search::nearest::DIMENSIONS
+            entry.point.len() == crate::search::DIMENSIONS
                 && entry.point.iter().all(|value| value.is_finite())
                 && entry.sets.iter().all(|set: &BookSet| {
                     known(&set.pigments)
@@ -132,5 +144,209 @@ impl Book {
     pub fn sha256(&self) -> Result<String, MapError> {
         let digest = Sha256::digest(self.to_json()?.as_bytes());
         Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+}
+
+/// Entries of the book that propose sets.
+const NEIGHBOURS: usize = 4;
+/// Most proposed sets of a pixel.
+const PROPOSED: usize = 8;
+/// Gauss-Newton steps of a proposed set.
+const STEPS: usize = 1;
+/// A pixel counts as explained up to this chi-square, relative to the nearest entry's.
+const WORSE: f32 = 1.2;
+
+/// A book that is ready for use.
+#[derive(Debug, Clone)]
+pub struct OpenBook {
+    nearest: Nearest,
+    /// Sets of each entry: ends in `sets`.
+    ends: Vec<u32>,
+    sets: Vec<SetFit>,
+    chi2: Vec<f32>,
+    usual_chi2: f32,
+    /// Search that knows the palette of the survey.
+    engine: Engine,
+}
+
+impl OpenBook {
+    /// Prepares `book` for the pixels of a map.
+    ///
+    /// # Errors
+    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings.
+    pub(crate) fn new(prepared: &Prepared, identity: &str, book: &Book) -> Result<Self, MapError> {
+        if book.identity != identity || book.pigments != prepared.paints.names {
+            let found = book.identity.clone();
+            let expected = identity.to_owned();
+            return Err(MapError::OtherBook { found, expected });
+        }
+        let point = |values: &Vec<f32>| -> Point {
+            std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+        };
+        let points: Vec<Point> = book.entries.iter().map(|entry| point(&entry.point)).collect();
+        let mut ends = Vec::new();
+        let mut sets = Vec::new();
+        for entry in &book.entries {
+            for set in &entry.sets {
+                let parts = set.pigments.iter().zip(&set.shares);
+                let parts: Vec<(usize, f32)> =
+                    parts.map(|(&member, &share)| (usize::from(member), share)).collect();
+                sets.extend(SetFit::of_parts(&parts));
+            }
+            ends.push(sets.len() as u32);
+        }
+        Ok(Self {
+            nearest: Nearest::new(&points),
+            ends,
+            sets,
+            chi2: book.entries.iter().map(|entry| entry.chi2).collect(),
+            usual_chi2: book.usual_chi2,
+            engine: prepared.engine.with_palette(&book.palette),
+        })
+    }
+
+    fn sets(&self, entry: usize) -> &[SetFit] {
+        let start = entry.checked_sub(1).map_or(0, |before| self.ends[before]) as usize;
+        &self.sets[start..self.ends[entry] as usize]
+    }
+
+    /// Finds the sets that explain a pixel, the best first, in `scratch.found`. Returns whether the
+    /// book explained it.
+    pub(crate) fn find(&self, folded: &Folded, scratch: &mut Scratch) -> bool {
+        let engine = &self.engine;
+        let near = self.nearest.find::<NEIGHBOURS>(&folded.point);
+        scratch.found.clear();
+        let mut usual = self.usual_chi2;
+        // The best sets of all neighbours come before the second-best of any.
+        'ranks: for rank in 0.. {
+            let mut any = false;
+            for &(_, entry) in near.iter().filter(|(_, entry)| *entry != u32::MAX) {
+                let entry = entry as usize;
+                if rank == 0 {
+                    usual = usual.max(WORSE * self.chi2[entry].min(4.0 * self.usual_chi2));
+                }
+                let Some(set) = self.sets(entry).get(rank) else { continue };
+                any = true;
+                if scratch.found.iter().any(|found| found.key() == set.key()) {
+                    continue;
+                }
+                if scratch.found.len() == PROPOSED {
+                    break 'ranks;
+                }
+                scratch.found.push(*set);
+            }
+            if !any {
+                break;
+            }
+        }
+        for set in &mut scratch.found {
+            *set = engine.refined(&folded.pixel, *set, STEPS);
+        }
+        engine.sort(&folded.pixel, &mut scratch.found);
+        let explained = scratch.found.first().is_some_and(|best| best.chi2 <= usual);
+        if !explained {
+            let place = engine.table.nearest(&folded.point);
+            engine.search(&folded.pixel, place, scratch);
+        }
+        explained
+    }
+}
+
+/// Reflectances of a band that a scan can have. Others show raw counts, percent or a wrong white.
+const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;
+
+/// All that does not change from pixel to pixel.
+#[derive(Debug, Clone)]
+pub(crate) struct Prepared {
+    pub(crate) bands: Bands,
+    pub(crate) paints: Paints,
+    pub(crate) noise: Noise,
+    pub(crate) engine: Engine,
+    /// Bands of the scan that take part.
+    used: Vec<usize>,
+    /// Rows of the folded bands: ends in `terms`.
+    ends: Vec<usize>,
+    terms: Vec<(u32, f32)>,
+    ground: Option<BareGround>,
+    /// Pigments by place, those that the bands cannot tell apart together.
+    pub(crate) entries: Vec<Vec<usize>>,
+}
+
+/// A pixel on the folded bands.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Folded {
+    pub(crate) pixel: Pixel,
+    pub(crate) point: Point,
+}
+
+impl Prepared {
+    /// Prepares `library` with the errors `model` of its predictions.
+    pub(crate) fn new(
+        library: &PigmentLibrary,
+        wavelengths: &[f64],
+        settings: &MapSettings,
+        model: &ModelError,
+    ) -> Result<Self, MapError> {
+        let bands = Bands::new(wavelengths, library.grid)?;
+        let paints = Paints::new(library, &settings.palette, &bands)?;
+        let noise = Noise::new(&bands, settings.sensor_noise, model);
+        let films = Films::new(&paints);
+        let table = Table::new(&paints, &films, &noise);
+        let engine = Engine {
+            films,
+            table,
+            noise: WhiteningNoise::new(&noise),
+            at_most: settings.at_most.min(paints.count()),
+            scores: Scores::new((paints.count(), bands.count()), settings.penalty, noise.tail),
+            strength_sd: 0.0,
+        };
+        let mut ends = Vec::new();
+        let mut terms = Vec::new();
+        let mut used = Vec::new();
+        for row in &bands.from_scan {
+            terms.extend(row.terms.iter().map(|&(band, weight)| (band as u32, weight as f32)));
+            used.extend(row.terms.iter().map(|&(band, _)| band));
+            ends.push(terms.len());
+        }
+        used.sort_unstable();
+        used.dedup();
+        let bare = |ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor);
+        let ground = settings.ground.as_ref().map(bare).transpose()?;
+        let entries = (0..paints.count()).map(|pigment| vec![pigment]).collect();
+        Ok(Self { bands, paints, noise, engine, used, ends, terms, ground, entries })
+    }
+
+    /// Folds a pixel of the scan.
+    ///
+    /// # Errors
+    /// The reason why it cannot be mapped.
+    pub(crate) fn fold(&self, scan: &[f32]) -> Result<Folded, Mask> {
+        for &band in &self.used {
+            let value = scan[band];
+            if !value.is_finite() {
+                return Err(Mask::NotFinite);
+            }
+            if !REFLECTANCES.contains(&value) {
+                return Err(Mask::OutOfRange);
+            }
+        }
+        let mut folded = [0.0; MOST_BANDS];
+        let mut start = 0;
+        for (value, &end) in folded.iter_mut().zip(&self.ends) {
+            for &(band, weight) in &self.terms[start..end] {
+                *value += weight * scan[band as usize];
+            }
+            start = end;
+        }
+        let folded = &folded[..self.bands.count()];
+        let mean = folded.iter().sum::<f32>() / folded.len() as f32;
+        if mean <= self.paints.surface.floor() as f32 {
+            return Err(Mask::TooDark);
+        }
+        if self.ground.as_ref().is_some_and(|ground| ground.explains(folded)) {
+            return Err(Mask::Ground);
+        }
+        let point = self.engine.table.projection.of(folded);
+        Ok(Folded { pixel: self.engine.films.pixel(&self.engine.noise, folded), point })
     }
 }

@@ -1,11 +1,14 @@
-//! Pigments that the bands of a scan cannot tell apart, told from K, S and the noise alone.
+//! Pigments that the bands of a scan cannot tell apart, shares and probabilities of a pixel, and the error in
+//! the strength of paints.
 
-use crate::films::film::Pixel;
-use crate::films::paints::Paints;
+use calibrate::{LeftOutMixture, Residuals};
+
+use super::book::Prepared;
+use crate::films::film::{Paints, Pixel};
 use crate::films::settings::PigmentGroup;
-use crate::map_error::MapError;
-use crate::search::engine::Engine;
-use crate::search::set_fit::SetFit;
+use crate::pixel_maps::{BlockMaps, MapError, Mask};
+use crate::search::Engine;
+use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit};
 
 /// Parts of a companion's optical strength in the films that are compared.
 const COMPANION_PARTS: [f64; 3] = [0.2, 0.5, 0.8];
@@ -133,12 +136,12 @@ fn normal_above(z: f64) -> f64 {
 pub struct Column {
     /// Name of the pigment or group.
     pub name: String,
-    /// Names of its pigments; one for a pigment by itself.
+    /// Names of its pigments. A pigment by itself has one.
     pub pigments: Vec<String>,
 }
 
-/// Columns of a map of `paints`: the groups that the user named, those of `alike` pigments that are in none,
-/// and each other pigment by itself, in the order of their first pigments.
+/// Columns of a map of `paints`: the groups that the user named, groups of `alike` pigments that are in
+/// none, and each other pigment by itself, in the order of their first pigments.
 ///
 /// # Errors
 /// [`MapError::Name`] for an unknown pigment, [`MapError::TwoGroups`] for one in two groups.
@@ -188,4 +191,233 @@ pub(crate) fn columns(
         columns.push(Column { name, pigments: vec![pigment.clone()] });
     }
     Ok(columns)
+}
+
+/// Numbers of one pixel, by column of the map.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Told {
+    pub(crate) share: Vec<f64>,
+    pub(crate) share_sd: Vec<f64>,
+    pub(crate) presence: Vec<f64>,
+    /// Chi-square per degree of freedom.
+    pub(crate) chi2: f64,
+    /// Root mean square difference in reflectance.
+    pub(crate) rms: f64,
+    /// Columns of the best set that has others than the best of all, as bits.
+    pub(crate) second: u64,
+}
+
+impl Told {
+    pub(crate) fn new(columns: usize) -> Self {
+        Self {
+            share: vec![0.0; columns],
+            share_sd: vec![0.0; columns],
+            presence: vec![0.0; columns],
+            chi2: 0.0,
+            rms: 0.0,
+            second: 0,
+        }
+    }
+
+    /// Adds the numbers to `maps` for the next pixel.
+    pub(crate) fn push_to(&self, maps: &mut BlockMaps) {
+        maps.share.extend(self.share.iter().map(|value| *value as f32));
+        maps.share_sd.extend(self.share_sd.iter().map(|value| *value as f32));
+        maps.presence.extend(self.presence.iter().map(|value| *value as f32));
+        maps.chi2.push(self.chi2 as f32);
+        maps.rms.push(self.rms as f32);
+        maps.second.push(self.second);
+        maps.mask.push(Mask::Mapped);
+    }
+
+    /// Sums up the sets `found`, the best first. `column_of` is the column of each pigment.
+    ///
+    /// Sets count by [`Scores::weight`]. The shares come from the best set. Their variance adds the
+    /// curvature's, the paints' strengths, and the mean square by which other sets differ, each with its
+    /// weight.
+    pub(crate) fn sum(
+        &mut self,
+        engine: &Engine,
+        pixel: &Pixel,
+        found: &[SetFit],
+        column_of: &[usize],
+    ) {
+        self.share.fill(0.0);
+        self.share_sd.fill(0.0);
+        self.presence.fill(0.0);
+        self.second = 0;
+        let Some(best) = found.first() else { return };
+        let bits = |set: &SetFit| {
+            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << column_of[member])
+        };
+        for (member, share) in best.parts() {
+            self.share[column_of[member]] += f64::from(share);
+        }
+        let best_bits = bits(best);
+        let mut total = 0.0;
+        let mut shares = vec![0.0; self.share.len()];
+        for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
+            let weight = Scores::weight(set.score - best.score);
+            total += weight;
+            let columns = bits(set);
+            if self.second == 0 && columns != best_bits {
+                self.second = columns;
+            }
+            shares.fill(0.0);
+            for (member, share) in set.parts() {
+                shares[column_of[member]] += f64::from(share);
+            }
+            for (column, share) in shares.iter().enumerate() {
+                self.presence[column] += weight * f64::from(u32::from(columns >> column & 1 == 1));
+                self.share_sd[column] += weight * (share - self.share[column]).powi(2);
+            }
+        }
+        let difference = best.difference(&engine.films, pixel);
+        let excess = engine.scores.excess(best.chi2);
+        let covariance = best.covariance(&difference);
+        // A share changes with the logarithm of a paint's strength by share x (own column - column's share).
+        let of_strength = |column: usize| -> f64 {
+            let slopes = best.parts().map(|(member, share)| {
+                let own = f64::from(u8::from(column_of[member] == column));
+                f64::from(share) * (own - self.share[column])
+            });
+            slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
+        };
+        let mut variance: Vec<f64> = (0..self.share.len()).map(of_strength).collect();
+        for (i, (a, _)) in best.parts().enumerate() {
+            for (j, (b, _)) in best.parts().enumerate() {
+                if column_of[a] == column_of[b] {
+                    variance[column_of[a]] += covariance[i][j] * excess;
+                }
+            }
+        }
+        for ((sd, presence), variance) in
+            self.share_sd.iter_mut().zip(&mut self.presence).zip(&variance)
+        {
+            *sd = (*sd / total + variance.max(0.0)).sqrt().min(1.0);
+            *presence /= total;
+        }
+        let bands = engine.films.bands;
+        let free = bands.saturating_sub(best.len() - 1).max(1) as f64;
+        self.chi2 = f64::from(best.chi2) / free;
+        self.rms = (f64::from(difference.squares) / bands as f64).sqrt();
+    }
+}
+
+/// Gauss-Newton steps of a mixture's own pigments.
+const STRENGTH_STEPS: usize = 12;
+/// Part of a normal distribution within one standard deviation.
+const WITHIN: f64 = 0.6827;
+/// Least predicted reflectance by which a measured one is divided.
+const LEAST: f64 = 1e-3;
+
+/// Standard deviation of the logarithm of a paint's strength with which one deviation covers 68 % of the
+/// shares of the mixtures in `residuals`, when their own pigments are fitted to them, or 0 without such
+/// mixtures.
+///
+/// A paint with a wrong strength looks like a paint with another share: the spectrum does not tell.
+pub(crate) fn strength_sd(prepared: &Prepared, residuals: &Residuals) -> f64 {
+    let of_mixture = |mixture| needed(prepared, mixture).unwrap_or_default();
+    let mut needed: Vec<f64> = residuals.mixtures.iter().flat_map(of_mixture).collect();
+    needed.sort_by(f64::total_cmp);
+    let place = (WITHIN * needed.len() as f64) as usize;
+    needed.get(place).map_or(0.0, |variance| variance.sqrt())
+}
+
+/// Variance of the logarithm of strengths that explains the error of each share of a mixture, or `None`
+/// for a mixture of one pigment, of more than four, and of pigments that take no part.
+fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
+    let parts: Vec<(usize, f64)> = mixture
+        .shares
+        .iter()
+        .map(|(name, share): (&String, &f64)| Some((prepared.paints.place(name)?, *share)))
+        .collect::<Option<_>>()?;
+    let start: Vec<(usize, f32)> = parts.iter().map(|&(p, share)| (p, share as f32)).collect();
+    let mut set = SetFit::of_parts(&start).filter(|set| set.len() > 1)?;
+    let fold = |values: &[f64]| prepared.bands.fold_library(values);
+    let measured = fold(&mixture.measured);
+    let predicted = fold(&mixture.predicted);
+    // This library's film, with the error that the fit without the mixture had.
+    let film = prepared.paints.reflectance(&parts);
+    let ratios = measured.iter().zip(&predicted).map(|(m, p)| m / p.max(LEAST));
+    let off: Vec<f32> =
+        film.iter().zip(ratios).map(|(film, ratio)| (film * ratio) as f32).collect();
+    let engine = &prepared.engine;
+    let pixel = engine.films.pixel(&engine.noise, &off);
+    let truth = set.shares;
+    let difference = set.refine(&engine.films, &pixel, STRENGTH_STEPS);
+    let excess = engine.scores.excess(set.chi2);
+    let covariance = set.covariance(&difference);
+    let shares: Vec<f64> = set.parts().map(|(_, share)| f64::from(share)).collect();
+    let needed = (0..shares.len()).map(|i| {
+        let slope = |(j, share): (usize, &f64)| {
+            let own = f64::from(u8::from(i == j));
+            (share * (own - shares[i])).powi(2)
+        };
+        let slopes: f64 = shares.iter().enumerate().map(slope).sum();
+        let square = (shares[i] - f64::from(truth[i])).powi(2);
+        (square - covariance[i][i] * excess).max(0.0) / slopes.max(1e-9)
+    });
+    Some(needed.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::films::settings::{MapSettings, ModelError};
+    use pigment::PigmentLibrary;
+
+    /// Error found for mixtures with a second paint `factor` times as strong as the library has it.
+    fn told(factor: f64) -> f64 {
+        let oils = PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
+        let settings = MapSettings { sensor_noise: 0.0, ..MapSettings::default() };
+        let exact = ModelError::Stated(0.001);
+        let prepared = Prepared::new(&oils, &nm, &settings, &exact).unwrap();
+        let place = |name: &str| prepared.paints.place(name).unwrap();
+        let white = place("Zinc White");
+        let mut residuals = Residuals::van_gogh_oils();
+        residuals.mixtures.truncate(4);
+        let names = ["Viridian", "Cobalt Blue", "Vermilion", "Bone Black"];
+        for (mixture, name) in residuals.mixtures.iter_mut().zip(names) {
+            let film =
+                |part: f64| prepared.paints.reflectance(&[(white, 0.6), (place(name), part)]);
+            mixture.shares = [("Zinc White".to_owned(), 0.6), (name.to_owned(), 0.4)].into();
+            mixture.predicted = film(0.4);
+            mixture.measured = film(0.4 * factor);
+        }
+        strength_sd(&prepared, &residuals)
+    }
+
+    #[test]
+    fn a_strength_that_is_off_is_told() {
+        let exact = told(1.0);
+        assert!(exact < 0.01, "{exact}");
+        // Two paints share the error: each is off by its square root of a half.
+        let off = told(1.3);
+        let expected = 1.3f64.ln() / 2f64.sqrt();
+        assert!((off / expected - 1.0).abs() < 0.15, "{off} {expected}");
+    }
+
+    #[test]
+    fn pigments_that_take_no_part_tell_nothing() {
+        let oils = PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
+        let palette = vec!["Viridian".to_owned()];
+        let settings = MapSettings { palette, ..MapSettings::default() };
+        let prepared = Prepared::new(&oils, &nm, &settings, &ModelError::Stated(0.1)).unwrap();
+        let mut residuals = Residuals::van_gogh_oils();
+        assert_eq!(strength_sd(&prepared, &residuals), 0.0);
+        // Two pigments of three tell no more than one of two.
+        for mixture in &mut residuals.mixtures {
+            mixture.shares.insert("Viridian".to_owned(), 0.3);
+            mixture.shares.insert("Zinc White".to_owned(), 0.3);
+        }
+        residuals.mixtures.retain(|mixture| mixture.shares.len() > 2);
+        assert!(residuals.mixtures.len() > 50, "{} of three or four", residuals.mixtures.len());
+        let palette = vec!["Viridian".to_owned(), "Zinc White".to_owned()];
+        let settings = MapSettings { palette, ..MapSettings::default() };
+        let prepared = Prepared::new(&oils, &nm, &settings, &ModelError::Stated(0.1)).unwrap();
+        assert_eq!(strength_sd(&prepared, &residuals), 0.0);
+    }
 }

@@ -1,11 +1,378 @@
-//! From pixels searched whole to maps of all pixels: groups, survey and its book, presence.
+//! The front door of maps: a library and the wavelengths of a scan, ready for survey and map.
 
 pub(crate) mod groups;
-pub(crate) mod prepared;
 pub(crate) mod book;
-mod palette;
 pub(crate) mod survey;
-mod strength;
-mod presence;
-pub(crate) mod open_book;
-pub(crate) mod mapper;
+
+use std::ops::ControlFlow;
+
+use pigment::library::{Input, PigmentLibrary};
+use rayon::prelude::*;
+
+use crate::films::bands::Bands;
+use crate::films::settings::{MapSettings, ModelError};
+use crate::pixel_maps::{BlockMaps, MapError, Mask};
+use crate::search::Scratch;
+use crate::search::set_fit::SetFit;
+use book::{Book, Folded, OpenBook, Prepared};
+use groups::{Column, Confusion, Told, columns, strength_sd};
+use survey::{survey, survey_step};
+
+/// Gauss-Newton steps of the true pigments in a trial.
+const TRUTH_STEPS: usize = 12;
+/// Chi-square per degree of freedom above which no mixture explains a pixel: three standard deviations of
+/// sensor and library in all bands. The 65 measured oils reach 6.4, each without itself in the library.
+/// Spectra that no paint has 17 and more.
+const OUT_OF_GAMUT: f64 = 9.0;
+/// Pixels that a thread maps at a time.
+const TOGETHER: usize = 256;
+
+/// Maps the pigments of a library in scans of certain wavelengths.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use maps::{MapSettings, Mapper};
+/// use pigment::PigmentLibrary;
+///
+/// let oils = PigmentLibrary::van_gogh_oils();
+/// let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
+/// let mapper = Mapper::new(&oils, &nm, &MapSettings::default())?;
+/// let recipe = oils.recipe([("Zinc White", 0.8), ("Viridian", 0.2)])?;
+/// let green: Vec<f32> =
+///     oils.mix(recipe)?.hiding(oils.saunderson).iter().map(|r| *r as f32).collect();
+/// let book = mapper.survey(&green, &|| ControlFlow::Continue(()))?;
+/// let maps = mapper.map_block(&book, &green)?;
+/// let viridian = mapper.columns().iter().position(|column| column.name == "Viridian").unwrap();
+/// assert!((maps.share[viridian] - 0.2).abs() < 0.01, "{}", maps.share[viridian]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Mapper {
+    prepared: Prepared,
+    columns: Vec<Column>,
+    /// Column of each pigment.
+    column_of: Vec<usize>,
+    model_error: ModelError,
+    identity: String,
+}
+
+impl Mapper {
+    /// Prepares `library` for scans with bands at the wavelengths `wavelengths` in nm, rising.
+    ///
+    /// # Errors
+    /// [`MapError`] if wavelengths, library and residuals do not fit together, a name is unknown, or a setting
+    /// is out of range.
+    pub fn new(
+        library: &PigmentLibrary,
+        wavelengths: &[f64],
+        settings: &MapSettings,
+    ) -> Result<Self, MapError> {
+        settings.check()?;
+        let model_error = settings.model_error_of(library)?;
+        let mut prepared = Prepared::new(library, wavelengths, settings, &model_error)?;
+        if let ModelError::Residuals(residuals) = &model_error {
+            prepared.engine.strength_sd = strength_sd(&prepared, residuals);
+        }
+        let groups = alike(library, wavelengths, (settings, &model_error), &prepared)?;
+        prepared.entries.retain(|entry| !groups.iter().any(|group| group.contains(&entry[0])));
+        prepared.entries.extend(groups.iter().cloned());
+        let alike = if settings.group_alike { groups } else { Vec::new() };
+        let columns = columns(
+            &prepared.paints,
+            &settings.groups,
+            |name: &str| library.find(name).map(|id| library[id].name.clone()),
+            &alike,
+        )?;
+        let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
+        let column_of =
+            prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
+        let identity = identity(library, wavelengths, settings, &model_error);
+        Ok(Self { prepared, columns, column_of, model_error, identity })
+    }
+
+    /// Columns of the maps: pigments, and groups of them that are mapped as one.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Names of the pigments that take part, as the library has them.
+    #[must_use]
+    pub fn pigments(&self) -> &[String] {
+        &self.prepared.paints.names
+    }
+
+    /// How likely each pigment is taken for another, by places in [`Mapper::pigments`].
+    #[must_use]
+    pub fn confusion(&self) -> Confusion {
+        Confusion::new(&self.prepared.engine, &self.prepared.paints)
+    }
+
+    /// Bands to which pixels are folded.
+    #[must_use]
+    pub fn bands(&self) -> &Bands {
+        &self.prepared.bands
+    }
+
+    /// Effective number of bands: how many independent ones tell as much of the library's error.
+    #[must_use]
+    pub fn effective_bands(&self) -> f64 {
+        self.prepared.noise.effective_bands
+    }
+
+    /// Error of the library's predictions that the maps reckon with.
+    #[must_use]
+    pub fn model_error(&self) -> &ModelError {
+        &self.model_error
+    }
+
+    /// Identity of library, wavelengths and settings, in hexadecimal. Books are valid for one identity.
+    #[must_use]
+    pub fn identity(&self) -> &str {
+        &self.identity
+    }
+
+    /// Surveys pixels of a scan: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
+    /// each. Every k-th pixel is searched whole, so that about 20,000 are. `progress` is called after each of
+    /// them, from any thread; if it breaks, the survey ends.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped,
+    /// [`MapError::Cancelled`] if `progress` broke.
+    pub fn survey(
+        &self,
+        spectra: &[f32],
+        progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+    ) -> Result<Book, MapError> {
+        let pixels = self.pixels(spectra)?;
+        let chosen = pixels.clone().step_by(survey_step(pixels.len()));
+        let surveyed = chosen.len();
+        let folded: Vec<Folded> =
+            chosen.filter_map(|pixel| self.prepared.fold(pixel).ok()).collect();
+        if folded.is_empty() {
+            return Err(MapError::NothingToSurvey { pixels: surveyed });
+        }
+        let names = self.pigments().to_vec();
+        let book = Book::new(self.identity.clone(), self.model_error.words(), names);
+        Ok(survey(&self.prepared, book, &folded, progress)?)
+    }
+
+    /// Prepares the book of a survey for [`Mapper::map`], once for all blocks of a scan.
+    ///
+    /// # Errors
+    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings,
+    /// [`MapError::OtherModelError`] with another error of the library's predictions.
+    pub fn open_book(&self, book: &Book) -> Result<OpenBook, MapError> {
+        let model_error = self.model_error.words();
+        if book.model_error != model_error {
+            let found = book.model_error.clone();
+            let expected = model_error;
+            return Err(MapError::OtherModelError { found, expected });
+        }
+        OpenBook::new(&self.prepared, &self.identity, book)
+    }
+
+    /// Maps the pixels of `spectra` as [`Mapper::map`] does, with a book that is opened for them alone.
+    ///
+    /// # Errors
+    /// [`MapError::OtherBook`] and [`MapError::Length`].
+    pub fn map_block(&self, book: &Book, spectra: &[f32]) -> Result<BlockMaps, MapError> {
+        self.map(&self.open_book(book)?, spectra, &[])
+    }
+
+    /// Maps pixels on all cores: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands
+    /// of each. Pixels with a mask in `masks` other than [`Mask::Mapped`] are passed over. No masks mean
+    /// none. Each pixel's numbers depend on itself and the book only.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] for a broken pixel, [`MapError::Masks`] unless there is a mask for each pixel or
+    /// none.
+    pub fn map(
+        &self,
+        book: &OpenBook,
+        spectra: &[f32],
+        masks: &[Mask],
+    ) -> Result<BlockMaps, MapError> {
+        self.map_with(spectra, masks, |folded, scratch| {
+            book.find(folded, scratch);
+        })
+    }
+
+    /// Pigments of the best set of one pixel with their shares, the greatest first: the single pigments, also
+    /// where the maps show their group. `None` if the pixel cannot be mapped.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] unless `spectrum` has one reflectance a band.
+    pub fn best_set(
+        &self,
+        book: &OpenBook,
+        spectrum: &[f32],
+    ) -> Result<Option<Vec<(String, f64)>>, MapError> {
+        let bands = self.prepared.bands.scan_bands;
+        if spectrum.len() != bands {
+            return Err(MapError::Length { values: spectrum.len(), bands });
+        }
+        let engine = &self.prepared.engine;
+        let Ok(folded) = self.prepared.fold(spectrum) else { return Ok(None) };
+        let mut scratch = Scratch::new(&engine.films);
+        book.find(&folded, &mut scratch);
+        let Some(best) = scratch.found.first() else { return Ok(None) };
+        let members = best.members.iter().zip(best.shares).take(usize::from(best.count));
+        let name = |place: &u8| self.prepared.paints.names[usize::from(*place)].clone();
+        let mut set: Vec<(String, f64)> =
+            members.map(|(place, share)| (name(place), f64::from(share))).collect();
+        set.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(Some(set))
+    }
+
+    /// Searches every pixel whole, without a survey. This is slow, and tells what a survey can save.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] for a broken pixel.
+    pub fn search(&self, spectra: &[f32]) -> Result<BlockMaps, MapError> {
+        let engine = &self.prepared.engine;
+        self.map_with(spectra, &[], |folded, scratch| {
+            let place = engine.table.nearest(&folded.point);
+            engine.search(&folded.pixel, place, scratch);
+        })
+    }
+
+    /// Compares the best set of a whole search with the true pigments of each pixel, their shares refined. `None` for
+    /// pixels that cannot be mapped and those with pigments that do not take part.
+    pub(crate) fn gaps_to_truth(
+        &self,
+        spectra: &[f32],
+        truth: &[Vec<(&str, f64)>],
+    ) -> Result<Vec<Option<Gap>>, MapError> {
+        let engine = &self.prepared.engine;
+        let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
+        let columns = |set: &SetFit| {
+            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << self.column_of[member])
+        };
+        let gap = |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
+            let folded = self.prepared.fold(pixel).ok()?;
+            let place = |(name, share): &(&str, f64)| {
+                Some((self.prepared.paints.place(name)?, *share as f32))
+            };
+            let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
+            let set = SetFit::of_parts(&parts)?;
+            let nearest = engine.table.nearest(&folded.point);
+            engine.search(&folded.pixel, nearest, scratch);
+            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
+            let found = scratch.found.first()?;
+            Some(Gap {
+                score: found.score - truth.score,
+                chi2: found.chi2 - truth.chi2,
+                is_right: columns(found) == columns(&truth),
+            })
+        };
+        let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
+        Ok(found.collect())
+    }
+
+    fn map_with(
+        &self,
+        spectra: &[f32],
+        masks: &[Mask],
+        find: impl Fn(&Folded, &mut Scratch) + Sync,
+    ) -> Result<BlockMaps, MapError> {
+        let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
+        if !masks.is_empty() && masks.len() != pixels.len() {
+            return Err(MapError::Masks { masks: masks.len(), pixels: pixels.len() });
+        }
+        let engine = &self.prepared.engine;
+        let parts: Vec<BlockMaps> = (pixels.par_chunks(TOGETHER).enumerate())
+            .map_init(
+                || (Scratch::new(&engine.films), Told::new(self.columns.len())),
+                |(scratch, told), (number, pixels)| {
+                    let mut maps = BlockMaps::with_capacity(pixels.len(), self.columns.len());
+                    for (index, pixel) in pixels.iter().enumerate() {
+                        let mask = masks.get(number * TOGETHER + index).copied();
+                        let folded = match mask.unwrap_or(Mask::Mapped) {
+                            Mask::Mapped => self.prepared.fold(pixel),
+                            other => Err(other),
+                        };
+                        match folded {
+                            Ok(folded) => {
+                                find(&folded, scratch);
+                                let pixel = &folded.pixel;
+                                let found = &scratch.found;
+                                told.sum(engine, pixel, found, &self.column_of);
+                                if told.chi2 > OUT_OF_GAMUT {
+                                    maps.push_masked(Mask::OutOfGamut, told.chi2, told.rms);
+                                } else {
+                                    told.push_to(&mut maps);
+                                }
+                            }
+                            Err(mask) => maps.push_masked(mask, f64::NAN, f64::NAN),
+                        }
+                    }
+                    maps
+                },
+            )
+            .collect();
+        let mut maps = BlockMaps::with_capacity(pixels.len(), self.columns.len());
+        parts.into_iter().for_each(|part| maps.append(part));
+        Ok(maps)
+    }
+
+    fn pixels<'a>(&self, spectra: &'a [f32]) -> Result<std::slice::ChunksExact<'a, f32>, MapError> {
+        let bands = self.prepared.bands.scan_bands;
+        let pixels = spectra.chunks_exact(bands);
+        if !pixels.remainder().is_empty() {
+            return Err(MapError::Length { values: spectra.len(), bands });
+        }
+        Ok(pixels)
+    }
+}
+
+/// Best set of a search beside the true pigments of a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    /// Score of the search minus the score of the true pigments. It is 0 or below where the search found
+    /// what is as good.
+    pub(crate) score: f32,
+    /// Chi-square of the search minus the chi-square of the true pigments.
+    pub(crate) chi2: f32,
+    /// Whether the search found the true columns.
+    pub(crate) is_right: bool,
+}
+
+/// Pigments that are alike within twice a stated error of the library, or within the errors of mixtures that
+/// it had not seen. With the error itself, measured oils are often taken for others of their kind.
+fn alike(
+    library: &PigmentLibrary,
+    wavelengths: &[f64],
+    (settings, model_error): (&MapSettings, &ModelError),
+    prepared: &Prepared,
+) -> Result<Vec<Vec<usize>>, MapError> {
+    let stated = match model_error {
+        ModelError::Residuals(_) => {
+            return Ok(Confusion::new(&prepared.engine, &prepared.paints).groups());
+        }
+        ModelError::Stated(relative) => *relative,
+    };
+    let twice = ModelError::Stated((2.0 * stated).min(1.0));
+    let twice = Prepared::new(library, wavelengths, settings, &twice)?;
+    Ok(Confusion::new(&twice.engine, &twice.paints).groups())
+}
+
+/// SHA-256 of all that a map depends on, beside the pixels.
+fn identity(
+    library: &PigmentLibrary,
+    wavelengths: &[f64],
+    settings: &MapSettings,
+    model_error: &ModelError,
+) -> String {
+    use std::fmt::Write as _;
+    let mut text = library.to_json();
+    // Settings that only join columns leave the book valid.
+    let MapSettings { at_most, palette, sensor_noise, penalty, ground, .. } = settings;
+    let _ = write!(text, "{wavelengths:?} {at_most} {palette:?} {sensor_noise:?} {penalty:?} ");
+    let _ = write!(text, "{}", model_error.words());
+    if let Some(ground) = ground {
+        let _ = write!(text, "{ground:?}");
+    }
+    Input::new("", text.as_bytes()).sha256
+}

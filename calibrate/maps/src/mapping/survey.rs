@@ -1,4 +1,7 @@
-//! The survey: some pixels of a scan searched whole, and how often each set explains them.
+//! The survey: some pixels of a scan searched over all sets, and the palette that follows.
+//!
+//! A painter uses few of a library's pigments, and each of them more than once. A pigment that is needed
+//! nowhere is therefore unlikely wherever it would do as well as others, above all in dark paint.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -6,12 +9,9 @@ use std::ops::ControlFlow;
 use documents::{Cancellation, Cancelled};
 use rayon::prelude::*;
 
-use super::book::{Book, BookEntry, BookSet, SetFrequency};
-use super::palette::palette;
-use super::prepared::{Folded, Prepared};
-use crate::search::engine::{Engine, Scratch};
-use crate::search::scores::{NEGLIGIBLE, Scores};
-use crate::search::set_fit::SetFit;
+use super::book::{Book, BookEntry, BookSet, Folded, Prepared, SetFrequency};
+use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit};
+use crate::search::{Engine, Scratch};
 
 /// Pixels that a survey searches, about.
 pub const SURVEYED: usize = 20_000;
@@ -65,9 +65,6 @@ pub(crate) fn survey(
         sets.truncate(near.min(KEPT_SETS));
     }
     book.usual_chi2 = usual(&found);
-    let members = |key: u32| -> Vec<u8> {
-        key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
-    };
     book.sets = frequencies(&found)
         .into_iter()
         .map(|(key, part)| SetFrequency { pigments: members(key), part: part as f32 })
@@ -81,6 +78,10 @@ pub(crate) fn survey(
         })
         .collect();
     Ok(book)
+}
+
+fn members(key: u32) -> Vec<u8> {
+    key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
 }
 
 fn of_fit(set: &SetFit) -> BookSet {
@@ -120,4 +121,237 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
         }
     }
     parts
+}
+
+/// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
+/// not in the palette. Chosen of 4 to 18 on simulated paintings.
+const NEEDED: f32 = 14.0;
+/// Number of paints in the mean that shows how much a pigment is needed, where a scan has many: one of
+/// many may be off by chance.
+const PAINTS: usize = 2;
+/// Number of paints from which a scan has many.
+const MANY: usize = 16;
+
+/// Probability of each pigment to be in the palette. `found` holds the sets of each surveyed pixel, the
+/// best first, and `paints` a number for each pixel: pixels of one number are one paint, because they
+/// share the errors of the library. `entries` are the pigments by place, pigments that look alike
+/// together: they are one entry of the palette and share its probability as far as the paints do not tell
+/// them apart. `excess` is the factor, 1 or more, by which the errors of the survey exceed those that
+/// scores reckon with; where it is so great that no pigment could be needed, each is as likely as not.
+pub(crate) fn palette(
+    found: &[Vec<SetFit>],
+    paints: &[usize],
+    entries: &[Vec<usize>],
+    excess: f32,
+) -> Vec<f32> {
+    let pigments = entries.iter().map(Vec::len).sum();
+    if NEGLIGIBLE / excess <= NEEDED {
+        return vec![0.5; pigments];
+    }
+    let survey = Survey::new(found, paints, excess);
+    let of_entry: Vec<u64> = entries
+        .iter()
+        .map(|entry: &Vec<usize>| entry.iter().fold(0, |bits, pigment| bits | 1u64 << pigment))
+        .collect();
+    let mut palette = of_entry.iter().fold(0, |all, entry| all | entry);
+    // What is needed least goes first: others may take its place.
+    loop {
+        let inside: Vec<u64> = of_entry.iter().copied().filter(|e| palette & e != 0).collect();
+        let needs = survey.needs(palette, &inside);
+        let least = inside.into_iter().zip(needs).min_by(|(_, a), (_, b)| a.total_cmp(b));
+        match least.filter(|(_, need)| *need < NEEDED) {
+            Some((entry, _)) => palette &= !entry,
+            None => break,
+        }
+    }
+    let mut probabilities = vec![0.0; pigments];
+    for (entry, &of_entry) in entries.iter().zip(&of_entry) {
+        let palette = palette | of_entry;
+        let one_of_them = likely(survey.needs(palette, &[of_entry])[0]);
+        let own: Vec<u64> = entry.iter().map(|pigment| 1 << pigment).collect();
+        let others: Vec<u64> = own.iter().map(|own| of_entry & !own).collect();
+        // Each may replace the others, and is more likely the less the score rises by that.
+        let alone = survey.needs(palette, &others);
+        let weights: Vec<f32> = alone.iter().map(|loss| (-0.5 * loss).exp()).collect();
+        let sum: f32 = weights.iter().sum();
+        let needs = survey.needs(palette, &own);
+        for ((&pigment, weight), need) in entry.iter().zip(weights).zip(needs) {
+            probabilities[pigment] = (one_of_them * weight / sum).max(likely(need));
+        }
+    }
+    probabilities
+}
+
+fn likely(need: f32) -> f32 {
+    1.0 / (1.0 + (0.5 * (NEEDED - need)).exp())
+}
+
+/// Sets of all surveyed pixels as bits of their pigments, with their scores.
+struct Survey {
+    sets: Vec<Vec<(u64, f32)>>,
+    /// Place of each pixel's paint.
+    paints: Vec<usize>,
+    /// Pixels of each paint.
+    sizes: Vec<f32>,
+    /// Part of a difference of scores that counts.
+    counted: f32,
+}
+
+impl Survey {
+    fn new(found: &[Vec<SetFit>], numbers: &[usize], excess: f32) -> Self {
+        let mut places = BTreeMap::new();
+        let mut sizes = Vec::new();
+        let paints = numbers
+            .iter()
+            .map(|number: &usize| {
+                let place = *places.entry(*number).or_insert_with(|| {
+                    sizes.push(0.0);
+                    sizes.len() - 1
+                });
+                sizes[place] += 1.0;
+                place
+            })
+            .collect();
+        Self {
+            sets: found
+                .iter()
+                .map(|sets: &Vec<SetFit>| sets.iter().map(|set| (bits(set), set.score)).collect())
+                .collect(),
+            paints,
+            sizes,
+            counted: 1.0 / excess,
+        }
+    }
+
+    /// Rise of the score if `palette` loses each of `parts`, in the paints that need it most.
+    fn needs(&self, palette: u64, parts: &[u64]) -> Vec<f32> {
+        let mut rises = vec![vec![0.0; self.sizes.len()]; parts.len()];
+        for (sets, &paint) in self.sets.iter().zip(&self.paints) {
+            let best = |palette: u64| sets.iter().find(|(set, _)| set & !palette == 0);
+            let Some(&(set, score)) = best(palette) else { continue };
+            for (part, rises) in parts.iter().zip(&mut rises) {
+                if set & part != 0 {
+                    let without = best(palette & !part);
+                    let rise = without.map_or(NEGLIGIBLE, |(_, without)| without - score);
+                    rises[paint] += self.counted * rise.min(NEGLIGIBLE) / self.sizes[paint];
+                }
+            }
+        }
+        let counted = if self.sizes.len() < MANY { 1 } else { PAINTS };
+        rises
+            .into_iter()
+            .map(|mut rises: Vec<f32>| {
+                rises.sort_by(|a, b| b.total_cmp(a));
+                rises.iter().take(counted).sum::<f32>() / counted as f32
+            })
+            .collect()
+    }
+}
+
+fn bits(set: &SetFit) -> u64 {
+    set.parts().fold(0, |bits, (member, _)| bits | 1 << member)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sets of a pixel with their scores, the best first.
+    fn pixel(sets: &[(&[usize], f32)]) -> Vec<SetFit> {
+        sets.iter()
+            .map(|(members, score): &(&[usize], f32)| {
+                let share = 1.0 / members.len() as f32;
+                let parts: Vec<(usize, f32)> = members.iter().map(|&m| (m, share)).collect();
+                SetFit { score: *score, ..SetFit::of_parts(&parts).unwrap() }
+            })
+            .collect()
+    }
+
+    /// Entries of pigments none of which look alike.
+    fn apart(pigments: usize) -> Vec<Vec<usize>> {
+        (0..pigments).map(|pigment| vec![pigment]).collect()
+    }
+
+    #[test]
+    fn a_pigment_that_two_paints_cannot_do_without_is_in_the_palette() {
+        let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 24.0)]);
+        let doubtful = pixel(&[(&[0, 2], 5.0), (&[0, 1], 6.0)]);
+        let found = [needed.clone(), needed.clone(), doubtful.clone(), doubtful];
+        let palette = palette(&found, &[7, 3, 9, 4], &apart(4), 1.0);
+        assert!(palette[0] > 0.9 && palette[1] > 0.9, "{palette:?}");
+        assert!(palette[2] < 0.01, "a little better in two paints: {palette:?}");
+        assert!(palette[3] < 0.01, "found nowhere: {palette:?}");
+    }
+
+    #[test]
+    fn one_paint_tells_as_much_as_its_mean_pixel() {
+        let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 40.0), (&[0], 105.0)]);
+        let not = pixel(&[(&[0], 5.0)]);
+        let pixels = [needed.clone(), not.clone(), not.clone(), not.clone()];
+        let mixed = palette(&pixels, &[1, 1, 1, 1], &apart(3), 1.0);
+        assert!(
+            mixed[1] < 0.1 && mixed[0] > 0.5,
+            "one of four pixels of one paint, however much: {mixed:?}"
+        );
+        let often =
+            palette(&[needed.clone(), needed.clone(), not.clone()], &[1, 1, 2], &apart(3), 1.0);
+        assert!(often[1] > 0.9, "one of two paints: {often:?}");
+        // Of many paints two must need it.
+        let many = |needing: usize| {
+            palette(
+                &(0..MANY)
+                    .map(|paint| if paint < needing { needed.clone() } else { not.clone() })
+                    .collect::<Vec<_>>(),
+                &(0..MANY).collect::<Vec<_>>(),
+                &apart(3),
+                1.0,
+            )
+        };
+        assert!(many(1)[1] < 0.2 && many(2)[1] > 0.9, "{:?} {:?}", many(1), many(2));
+    }
+
+    #[test]
+    fn of_two_that_do_alike_the_one_that_is_needed_more_stays() {
+        let found = [alike(5.0, 7.0), alike(6.0, 5.0), alike(5.0, 8.0)];
+        let palette = palette(&found, &[1, 2, 3], &apart(3), 1.0);
+        assert!(palette[1] > 0.9 && palette[2] < 0.01, "{palette:?}");
+    }
+
+    fn alike(first: f32, second: f32) -> Vec<SetFit> {
+        let mut sets = pixel(&[(&[1], first), (&[2], second), (&[0], 50.0)]);
+        sets.sort_by(|a, b| a.score.total_cmp(&b.score));
+        sets
+    }
+
+    #[test]
+    fn pigments_that_look_alike_share_an_entry() {
+        let pixel = |first: f32, second: f32| {
+            let mut sets = pixel(&[(&[1], first), (&[2], second)]);
+            sets.sort_by(|a, b| a.score.total_cmp(&b.score));
+            sets
+        };
+        let entries = [vec![0], vec![1, 2]];
+        let of = |first, second| palette(&[pixel(first, second)], &[1], &entries, 1.0);
+        // Alone neither is needed, but one of them is.
+        let equal = of(5.0, 5.0);
+        assert!(equal[0] < 0.01, "{equal:?}");
+        assert!((equal[1] - 0.48).abs() < 0.01 && equal[1] == equal[2], "{equal:?}");
+        let better = of(5.0, 7.0);
+        assert!(better[1] > 2.5 * better[2] && better[2] > 0.2, "{better:?}");
+        let needed = of(5.0, 24.0);
+        assert!(needed[1] > 0.9 && needed[2] < 0.01, "{needed:?}");
+        // Two paints, each of which needs another of them.
+        let both = palette(&[pixel(5.0, 24.0), pixel(24.0, 5.0)], &[1, 2], &entries, 1.0);
+        assert!(both[1] > 0.9 && both[2] > 0.9, "{both:?}");
+    }
+
+    #[test]
+    fn a_library_that_errs_more_than_it_says_tells_no_palette() {
+        let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 24.0)]);
+        let [sure, less, unsure] = [1.0, 1.2, 1.5]
+            .map(|excess: f32| palette(std::slice::from_ref(&needed), &[1], &apart(3), excess));
+        assert!(sure[1] > 0.9 && sure[2] < 0.01, "{sure:?}");
+        assert!((0.5..0.9).contains(&less[1]) && less[2] < 0.01, "{less:?}");
+        assert_eq!(unsure, [0.5; 3]);
+    }
 }

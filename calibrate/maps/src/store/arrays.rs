@@ -1,10 +1,15 @@
-//! The arrays of maps: names, types, and numbers as stored bytes.
+//! The arrays of stored maps: names, types, bytes, and their division into shards and chunks.
 
+use std::fmt;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use documents::file::FileError;
+use documents::hint::{Explain, Fault, Hint};
 use half::f16;
 use serde_json::{Map, Value, json};
 
-use crate::kept_numbers::{NO_PRESENCE, PRESENCE_ONE, code_of, half_of};
-use crate::pixel_maps::{BlockMaps, Mask};
+use crate::pixel_maps::{BlockMaps, Mask, NO_PRESENCE, PRESENCE_ONE, code_of, half_of};
 
 /// Number of a pixel that no run has mapped yet.
 pub(crate) const NOT_YET: u8 = 255;
@@ -127,7 +132,7 @@ impl MapArray {
     }
 
     /// Writes the numbers of the pixels `pixels` of `maps` to `stored`.
-    pub(crate) fn store(self, maps: &BlockMaps, pixels: std::ops::Range<usize>, stored: &mut [u8]) {
+    pub(crate) fn store(self, maps: &BlockMaps, pixels: Range<usize>, stored: &mut [u8]) {
         let of_pigments = pixels.start * maps.pigments..pixels.end * maps.pigments;
         match self {
             Self::Share => halves(&maps.share[of_pigments], stored),
@@ -165,5 +170,222 @@ fn singles(values: &[f32], stored: &mut [u8]) {
     for (bytes, value) in stored.chunks_exact_mut(4).zip(values) {
         let value = if value.is_nan() { f32::NAN } else { *value };
         bytes.copy_from_slice(&value.to_le_bytes());
+    }
+}
+
+/// Pixels of a chunk along each side.
+const CHUNK: usize = 256;
+/// Chunks of a shard along each side.
+const CHUNKS: usize = 8;
+
+/// A rectangle of pixels that is written at once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shard {
+    /// Number of the shard: from left to right, then down.
+    pub index: usize,
+    /// Rows of the scan.
+    pub rows: Range<usize>,
+    /// Columns of the scan.
+    pub columns: Range<usize>,
+    /// Row and column among the shards.
+    pub(crate) at: (usize, usize),
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rows = &self.rows;
+        let columns = &self.columns;
+        write!(
+            f,
+            "rows {} to {} and columns {} to {}",
+            rows.start,
+            rows.end - 1,
+            columns.start,
+            columns.end - 1
+        )
+    }
+}
+
+/// Division of one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Axis {
+    pub(crate) length: usize,
+    /// Pixels of a chunk.
+    pub(crate) chunk: usize,
+    /// Chunks of a shard.
+    pub(crate) chunks: usize,
+}
+
+impl Axis {
+    /// Divides `length` pixels.
+    pub(crate) fn new(length: usize) -> Self {
+        let chunk = CHUNK.min(length).max(1);
+        Self { length, chunk, chunks: length.div_ceil(chunk).clamp(1, CHUNKS) }
+    }
+
+    /// Pixels of a shard.
+    pub(crate) fn shard(self) -> usize {
+        self.chunk * self.chunks
+    }
+
+    fn shards(self) -> usize {
+        self.length.div_ceil(self.shard())
+    }
+
+    fn range(self, shard: usize, start: usize) -> Range<usize> {
+        let end = ((shard + 1) * self.shard()).min(self.length);
+        start + shard * self.shard()..start + end
+    }
+}
+
+/// Division of the maps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Tiles {
+    pub(crate) down: Axis,
+    pub(crate) across: Axis,
+}
+
+impl Tiles {
+    /// Divides maps of `rows` x `columns` pixels.
+    pub(crate) fn new(rows: usize, columns: usize) -> Self {
+        Self { down: Axis::new(rows), across: Axis::new(columns) }
+    }
+
+    /// All shards, of maps that begin at this row and column of the scan.
+    pub(crate) fn shards(&self, (row, column): (usize, usize)) -> Vec<Shard> {
+        let across = self.across.shards();
+        (0..self.down.shards() * across)
+            .map(|index: usize| {
+                let at = (index / across, index % across);
+                let rows = self.down.range(at.0, row);
+                Shard { index, rows, columns: self.across.range(at.1, column), at }
+            })
+            .collect()
+    }
+}
+
+/// Maps that cannot be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The operating system cannot read or write a file of the description.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A shard cannot be written. Shards written before are whole.
+    #[error("{}: the shard of {shard} cannot be written", path.display())]
+    Shard {
+        /// Path of the store.
+        path: PathBuf,
+        /// The shard that was to be written.
+        shard: Shard,
+        /// The file and the error of the operating system.
+        source: FileError,
+    },
+    /// The output exists and is not asked to be resumed.
+    #[error("{}: exists already and {holds}", path.display())]
+    Exists {
+        /// Path of the store.
+        path: PathBuf,
+        /// Content of the folder with its verb, such as `holds maps`.
+        holds: String,
+        /// Whether it can be resumed.
+        is_maps: bool,
+    },
+    /// The output belongs to a run of other settings.
+    #[error("{}: holds maps of another run: `{key}` is {found}, now {expected}", path.display())]
+    OtherRun {
+        /// Path of the store.
+        path: PathBuf,
+        /// Name of the first attribute or array that differs.
+        key: String,
+        /// Value of the store.
+        found: String,
+        /// Value of this run.
+        expected: String,
+    },
+    /// Maps do not fit into the store.
+    #[error("{}: {problem}", path.display())]
+    Maps {
+        /// Path of the store.
+        path: PathBuf,
+        /// The numbers that disagree.
+        problem: String,
+    },
+    /// Shards are missing.
+    #[error("{}: {missing} of {shards} shards are not written yet", path.display())]
+    Unfinished {
+        /// Path of the store.
+        path: PathBuf,
+        /// Number of shards that are missing.
+        missing: usize,
+        /// Number of all shards.
+        shards: usize,
+    },
+    /// The store is damaged or no store of maps.
+    #[error("{}: {problem}", path.display())]
+    Damaged {
+        /// Path of the file.
+        path: PathBuf,
+        /// The fault that was found.
+        problem: String,
+    },
+}
+
+impl Explain for StoreError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::File(error) => error.hint(),
+            Self::Shard { source, .. } => match source.reason.kind() {
+                std::io::ErrorKind::StorageFull => {
+                    Some(Hint::new("free space on the disk, then go on with [resume]"))
+                }
+                _ => source.hint().or_else(|| Some(Hint::new("go on with [resume] afterwards"))),
+            },
+            Self::Unfinished { .. } => Some(Hint::new("go on with [resume]")),
+            Self::Exists { is_maps: true, .. } => {
+                Some(Hint::new("go on with [resume], or name another folder with [out]"))
+            }
+            Self::Exists { .. } => Some(Hint::new("name another folder with [out]")),
+            Self::OtherRun { .. } => Some(Hint::new(
+                "name another folder with [out], or map with the scan, library and settings of that run",
+            )),
+            Self::Maps { .. } => None,
+            Self::Damaged { .. } => Some(Hint::new("map the scan again into another folder")),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            Self::Shard { .. } => Fault::Environment,
+            Self::Exists { .. } | Self::OtherRun { .. } => Fault::Setting,
+            Self::Maps { .. } | Self::Unfinished { .. } | Self::Damaged { .. } => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_cover_every_pixel_once() {
+        for (rows, columns) in [(1, 1), (255, 257), (2048, 2049), (5000, 300)] {
+            let tiles = Tiles::new(rows, columns);
+            let shards = tiles.shards((10, 20));
+            let pixels: usize = shards.iter().map(|s| s.rows.len() * s.columns.len()).sum();
+            assert_eq!(pixels, rows * columns, "{rows} x {columns}");
+            let last = &shards[shards.len() - 1];
+            assert_eq!((last.rows.end, last.columns.end), (rows + 10, columns + 20));
+            assert!(shards.iter().enumerate().all(|(at, shard)| shard.index == at), "numbers");
+            assert!(tiles.down.shard() <= 2048 && tiles.across.shard() <= 2048, "shards too large");
+        }
+    }
+
+    #[test]
+    fn small_maps_have_small_shards() {
+        let tiles = Tiles::new(100, 300);
+        assert_eq!((tiles.down.shard(), tiles.across.shard()), (100, 512));
+        let shards = Tiles::new(5000, 2048).shards((0, 0));
+        assert_eq!(shards[2].to_string(), "rows 4096 to 4999 and columns 0 to 2047");
     }
 }

@@ -1,14 +1,19 @@
-//! Truth of rows: shares of the paint that is seen, blurred as the camera blurs light.
+//! Truth of rows: shares of the visible paint, blurred as the camera blurs light, and the arrays that store
+//! them.
 
 use std::ops::Range;
+use std::path::PathBuf;
 
+use documents::file::FileError;
+use documents::hint::{Explain, Fault, Hint};
 use rayon::prelude::*;
+use serde_json::{Map, Value, json};
 
-use super::paint_class::PaintClass;
 use crate::camera::Camera;
+use crate::store::StoreError;
 
-/// Numbers of parts of which the truth of a pixel consists: those of pigments, then of layers, then that of the
-/// ground. Those of the pigments sum to 1 with that of the ground, and so do those of the layers.
+/// Numbers of parts in the truth of a pixel: pigments, then layers, then the ground. Pigments and ground
+/// sum to 1, and so do layers and ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TruthParts {
     /// Number of pigments.
@@ -30,7 +35,7 @@ impl TruthParts {
 pub struct TruthRows {
     /// Number of pigments.
     pub pigments: usize,
-    /// Share of each pigment in the paint that is seen, sum 1; all 0 where no paint is.
+    /// Share of each pigment in the paint that is seen, with sum 1. All are 0 where there is no paint.
     pub share: Vec<f32>,
     /// Part of the ground in what is seen, 0 to 1.
     pub ground: Vec<f32>,
@@ -40,8 +45,8 @@ pub struct TruthRows {
     pub class: Vec<PaintClass>,
 }
 
-/// Truth of `rows`, of which the camera told `mean_reflectance`. `of(line)` gives the parts of a row, those of one
-/// pixel after another in the order of [`TruthParts`].
+/// Truth of `rows`, of which the camera reported `mean_reflectance`. `of(line)` gives the parts of a row,
+/// pixel by pixel in the order of [`TruthParts`].
 #[must_use]
 pub fn truth_rows(
     camera: &Camera,
@@ -85,4 +90,239 @@ fn shares(parts: &[f64], TruthParts { pigments, .. }: TruthParts) -> Vec<f64> {
     let sum: f64 = parts[..pigments].iter().sum();
     let factor = if sum > 1e-9 { 1.0 / sum } else { 0.0 };
     parts[..pigments].iter().map(|part| part * factor).collect()
+}
+
+/// Part of the ground from which a film is thin.
+const THIN: f64 = 0.05;
+/// Part of the ground from which no paint is seen.
+const BARE: f64 = 0.95;
+/// Part of all paint that one layer must have to be seen alone.
+const ALONE: f64 = 0.95;
+/// Share error between a pixel and its blurred neighbourhood from which it lies at an edge.
+const EDGE: f64 = 0.1;
+
+/// Kind of a pixel by the paint that is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum PaintClass {
+    /// One layer of one mixture hides all below it: what maps take for granted.
+    Hiding = 0,
+    /// Two layers or more are seen through each other, such as a glaze on white.
+    Glaze = 1,
+    /// The ground shows through by 5 % or more.
+    Thin = 2,
+    /// The ground shows by 95 % or more.
+    Bare = 3,
+    /// The blur of the camera joins paints of other shares: an edge.
+    Edge = 4,
+}
+
+impl PaintClass {
+    /// Every class in the order of its number.
+    pub const ALL: [Self; 5] = [Self::Hiding, Self::Glaze, Self::Thin, Self::Bare, Self::Edge];
+
+    /// Number that files store.
+    #[must_use]
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// Class of a stored number.
+    #[must_use]
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(code)).copied()
+    }
+
+    /// Name in files and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hiding => "hiding",
+            Self::Glaze => "glaze",
+            Self::Thin => "thin",
+            Self::Bare => "bare",
+            Self::Edge => "edge",
+        }
+    }
+
+    /// Class of a pixel. `ground` is the part of it that shows the ground, `greatest` the part of the paint
+    /// seen that belongs to one layer, the one seen most. `apart` is half the sum of the absolute
+    /// differences between its own shares and the blurred ones.
+    #[must_use]
+    pub fn of(ground: f64, greatest: f64, apart: f64) -> Self {
+        match (ground, greatest, apart) {
+            (ground, ..) if ground >= BARE => Self::Bare,
+            (ground, ..) if ground >= THIN => Self::Thin,
+            (_, _, apart) if apart > EDGE => Self::Edge,
+            (_, greatest, _) if greatest < ALONE => Self::Glaze,
+            _ => Self::Hiding,
+        }
+    }
+}
+
+/// Title by which the group is known.
+pub(super) const TITLE: &str = "truth of a simulated scan";
+
+/// An array of truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TruthArray {
+    Share,
+    Ground,
+    MeanReflectance,
+    Class,
+}
+
+impl TruthArray {
+    pub(super) const ALL: [Self; 4] =
+        [Self::Share, Self::Ground, Self::MeanReflectance, Self::Class];
+
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Share => "share",
+            Self::Ground => "ground",
+            Self::MeanReflectance => "mean_reflectance",
+            Self::Class => "class",
+        }
+    }
+
+    pub(super) const fn data_type(self) -> &'static str {
+        match self {
+            Self::Class => "uint8",
+            _ => "float32",
+        }
+    }
+
+    /// Bytes of a number.
+    pub(super) const fn bytes(self) -> usize {
+        match self {
+            Self::Class => 1,
+            _ => 4,
+        }
+    }
+
+    /// Sizes of the array, or of a part of it, for `down` x `across` pixels.
+    pub(super) fn sizes(self, down: usize, across: usize, pigments: usize) -> Vec<usize> {
+        match self {
+            Self::Share => vec![down, across, pigments],
+            _ => vec![down, across],
+        }
+    }
+
+    pub(super) const fn dimensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Share => &["y", "x", "pigment"],
+            _ => &["y", "x"],
+        }
+    }
+
+    pub(super) fn attributes(self) -> Map<String, Value> {
+        let attributes = match self {
+            Self::Share => json!({
+                "long_name": "share of the pigment in the paint that is seen", "units": "1"
+            }),
+            Self::Ground => {
+                json!({"long_name": "part of the ground in what is seen", "units": "1"})
+            }
+            Self::MeanReflectance => {
+                json!({"long_name": "mean reflectance over the bands, without noise", "units": "1"})
+            }
+            Self::Class => json!({
+                "long_name": "kind of the paint",
+                "flag_values": PaintClass::ALL.map(PaintClass::code),
+                "flag_meanings": PaintClass::ALL.map(PaintClass::name).join(" ")
+            }),
+        };
+        match attributes {
+            Value::Object(map) => map,
+            _ => Map::new(),
+        }
+    }
+}
+
+/// Truth that cannot be written, read or compared.
+#[derive(Debug, thiserror::Error)]
+pub enum TruthError {
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The maps cannot be read.
+    #[error(transparent)]
+    Maps(#[from] StoreError),
+    /// The folder holds something else.
+    #[error("{}: holds files that are no truth of a simulated scan", path.display())]
+    Exists {
+        /// Path of the folder.
+        path: PathBuf,
+    },
+    /// The folder holds no truth, or damaged one.
+    #[error("{}: {problem}", path.display())]
+    Damaged {
+        /// Path of the file or folder.
+        path: PathBuf,
+        /// The fault that was found.
+        problem: String,
+    },
+    /// Rows do not fit the truth that is written.
+    #[error("{}: {problem}", path.display())]
+    Rows {
+        /// Path of the folder.
+        path: PathBuf,
+        /// The numbers that disagree.
+        problem: String,
+    },
+    /// Maps and truth are of different scans.
+    #[error(
+        "{}: the maps end at row {} and column {}, the truth has {lines} x {samples} pixels",
+        path.display(), ends.0, ends.1
+    )]
+    Size {
+        /// Path of the truth.
+        path: PathBuf,
+        /// Ends of the mapped rows and columns.
+        ends: (usize, usize),
+        /// Rows of the truth.
+        lines: usize,
+        /// Columns of the truth.
+        samples: usize,
+    },
+}
+
+impl Explain for TruthError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::File(error) => error.hint(),
+            Self::Maps(error) => error.hint(),
+            Self::Exists { .. } => Some(Hint::new("name another folder, or empty this one")),
+            Self::Damaged { .. } => Some(Hint::new("simulate the scan again")),
+            Self::Rows { .. } => None,
+            Self::Size { .. } => Some(Hint::new("name the truth of the scan that was mapped")),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            Self::Maps(error) => error.fault(),
+            Self::Exists { .. } | Self::Size { .. } => Fault::Setting,
+            Self::Damaged { .. } | Self::Rows { .. } => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_survive_their_numbers_and_follow_the_paint() {
+        for class in PaintClass::ALL {
+            assert_eq!(PaintClass::from_code(class.code()), Some(class));
+        }
+        assert_eq!(PaintClass::from_code(5), None);
+        assert_eq!(PaintClass::of(0.97, 1.0, 0.0), PaintClass::Bare);
+        assert_eq!(PaintClass::of(0.2, 1.0, 0.0), PaintClass::Thin);
+        assert_eq!(PaintClass::of(0.01, 0.6, 0.0), PaintClass::Glaze);
+        assert_eq!(PaintClass::of(0.01, 0.99, 0.3), PaintClass::Edge);
+        assert_eq!(PaintClass::of(0.01, 0.99, 0.02), PaintClass::Hiding);
+    }
 }

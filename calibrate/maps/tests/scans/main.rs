@@ -4,12 +4,6 @@
 
 mod written;
 mod envi;
-mod envi_faults;
-mod listed;
-mod headers;
 mod specim;
 mod pictures;
-mod zarr;
 mod store;
-mod blocks;
-mod stored;

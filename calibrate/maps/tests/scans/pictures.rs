@@ -187,7 +187,7 @@ fn spectral_exr_files_are_read() {
     assert!(found.contains("painting.exr"), "{found}");
 }
 
-/// Pages of two bands each, whose numbers stand beside each other in a pixel.
+/// Pages of two bands each, with neighbouring numbers in a pixel.
 fn write_chunky(path: &Path) {
     let mut encoder = TiffEncoder::new(File::create(path).unwrap()).unwrap();
     encoder = encoder.with_compression(encoder::Compression::Lzw);

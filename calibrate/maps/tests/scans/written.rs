@@ -68,7 +68,7 @@ pub(crate) fn header(interleave: &str, data_type: u8, more: &str) -> String {
     )
 }
 
-/// Writes a header and its data; returns the path of the header.
+/// Writes a header and its data. Returns the path of the header.
 pub(crate) fn write_envi(folder: &Path, name: &str, header: &str, data: &[u8]) -> PathBuf {
     let path = folder.join(format!("{name}.hdr"));
     std::fs::write(&path, header).unwrap();

@@ -1,12 +1,15 @@
-//! Checks of a library: faults and doubtful values.
+//! Checks of a library for faults and doubtful values, and colour differences between two libraries of the
+//! same pigments, as in quality control of batches.
 
+use rand::SeedableRng;
+use rand::seq::index;
+use rand_chacha::ChaCha8Rng;
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, delta_e_ciede2000};
 
-use crate::evaluate::{Viewing, lab, percentile};
+use crate::evaluate::{BandCoverage, Viewing, lab, percentile};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
-use crate::recipe::Recipe;
-use crate::visible_band::BandCoverage;
+use crate::recipe::{PigmentId, Recipe};
 
 /// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,7 +25,7 @@ pub enum Severity {
 pub struct Finding {
     /// Severity of the finding.
     pub severity: Severity,
-    /// Name of the pigment concerned; `None` where the whole library is.
+    /// Name of the pigment concerned. `None` where the whole library is.
     pub pigment: Option<String>,
     /// Description of the finding.
     pub what: String,
@@ -62,27 +65,27 @@ impl Health {
     }
 }
 
-/// Grid step in nm above which a library is too coarse for the absorption bands of most pigments; chosen by
+/// Grid step in nm above which a library is too coarse for the absorption bands of most pigments, chosen by
 /// eye.
 const COARSE_STEP_NM: f64 = 20.0;
-/// Mean CIEDE2000 of a fit above which it is poor; chosen by eye.
+/// Mean CIEDE2000 of a fit above which it is poor, chosen by eye.
 const POOR_FIT: f64 = 3.0;
 /// Greatest deviation of the reference's S from 1 that rounding to six digits in a file explains, with some
 /// margin.
 const UNIT_ROUNDING: f64 = 1e-5;
-/// A value above or below both its neighbours by more than this factor counts as a jump; chosen by
+/// A value above or below both its neighbours by more than this factor counts as a jump, chosen by
 /// eye.
 const JUMP: f64 = 1.5;
-/// Median relative standard deviation of K or S above which little more than its order of magnitude is known;
+/// Median relative standard deviation of K or S above which little more than its order of magnitude is known,
 /// chosen by eye.
 const UNCERTAIN: f64 = 0.5;
-/// Largest colour difference in CIEDE2000 that nobody can see; chosen by eye.
+/// Largest colour difference in CIEDE2000 that nobody can see, chosen by eye.
 const ALIKE: f64 = 0.3;
-/// A masstone whose reflectance exceeds the surface's own reflection by less than this counts as black;
+/// A masstone counts as black if its reflectance exceeds the surface's own reflection by less than this,
 /// chosen by eye.
 const BLACK: f64 = 0.0005;
 
-/// Checks `library`; colours are computed under `viewing`.
+/// Checks `library`. Colours are computed under `viewing`.
 #[must_use]
 pub fn health(library: &PigmentLibrary, viewing: &Viewing) -> Health {
     let weights = viewing.weights(library.grid).expect("a method for the grid");
@@ -168,16 +171,19 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     if !pigment.identified {
         found(Severity::Warning, "S is not known, so its mixtures are a guess".into());
     }
-    let both = || pigment.absorption.iter().zip(&pigment.scattering);
-    if let Some(at) = both().position(|(k, s)| *k == 0.0 && *s == 0.0) {
+    if let Some(at) =
+        pigment.absorption.iter().zip(&pigment.scattering).position(|(k, s)| *k == 0.0 && *s == 0.0)
+    {
         let what = format!("K and S are both 0 at {} nm, which is no paint", grid.nm(at));
         found(Severity::Fault, what);
     }
     let surface = library.saunderson;
-    let film = |(k, s): (&f64, &f64)| {
-        surface.measured_from_internal(spectra::optics::infinite_film(*k, *s))
-    };
-    let film: Vec<f64> = both().map(film).collect();
+    let film: Vec<f64> = pigment
+        .absorption
+        .iter()
+        .zip(&pigment.scattering)
+        .map(|(k, s)| surface.measured_from_internal(spectra::optics::infinite_film(*k, *s)))
+        .collect();
     let dark = film.iter().filter(|r| **r < surface.floor() + BLACK).count();
     if dark > 0 {
         found(
@@ -229,18 +235,15 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
             let masstone = Recipe::single(id);
             let tint =
                 white.map_or(masstone.clone(), |white| Recipe::from([(id, 1.0), (white, 9.0)]));
-            [masstone, tint].map(|recipe: Recipe| lab(weights, &hiding(library, &recipe)))
+            [masstone, tint].map(|recipe| lab(weights, &hiding(library, &recipe)))
         })
         .collect();
     for (second, pigment) in library.pigments.iter().enumerate() {
         for (first, other) in library.pigments[..second].iter().enumerate() {
-            let plain = |name: &str| {
-                name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
-            };
             let apart = (colors[first].iter().zip(&colors[second]))
                 .map(|(a, b)| delta_e_ciede2000(*a, *b))
                 .fold(0.0, f64::max);
-            let what = if plain(&pigment.name) == plain(&other.name) {
+            let what = if letters_and_digits(&pigment.name) == letters_and_digits(&other.name) {
                 format!("is spelled almost as {}", other.name)
             } else if pigment.absorption == other.absorption
                 && pigment.scattering == other.scattering
@@ -257,6 +260,10 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
     }
 }
 
+fn letters_and_digits(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
+}
+
 fn hiding(library: &PigmentLibrary, recipe: &Recipe) -> Vec<f64> {
     library.mix(recipe).expect("parts above 0").hiding(library.saunderson)
 }
@@ -265,7 +272,7 @@ fn range(curve: &[f64]) -> [f64; 2] {
     [curve.iter().copied().fold(f64::INFINITY, f64::min), curve.iter().copied().fold(0.0, f64::max)]
 }
 
-/// Median of standard deviation divided by value; `None` without deviations.
+/// Median of standard deviation divided by value. `None` without deviations.
 fn uncertainty(curve: &[f64], sd: &[f64]) -> Option<f64> {
     let pairs = curve.iter().zip(sd).filter(|(value, _)| **value > 0.0);
     let shares: Vec<f64> = pairs.map(|(value, sd)| sd / value).collect();
@@ -276,10 +283,151 @@ fn uncertainty(curve: &[f64], sd: &[f64]) -> Option<f64> {
 fn jump(curve: &[f64]) -> Option<usize> {
     // Near 0 a factor is meaningless.
     let least = 1e-3 * range(curve)[1];
-    let log = |index: usize| curve[index].max(least).ln();
+    let log: Vec<f64> = curve.iter().map(|value| value.max(least).ln()).collect();
     (1..curve.len().saturating_sub(1)).find(|&at| {
-        let left = log(at) - log(at - 1);
-        let right = log(at) - log(at + 1);
+        let left = log[at] - log[at - 1];
+        let right = log[at] - log[at + 1];
         left * right > 0.0 && left.abs().min(right.abs()) > JUMP.ln()
     })
+}
+
+/// Parts of the pigment and of the white in a tint.
+const TINT: [f64; 2] = [1.0, 9.0];
+
+/// Colour difference of one pigment between two libraries, in CIEDE2000.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PigmentDifference {
+    /// Name of the pigment, equal in both libraries.
+    pub name: String,
+    /// Difference of the masstones.
+    pub masstone: f64,
+    /// Difference of the tints 1:9 in the common white. `None` where S is unknown or the libraries share no
+    /// white.
+    pub tint: Option<f64>,
+}
+
+/// Colour difference of a mixture of two pigments between two libraries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PigmentPair {
+    /// Names of the two pigments.
+    pub names: [String; 2],
+    /// CIEDE2000 of the mixture 1:1, or 1:1:1 with the common white.
+    pub delta_e: f64,
+}
+
+/// Differences between two libraries under one light, for films that hide.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// White of the tints and pairs: the reference of the first library, if both have it.
+    pub white: Option<String>,
+    /// Differences by pigment, in the order of the first library.
+    pub pigments: Vec<PigmentDifference>,
+    /// Differences of pairs of common pigments with known S.
+    pub pairs: Vec<PigmentPair>,
+    /// Names of pigments that only the first library has.
+    pub only_first: Vec<String>,
+    /// Names of pigments that only the second library has.
+    pub only_second: Vec<String>,
+}
+
+impl Difference {
+    /// Largest of all differences, 0 if the libraries share no pigment.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        let of_pigments = self.pigments.iter().flat_map(|p| [Some(p.masstone), p.tint]);
+        let of_pairs = self.pairs.iter().map(|pair| Some(pair.delta_e));
+        of_pigments.chain(of_pairs).flatten().fold(0.0, f64::max)
+    }
+}
+
+/// Compares pigments of equal name, and up to `pairs` mixtures of two, drawn with `seed` from all
+/// possible pairs. Each library is evaluated on its own grid and under its own surface.
+#[must_use]
+pub fn difference(
+    first: &PigmentLibrary,
+    second: &PigmentLibrary,
+    viewing: &Viewing,
+    pairs: usize,
+    seed: u64,
+) -> Difference {
+    let sides = [Side::new(first, viewing), Side::new(second, viewing)];
+    let in_first = names(first);
+    let in_second = names(second);
+    let white = first.reference.clone().filter(|name| in_second.contains(name));
+    let apart = |recipe: &[(&str, f64)]| {
+        let [a, b] = [&sides[0], &sides[1]].map(|side| side.lab(recipe));
+        delta_e_ciede2000(a, b)
+    };
+    let known = |name: &str| sides.iter().all(|side| side.identified(name));
+    let common: Vec<&String> = in_first.iter().filter(|name| in_second.contains(name)).collect();
+    let pigments = common
+        .iter()
+        .map(|name| PigmentDifference {
+            name: (*name).clone(),
+            masstone: apart(&[(name, 1.0)]),
+            tint: white
+                .as_deref()
+                .filter(|white| known(name) && *white != name.as_str())
+                .map(|white| apart(&[(name, TINT[0]), (white, TINT[1])])),
+        })
+        .collect();
+    let mixed: Vec<&str> = (common.iter().map(|name| name.as_str()))
+        .filter(|name| known(name) && white.as_deref() != Some(name))
+        .collect();
+    let all: Vec<[&str; 2]> = (0..mixed.len())
+        .flat_map(|a| (a + 1..mixed.len()).map(move |b| (a, b)))
+        .map(|(a, b)| [mixed[a], mixed[b]])
+        .collect();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut drawn = index::sample(&mut random, all.len(), pairs.min(all.len())).into_vec();
+    drawn.sort_unstable();
+    let pairs = drawn.into_iter().map(|index| {
+        let [a, b] = all[index];
+        let mut recipe = vec![(a, 1.0), (b, 1.0)];
+        recipe.extend(white.as_deref().map(|white| (white, 1.0)));
+        PigmentPair { names: [a.to_owned(), b.to_owned()], delta_e: apart(&recipe) }
+    });
+    Difference {
+        pairs: pairs.collect(),
+        pigments,
+        only_first: names_without(&in_first, &in_second),
+        only_second: names_without(&in_second, &in_first),
+        white,
+    }
+}
+
+fn names_without(names: &[String], others: &[String]) -> Vec<String> {
+    names.iter().filter(|name| !others.contains(name)).cloned().collect()
+}
+
+fn names(library: &PigmentLibrary) -> Vec<String> {
+    library.pigments.iter().map(|pigment| pigment.name.clone()).collect()
+}
+
+/// One of the two libraries, with the weights for its grid.
+struct Side<'a> {
+    library: &'a PigmentLibrary,
+    weights: TristimulusWeights,
+}
+
+impl<'a> Side<'a> {
+    fn new(library: &'a PigmentLibrary, viewing: &Viewing) -> Self {
+        let weights = viewing.weights(library.grid).expect("the method fits the grid");
+        Self { library, weights }
+    }
+
+    fn id(&self, name: &str) -> PigmentId {
+        let mut ids = self.library.ids();
+        ids.find(|id| self.library[*id].name == name).expect("both libraries have the pigment")
+    }
+
+    fn identified(&self, name: &str) -> bool {
+        self.library[self.id(name)].identified
+    }
+
+    fn lab(&self, recipe: &[(&str, f64)]) -> Lab {
+        let parts: Recipe = recipe.iter().map(|(name, part)| (self.id(name), *part)).collect();
+        let mixture = self.library.mix(parts).expect("parts above 0");
+        lab(&self.weights, &mixture.hiding(self.library.saunderson))
+    }
 }

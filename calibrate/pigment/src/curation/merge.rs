@@ -2,15 +2,12 @@
 
 use spectra::{Extrapolation, Interpolation};
 
-use super::error::CurationError;
-use super::resample::on_grid;
-use super::rescale::with_reference;
-use super::select::renamed;
-use crate::curves::hiding_film;
+use super::change::{CurationError, on_grid, renamed, with_reference};
 use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
+use crate::recipe::hiding_film;
 
-/// Two batches of one white differ by less than this, in CIEDE2000; chosen by eye.
+/// Two batches of one white differ by less than this, in CIEDE2000, chosen by eye.
 const SAME_WHITE: f64 = 1.0;
 
 /// A library with the name of its file.
@@ -34,7 +31,7 @@ pub enum Prefer {
 /// Settings of a merge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MergeSettings {
-    /// Name of the white that all libraries share, as the first library spells it; by default the
+    /// Name of the white that all libraries share, as the first library spells it. By default the
     /// reference of the first.
     pub reference: Option<String>,
     /// Names of that white in other libraries.
@@ -42,7 +39,7 @@ pub struct MergeSettings {
     /// Choice between two different pigments of one name. Without a choice they are an error, except
     /// for the white, of which the first is kept.
     pub prefer: Option<Prefer>,
-    /// Interpolation from other grids to the first's; by default the best one for each grid.
+    /// Interpolation from other grids to the first's. By default the best one for each grid.
     pub interpolation: Option<Interpolation>,
     /// Treatment of wavelengths beyond another library's band.
     pub ends: Extrapolation,
@@ -131,9 +128,14 @@ impl Merged {
         if let Some(reference) = &base.reference {
             let lower = reference.to_lowercase();
             let same = library.pigments.iter().find(|p| p.name.to_lowercase() == lower);
-            let alias = || settings.aliases.iter().find_map(|alias| library.find(alias).ok());
             let name = same.map(|pigment| pigment.name.clone());
-            let name = name.or_else(|| alias().map(|id| library[id].name.clone()));
+            let name = name.or_else(|| {
+                settings
+                    .aliases
+                    .iter()
+                    .find_map(|alias| library.find(alias).ok())
+                    .map(|id| library[id].name.clone())
+            });
             let name = name.ok_or_else(|| CurationError::NoCommonPigment {
                 first: first.file.clone(),
                 file: file.clone(),
@@ -178,10 +180,10 @@ impl Merged {
                 continue;
             };
             let before = &mut self.library.pigments[index];
-            let hiding = |pigment: &Pigment| {
+            let [a, b] = [before, &pigment].map(|pigment| {
                 hiding_film(&pigment.absorption, &pigment.scattering, first.library.saunderson)
-            };
-            let delta_e = delta_e(&weights, &hiding(before), &hiding(&pigment));
+            });
+            let delta_e = delta_e(&weights, &a, &b);
             self.common.push((pigment.name.clone(), other.file.clone(), delta_e));
             if same_figures(before, &pigment) {
                 continue;
@@ -216,22 +218,25 @@ fn check_amounts(
     other: &Source,
     same_unit: bool,
 ) -> Result<(), CurationError> {
-    let word = |kind| match kind {
-        AmountKind::Relative => "relative",
-        AmountKind::Absolute => "absolute",
-    };
     if base.amounts != other.library.amounts {
         return Err(CurationError::Amounts {
             first: first.file.clone(),
-            wanted: word(base.amounts),
+            wanted: amount_word(base.amounts),
             file: other.file.clone(),
-            found: word(other.library.amounts),
+            found: amount_word(other.library.amounts),
         });
     }
     if base.amounts == AmountKind::Absolute && !same_unit {
         return Err(CurationError::Units { first: first.file.clone(), file: other.file.clone() });
     }
     Ok(())
+}
+
+fn amount_word(kind: AmountKind) -> &'static str {
+    match kind {
+        AmountKind::Relative => "relative",
+        AmountKind::Absolute => "absolute",
+    }
 }
 
 /// Returns a warning where another surface is accepted as the first's.
@@ -241,16 +246,10 @@ fn check_surface(
     other: &Source,
     any: bool,
 ) -> Result<Option<String>, CurationError> {
-    let surface = |library: &PigmentLibrary| {
-        let surface = library.saunderson;
-        let specular = serde_json::json!(surface.specular);
-        format!("k1 = {}, k2 = {}, specular {specular}", surface.k1, surface.k2).replace('"', "")
-    };
     let (what, wanted, found) = if base.saunderson != other.library.saunderson {
-        ("the surface", surface(base), surface(&other.library))
+        ("the surface", surface_text(base), surface_text(&other.library))
     } else if base.unevenness != other.library.unevenness {
-        let unevenness = |library: &PigmentLibrary| library.unevenness.to_string();
-        ("the unevenness", unevenness(base), unevenness(&other.library))
+        ("the unevenness", base.unevenness.to_string(), other.library.unevenness.to_string())
     } else {
         return Ok(None);
     };
@@ -265,12 +264,19 @@ fn check_surface(
     Err(CurationError::Surface { what, first, wanted, file, found })
 }
 
+fn surface_text(library: &PigmentLibrary) -> String {
+    let surface = library.saunderson;
+    let specular = serde_json::json!(surface.specular);
+    format!("k1 = {}, k2 = {}, specular {specular}", surface.k1, surface.k2).replace('"', "")
+}
+
 /// Whether K and S are equal to the rounding of a file.
 fn same_figures(a: &Pigment, b: &Pigment) -> bool {
-    let near = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2e-5 * a.abs().max(b.abs()))
-    };
-    near(&a.absorption, &b.absorption) && near(&a.scattering, &b.scattering)
+    nearly_equal(&a.absorption, &b.absorption) && nearly_equal(&a.scattering, &b.scattering)
+}
+
+fn nearly_equal(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2e-5 * a.abs().max(b.abs()))
 }
 
 fn origin(source: &Source) -> String {

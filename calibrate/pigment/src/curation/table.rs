@@ -1,17 +1,22 @@
-//! K and S as a CSV table: one row per curve, with the columns `pigment`, `quantity` and the
-//! wavelengths in nm.
+//! A library as a table or as swatches.
+//!
+//! The CSV table of K and S has one row per curve, with the columns `pigment`, `quantity` and the wavelengths in
+//! nm. Swatches are the masstone of each pigment and its tints.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use spectra::Grid;
+use spectra::color::{Adaptation, ColorValues, Lab, adapt};
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
 use spectra::optics::Surface;
+use spectra::swatch_file::{SwatchColor, SwatchEntry, SwatchFile, d50_white};
 
-use super::error::CurationError;
-use crate::digits::rounded;
+use super::change::CurationError;
+use crate::evaluate::{Viewing, rounded};
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
+use crate::recipe::PigmentId;
 
-/// Names of the curves in the order in which they are written. The last one is used for pigments whose
-/// S was not identified.
+/// Names of the curves in the order in which they are written. The last one is used for pigments with unknown
+/// S.
 const QUANTITIES: [&str; 5] =
     ["absorption", "scattering", "absorption_sd", "scattering_sd", "absorption_over_scattering"];
 
@@ -26,7 +31,7 @@ pub struct LibraryFrame {
     pub source: String,
     /// Whether K and S are relative to a white or per unit of amount.
     pub amounts: AmountKind,
-    /// Name of the reference white; by default the only pigment with S = 1 at every wavelength.
+    /// Name of the reference white. By default the only pigment with S = 1 at every wavelength.
     pub reference: Option<String>,
     /// Surface of the measured films.
     pub saunderson: Surface,
@@ -43,13 +48,24 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
     header.extend(library.grid.wavelengths_nm().map(|nm| nm.to_string()));
     writer.write_record(&header).expect("writing to memory does not fail");
     for pigment in &library.pigments {
-        let ratio = || pigment.absorption.iter().zip(&pigment.scattering).map(|(k, s)| k / s);
         let curves = if pigment.identified {
             let k = pigment.absorption.clone();
             let s = pigment.scattering.clone();
             [k, s, pigment.absorption_sd.clone(), pigment.scattering_sd.clone(), Vec::new()]
         } else {
-            [vec![], vec![], vec![], vec![], ratio().map(rounded).collect()]
+            [
+                vec![],
+                vec![],
+                vec![],
+                vec![],
+                pigment
+                    .absorption
+                    .iter()
+                    .zip(&pigment.scattering)
+                    .map(|(k, s)| k / s)
+                    .map(rounded)
+                    .collect(),
+            ]
         };
         for (quantity, curve) in QUANTITIES.iter().zip(curves).filter(|(_, c)| !c.is_empty()) {
             let mut record = vec![pigment.name.clone(), (*quantity).to_owned()];
@@ -137,16 +153,7 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
 
 /// Grid of the wavelength columns, and the columns of pigment and quantity.
 fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize)), TableError> {
-    let column = |wanted: &'static str| {
-        let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
-        found.ok_or_else(|| {
-            TableError::Sheet(CsvTableError::MissingColumn {
-                file: file.to_owned(),
-                column: wanted,
-            })
-        })
-    };
-    let columns = (column("pigment")?, column("quantity")?);
+    let columns = (column(file, header, "pigment")?, column(file, header, "quantity")?);
     let mut wavelengths = Vec::new();
     for (index, name) in header.iter().enumerate() {
         if index == columns.0 || index == columns.1 {
@@ -163,6 +170,17 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
     }
     let grid = Grid::through(&wavelengths);
     Ok((grid.ok_or_else(|| TableError::Irregular { file: file.to_owned() })?, columns))
+}
+
+fn column(
+    file: &str,
+    header: &csv::StringRecord,
+    wanted: &'static str,
+) -> Result<usize, TableError> {
+    let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
+    found.ok_or_else(|| {
+        TableError::Sheet(CsvTableError::MissingColumn { file: file.to_owned(), column: wanted })
+    })
 }
 
 fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, TableError> {
@@ -236,7 +254,7 @@ fn framed(
                 .map_err(|error| CurationError::Pigment { file: file.to_owned(), error })?;
             let name = library[id].name.clone();
             if !whites.contains(&name) {
-                let relative = super::rescale::with_reference(file, &library, &name)?;
+                let relative = super::change::with_reference(file, &library, &name)?;
                 return Ok(relative);
             }
             Some(name)
@@ -249,10 +267,24 @@ fn framed(
 }
 
 /// Why a table of curves cannot be read.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum TableError {
     /// A cell, row or column of the table is faulty.
     #[error(transparent)]
+    #[hint(
+        if matches!(
+            _0,
+            CsvTableError::MissingColumn { .. }
+                | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. }
+        ),
+        "the columns are pigment, quantity, then wavelengths such as 400; `impasto library export` writes such a table with [to=csv]"
+    )]
+    #[hint(
+        if matches!(_0, CsvTableError::RowLength { .. }),
+        "numbers take a decimal point, not a comma"
+    )]
+    #[hint(none)]
+    #[fault(Input)]
     Sheet(CsvTableError),
     /// The text is not valid CSV.
     #[error("{file}: {reason}")]
@@ -264,6 +296,7 @@ pub enum TableError {
     },
     /// The wavelengths do not rise at a constant step.
     #[error("{file}, row 1: wavelengths must rise at a constant step")]
+    #[hint("resample the curves to a regular grid first")]
     Irregular {
         /// File name as the caller gave it.
         file: String,
@@ -286,6 +319,11 @@ pub enum TableError {
     },
     /// None or several pigments have S = 1 at every wavelength.
     #[error("{file}: expected one pigment with S = 1 at every wavelength, found `{}`", whites.len())]
+    #[hint(
+        if whites.is_empty(),
+        "name the white to scale by, [reference=WHITE], or set [amounts=absolute]"
+    )]
+    #[hint("name it, [reference=WHITE]: {}", whites.join(", "))]
     NoReference {
         /// File name as the caller gave it.
         file: String,
@@ -294,40 +332,112 @@ pub enum TableError {
     },
     /// The library cannot be scaled to the reference.
     #[error(transparent)]
+    #[fault(Input)]
     Curation(#[from] CurationError),
     /// The values do not make a valid library.
     #[error(transparent)]
     Library(#[from] LibraryError),
 }
 
-impl Explain for TableError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Sheet(
-                CsvTableError::MissingColumn { .. }
-                | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. },
-            ) => "the columns are pigment, quantity, then wavelengths such as 400; `impasto library export` writes such a table with [to=csv]".into(),
-            Self::Irregular { .. } => "resample the curves to a regular grid first".into(),
-            Self::Sheet(CsvTableError::RowLength { .. }) => {
-                "numbers take a decimal point, not a comma".into()
+/// Colour of an opaque film of one pigment, alone or with white.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Swatch {
+    /// Name of the pigment.
+    pub pigment: String,
+    /// Name of the swatch: the pigment's, followed by its ratio to white: `Viridian 1:4`.
+    pub name: String,
+    /// Measured reflectance on the library's grid, 0 to 1.
+    pub reflectance: Vec<f64>,
+    /// Its colour.
+    pub color: ColorValues,
+}
+
+/// Colour space of a swatch in a palette file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SwatchSpace {
+    /// sRGB, clipped to its gamut by the file.
+    Srgb,
+    /// CIELAB under D50, as in graphic arts. Adapted by Bradford's transform.
+    LabD50,
+}
+
+/// Swatches of a library under one light.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Swatches {
+    /// Swatches in the order of the pigments. A masstone comes before its tints.
+    pub swatches: Vec<Swatch>,
+    title: String,
+    white: spectra::color::Xyz,
+    grouped: bool,
+}
+
+impl Swatches {
+    /// The masstone of each pigment of `library`, followed by its tints with `tints` parts of
+    /// the reference white. The white itself and pigments with unknown scattering have none.
+    ///
+    /// # Errors
+    /// [`CurationError`] for tints without a reference white, or with parts outside 0 to 1e6.
+    pub fn new(
+        library: &PigmentLibrary,
+        viewing: &Viewing,
+        tints: &[f64],
+    ) -> Result<Self, CurationError> {
+        let white = library.reference_id();
+        if !tints.is_empty() && (white.is_none() || library.amounts == AmountKind::Absolute) {
+            return Err(CurationError::NoWhite);
+        }
+        if let Some(&parts) = tints.iter().find(|parts| !(**parts > 0.0 && **parts <= 1e6)) {
+            return Err(CurationError::TintParts { parts });
+        }
+        let weights = viewing.weights(library.grid).expect("a method for the grid");
+        let mut swatches = Vec::new();
+        for id in library.ids() {
+            let pigment = &library[id];
+            let mut add = |name: String, recipe: &[(PigmentId, f64)]| {
+                let mixture = library.mix(recipe).expect("pigments of the library");
+                let reflectance = mixture.hiding(library.saunderson);
+                let color = weights.color(&reflectance);
+                swatches.push(Swatch { pigment: pigment.name.clone(), name, reflectance, color });
+            };
+            add(pigment.name.clone(), &[(id, 1.0)]);
+            let Some(white) = white.filter(|&white| white != id && pigment.identified) else {
+                continue;
+            };
+            for parts in tints {
+                add(format!("{} 1:{parts}", pigment.name), &[(id, 1.0), (white, *parts)]);
             }
-            Self::NoReference { whites, .. } if whites.is_empty() => {
-                "name the white to scale by, [reference=WHITE], or set [amounts=absolute]".into()
-            }
-            Self::NoReference { whites, .. } => {
-                format!("name it, [reference=WHITE]: {}", whites.join(", "))
-            }
-            Self::Curation(error) => return error.hint(),
-            Self::Library(error) => return error.hint(),
-            Self::Sheet(CsvTableError::Cell { .. }) | Self::Syntax { .. } => return None,
-            Self::MissingCurve { .. } | Self::Empty { .. } => return None,
-        }))
+        }
+        let title = library.title.clone();
+        let grouped = !tints.is_empty();
+        Ok(Self { swatches, title, white: weights.white(), grouped })
     }
 
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Library(error) => error.fault(),
-            _ => Fault::Input,
-        }
+    /// Names of the swatches outside sRGB.
+    #[must_use]
+    pub fn outside_srgb(&self) -> Vec<&str> {
+        let outside = self.swatches.iter().filter(|swatch| !swatch.color.srgb.in_gamut());
+        outside.map(|swatch| swatch.name.as_str()).collect()
+    }
+
+    /// The swatches as a palette file, with a group for each pigment that has tints.
+    #[must_use]
+    pub fn palette(&self, space: SwatchSpace) -> SwatchFile {
+        let swatches = self
+            .swatches
+            .iter()
+            .map(|swatch| SwatchEntry {
+                group: if self.grouped { swatch.pigment.clone() } else { String::new() },
+                name: swatch.name.clone(),
+                color: match space {
+                    SwatchSpace::Srgb => SwatchColor::Rgb(swatch.color.srgb),
+                    SwatchSpace::LabD50 => {
+                        let d50 = d50_white();
+                        let xyz = adapt(swatch.color.xyz, self.white, d50, Adaptation::Bradford);
+                        SwatchColor::Lab(Lab::from_xyz(xyz, d50))
+                    }
+                },
+            })
+            .collect();
+        SwatchFile { name: self.title.clone(), swatches }
     }
 }

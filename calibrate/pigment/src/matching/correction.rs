@@ -1,34 +1,33 @@
 //! Correcting a batch of paint: additions to the pot that bring its measured colour to a target.
 //!
-//! A recipe predicts the pot's K and S, but a batch is never quite what was meant to be weighed. Its K is
-//! therefore scaled at each wavelength so that K / S is that of the measured film; S stays as predicted. The
-//! additions are mixed into that paint. So the errors of the recipe and of the model at the pot's colour
-//! are in the measurement already, and only those of the additions remain (after Allen 1974, correction by
+//! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says. The predicted K is
+//! therefore scaled at each wavelength until K / S agrees with the measured film, and S stays as predicted. The
+//! additions are mixed into this paint. The measurement then already contains the errors of the recipe and of
+//! the model at the pot's colour, and only the errors of the additions remain (after Allen 1974, correction by
 //! the batch's own reflectance).
+//!
+//! The search returns the smallest addition that brings the colour near enough to the target.
 
+use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::optics::absorption_over_scattering;
 use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
 
-use super::bounded_step::MAX_PIGMENTS;
-use super::error::MatchError;
-use super::film::FilmKind;
 use super::forward::{Forward, Scratch};
-use super::least_addition::{Addition, Additions};
+use super::options::find_all;
 use super::recipe_search::spectrum_of;
-use super::request::MatchRequest;
-use super::target::{ColorTarget, Target, TargetColor};
-use super::viewing_condition::{Metric, ViewingCondition};
-use crate::evaluate::lab;
+use super::request::{FilmKind, MatchError, MatchRequest, RequiredPigment};
+use super::search::{Candidate, SearchControl, descend, search, within_limits};
+use super::target::{ColorTarget, Metric, Target, TargetColor, ViewingCondition};
+use crate::evaluate::{Remark, check_visible_band, lab};
+use crate::least_squares::MAX_PIGMENTS;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::PigmentId;
-use crate::remark::Remark;
-use crate::visible_band::check_visible_band;
 
-/// Least internal reflectance that is believed; below it a reading tells nothing of K / S.
+/// Least internal reflectance that is used. Smaller readings say nothing about K / S.
 const LEAST_INTERNAL: f64 = 1e-4;
 /// CIEDE2000 (by spectrum percent of reflectance) from the target that is near enough, unless options say
-/// otherwise: about what an eye can tell side by side.
+/// otherwise: about the smallest difference that an eye sees side by side.
 pub const USUAL_CORRECTION: f64 = 0.5;
 
 /// A pot of paint that was mixed and measured.
@@ -49,7 +48,7 @@ pub struct CorrectionOptions {
     pub metric: Metric,
     /// Lights under which the paint is judged. Default: D65 for the CIE 1931 observer.
     pub conditions: Vec<ViewingCondition>,
-    /// Names of the pigments that may be added. Empty: all whose S is known.
+    /// Names of the pigments that may be added. Empty: all pigments with known S.
     pub only: Vec<String>,
     /// Names of pigments that must not be added.
     pub without: Vec<String>,
@@ -93,8 +92,8 @@ pub struct Correction {
     pub grams: f64,
     /// CIEDE2000 of the corrected paint from the target under each light.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square of `delta_e` over the lights; by spectrum that of the differences of
-    /// reflectance, in percent.
+    /// Weighted root mean square of `delta_e` over the lights. When matching by spectrum, root mean square of
+    /// the differences of reflectance, in percent.
     pub distance: f64,
     /// Root mean square of the differences of reflectance from a measured target, in percent.
     pub rms_percent: Option<f64>,
@@ -123,7 +122,7 @@ pub struct Corrections {
     pub is_near: bool,
     /// Whether the corrections bring it within the tolerance.
     pub reaches: bool,
-    /// Corrections within the tolerance, the least addition first; if there are none, those that come
+    /// Corrections within the tolerance, the least addition first. If there are none, those that come
     /// nearest, the nearest first. Empty if the batch needs none.
     pub corrections: Vec<Correction>,
     /// Warnings about the spectra.
@@ -131,7 +130,8 @@ pub struct Corrections {
 }
 
 impl PigmentLibrary {
-    /// Searches what to add to `batch` so that its colour is that of `target`, the least addition first.
+    /// Searches what to add to `batch` so that it gets the colour of `target`. The least addition comes
+    /// first.
     ///
     /// ```
     /// use pigment::matching::{Batch, CorrectionOptions};
@@ -171,9 +171,6 @@ impl PigmentLibrary {
         let spectrum = spectrum_of(target, self.grid, (options.metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(conditions)? };
         let measured = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
-        let differences = |found: &[Lab], wanted: &[Lab]| -> Vec<f64> {
-            wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
-        };
         let weights: Vec<_> = conditions
             .iter()
             .map(|condition| condition.viewing.weights(self.grid))
@@ -256,6 +253,10 @@ impl PigmentLibrary {
     }
 }
 
+fn differences(found: &[Lab], wanted: &[Lab]) -> Vec<f64> {
+    wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
+}
+
 impl CorrectionOptions {
     fn check(&self, library: &PigmentLibrary, batch: &Batch) -> Result<(), MatchError> {
         if library.amounts == AmountKind::Absolute {
@@ -264,7 +265,7 @@ impl CorrectionOptions {
         if self.conditions.is_empty() {
             return Err(MatchError::NoLight);
         }
-        let grams = |value: f64| value > 0.0 && value < 1e9;
+
         let numbers = [
             ("the mass of a batch is above 0 g", Some(batch.grams), "try [grams=500]"),
             ("the least addition is above 0 g", self.least_grams, "try [least=0.1]"),
@@ -272,7 +273,7 @@ impl CorrectionOptions {
             ("the tolerance is above 0", Some(self.tolerance), "try [tolerance=0.5]"),
         ];
         for (what, value, hint) in numbers {
-            if let Some(value) = value.filter(|value| !grams(*value)) {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && *value < 1e9)) {
                 return Err(MatchError::Number { what, value, hint });
             }
         }
@@ -306,15 +307,12 @@ impl CorrectionOptions {
         library: &'a PigmentLibrary,
         grams: f64,
     ) -> Result<Additions<'a>, MatchError> {
-        let find = |names: &[String]| -> Result<Vec<PigmentId>, MatchError> {
-            names.iter().map(|name| Ok(known.find(name)?)).collect()
-        };
         let mut allowed = if self.only.is_empty() {
             known.ids().filter(|id| known[*id].identified).collect()
         } else {
-            find(&self.only)?
+            find_all(known, &self.only)?
         };
-        let without = find(&self.without)?;
+        let without = find_all(known, &self.without)?;
         let mut stock = vec![f64::INFINITY; known.pigments.len()];
         for (name, limit) in &self.stock {
             if !(*limit >= 0.0 && *limit < 1e9) {
@@ -364,7 +362,7 @@ fn correction(
     Correction {
         out_of_stock: amounts
             .iter()
-            .filter(|(pigment, amount): &&(PigmentId, f64)| {
+            .filter(|(pigment, amount)| {
                 *amount >= additions.stock[pigment.index()] * (1.0 - AT_LIMIT)
             })
             .map(|(pigment, _)| *pigment)
@@ -377,4 +375,252 @@ fn correction(
         lab: labs,
         reflectance,
     }
+}
+
+/// The least addition is searched for at most this many sets of pigments.
+const MOST_SETS: usize = 400;
+/// Amounts that are tried between the least and the greatest, in equal ratios, chosen by eye.
+const AMOUNTS: usize = 24;
+/// Halvings of the last ratio of amounts, down to about 0.1 % of the amount.
+const HALVINGS: usize = 9;
+
+/// Limits of an addition to a pot. Amounts are fractions of the paint that is in the pot.
+pub(super) struct Additions<'a> {
+    /// The library, with the paint in the pot as its last pigment.
+    pub(super) library: &'a PigmentLibrary,
+    pub(super) conditions: &'a [ViewingCondition],
+    /// Pigments that may be added.
+    pub(super) allowed: Vec<PigmentId>,
+    /// Most pigments to add, 1 to 7.
+    pub(super) at_most: usize,
+    /// Greatest amount of each pigment of the library, infinite without a limit.
+    pub(super) stock: Vec<f64>,
+    /// Least amount of one pigment, above 0.
+    pub(super) least: f64,
+    /// Greatest sum of all additions.
+    pub(super) most: f64,
+    /// Difference from the target that is near enough.
+    pub(super) tolerance: f64,
+}
+
+/// An addition that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Addition {
+    /// Pigments in rising order, each with its amount as a fraction of the paint in the pot.
+    pub(super) amounts: Vec<(PigmentId, f64)>,
+    /// The mixture of pot and addition.
+    pub(super) mixture: Candidate,
+}
+
+impl Addition {
+    /// Sum of all amounts.
+    pub(super) fn total(&self) -> f64 {
+        self.amounts.iter().map(|(_, amount)| amount).sum()
+    }
+}
+
+impl Additions<'_> {
+    fn pot(&self) -> PigmentId {
+        PigmentId(self.library.pigments.len() - 1)
+    }
+
+    /// A request for mixtures of the pot with additions, `share` of which is the pot.
+    fn request(&self, share: Option<f64>) -> MatchRequest {
+        let usual = MatchRequest::new(self.library, self.conditions.to_vec(), FilmKind::Hiding);
+        let pot = self.pot();
+        let mut allowed = self.allowed.clone();
+        allowed.push(pot);
+        // The share of an addition is largest if nothing else is added to the pot.
+        let mut amounts: Vec<Option<[f64; 2]>> = self
+            .stock
+            .iter()
+            .map(|stock| {
+                let limit = match share {
+                    Some(share) => stock * share,
+                    None if stock.is_finite() => stock / (1.0 + stock),
+                    None => 1.0,
+                };
+                Some([0.0, limit.min(1.0)])
+            })
+            .collect();
+        amounts.push(None);
+        MatchRequest {
+            allowed,
+            required: vec![RequiredPigment { pigment: pot, share }],
+            at_most: self.at_most + 1,
+            least_share: 0.0,
+            amounts,
+            tolerance: self.tolerance,
+            ..usual
+        }
+    }
+
+    /// The additions of each set of pigments that come within the tolerance, the least first. If none does,
+    /// those that come nearest, the nearest first.
+    pub(super) fn find(&self, forward: &Forward<'_>, target: &Target) -> (Vec<Addition>, bool) {
+        let whole = self.request(None);
+        let found = search(forward, &whole, target, &SearchControl::default());
+        let mut sets: Vec<Candidate> = found.into_iter().filter(|c| c.pigments.len() > 1).collect();
+        let near = sets.iter().filter(|set| set.distance <= self.tolerance).count();
+
+        if near > 0 {
+            sets[..near].sort_by(|a, b| {
+                (1.0 - a.share(self.pot())).total_cmp(&(1.0 - b.share(self.pot())))
+            });
+        }
+        sets.truncate(MOST_SETS);
+        let mut additions: Vec<Addition> = sets
+            .par_iter()
+            .map_init(Scratch::default, |scratch, set| {
+                self.of_set(forward, target, &set.pigments, scratch)
+            })
+            .flatten()
+            .collect();
+
+        let reaches = additions.iter().any(|addition| addition.mixture.distance <= self.tolerance);
+        if reaches {
+            additions.retain(|addition| addition.mixture.distance <= self.tolerance);
+            additions.sort_by(|a, b| a.total().total_cmp(&b.total()));
+        } else {
+            additions.sort_by(|a, b| a.mixture.distance.total_cmp(&b.mixture.distance));
+        }
+        (without_needless(additions, reaches), reaches)
+    }
+
+    /// The least addition of one set of pigments, the pot among them, or the nearest if none is near enough.
+    fn of_set(
+        &self,
+        forward: &Forward<'_>,
+        target: &Target,
+        set: &[PigmentId],
+        scratch: &mut Scratch,
+    ) -> Option<Addition> {
+        let mut at = |added: f64, near: Option<&Candidate>| {
+            self.of_amount(forward, target, set, added, near, scratch)
+        };
+        let stock = set.iter().filter_map(|pigment| self.stock.get(pigment.index()));
+        let most = self.most.min(stock.sum());
+        if most < self.least {
+            return None;
+        }
+        let ratio = (most / self.least).powf(1.0 / AMOUNTS as f64);
+        let mut nearest: Option<(f64, Candidate)> = None;
+        let mut before = None;
+        for step in 0..=AMOUNTS {
+            let added = self.least * (most / self.least).powf(step as f64 / AMOUNTS as f64);
+            let known = nearest.as_ref().map(|(_, candidate)| candidate);
+            let Some(found) = at(added, known) else { continue };
+            if found.distance <= self.tolerance {
+                let least = least_between(before, (added, found), self.tolerance, &mut at);
+                return self.addition(least);
+            }
+            before = Some(added);
+            if nearest.as_ref().is_none_or(|(_, known)| found.distance < known.distance) {
+                nearest = Some((added, found));
+            }
+        }
+        let (mut added, mut best) = nearest?;
+        let mut step = ratio.sqrt();
+        for _ in 0..HALVINGS {
+            for tried in [added * step, added / step] {
+                let tried = tried.clamp(self.least, most);
+                if let Some(found) = at(tried, Some(&best))
+                    && found.distance < best.distance
+                {
+                    (added, best) = (tried, found);
+                }
+            }
+            if best.distance <= self.tolerance {
+                break;
+            }
+            step = step.sqrt();
+        }
+        self.addition(best)
+    }
+
+    /// The nearest mixture in which the additions are `added` in all. `None` if the stock does not suffice.
+    fn of_amount(
+        &self,
+        forward: &Forward<'_>,
+        target: &Target,
+        set: &[PigmentId],
+        added: f64,
+        near: Option<&Candidate>,
+        scratch: &mut Scratch,
+    ) -> Option<Candidate> {
+        let share = 1.0 / (1.0 + added);
+        let request = self.request(Some(share));
+        let others = (set.len() - 1) as f64;
+        let start = Candidate {
+            pigments: set.to_vec(),
+            shares: set
+                .iter()
+                .map(|&pigment| {
+                    let known =
+                        near.map(|near| near.share(pigment) / (1.0 - near.share(self.pot())));
+                    let part = known.unwrap_or(1.0 / others);
+                    if pigment == self.pot() { share } else { part * (1.0 - share) }
+                })
+                .collect(),
+            thickness: 1.0,
+            distance: f64::INFINITY,
+        };
+        let start = within_limits(&request, &start)?;
+        descend(forward, &request, target, &start, scratch)
+    }
+
+    /// The addition in a mixture, without traces below the least amount. `None` if nothing is left.
+    fn addition(&self, mixture: Candidate) -> Option<Addition> {
+        let pot = mixture.share(self.pot());
+        let amounts: Vec<(PigmentId, f64)> = mixture
+            .pigments
+            .iter()
+            .zip(&mixture.shares)
+            .filter(|(pigment, _)| **pigment != self.pot())
+            .map(|(&pigment, share)| (pigment, share / pot))
+            .collect();
+        // A smaller set without this pigment is searched by itself.
+        let is_whole = amounts.iter().all(|(_, amount)| *amount >= self.least * (1.0 - 1e-6));
+        is_whole.then_some(Addition { amounts, mixture })
+    }
+}
+
+/// The mixture with the least addition between `before`, which is too little, and `enough`.
+fn least_between(
+    before: Option<f64>,
+    (mut enough, mut mixture): (f64, Candidate),
+    tolerance: f64,
+    at: &mut impl FnMut(f64, Option<&Candidate>) -> Option<Candidate>,
+) -> Candidate {
+    let Some(mut little) = before else { return mixture };
+    for _ in 0..HALVINGS {
+        let middle = (little * enough).sqrt();
+        match at(middle, Some(&mixture)) {
+            Some(found) if found.distance <= tolerance => (enough, mixture) = (middle, found),
+            _ => little = middle,
+        }
+    }
+    mixture
+}
+
+/// Drops additions that need further pigments and are hardly better than another one.
+fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
+    /// Gain below which a further pigment is not worth weighing, as a fraction, chosen by eye.
+    const LEAST_GAIN: f64 = 0.02;
+
+    let needed = additions.iter().filter(|addition| {
+        !additions.iter().any(|other| {
+            other.amounts.len() < addition.amounts.len()
+                && other
+                    .amounts
+                    .iter()
+                    .all(|(pigment, _)| addition.amounts.iter().any(|(known, _)| known == pigment))
+                && effort(reaches, other) <= effort(reaches, addition) * (1.0 + LEAST_GAIN)
+        })
+    });
+    needed.cloned().collect()
+}
+
+fn effort(reaches: bool, addition: &Addition) -> f64 {
+    if reaches { addition.total() } else { addition.mixture.distance }
 }

@@ -4,13 +4,9 @@ use spectra::color::{Lab, Xyz, ciede2000_residuals};
 use spectra::optics::UnevenFilm;
 use spectra::{InterpolateError, TristimulusWeights};
 
-use super::bounded_descent::Cost;
-use super::bounded_step::UNKNOWNS;
-use super::film::FilmKind;
-use super::request::MatchRequest;
-use super::spectral_target::SpectralTarget;
-use super::target::Target;
-use super::viewing_condition::Metric;
+use super::request::{FilmKind, MatchRequest};
+use super::target::{Metric, SpectralTarget, Target};
+use crate::least_squares::{Cost, UNKNOWNS};
 use crate::library::PigmentLibrary;
 use crate::recipe::PigmentId;
 
@@ -19,7 +15,7 @@ pub(super) struct Forward<'a> {
     pub(super) library: &'a PigmentLibrary,
     film: UnevenFilm,
     metric: Metric,
-    /// Internal reflectance of the ground; `None` for a film that hides.
+    /// Internal reflectance of the ground. `None` for a film that hides.
     ground: Option<Vec<f64>>,
     pub(super) weights: Vec<TristimulusWeights>,
     /// Square root of each condition's weight divided by the sum of weights.
@@ -45,8 +41,13 @@ impl<'a> Forward<'a> {
             FilmKind::Hiding => None,
             FilmKind::Over { ground, .. } => {
                 let surface = library.saunderson;
-                let below = |bare: &f64| surface.internal_from_measured(*bare).unwrap_or(0.0);
-                Some(ground.iter().map(|bare| below(bare).min(1.0)).collect())
+
+                Some(
+                    ground
+                        .iter()
+                        .map(|bare| surface.internal_from_measured(*bare).unwrap_or(0.0).min(1.0))
+                        .collect(),
+                )
             }
         };
         let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
@@ -210,7 +211,7 @@ fn spectrum_of(target: &Target) -> &SpectralTarget {
     target.spectrum.as_ref().expect("a search by spectrum was checked for one")
 }
 
-/// Three numbers whose squares sum to the square of a colour difference.
+/// Three numbers with squares that sum to the square of a colour difference.
 fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
     match metric {
         Metric::Ciede2000 | Metric::Spectrum(_) => ciede2000_residuals(wanted, found),
@@ -220,8 +221,8 @@ fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
     }
 }
 
-/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The
-/// slopes of CIELAB are exact, those of the difference formula are difference quotients.
+/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The slopes of
+/// CIELAB are exact. The slopes of the difference formula are difference quotients.
 fn residuals_with_slopes(
     metric: Metric,
     wanted: Lab,
@@ -250,7 +251,7 @@ fn residuals_with_slopes(
 
 /// Reflectance of a film that hides, with its slopes over K and S.
 fn infinite_film_with_slopes(k: f64, s: f64) -> [f64; 3] {
-    // At K = 0 the slope over K is infinite; slightly above, it is finite and steep.
+    // At K = 0 the slope over K is infinite. Slightly above, it is finite and steep.
     let k = k.max(1e-9 * s).max(1e-300);
     let alpha = (k * (k + 2.0 * s)).sqrt();
     let rest = k + s + alpha;
@@ -262,13 +263,12 @@ mod tests {
     use super::*;
     use crate::evaluate::Viewing;
     use crate::library::Pigment;
-    use crate::matching::film::Thickness;
-    use crate::matching::viewing_condition::{SpectrumWeights, ViewingCondition};
+    use crate::matching::request::Thickness;
+    use crate::matching::target::{SpectrumWeights, ViewingCondition};
     use spectra::{Grid, Illuminant, Observer, Reflectance, Spectrum};
 
-    fn library() -> PigmentLibrary {
-        let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
-        let pigment = |name: &str, k: &dyn Fn(f64) -> f64, s: f64| Pigment {
+    fn pigment(grid: Grid, name: &str, k: &dyn Fn(f64) -> f64, s: f64) -> Pigment {
+        Pigment {
             name: name.to_owned(),
             color_index: None,
             absorption: grid.wavelengths_nm().map(k).collect(),
@@ -279,7 +279,11 @@ mod tests {
             guessed: false,
             measured_amounts: None,
             notes: Vec::new(),
-        };
+        }
+    }
+
+    fn library() -> PigmentLibrary {
+        let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
         PigmentLibrary {
             title: String::new(),
             licence: String::new(),
@@ -297,9 +301,9 @@ mod tests {
             inputs: Vec::new(),
             settings: None,
             pigments: vec![
-                pigment("white", &|_| 0.002, 1.0),
-                pigment("red", &|nm| if nm < 580.0 { 2.0 } else { 0.02 }, 0.3),
-                pigment("blue", &|nm| (nm / 500.0).powi(8), 0.1),
+                pigment(grid, "white", &|_| 0.002, 1.0),
+                pigment(grid, "red", &|nm| if nm < 580.0 { 2.0 } else { 0.02 }, 0.3),
+                pigment(grid, "blue", &|nm| (nm / 500.0).powi(8), 0.1),
             ],
             evidence: None,
         }
@@ -308,14 +312,7 @@ mod tests {
     #[test]
     fn slopes_of_the_cost_agree_with_difference_quotients() {
         let library = library();
-        let under = |name: &str, weight| ViewingCondition {
-            viewing: Viewing {
-                illuminant: Illuminant::named(name).unwrap(),
-                observer: Observer::default(),
-            },
-            weight,
-        };
-        let conditions = vec![under("D65", 1.0), under("A", 0.5)];
+        let conditions = vec![condition("D65", 1.0), condition("A", 0.5)];
         let wanted = Lab { lightness: 48.0, a: 22.0, b: -9.0 };
         let curve = library.grid.wavelengths_nm().map(|nm| 0.2 + 0.3 * ((nm - 400.0) / 300.0));
         let measured = Spectrum::<Reflectance>::new(library.grid, curve.collect()).unwrap();
@@ -345,16 +342,26 @@ mod tests {
                 };
                 let slopes = cost(&point).gradient;
                 for unknown in 0..count {
-                    let mut moved = |by: f64| {
+                    let [above, below] = [1e-5, -1e-5].map(|by| {
                         let mut near = point;
                         near[unknown] += by;
                         cost(&near).value
-                    };
-                    let quotient = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                    });
+                    let quotient = (above - below) / 2e-5;
                     let off = (slopes[unknown] - quotient).abs() / quotient.abs().max(1.0);
                     assert!(off < 1e-3, "{metric:?} {unknown}: {} for {quotient}", slopes[unknown]);
                 }
             }
+        }
+    }
+
+    fn condition(name: &str, weight: f64) -> ViewingCondition {
+        ViewingCondition {
+            viewing: Viewing {
+                illuminant: Illuminant::named(name).unwrap(),
+                observer: Observer::default(),
+            },
+            weight,
         }
     }
 }

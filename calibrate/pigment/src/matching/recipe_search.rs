@@ -1,26 +1,23 @@
-//! The search for recipes by name: options in, recipes out, with a fallback for distant targets.
+//! The search for recipes by name: options in, recipes out, with a fallback for distant targets, and the
+//! recipes as JSON for programs.
 
 use documents::hint::Hint;
+use serde_json::{Map, Value, json};
 use spectra::Grid;
+use spectra::color::{Adaptation, Lab, Rgb, RgbSpace};
 
-use super::error::MatchError;
 use super::options::{MatchOptions, ToleranceOrigin};
-use super::ranking::{RecipeMatch, recipes_and_nearest, recipes_with_control};
-use super::request::{MatchRequest, USUAL_TOLERANCE};
-use super::search_control::SearchControl;
-use super::spectral_target::SpectralTarget;
-use super::target::{ColorTarget, Target, TargetColor};
-use super::viewing_condition::{Metric, ViewingCondition};
-use crate::library::PigmentLibrary;
-use crate::remark::Remark;
-use crate::visible_band::check_visible_band;
+use super::ranking::{AmountLimit, RecipeMatch, recipes_and_nearest, recipes_with_control};
+use super::request::{FilmKind, MatchError, MatchRequest, USUAL_TOLERANCE};
+use super::search::SearchControl;
+use super::target::{ColorTarget, Metric, SpectralTarget, Target, TargetColor, ViewingCondition};
+use crate::color::IlluminantChange;
+use crate::evaluate::{Remark, WANTED_NM, check_visible_band};
+use crate::library::{AmountKind, PigmentLibrary};
 
 /// Largest distance at which a target counts as reached, in CIEDE2000 or percent of reflectance. Larger
 /// differences are clearly visible side by side. Chosen by eye.
 const REACHED: f64 = 1.0;
-
-/// Band in nm that a match by spectrum should cover: it holds nearly all of the luminance and chroma.
-const VISIBLE_NM: [f64; 2] = [420.0, 680.0];
 
 /// CIEDE2000 of the nearest recipe above which recipes are also searched by CIE 1976: CIEDE2000 was made for
 /// differences up to about 5 units (CIE 142:2001).
@@ -38,14 +35,14 @@ pub struct RecipeSearch<'a> {
     pub remarks: Vec<Remark>,
 }
 
-/// Recipes found for one target; at least one.
+/// Recipes found for one target, at least one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecipeMatches {
     /// Colours that the recipes should have.
     pub target: Target,
     /// Recipes in the order of [`recipes`](super::recipes).
     pub recipes: Vec<RecipeMatch>,
-    /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000;
+    /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000,
     /// empty otherwise, and by spectrum.
     pub by_cie1976: Vec<RecipeMatch>,
     /// Choices made in the search, and warnings.
@@ -63,13 +60,13 @@ impl RecipeMatches {
     }
 
     /// Least distance of any recipe, in the unit of the metric, if amounts could lie outside the range that was measured
-    /// of each pigment; `None` if that would bring no recipe visibly nearer.
+    /// of each pigment. `None` if that would bring no recipe visibly nearer.
     #[must_use]
     pub fn beyond_measured(&self) -> Option<f64> {
         self.beyond_measured
     }
 
-    /// Advice for a target from which all recipes differ visibly; `None` if one is nearer than 1
+    /// Advice for a target from which all recipes differ visibly. `None` if one is nearer than 1
     /// CIEDE2000, or 1 % of reflectance.
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
@@ -133,8 +130,8 @@ impl RecipeSearch<'_> {
         found.ok_or(MatchError::NoRecipe)
     }
 
-    /// Searches recipes like [`Self::recipes_for`], under the control of another thread. Returns `None` if the
-    /// search was cancelled. The progress is that of one of the searches that a target may take.
+    /// Searches recipes like [`Self::recipes_for`], under the control of another thread. Returns `None` if
+    /// the search was cancelled. The progress counts one of the searches that a target may take.
     ///
     /// # Errors
     /// [`MatchError`] if no recipe fits the options, or a spectrum has no visible wavelength.
@@ -188,7 +185,7 @@ impl RecipeSearch<'_> {
     }
 }
 
-/// The spectrum of a measured target on the grid of a library. By spectrum it is an error if there is none.
+/// The spectrum of a measured target on the grid of a library. A search by spectrum fails if there is none.
 pub(super) fn spectrum_of(
     target: &ColorTarget,
     grid: Grid,
@@ -196,10 +193,9 @@ pub(super) fn spectrum_of(
     remarks: &mut Vec<Remark>,
 ) -> Result<Option<SpectralTarget>, MatchError> {
     let asked = metric.spectrum_weights();
-    let name = || target.name.clone();
     let TargetColor::Reflectance(measured) = &target.color else {
         return if asked.is_some() {
-            Err(MatchError::NoSpectrum { name: name() })
+            Err(MatchError::NoSpectrum { name: target.name.clone() })
         } else {
             Ok(None)
         };
@@ -210,18 +206,142 @@ pub(super) fn spectrum_of(
         return Ok(spectrum);
     }
     let spectrum = spectrum.ok_or_else(|| MatchError::NoSharedBand {
-        name: name(),
+        name: target.name.clone(),
         target_nm: [own.start_nm(), own.end_nm()],
         library_nm: [grid.start_nm(), grid.end_nm()],
     })?;
     let [first, last] = spectrum.band_nm();
-    if first > VISIBLE_NM[0] || last < VISIBLE_NM[1] {
+    if first > WANTED_NM[0] || last < WANTED_NM[1] {
         remarks.push(Remark::warning(format!(
             "{}: matched from {first} to {last} nm only, the band that target and library share",
-            name()
+            target.name.clone()
         )));
     }
     Ok(Some(spectrum))
+}
+
+impl RecipeSearch<'_> {
+    /// The result for one target as JSON. It holds the target's name, Lab by light, `hex` and `in_gamut`,
+    /// then `reached`, `nearest`, `beyond_measured`, measure and tolerance, then `recipes` and `by_cie1976`,
+    /// each as [`Self::recipe_json`]. With `grams`, the mass of the mixture, recipes contain amounts.
+    #[must_use]
+    pub fn to_json(&self, matched: &RecipeMatches, grams: Option<f64>) -> Value {
+        let [recipes, by_cie1976] = [&matched.recipes, &matched.by_cie1976].map(|recipes| {
+            let recipes = recipes.iter().map(|recipe| self.recipe_json(recipe, grams));
+            recipes.collect::<Vec<Value>>()
+        });
+        let target = &matched.target;
+        json!({
+            "target": target.name,
+            "lab": self.by_light(target.lab.iter().map(|lab| json!(lab.to_array()))),
+            "hex": displayed(target.lab[0]).to_hex(),
+            "in_gamut": displayed(target.lab[0]).in_gamut(),
+            "reached": matched.is_reached(),
+            "nearest": matched.nearest(),
+            "beyond_measured": matched.beyond_measured(),
+            "by": self.request.metric.name(),
+            "unit": self.request.metric.unit(),
+            "band_nm": target.spectrum.as_ref().map(SpectralTarget::band_nm),
+            "tolerance": self.request.tolerance,
+            "tolerance_origin": self.tolerance_origin.name(),
+            "recipes": recipes,
+            "by_cie1976": by_cie1976,
+        })
+    }
+
+    /// One recipe: pigments with their shares, distance, errors and colours by light, reflectance. Only
+    /// where they are known: parts, amounts, `rms_percent`, metamerism, thickness, and the cost of `grams`,
+    /// or of a unit of mass.
+    #[must_use]
+    pub fn recipe_json(&self, recipe: &RecipeMatch, grams: Option<f64>) -> Value {
+        let amount_key = if self.is_absolute() { "amount" } else { "grams" };
+        let pigments = recipe.shares.iter().enumerate().map(|(place, (id, share))| {
+            let mut entry = json!({ "name": self.library[*id].name, "share": share });
+            if let Some(parts) = &recipe.parts {
+                entry["parts"] = json!(parts[place]);
+            }
+            if let Some(amount) = self.amount(recipe, *share, grams) {
+                entry[amount_key] = json!(amount);
+            }
+            if self.library[*id].guessed {
+                entry["guessed"] = json!(true);
+            }
+            if let Some((_, limit)) = recipe.at_limit.iter().find(|(limited, _)| limited == id) {
+                entry["at_limit"] = match limit {
+                    AmountLimit::Least => json!("least measured"),
+                    AmountLimit::Greatest => json!("greatest measured"),
+                };
+            }
+            entry
+        });
+        let wavelengths: Vec<f64> = self.library.grid.wavelengths_nm().collect();
+        let color = displayed(recipe.lab[0]);
+        let mut entry = json!({
+            "pigments": pigments.collect::<Vec<Value>>(),
+            "distance": recipe.distance,
+            "delta_e": self.by_light(recipe.delta_e.iter().map(|d| json!(d))),
+            "lab": self.by_light(recipe.lab.iter().map(|lab| json!(lab.to_array()))),
+            "hex": color.to_hex(),
+            "in_gamut": color.in_gamut(),
+            "wavelengths_nm": wavelengths,
+            "reflectance": recipe.reflectance,
+        });
+        if let Some(rms) = recipe.rms_percent {
+            entry["rms_percent"] = json!(rms);
+        }
+        if !recipe.metamerism.is_empty() {
+            entry["metamerism"] = self.metamerism(recipe);
+        }
+        if self.request.film != FilmKind::Hiding {
+            entry["thickness"] = json!(recipe.thickness);
+        }
+        if let Some(cost) = recipe.cost {
+            entry["cost"] = json!(cost * grams.unwrap_or(1.0));
+        }
+        entry
+    }
+
+    /// Amount of a pigment with the given share: grams of a mixture of `grams`, or absolute amounts in the
+    /// library's unit. `None` where neither is known.
+    #[must_use]
+    pub fn amount(&self, recipe: &RecipeMatch, share: f64, grams: Option<f64>) -> Option<f64> {
+        match (grams, recipe.thickness) {
+            (_, Some(thickness)) if self.is_absolute() => Some(share * thickness),
+            (grams, _) => grams.map(|grams| share * grams),
+        }
+    }
+
+    /// Names of the lights, in the order of the request.
+    pub fn lights(&self) -> impl Iterator<Item = &str> {
+        self.request.conditions.iter().map(|condition| condition.viewing.illuminant.name())
+    }
+
+    fn is_absolute(&self) -> bool {
+        self.library.amounts == AmountKind::Absolute
+    }
+
+    /// Metamerism indices of a recipe, each with what it is.
+    fn metamerism(&self, recipe: &RecipeMatch) -> Value {
+        let mut lights = self.lights();
+        let reference = lights.next().unwrap_or_default();
+        let each = lights.zip(&recipe.metamerism).map(|(test, index)| {
+            let change = IlluminantChange { reference, test };
+            change.to_json(*index)
+        });
+        Value::from(each.collect::<Vec<Value>>())
+    }
+
+    /// JSON object with one value per light, keyed by its name.
+    fn by_light(&self, values: impl Iterator<Item = Value>) -> Value {
+        Value::Object(self.lights().map(str::to_owned).zip(values).collect::<Map<_, _>>())
+    }
+}
+
+/// Encoded sRGB of `lab`, seen adapted to its light.
+fn displayed(lab: Lab) -> Rgb {
+    // Lab is relative to its white, so any white serves for the round trip.
+    let white = RgbSpace::Srgb.white();
+    RgbSpace::Srgb.encoded_from_xyz(lab.to_xyz(white), white, Adaptation::Bradford)
 }
 
 #[cfg(test)]
@@ -248,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_is_told_though_the_list_stops_within_the_tolerance() {
+    fn the_nearest_is_reported_though_the_list_stops_within_the_tolerance() {
         let of = |tolerance: f64| {
             let tolerance = Some(tolerance);
             search("45,10,20", MatchOptions { tolerance, count: 1, ..MatchOptions::default() })
@@ -264,17 +384,18 @@ mod tests {
     fn the_tolerance_follows_the_error_of_the_library() {
         let mut oils = PigmentLibrary::van_gogh_oils();
         let plain = MatchOptions::default();
-        let tolerance = |library: &PigmentLibrary, options: &MatchOptions| {
-            let search = library.recipe_search(options).unwrap();
-            (search.request.tolerance, search.tolerance_origin)
-        };
         let error = oils.mean_error().unwrap();
         assert!(error > 1.0, "{error}");
-        assert_eq!(tolerance(&oils, &plain), (error, ToleranceOrigin::Library));
+        assert_eq!(tolerance_of(&oils, &plain), (error, ToleranceOrigin::Library));
         let given = MatchOptions { tolerance: Some(0.2), ..plain.clone() };
-        assert_eq!(tolerance(&oils, &given), (0.2, ToleranceOrigin::Given));
+        assert_eq!(tolerance_of(&oils, &given), (0.2, ToleranceOrigin::Given));
         oils.evidence = None;
-        assert_eq!(tolerance(&oils, &plain), (USUAL_TOLERANCE, ToleranceOrigin::Usual));
+        assert_eq!(tolerance_of(&oils, &plain), (USUAL_TOLERANCE, ToleranceOrigin::Usual));
+    }
+
+    fn tolerance_of(library: &PigmentLibrary, options: &MatchOptions) -> (f64, ToleranceOrigin) {
+        let search = library.recipe_search(options).unwrap();
+        (search.request.tolerance, search.tolerance_origin)
     }
 
     #[test]
@@ -282,8 +403,16 @@ mod tests {
         let target = "61.2,0.3,-44.5";
         let fine = search(target, MatchOptions { tolerance: Some(0.0), ..MatchOptions::default() });
         let usual = search(target, MatchOptions::default());
-        let of = |found: &RecipeMatches| found.recipes[0].shares.len();
-        assert!(of(&fine) > 2 && of(&usual) == 2, "{} and {}", of(&fine), of(&usual));
+        assert!(
+            pigment_count(&fine) > 2 && pigment_count(&usual) == 2,
+            "{} and {}",
+            pigment_count(&fine),
+            pigment_count(&usual)
+        );
         assert!((usual.nearest() - fine.nearest()).abs() < 1e-9);
+    }
+
+    fn pigment_count(found: &RecipeMatches) -> usize {
+        found.recipes[0].shares.len()
     }
 }

@@ -1,15 +1,18 @@
 //! Search over all sets of pigments.
+//!
+//! Each set becomes a [`Candidate`]: its pigments with the shares of the nearest recipe. [`SearchControl`] reports
+//! progress and cancels a search that runs on other threads.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use documents::Cancellation;
 use rayon::prelude::*;
 
-use super::candidate::Candidate;
-use super::descent::descend;
 use super::forward::{Forward, Scratch};
 use super::request::MatchRequest;
-use super::search_control::SearchControl;
 use super::target::Target;
+use crate::least_squares::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use crate::recipe::PigmentId;
 
 /// Distance of the nearest recipe beyond which a target is out of reach, and sets are searched from more
@@ -34,19 +37,18 @@ pub(super) fn search(
     let mut sets = first_sets(request);
     let mut size = sets.keys().next().map_or(0, Vec::len);
     loop {
-        let nearest = |(set, parent): (&Vec<PigmentId>, &Option<Candidate>),
-                       scratch: &mut Scratch| {
-            if control.cancelled() {
-                return None;
-            }
-            control.step();
-            let starts = starts(request, set, parent.as_ref(), &strength);
-            let ends = starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
-            ends.min_by(|a, b| a.distance.total_cmp(&b.distance))
-        };
         let tried: Vec<(Vec<PigmentId>, Option<Candidate>)> = sets
             .par_iter()
-            .map_init(Scratch::default, |scratch, set| (set.0.clone(), nearest(set, scratch)))
+            .map_init(Scratch::default, |scratch, (set, parent)| {
+                if control.cancelled() {
+                    return (set.clone(), None);
+                }
+                control.step();
+                let starts = starts(request, set, parent.as_ref(), &strength);
+                let ends =
+                    starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
+                (set.clone(), ends.min_by(|a, b| a.distance.total_cmp(&b.distance)))
+            })
             .collect();
         size += 1;
         let goes_on = size <= request.at_most && !control.cancelled();
@@ -80,7 +82,7 @@ fn expected(request: &MatchRequest) -> usize {
     let free = request.allowed.len() - fixed.min(request.allowed.len());
     let sizes = usize::from(fixed == 0)..=request.at_most.saturating_sub(fixed);
     sizes
-        .map(|added: usize| {
+        .map(|added| {
             let sets = (0..added)
                 .fold(1_usize, |sets, i| sets.saturating_mul(free.saturating_sub(i)) / (i + 1));
             sets.min(MOST_SETS)
@@ -105,9 +107,6 @@ fn first_sets(request: &MatchRequest) -> Sets {
 
 /// Every set with one pigment more, each with its nearest smaller recipe.
 fn grown(request: &MatchRequest, tried: &[(Vec<PigmentId>, Option<Candidate>)]) -> Sets {
-    let distance = |candidate: &Option<Candidate>| {
-        candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
-    };
     let mut parents: Vec<_> = tried.iter().collect();
     parents.sort_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)).then_with(|| a.0.cmp(&b.0)));
     let mut sets = BTreeMap::new();
@@ -124,11 +123,15 @@ fn grown(request: &MatchRequest, tried: &[(Vec<PigmentId>, Option<Candidate>)]) 
     sets
 }
 
+fn distance(candidate: &Option<Candidate>) -> f64 {
+    candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
+}
+
 /// Least mean of K + S that is assumed for a pigment, so that its start share is finite.
 const LEAST_STRENGTH: f64 = 1e-6;
-/// Share at which a new pigment enters the recipe that it extends; chosen by eye.
+/// Share at which a new pigment enters the recipe that it extends, chosen by eye.
 const ENTRY_SHARE: f64 = 0.01;
-/// Least share above its lower bound with which a pigment starts; chosen by eye.
+/// Least share above its lower bound with which a pigment starts, chosen by eye.
 const LEAST_START: f64 = 1e-3;
 
 /// Mean of K + S over wavelength, by pigment: a measure of how much a share of it changes the colour.
@@ -137,7 +140,7 @@ fn strengths(forward: &Forward<'_>) -> Vec<f64> {
         .library
         .pigments
         .iter()
-        .map(|pigment: &crate::library::Pigment| {
+        .map(|pigment| {
             let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
             (sum / pigment.absorption.len() as f64).max(LEAST_STRENGTH)
         })
@@ -168,7 +171,7 @@ fn starts(
 fn corners(request: &MatchRequest, set: &[PigmentId]) -> Vec<Candidate> {
     let (thinnest, thickest) = request.thickness();
     set.iter()
-        .filter_map(|main: &PigmentId| {
+        .filter_map(|main| {
             let wished: Vec<f64> = set.iter().map(|p| f64::from(u8::from(p == main))).collect();
             candidate(request, set, &wished, (thinnest * thickest).sqrt())
         })
@@ -207,4 +210,254 @@ fn candidate(
         thickness,
         distance: f64::INFINITY,
     })
+}
+
+/// A recipe during the search.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Candidate {
+    /// Pigments of the library, in rising order.
+    pub(super) pigments: Vec<PigmentId>,
+    /// Share of each pigment, sum 1.
+    pub(super) shares: Vec<f64>,
+    /// Thickness of the film in the library's unit.
+    pub(super) thickness: f64,
+    /// Weighted root mean square of the differences in the request's metric.
+    pub(super) distance: f64,
+}
+
+impl Candidate {
+    /// Share of `pigment`, 0 if it is not in the recipe.
+    pub(super) fn share(&self, pigment: PigmentId) -> f64 {
+        self.pigments.iter().position(|&p| p == pigment).map_or(0.0, |at| self.shares[at])
+    }
+}
+
+/// Progress of a running search for recipes, and the request to cancel it. Shared between threads.
+#[derive(Debug, Default)]
+pub struct SearchControl {
+    done: AtomicUsize,
+    total: AtomicUsize,
+    cancellation: Cancellation,
+}
+
+impl SearchControl {
+    /// Control of a search that ends early when `cancellation` asks for it.
+    #[must_use]
+    pub fn until(cancellation: Cancellation) -> Self {
+        Self { cancellation, ..Self::default() }
+    }
+
+    /// Asks the search to end soon: each thread finishes its current recipe.
+    pub fn cancel(&self) {
+        self.cancellation.cancel();
+    }
+
+    /// Whether the search was asked to end.
+    #[must_use]
+    pub fn cancelled(&self) -> bool {
+        self.cancellation.is_cancelled()
+    }
+
+    /// Fraction of the sets of pigments that have been tried, 0 to 1.
+    #[must_use]
+    pub fn progress(&self) -> f64 {
+        let total = self.total.load(Ordering::Relaxed);
+        if total == 0 {
+            0.0
+        } else {
+            (self.done.load(Ordering::Relaxed) as f64 / total as f64).min(1.0)
+        }
+    }
+
+    /// Sets the number of steps of the whole search.
+    pub(super) fn set_total(&self, steps: usize) {
+        self.total.store(steps, Ordering::Relaxed);
+    }
+
+    /// Counts one step as done.
+    pub(super) fn step(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// Most steps of a descent. Measured: one set in a hundred needs more than 20.
+const STEPS: usize = 40;
+/// Colour difference that counts as much as an amount beyond its limit by a factor of e, chosen by eye.
+const PENALTY: f64 = 30.0;
+
+/// First and last step of the thickness where amounts are at their limits, as a fraction, chosen by eye.
+const FIRST_STEP: f64 = 0.25;
+const LAST_STEP: f64 = 1e-3;
+/// The step is halved where the distance stays above this fraction of the one before, chosen by eye.
+const LEAST_GAIN: f64 = 0.999;
+
+/// Returns the recipe found from `start` within the bounds. `None` if no film of the request holds
+/// amounts within their limits.
+pub(super) fn descend(
+    forward: &Forward<'_>,
+    request: &MatchRequest,
+    target: &Target,
+    start: &Candidate,
+    scratch: &mut Scratch,
+) -> Option<Candidate> {
+    let (thinnest, thickest) = request.thickness();
+    let (thinner, thicker) = totals(request, &start.pigments);
+    let range = if thinnest < thickest {
+        (thinnest.max(thinner), thickest.min(thicker))
+    } else {
+        (thinnest, thickest)
+    };
+    if range.0 > range.1 {
+        return None;
+    }
+    let free = descend_within(forward, request, target, start, (range, false), scratch);
+    let keeps = free.pigments.iter().zip(&free.shares).all(|(&pigment, share)| {
+        let (least, most) = request.share_bounds_at(pigment, free.thickness);
+        (least..=most).contains(share)
+    });
+    if keeps {
+        return Some(free);
+    }
+    // The film is now about as thick as is best within the limits, which at one thickness are bounds of
+    // shares. Nearby thicknesses are tried in halving steps.
+    let mut at_thickness = |near: &Candidate, thickness: f64| {
+        let start = within_limits(request, &Candidate { thickness, ..near.clone() })?;
+        let range = (thickness, thickness);
+        Some(descend_within(forward, request, target, &start, (range, true), scratch))
+    };
+    let mut best = at_thickness(&free, free.thickness)?;
+    let mut step = if range.0 < range.1 { FIRST_STEP } else { 0.0 };
+    while step > LAST_STEP {
+        let before = best.distance;
+        for thickness in [best.thickness * (1.0 + step), best.thickness / (1.0 + step)] {
+            let tried = at_thickness(&best, thickness.clamp(range.0, range.1));
+            best = tried.filter(|tried| tried.distance < best.distance).unwrap_or(best);
+        }
+        if best.distance > LEAST_GAIN * before {
+            step /= 2.0;
+        }
+    }
+    Some(best)
+}
+
+/// Descends with the thickness in a range: with limits of amounts as bounds of the shares if `bounds_hold`,
+/// for which the thickness must be fixed, else with a penalty beyond them.
+fn descend_within(
+    forward: &Forward<'_>,
+    request: &MatchRequest,
+    target: &Target,
+    start: &Candidate,
+    ((thinnest, thickest), bounds_hold): ((f64, f64), bool),
+    scratch: &mut Scratch,
+) -> Candidate {
+    let pigments = &start.pigments;
+    let shares = pigments.len();
+    let chooses_thickness = thinnest < thickest;
+    let count = shares + usize::from(chooses_thickness);
+    let mut bounds = Bounds { count, shares, lower: [0.0; UNKNOWNS], upper: [0.0; UNKNOWNS] };
+    let mut point = [0.0; UNKNOWNS];
+    for (at, (&pigment, &share)) in pigments.iter().zip(&start.shares).enumerate() {
+        (bounds.lower[at], bounds.upper[at]) = if bounds_hold {
+            request.share_bounds_at(pigment, thinnest)
+        } else {
+            request.share_bounds(pigment)
+        };
+        point[at] = share;
+    }
+    if chooses_thickness {
+        (bounds.lower[shares], bounds.upper[shares]) = (thinnest.ln(), thickest.ln());
+        point[shares] = start.thickness.clamp(thinnest, thickest).ln();
+    }
+    let thickness_at = |point: &[f64; UNKNOWNS]| {
+        if chooses_thickness { point[shares].exp().clamp(thinnest, thickest) } else { thinnest }
+    };
+    let has_limits = pigments.iter().any(|&pigment| request.amount_bounds(pigment).is_some());
+    let mut cost_at = |point: &[f64; UNKNOWNS]| {
+        let unknowns = &point[..count];
+        let thickness = thickness_at(point);
+        let mut cost =
+            forward.cost(target, pigments, unknowns, thickness, chooses_thickness, scratch);
+        if has_limits && !bounds_hold {
+            add_penalty(&mut cost, request, pigments, unknowns, thickness);
+        }
+        cost
+    };
+    let cost = descend_within_bounds(&mut cost_at, &mut point, &bounds, STEPS);
+    let shares = point[..shares].to_vec();
+    let thickness = thickness_at(&point);
+    let distance = if has_limits {
+        forward.distance(target, pigments, &shares, thickness, scratch)
+    } else {
+        (2.0 * cost.value).sqrt()
+    };
+    Candidate { pigments: pigments.clone(), shares, thickness, distance }
+}
+
+/// Adds a residual for each amount beyond its limits: the logarithm of the ratio of both, times
+/// [`PENALTY`].
+fn add_penalty(
+    cost: &mut Cost,
+    request: &MatchRequest,
+    pigments: &[PigmentId],
+    unknowns: &[f64],
+    thickness: f64,
+) {
+    for (at, &pigment) in pigments.iter().enumerate() {
+        let Some([least, most]) = request.amount_bounds(pigment) else { continue };
+        let share = unknowns[at].max(f64::MIN_POSITIVE);
+        let amount = share * thickness;
+        let residual = PENALTY * (amount / amount.clamp(least, most)).ln();
+        if residual == 0.0 {
+            continue;
+        }
+        let mut slopes = [0.0; UNKNOWNS];
+        slopes[at] = PENALTY / share;
+        if unknowns.len() > pigments.len() {
+            slopes[pigments.len()] = PENALTY;
+        }
+        cost.value += 0.5 * residual * residual;
+        for i in 0..unknowns.len() {
+            cost.gradient[i] += residual * slopes[i];
+            for j in 0..unknowns.len() {
+                cost.matrix[i][j] += slopes[i] * slopes[j];
+            }
+        }
+    }
+}
+
+/// Least and greatest sum of all amounts that the limits of a set of pigments allow.
+fn totals(request: &MatchRequest, pigments: &[PigmentId]) -> (f64, f64) {
+    let bounds = || pigments.iter().map(|&pigment| (pigment, request.amount_bounds(pigment)));
+    let least: f64 = bounds().filter_map(|(_, limits)| Some(limits?[0])).sum();
+    // Shares of a pigment without limits may have any size, and fixed shares stay fixed.
+    let taken: f64 = bounds().map(|(pigment, _)| request.share_bounds(pigment).0).sum();
+    let thinnest = if least > 0.0 { least / (1.0 - taken).max(f64::MIN_POSITIVE) } else { 0.0 };
+    let most = bounds().map(|(_, limits)| limits.map_or(f64::INFINITY, |[_, most]| most));
+    (if pigments.len() == 1 { least } else { thinnest }, most.sum())
+}
+
+/// The recipe with its shares moved within the limits at its thickness. `None` if there are none.
+pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Option<Candidate> {
+    let bounds: Vec<(f64, f64)> =
+        recipe.pigments.iter().map(|&p| request.share_bounds_at(p, recipe.thickness)).collect();
+    let least: f64 = bounds.iter().map(|b| b.0).sum();
+    let most: f64 = bounds.iter().map(|b| b.1).sum();
+    let crossed = bounds.iter().any(|(least, most)| least > most);
+    if crossed || least > 1.0 + 1e-12 || most < 1.0 - 1e-12 {
+        return None;
+    }
+    let mut shares: Vec<f64> =
+        recipe.shares.iter().zip(&bounds).map(|(share, b)| share.clamp(b.0, b.1)).collect();
+    // The missing amount is divided in proportion to the room that each share has.
+    let missing = 1.0 - shares.iter().sum::<f64>();
+    let room =
+        |(share, b): (&f64, &(f64, f64))| if missing > 0.0 { b.1 - share } else { share - b.0 };
+    let rooms: Vec<f64> = shares.iter().zip(&bounds).map(room).collect();
+    let total: f64 = rooms.iter().sum();
+    if total > 0.0 {
+        for (share, room) in shares.iter_mut().zip(&rooms) {
+            *share += missing * room / total;
+        }
+    }
+    Some(Candidate { shares, ..recipe.clone() })
 }

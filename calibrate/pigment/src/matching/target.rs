@@ -1,13 +1,13 @@
-//! Colours for which recipes are searched.
+//! Targets of a search: a colour under one light or several, or a spectrum, with the lights under which recipes
+//! are judged and the measure of difference.
 
 use std::str::FromStr;
 
 use spectra::color::{ColorCode, ColorCodeError, Lab, Rgb};
-use spectra::{InterpolateError, Reflectance, Spectrum};
+use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
-use super::spectral_target::SpectralTarget;
-use super::viewing_condition::ViewingCondition;
-use crate::evaluate::lab;
+use crate::evaluate::{Viewing, lab};
+use crate::least_squares::{Cost, UNKNOWNS};
 
 /// A colour for which recipes are searched: an sRGB colour, a CIELAB colour or a measured spectrum.
 ///
@@ -31,10 +31,10 @@ pub struct ColorTarget {
 /// The ways in which a [`ColorTarget`] states its colour.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TargetColor {
-    /// CIELAB, to be matched under every light. An sRGB colour is adapted (Bradford) from the display's
-    /// white to that of the light, which leaves its CIELAB unchanged.
+    /// CIELAB, to be matched under every light. An sRGB colour is adapted (Bradford) from the white of the
+    /// display to the white of the light, which leaves its CIELAB unchanged.
     Lab(Lab),
-    /// A measured reflectance, which has a colour of its own under each light.
+    /// A measured reflectance. Its colour depends on the light.
     Reflectance(Spectrum<Reflectance>),
 }
 
@@ -97,7 +97,7 @@ impl Target {
         Self { name: name.to_owned(), lab: vec![lab; conditions.len()], spectrum: None }
     }
 
-    /// Target with the colours of a measured reflectance; its spectrum is left out, since that needs the grid
+    /// Target with the colours of a measured reflectance. Its spectrum is left out, since that needs the grid
     /// of a library ([`SpectralTarget::new`]).
     ///
     /// # Errors
@@ -112,5 +112,233 @@ impl Target {
             Ok(lab(&weights, reflectance.values()))
         });
         Ok(Self { name: name.to_owned(), lab: lab.collect::<Result<_, _>>()?, spectrum: None })
+    }
+}
+
+/// Percent of reflectance in 1: differences of spectra are reported in percent.
+const PERCENT: f64 = 100.0;
+
+/// A measured reflectance on the grid of a library, with a weight for each wavelength.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectralTarget {
+    reflectance: Vec<f64>,
+    /// Weights with sum 1, 0 where the target was not measured.
+    weights: Vec<f64>,
+    band_nm: [f64; 2],
+}
+
+impl SpectralTarget {
+    /// Target on `grid`, the wavelengths of a library. `conditions` are used by
+    /// [`SpectrumWeights::Observer`] only. `None` if target and grid share less than two wavelengths, or no
+    /// light falls on those they share.
+    ///
+    /// # Errors
+    /// None in practice: the method is chosen to fit the grid of the spectrum.
+    pub fn new(
+        measured: &Spectrum<Reflectance>,
+        grid: Grid,
+        weights: SpectrumWeights,
+        conditions: &[ViewingCondition],
+    ) -> Result<Option<Self>, InterpolateError> {
+        let method = Interpolation::best_for(measured.grid());
+        let reflectance = measured.resampled(grid, method, Extrapolation::Hold)?;
+        let mut share = match weights {
+            SpectrumWeights::Even => vec![1.0; grid.count()],
+            SpectrumWeights::Observer => visual_weights(grid, conditions)?,
+        };
+        let mut shared = Vec::new();
+        for (nm, share) in grid.wavelengths_nm().zip(&mut share) {
+            if measured.grid().covers(nm) {
+                shared.push(nm);
+            } else {
+                *share = 0.0;
+            }
+        }
+        let sum: f64 = share.iter().sum();
+        Ok(match shared[..] {
+            [first, .., last] if sum > 0.0 => Some(Self {
+                reflectance: reflectance.values().to_vec(),
+                weights: share.into_iter().map(|share| share / sum).collect(),
+                band_nm: [first, last],
+            }),
+            _ => None,
+        })
+    }
+
+    /// First and last wavelength in nm that the measurement and the library share.
+    #[must_use]
+    pub fn band_nm(&self) -> [f64; 2] {
+        self.band_nm
+    }
+
+    /// Weighted root mean square of the differences of `found` from the target, in percent of reflectance.
+    ///
+    /// # Panics
+    /// If `found` has another number of wavelengths than the grid of the target.
+    #[must_use]
+    pub fn rms_percent(&self, found: &[f64]) -> f64 {
+        assert_eq!(found.len(), self.weights.len(), "one reflectance for each wavelength");
+        let pairs = found.iter().zip(&self.reflectance).zip(&self.weights);
+        let squares = pairs.map(|((found, wanted), weight)| weight * (found - wanted).powi(2));
+        PERCENT * squares.sum::<f64>().sqrt()
+    }
+
+    /// Half the square of [`Self::rms_percent`] of `found`, with slopes. `by_unknown` holds the slopes of
+    /// `found` over each unknown, one unknown after the other.
+    pub(super) fn cost(&self, found: &[f64], by_unknown: &[f64]) -> Cost {
+        let mut cost =
+            Cost { value: 0.0, gradient: [0.0; UNKNOWNS], matrix: [[0.0; UNKNOWNS]; UNKNOWNS] };
+        let count = found.len();
+        let columns = by_unknown.len() / count;
+        for at in (0..count).filter(|&at| self.weights[at] > 0.0) {
+            let scale = PERCENT * PERCENT * self.weights[at];
+            let off = found[at] - self.reflectance[at];
+            cost.value += 0.5 * scale * off * off;
+            let slope = |unknown: usize| by_unknown[unknown * count + at];
+            for i in 0..columns {
+                cost.gradient[i] += scale * off * slope(i);
+                for j in 0..columns {
+                    cost.matrix[i][j] += scale * slope(i) * slope(j);
+                }
+            }
+        }
+        cost
+    }
+}
+
+/// Visual weight of each wavelength: the sum of its weights for X, Y and Z over all lights, each times
+/// the light's own weight.
+fn visual_weights(
+    grid: Grid,
+    conditions: &[ViewingCondition],
+) -> Result<Vec<f64>, InterpolateError> {
+    let mut sums = vec![0.0; grid.count()];
+    for condition in conditions {
+        let weights = condition.viewing.weights(grid)?;
+        for (sum, xyz) in sums.iter_mut().zip(weights.weights()) {
+            *sum += condition.weight * xyz.iter().sum::<f64>().max(0.0);
+        }
+    }
+    Ok(sums)
+}
+
+/// A light and an observer under which a recipe is judged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewingCondition {
+    /// Light and observer.
+    pub viewing: Viewing,
+    /// Weight of the colour difference under this light, above 0 and below 1e9. Only the ratios of
+    /// several weights matter.
+    pub weight: f64,
+}
+
+impl Default for ViewingCondition {
+    /// Illuminant D65 and the CIE 1931 observer, with weight 1.
+    fn default() -> Self {
+        Self { viewing: Viewing::default(), weight: 1.0 }
+    }
+}
+
+/// Measure of the difference between a recipe and its target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Metric {
+    /// CIEDE2000, which is valid for differences up to about 5.
+    #[default]
+    Ciede2000,
+    /// CIE 1976, which orders large differences better: by CIEDE2000 a grey may be nearer to a brilliant
+    /// magenta than a dull magenta is.
+    Cie1976,
+    /// Root mean square of the differences of reflectance in percent, over the wavelengths that target and
+    /// library share. The lights only serve to report colours. The target must be a measured spectrum.
+    Spectrum(SpectrumWeights),
+}
+
+/// How much each wavelength counts in a difference of spectra.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SpectrumWeights {
+    /// All wavelengths equally.
+    #[default]
+    Even,
+    /// By the sum of its weights for X, Y and Z under the lights.
+    Observer,
+}
+
+impl Metric {
+    /// Weights of the wavelengths, for a difference of spectra.
+    #[must_use]
+    pub fn spectrum_weights(self) -> Option<SpectrumWeights> {
+        match self {
+            Self::Spectrum(weights) => Some(weights),
+            Self::Ciede2000 | Self::Cie1976 => None,
+        }
+    }
+
+    /// Name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ciede2000 => "color",
+            Self::Cie1976 => "cie1976",
+            Self::Spectrum(SpectrumWeights::Even) => "spectrum",
+            Self::Spectrum(SpectrumWeights::Observer) => "weighted-spectrum",
+        }
+    }
+
+    /// Unit of the reported differences.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Ciede2000 => "CIEDE2000",
+            Self::Cie1976 => "CIE 1976",
+            Self::Spectrum(_) => "% of reflectance",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(start_nm: f64, step_nm: f64, values: Vec<f64>) -> Spectrum<Reflectance> {
+        let grid = Grid::from_nm(start_nm, step_nm, values.len()).unwrap();
+        Spectrum::new(grid, values).unwrap()
+    }
+
+    #[test]
+    fn the_shared_band_counts_evenly() {
+        let target = measured(450.0, 10.0, vec![0.5; 16]);
+        let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
+        let target = SpectralTarget::new(&target, grid, SpectrumWeights::Even, &[]).unwrap();
+        let target = target.unwrap();
+        assert_eq!(target.band_nm(), [460.0, 600.0]);
+        let mut found = vec![0.9; 16];
+        found[3..=10].fill(0.5);
+        assert!(target.rms_percent(&found) < 1e-12, "outside of the band nothing counts");
+        found[5] = 0.6;
+        // One of the eight shared wavelengths is off by 10 %.
+        assert!((target.rms_percent(&found) - 10.0 / 8.0_f64.sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_observer_weighs_green_more_than_the_ends() {
+        let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
+        let target = measured(400.0, 10.0, vec![0.3; 31]);
+        let conditions = [ViewingCondition::default()];
+        let of = |at: usize| {
+            let seen = SpectrumWeights::Observer;
+            let target = SpectralTarget::new(&target, grid, seen, &conditions).unwrap().unwrap();
+            let mut found = vec![0.3; 31];
+            found[at] = 0.4;
+            target.rms_percent(&found)
+        };
+        assert!(of(15) > 3.0 * of(0) && of(15) > 3.0 * of(30), "{} {}", of(15), of(0));
+    }
+
+    #[test]
+    fn bands_that_do_not_meet_are_no_target() {
+        let grid = Grid::from_nm(400.0, 10.0, 11).unwrap();
+        let infrared = measured(500.0, 10.0, vec![0.3; 31]);
+        let target = SpectralTarget::new(&infrared, grid, SpectrumWeights::Even, &[]).unwrap();
+        assert_eq!(target, None);
     }
 }

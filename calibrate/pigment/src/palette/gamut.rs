@@ -1,29 +1,32 @@
-//! The colours that a palette can mix.
+//! The colours that a palette can mix, and its colour wheel: tubes, tints and mixing lines in the plane of a*
+//! and b*.
+
+use std::collections::BTreeMap;
 
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp1};
-use spectra::color::{Adaptation, RgbSpace, Xyz, adapt};
+use spectra::color::{Adaptation, Lab, RgbSpace, Xyz, adapt, delta_e_ciede2000};
 
-use super::between::between;
+use super::charts::{TintLadder, tint_ladders};
 use super::paints::Palette;
-use crate::appearance::Appearance;
+use crate::color::Appearance;
 use crate::evaluate::Viewing;
 use crate::recipe::{PigmentId, Recipe};
 
 /// Number of mixing ratios of a pair, even in the logarithm of the ratio, since a little of a strong
 /// paint changes a weak one quickly.
 const RATIOS: i32 = 21;
-/// Largest ratio of a pair; chosen by eye.
+/// Largest ratio of a pair, chosen by eye.
 const FURTHEST: f64 = 150.0;
-/// Parts of white to one of a pair; chosen by eye.
+/// Parts of white to one of a pair, chosen by eye.
 const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
-/// Parts of black to one of a pair; chosen by eye.
+/// Parts of black to one of a pair, chosen by eye.
 const BLACKS: [f64; 2] = [0.03, 0.2];
-/// Factors by which a wash is made stronger in a library of absolute amounts; chosen by eye.
+/// Factors by which a wash is made stronger in a library of absolute amounts, chosen by eye.
 const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
-/// Number of random mixtures of three or four paints; every other one has white.
+/// Number of random mixtures of three or four paints. Every other one has white.
 const RANDOM: usize = 6000;
 /// Seed of the random mixtures.
 const SEED: u64 = 2004;
@@ -60,8 +63,8 @@ pub struct Boundary {
 }
 
 /// Samples the colours that a palette can mix: every paint and pair, alone and with parts of white or of the
-/// darkest paint (for washes, also in larger amounts); 6000 seeded mixtures of three or four paints, half of
-/// them with white; and mixtures of two samples where a cell of CIELAB between them is empty.
+/// darkest paint (for washes, also in larger amounts). 6000 seeded mixtures of three or four paints, half of
+/// them with white, and mixtures of two samples where a cell of CIELAB between them is empty.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| Recipe::single(p)).collect();
@@ -75,23 +78,24 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
         let whites = WHITES.iter().filter(|&&parts| !(plain && parts == 0.0));
         recipes.extend(whites.map(|&parts| palette.thinned(&recipe, parts)));
         if palette.white().is_none() {
-            recipes.extend(STRONGER.iter().map(|&times: &f64| recipe.scaled(times)));
+            recipes.extend(STRONGER.iter().map(|&times| recipe.scaled(times)));
         }
         if recipe.pigments().all(|p| p != black) {
-            recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
+            recipes.extend(BLACKS.iter().map(|parts| with_paint(&recipe, black, *parts)));
         }
     }
     recipes.extend(random_recipes(palette));
-    let sample = |recipe: Recipe| GamutSample { color: palette.color(&recipe), recipe };
-    let mut samples: Vec<GamutSample> = recipes.into_iter().map(sample).collect();
-    let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
+    let mut samples: Vec<GamutSample> = recipes
+        .into_iter()
+        .map(|recipe| GamutSample { color: palette.color(&recipe), recipe })
+        .collect();
+    let filled = mixtures_between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
     samples.extend(filled.into_iter().map(|(recipe, color)| GamutSample { recipe, color }));
     Gamut { samples, white: palette.weights().white() }
 }
 
 impl Gamut {
-    /// Outline in a* and b* around grey, of samples whose L* lies in `lightness` (both ends
-    /// included).
+    /// Outline in a* and b* around grey, of samples with L* in `lightness` (both ends included).
     #[must_use]
     pub fn in_lab(&self, lightness: [f64; 2], sectors: usize) -> Boundary {
         let [low, high] = lightness;
@@ -104,8 +108,8 @@ impl Gamut {
         Boundary::around([0.0, 0.0], sectors, places)
     }
 
-    /// Outline in chromaticity x, y around the light's white. Samples of Y below 0.5, whose
-    /// chromaticity is meaningless, are left out.
+    /// Outline in chromaticity x, y around the light's white. Samples of Y below 0.5 are left out, since
+    /// their chromaticity is meaningless.
     #[must_use]
     pub fn in_xy(&self, sectors: usize) -> Boundary {
         let white = chromaticity(self.white);
@@ -228,7 +232,7 @@ pub(super) fn shares() -> impl Iterator<Item = f64> {
 }
 
 /// `recipe` with `parts` parts of `paint` to one part of it.
-fn with(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
+fn with_paint(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
     let own = 1.0 / (1.0 + parts);
     let mut mixed = recipe.scaled(own);
     mixed.add(paint, parts * own);
@@ -257,4 +261,247 @@ fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
             palette.thinned(&recipe, whites)
         })
         .collect()
+}
+
+/// Number of sectors of an outline.
+const SECTORS: usize = 72;
+
+/// Mixtures within this difference of L* count as equally light. Mixtures are sampled, so a narrower range
+/// would leave gaps.
+const BAND: f64 = 5.0;
+
+/// Colours of two paints mixed in all ratios.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MixingLine {
+    /// The two paints, in the library's order.
+    pub pair: [PigmentId; 2],
+    /// Share of the first paint and the colour, from the second paint alone to the first alone.
+    pub colors: Vec<(f64, Appearance)>,
+}
+
+/// Everything that a chart of a palette in a* and b* shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColorWheel {
+    /// Colour of every paint alone, in the library's order.
+    pub masstones: Vec<(PigmentId, Appearance)>,
+    /// Tints of every paint but the white.
+    pub tints: Vec<TintLadder>,
+    /// Lines between every pair of paints.
+    pub lines: Vec<MixingLine>,
+    /// Mixtures of all kinds, with their colours.
+    pub gamut: Gamut,
+}
+
+/// The mixture of a palette that comes nearest to a colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearestMixture<'a> {
+    /// The sampled mixture.
+    pub sample: &'a GamutSample,
+    /// CIEDE2000 between the two. Mixtures between the sampled ones may come nearer.
+    pub delta_e: f64,
+}
+
+/// Computes masstones, tints, mixing lines and gamut of a palette by Kubelka-Munk.
+#[must_use]
+pub fn color_wheel(palette: &Palette<'_>) -> ColorWheel {
+    ColorWheel {
+        masstones: palette
+            .paints()
+            .iter()
+            .map(|&paint| (paint, palette.color(&Recipe::single(paint))))
+            .collect(),
+        tints: tint_ladders(palette),
+        lines: palette
+            .pairs()
+            .map(|(first, second)| {
+                let color = |share: f64| {
+                    let parts = [(first, share), (second, 1.0 - share)];
+                    let mixed: Recipe = parts.into_iter().filter(|(_, part)| *part > 0.0).collect();
+                    (share, palette.color(&mixed))
+                };
+                let inner = shares().map(color);
+                let colors = [color(0.0)].into_iter().chain(inner).chain([color(1.0)]).collect();
+                MixingLine { pair: [first, second], colors }
+            })
+            .collect(),
+        gamut: sampled_gamut(palette),
+    }
+}
+
+impl ColorWheel {
+    /// Outline of the mixtures with L* within 5 of `lightness`, or of all mixtures.
+    #[must_use]
+    pub fn region(&self, lightness: Option<f64>) -> Boundary {
+        let range =
+            lightness.map_or([f64::NEG_INFINITY, f64::INFINITY], |at| [at - BAND, at + BAND]);
+        self.gamut.in_lab(range, SECTORS)
+    }
+
+    /// The sampled mixture nearest to `color`. `None` if there are no samples.
+    #[must_use]
+    pub fn nearest(&self, color: Lab) -> Option<NearestMixture<'_>> {
+        let measured = self.gamut.samples.iter().map(|sample| NearestMixture {
+            sample,
+            delta_e: delta_e_ciede2000(color, sample.color.lab),
+        });
+        measured.min_by(|a, b| a.delta_e.total_cmp(&b.delta_e))
+    }
+}
+
+/// Side of a cell in a* and b*, chosen by eye.
+const CELL: f64 = 3.0;
+/// Height of a cell in L*, chosen by eye.
+const CELL_HEIGHT: f64 = 10.0;
+/// Number of passes. A gap of two or three cells is filled by mixtures of several passes.
+const PASSES: usize = 4;
+
+/// For each empty cell of CIELAB between two opposite neighbours that hold a sample, returns the mixture of
+/// these two in equal parts. Mixtures found in one pass are samples for the next.
+pub(super) fn mixtures_between<'a>(
+    palette: &Palette<'_>,
+    samples: impl Iterator<Item = (&'a Recipe, &'a Appearance)>,
+) -> Vec<(Recipe, Appearance)> {
+    let mut cells: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
+    for (recipe, color) in samples {
+        cells.entry(cell(color)).or_insert_with(|| recipe.clone());
+    }
+    let mut found = Vec::new();
+    for _ in 0..PASSES {
+        let mut added: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
+        for (&[band, a, b], recipe) in &cells {
+            // Four of the eight directions. The cell on the other side of the gap covers the opposite ones.
+            for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
+                let gap = [band, a + da, b + db];
+                let Some(other) = cells.get(&[band, a + 2 * da, b + 2 * db]) else { continue };
+                if cells.contains_key(&gap) || added.contains_key(&gap) {
+                    continue;
+                }
+                let mixed = halves(recipe, other);
+                let color = palette.color(&mixed);
+                added.entry(cell(&color)).or_insert_with(|| mixed.clone());
+                found.push((mixed, color));
+            }
+        }
+        for (place, recipe) in added {
+            cells.entry(place).or_insert(recipe);
+        }
+    }
+    found
+}
+
+fn cell(color: &Appearance) -> [i32; 3] {
+    let lab = color.lab;
+    [cell_index(lab.lightness, CELL_HEIGHT), cell_index(lab.a, CELL), cell_index(lab.b, CELL)]
+}
+
+fn cell_index(value: f64, side: f64) -> i32 {
+    (value / side).floor() as i32
+}
+
+/// Mixture of one half of each recipe.
+fn halves(first: &Recipe, second: &Recipe) -> Recipe {
+    let mut mixed = first.scaled(0.5);
+    second.iter().for_each(|&(paint, share)| mixed.add(paint, 0.5 * share));
+    mixed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Cards;
+    use super::*;
+    use crate::evaluate::Viewing;
+    use crate::library::PigmentLibrary;
+
+    fn with_palette<T>(names: &[&str], use_palette: impl FnOnce(&Palette<'_>) -> T) -> T {
+        let library = PigmentLibrary::van_gogh_oils();
+        let viewing = Viewing::default();
+        let ids: Vec<PigmentId> = names.iter().map(|name| library.find(name).unwrap()).collect();
+        let palette = Palette::new(&library, &viewing, Cards::standard(library.grid)).unwrap();
+        use_palette(&palette.among(&ids).unwrap())
+    }
+
+    fn distance(a: Lab, b: Lab) -> f64 {
+        let squares = a.to_array().into_iter().zip(b.to_array()).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
+    }
+
+    #[test]
+    fn masstones_lie_where_the_library_measures_them_and_lines_end_at_them() {
+        with_palette(&["Zinc White", "Vermilion", "Ultramarine"], |palette| {
+            let wheel = color_wheel(palette);
+            let library = palette.library();
+            assert_eq!((wheel.masstones.len(), wheel.lines.len(), wheel.tints.len()), (3, 3, 2));
+            for (paint, found) in &wheel.masstones {
+                let name = library[*paint].name.as_str();
+                let wanted = library.color([(name, 1.0)], palette.viewing()).unwrap();
+                assert!(distance(found.lab, wanted.lab) < 1e-6, "{name}: {found:?}");
+            }
+            let masstone =
+                |paint| wheel.masstones.iter().find(|(of, _)| *of == paint).expect("a tube").1.lab;
+            for MixingLine { pair: [first, second], colors } in &wheel.lines {
+                let start = colors[0].1.lab;
+                let end = colors[colors.len() - 1].1.lab;
+                assert!(distance(start, masstone(*second)) < 1e-9, "{first:?} {second:?}");
+                assert!(distance(end, masstone(*first)) < 1e-9, "{first:?} {second:?}");
+                assert!(colors.windows(2).all(|two| two[0].0 < two[1].0), "shares rise");
+            }
+        });
+    }
+
+    #[test]
+    fn a_line_is_curved_and_passes_the_mixtures_of_the_library() {
+        with_palette(&["Zinc White", "Prussian Blue"], |palette| {
+            let wheel = color_wheel(palette);
+            let [line] = wheel.lines.as_slice() else { panic!("one pair") };
+            let library = palette.library();
+            let [first, second] = line.pair.map(|paint| library[paint].name.clone());
+            for (share, found) in &line.colors[1..line.colors.len() - 1] {
+                let parts = [(&first, *share), (&second, 1.0 - share)];
+                let wanted = library.color(parts, palette.viewing()).unwrap();
+                assert!(distance(found.lab, wanted.lab) < 1e-6, "{share}");
+            }
+            let chroma = |at: usize| line.colors[at].1.lab.to_lch().chroma;
+            let most = (0..line.colors.len()).map(chroma).fold(0.0, f64::max);
+            let ends = chroma(0).max(chroma(line.colors.len() - 1));
+            assert!(most > ends + 10.0, "white brings the blue out: {most} over {ends}");
+        });
+    }
+
+    #[test]
+    fn greys_reach_a_thin_region_and_primaries_a_wide_one() {
+        let greys = area_of(&["Zinc White", "Bone Black"]);
+        let primaries = area_of(&["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine"]);
+        assert!(greys < 60.0 && primaries > 2000.0, "{greys} and {primaries}");
+    }
+
+    fn area_of(names: &[&str]) -> f64 {
+        with_palette(names, |palette| color_wheel(palette).region(None).area())
+    }
+
+    #[test]
+    fn a_region_of_one_lightness_holds_its_mixtures_only() {
+        with_palette(&["Zinc White", "Vermilion", "Ultramarine"], |palette| {
+            let wheel = color_wheel(palette);
+            let kept = wheel.region(Some(60.0));
+            let held: Vec<usize> = kept.sectors.iter().flatten().map(|(_, index)| *index).collect();
+            assert!(!held.is_empty());
+            for index in held {
+                let lightness = wheel.gamut.samples[index].color.lab.lightness;
+                assert!((55.0..=65.0).contains(&lightness), "{lightness}");
+            }
+            assert!(wheel.region(Some(60.0)).area() < wheel.region(None).area());
+        });
+    }
+
+    #[test]
+    fn a_mixture_is_found_again_and_a_colour_out_of_reach_is_far() {
+        with_palette(&["Zinc White", "Vermilion", "Ultramarine"], |palette| {
+            let wheel = color_wheel(palette);
+            let mixed = &wheel.gamut.samples[100];
+            let found = wheel.nearest(mixed.color.lab).unwrap();
+            assert!(found.delta_e < 1e-9, "{found:?}");
+            let green = Lab { lightness: 60.0, a: -60.0, b: 40.0 };
+            assert!(wheel.nearest(green).unwrap().delta_e > 20.0, "no green without a yellow");
+        });
+    }
 }

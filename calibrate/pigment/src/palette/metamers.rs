@@ -1,16 +1,19 @@
-//! Pairs of mixtures that match under one light and differ under another.
+//! Pairs of mixtures that match under one light and differ under another, and the colour shift of each paint
+//! from one light to another.
 
-use spectra::color::{Lab, Xyz, delta_e_cie76, delta_e_ciede2000, metamerism_index};
+use spectra::color::{
+    Adaptation, Lab, Xyz, adapt, delta_e_cie76, delta_e_ciede2000, metamerism_index,
+};
+use spectra::{Illuminant, TristimulusWeights};
 
-use super::constancy::TestLight;
-use super::paints::Palette;
-use super::samples::MeasuredSample;
-use crate::appearance::Appearance;
+use super::paints::{MeasuredSample, Palette};
+use crate::color::Appearance;
+use crate::evaluate::Viewing;
 use crate::recipe::{PigmentId, Recipe};
 
-/// Shares of the first paint at which each pair is tried; chosen by eye.
+/// Shares of the first paint at which each pair is tried, chosen by eye.
 const SHARES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
-/// Parts of white with which each mixture is tried; chosen by eye.
+/// Parts of white with which each mixture is tried, chosen by eye.
 const WHITES: [f64; 3] = [0.0, 1.5, 6.0];
 
 /// Two colours that nearly match under the first light.
@@ -25,7 +28,7 @@ pub struct Metamers {
     /// By light: CIEDE2000 between the two, uncorrected.
     pub differences: Vec<f64>,
     /// By light: the special metamerism index (CIE 15:2018, section 9.2), in which the second colour
-    /// is corrected for the difference under the first light; 0 for the first light.
+    /// is corrected for the difference under the first light, 0 for the first light.
     pub indices: Vec<f64>,
 }
 
@@ -38,7 +41,7 @@ struct Candidate {
 }
 
 /// Finds pairs that differ by less than `alike` CIEDE2000 under the first of `lights` and differ most
-/// under another one by the metamerism index. Returns at most `count` pairs, the worst first; no
+/// under another one by the metamerism index. Returns at most `count` pairs, the worst first. No
 /// colour occurs twice.
 ///
 /// Candidates are the measured samples, every paint, and every two paints at five ratios, with and
@@ -102,11 +105,12 @@ fn index(first: &Candidate, second: &Candidate, lights: &[TestLight], light: usi
 }
 
 fn described(first: &Candidate, second: &Candidate, lights: &[TestLight]) -> Metamers {
-    let look = |light: usize| {
-        let white = lights[light].weights.white();
-        [first, second].map(|candidate| Appearance::of(candidate.xyz[light], white))
-    };
-    let colors: Vec<[Appearance; 2]> = (0..lights.len()).map(look).collect();
+    let colors: Vec<[Appearance; 2]> = (0..lights.len())
+        .map(|light| {
+            let white = lights[light].weights.white();
+            [first, second].map(|candidate| Appearance::of(candidate.xyz[light], white))
+        })
+        .collect();
     let all = 0..lights.len();
     Metamers {
         names: [first.name.clone(), second.name.clone()],
@@ -122,13 +126,6 @@ fn candidates(
     lights: &[TestLight],
     measured: &[MeasuredSample],
 ) -> Vec<Candidate> {
-    let candidate = |name: String, recipe: Recipe, reflectance: &[f64]| {
-        let mut paints: Vec<PigmentId> = recipe.pigments().collect();
-        paints.sort_unstable();
-        let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(reflectance)).collect();
-        let lab = Lab::from_xyz(xyz[0], lights[0].weights.white());
-        Candidate { name, recipe, paints, xyz, lab }
-    };
     let mut recipes: Vec<Recipe> = Vec::new();
     for &paint in palette.paints() {
         recipes.extend(WHITES.iter().map(|&parts| palette.tint(paint, parts)));
@@ -142,11 +139,91 @@ fn candidates(
     let read = measured.iter().map(|sample| {
         let name =
             format!("{} ({}, measured)", palette.recipe_label(&sample.recipe), sample.sample);
-        candidate(name, sample.recipe.clone(), &sample.reflectance)
+        candidate(lights, name, sample.recipe.clone(), &sample.reflectance)
     });
     let mixed = recipes.into_iter().map(|recipe| {
         let reflectance = palette.reflectance(&recipe);
-        candidate(palette.recipe_label(&recipe), recipe, &reflectance)
+        candidate(lights, palette.recipe_label(&recipe), recipe, &reflectance)
     });
     read.chain(mixed).collect()
+}
+
+fn candidate(lights: &[TestLight], name: String, recipe: Recipe, reflectance: &[f64]) -> Candidate {
+    let mut paints: Vec<PigmentId> = recipe.pigments().collect();
+    paints.sort_unstable();
+    let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(reflectance)).collect();
+    let lab = Lab::from_xyz(xyz[0], lights[0].weights.white());
+    Candidate { name, recipe, paints, xyz, lab }
+}
+
+/// Lights that a palette is shown under, besides its own.
+const LIGHTS: [&str; 3] = ["D65", "A", "FL11"];
+
+/// A light that a palette is shown under.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestLight {
+    /// Name of the light.
+    pub name: String,
+    /// Tristimulus weights on the library's grid, for the palette's observer.
+    pub weights: TristimulusWeights,
+}
+
+/// Colours of one recipe under several lights.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColorShift {
+    /// Paints with their shares.
+    pub recipe: Recipe,
+    /// Colour under each light, relative to that light's white.
+    pub colors: Vec<Appearance>,
+    /// By light: CIEDE2000 between the colour under the first light and the colour under this one,
+    /// adapted to the first light (Bradford), 0 for the first.
+    pub shifts: Vec<f64>,
+}
+
+/// The palette's own light, followed by D65, A and FL11, each if it differs from the first.
+#[must_use]
+pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
+    let own = palette.viewing();
+    let first =
+        TestLight { name: own.illuminant.name().to_owned(), weights: palette.weights().clone() };
+    let others = LIGHTS.iter().filter(|name| **name != own.illuminant.name()).map(|name| {
+        let illuminant = Illuminant::named(name).expect("a CIE illuminant is shipped");
+        let viewing = Viewing { illuminant, observer: own.observer };
+        let weights = viewing.weights(palette.library().grid).expect("the method fits the grid");
+        TestLight { name: (*name).to_owned(), weights }
+    });
+    std::iter::once(first).chain(others).collect()
+}
+
+/// Computes the shift of each recipe from the first of `lights` to each of them: the difference that
+/// remains after the eye has adapted, 0 for a paint of constant colour.
+#[must_use]
+pub fn color_shifts(
+    palette: &Palette<'_>,
+    lights: &[TestLight],
+    recipes: &[Recipe],
+) -> Vec<ColorShift> {
+    recipes
+        .iter()
+        .map(|recipe| {
+            let reflectance = palette.reflectance(recipe);
+            let xyz: Vec<Xyz> =
+                lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();
+            let whites: Vec<Xyz> = lights.iter().map(|light| light.weights.white()).collect();
+            let under_first = |at: usize| {
+                let xyz = if at == 0 {
+                    xyz[0]
+                } else {
+                    adapt(xyz[at], whites[at], whites[0], Adaptation::Bradford)
+                };
+                Lab::from_xyz(xyz, whites[0])
+            };
+            let all = 0..lights.len();
+            ColorShift {
+                recipe: recipe.clone(),
+                colors: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
+                shifts: all.map(|at| delta_e_ciede2000(under_first(0), under_first(at))).collect(),
+            }
+        })
+        .collect()
 }

@@ -1,37 +1,27 @@
 //! Properties of a palette: how its paints hide, tint, mix, and change with the light.
 //!
 //! In a library of relative amounts a recipe stands for a film that hides. In one of absolute amounts the
-//! paper is the white: a share of 1 is one wash of the pigment (see [`Palette::wash`]), and a recipe whose
-//! shares sum to less than 1 is thinned with water.
+//! paper is the white: a share of 1 is one wash of the pigment (see [`Palette::wash`]), and a recipe is
+//! thinned with water if its shares sum to less than 1.
 //!
-//! Pigments whose scattering is not identified take no part in any mixture.
+//! Pigments with unknown scattering take no part in any mixture.
 
-mod cards;
 mod paints;
-mod samples;
-mod hiding_power;
-mod tinting_strength;
-mod mixing_chart;
-mod between;
+mod charts;
 mod gamut;
-mod wheel;
-mod constancy;
 mod metamers;
-mod graded;
 
-pub use crate::appearance::Appearance;
+pub use crate::color::Appearance;
 pub use crate::recipe::Recipe;
-pub use cards::Cards;
-pub use constancy::{ColorShift, TestLight, color_shifts, test_lights};
-pub use gamut::{Boundary, Gamut, GamutSample, sampled_gamut, spectral_locus, srgb_primaries};
-pub use graded::{GradedMixture, GradedStep, MixingRow, PainterRules, default_pairs, graded};
-pub use hiding_power::{HIDING_CONTRAST, Hides, HidingPower, hiding_powers, scattering_per_mm};
-pub use metamers::{Metamers, metamers};
-pub use mixing_chart::{
-    CHART_TINT, Drawdown, DrawdownStep, MixingChart, TINTS, TintLadder, drawdowns, mixing_chart,
-    tint_ladders,
+pub use charts::{
+    CHART_TINT, Drawdown, DrawdownStep, GradedMixture, GradedStep, HIDING_CONTRAST, Hides,
+    HidingPower, MixingChart, MixingRow, PainterRules, TINT_DEPTH, TINT_PARTS, TINTS, TintLadder,
+    TintingStrength, default_pairs, drawdowns, graded, hiding_powers, mixing_chart,
+    scattering_per_mm, tint_ladders, tinting_strengths,
 };
-pub use paints::{Palette, PaletteError};
-pub use samples::MeasuredSample;
-pub use tinting_strength::{TINT_DEPTH, TINT_PARTS, TintingStrength, tinting_strengths};
-pub use wheel::{ColorWheel, MixingLine, NearestMixture, color_wheel};
+pub use gamut::{
+    Boundary, ColorWheel, Gamut, GamutSample, MixingLine, NearestMixture, color_wheel,
+    sampled_gamut, spectral_locus, srgb_primaries,
+};
+pub use metamers::{ColorShift, Metamers, TestLight, color_shifts, metamers, test_lights};
+pub use paints::{Cards, MeasuredSample, Palette, PaletteError};

@@ -1,14 +1,13 @@
-//! The paints of a library that can be mixed, and the colours of their mixtures.
+//! The paints of a library that can be mixed, the colours of their mixtures, and the black and white cards that
+//! films are drawn down over.
 
-use documents::hint::{Explain, Hint};
-use spectra::TristimulusWeights;
+use documents::hint::Explain;
+use spectra::{Grid, TristimulusWeights};
 
-use super::cards::Cards;
-use crate::appearance::Appearance;
-use crate::curves::{Curves, film_over, hiding_film};
+use crate::color::Appearance;
 use crate::evaluate::Viewing;
 use crate::library::{AmountKind, PigmentLibrary};
-use crate::recipe::{PigmentId, Recipe};
+use crate::recipe::{Curves, PigmentId, Recipe, film_over, hiding_film};
 
 /// Depth of a wash: the fraction of the way from the bare paper to a film that hides, at the wavelength
 /// of greatest absorption. Chosen by eye.
@@ -27,11 +26,11 @@ pub struct Palette<'a> {
 }
 
 impl<'a> Palette<'a> {
-    /// Palette of the pigments of `library` whose scattering is identified, in its order.
+    /// Palette of the pigments of `library` with known scattering, in its order.
     ///
     /// # Errors
-    /// [`PaletteError::NothingToMix`] if there is no such pigment, [`PaletteError::Cards`] if a card does not
-    /// have one reflectance for each wavelength of the library.
+    /// [`PaletteError::NothingToMix`] if there are none, [`PaletteError::Cards`] if a card does not have one
+    /// reflectance for each wavelength of the library.
     pub fn new(
         library: &'a PigmentLibrary,
         viewing: &'a Viewing,
@@ -59,8 +58,8 @@ impl<'a> Palette<'a> {
         Ok(palette)
     }
 
-    /// This palette with no more than these pigments, such as the tubes at hand. Without the
-    /// reference white the lightest of them lightens the others.
+    /// This palette with no more than these pigments, for example the tubes at hand. Without the reference
+    /// white the lightest of them lightens the others.
     ///
     /// # Errors
     /// [`PaletteError::NothingToMix`] if none of them can be mixed.
@@ -146,7 +145,7 @@ impl<'a> Palette<'a> {
         self.by_luminance(|a, b| b < a)
     }
 
-    /// Amount of a pigment in its own wash; 1 for relative amounts.
+    /// Amount of a pigment in its own wash. 1 for relative amounts.
     ///
     /// For absolute amounts a wash has the amount at which the reflectance over the white card, at the
     /// wavelength of greatest absorption, is nine tenths of the way from the bare card to a film that
@@ -162,7 +161,8 @@ impl<'a> Palette<'a> {
         self.thinned(&Recipe::single(paint), parts)
     }
 
-    /// Recipe with `parts` parts of white (or water) to one part of `recipe`, whose shares sum to 1.
+    /// Recipe with `parts` parts of white (or water) to one part of `recipe`. The shares of `recipe` sum to
+    /// 1.
     #[must_use]
     pub fn thinned(&self, recipe: &Recipe, parts: f64) -> Recipe {
         let own = 1.0 / (1.0 + parts);
@@ -194,7 +194,7 @@ impl<'a> Palette<'a> {
         self.film_reflectance(curves.as_slices(), &self.cards.white)
     }
 
-    /// Measured reflectance of a film from its K and S at any wavelengths; `card` is the reflectance
+    /// Measured reflectance of a film from its K and S at any wavelengths. `card` is the reflectance
     /// of the white card at these.
     pub(super) fn film_reflectance(&self, (k, s): (&[f64], &[f64]), card: &[f64]) -> Vec<f64> {
         match self.library.amounts {
@@ -228,7 +228,7 @@ impl<'a> Palette<'a> {
     pub(super) fn strongest(&self) -> f64 {
         self.paints
             .iter()
-            .map(|&p: &PigmentId| {
+            .map(|&p| {
                 let pigment = &self.library[p];
                 let pairs = pigment.absorption.iter().zip(&pigment.scattering);
                 pairs.map(|(k, s)| k + s).fold(0.0, f64::max)
@@ -243,8 +243,7 @@ impl<'a> Palette<'a> {
 
     /// First paint in the order `better` of the luminance of films.
     fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> PigmentId {
-        let all =
-            self.paints.iter().map(|&p: &PigmentId| (p, self.color(&Recipe::single(p)).xyz.y));
+        let all = self.paints.iter().map(|&p| (p, self.color(&Recipe::single(p)).xyz.y));
         all.reduce(|a, b| if better(a.1, b.1) { b } else { a }).expect("a palette has a paint").0
     }
 
@@ -287,12 +286,13 @@ pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> 
 }
 
 /// A library that makes no palette.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum PaletteError {
     /// No pigment has an identified scattering.
     #[error(
         "none of the library's pigments can be mixed: scattering is identified of `0` of {pigments}"
     )]
+    #[hint("measure mixtures of each pigment with the white, and fit again")]
     NothingToMix {
         /// Number of pigments in the library.
         pigments: usize,
@@ -301,6 +301,7 @@ pub enum PaletteError {
     #[error(
         "a card has one reflectance for each of the library's {wanted} wavelengths, found `{found}`"
     )]
+    #[hint("read the bare cards on the wavelengths of the films")]
     Cards {
         /// Wavelengths of the library.
         wanted: usize,
@@ -309,13 +310,66 @@ pub enum PaletteError {
     },
 }
 
-impl Explain for PaletteError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NothingToMix { .. } => {
-                "measure mixtures of each pigment with the white, and fit again"
-            }
-            Self::Cards { .. } => "read the bare cards on the wavelengths of the films",
-        }))
+/// Measured reflectance of the two bare cards.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cards {
+    /// Reflectance of the black card, as a fraction at each wavelength.
+    pub black: Vec<f64>,
+    /// Reflectance of the white card, as a fraction at each wavelength.
+    pub white: Vec<f64>,
+    /// Whether the black card was measured. If not, it is the standard's.
+    pub black_measured: bool,
+    /// Whether the white card was measured. If not, it is the standard's.
+    pub white_measured: bool,
+}
+
+/// Reflectance of the standard black card: ISO 6504-3 allows Y up to 5.
+const BLACK: f64 = 0.05;
+/// Reflectance of the standard white card: ISO 6504-3 asks for Y = 80 within 2.
+const WHITE: f64 = 0.80;
+/// Greatest Y of a measured backing that counts as a black card, chosen by eye.
+const DARKEST_CARD: f64 = 10.0;
+/// Least Y of a measured backing that counts as a white card, chosen by eye.
+const LIGHTEST_CARD: f64 = 60.0;
+
+impl Cards {
+    /// Cards at the limits of ISO 6504-3: 0.05 and 0.80 at every wavelength of `grid`.
+    #[must_use]
+    pub fn standard(grid: Grid) -> Self {
+        Self {
+            black: vec![BLACK; grid.count()],
+            white: vec![WHITE; grid.count()],
+            black_measured: false,
+            white_measured: false,
+        }
     }
+
+    /// Chooses the cards among measured bare backings, each a reflectance on the grid of `weights`:
+    /// the darkest if its Y is 10 or less, the lightest if its Y is 60 or more. A missing card is
+    /// replaced by the standard's.
+    #[must_use]
+    pub fn among(bare: impl IntoIterator<Item = Vec<f64>>, weights: &TristimulusWeights) -> Self {
+        let mut bare: Vec<Vec<f64>> = bare.into_iter().collect();
+        let mut cards = Self::standard(weights.grid());
+        let luminance = |card: &[f64]| weights.xyz(card).y;
+        bare.sort_by(|a, b| luminance(a).total_cmp(&luminance(b)));
+        if let Some(black) = bare.first().filter(|card| luminance(card) <= DARKEST_CARD) {
+            (cards.black, cards.black_measured) = (black.clone(), true);
+        }
+        if let Some(white) = bare.last().filter(|card| luminance(card) >= LIGHTEST_CARD) {
+            (cards.white, cards.white_measured) = (white.clone(), true);
+        }
+        cards
+    }
+}
+
+/// A measured swatch. All of its pigments are in the palette.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredSample {
+    /// Name of the sample.
+    pub sample: String,
+    /// Pigments of the library with their shares, sum 1.
+    pub recipe: Recipe,
+    /// Measured reflectance of a film that hides, surface included, on the library's grid.
+    pub reflectance: Vec<f64>,
 }

@@ -1,17 +1,21 @@
-//! Nodes and weights fitted to the mixtures of a library.
+//! Nodes and weights fitted to the mixtures of a library, and the comparison of all methods of choosing
+//! wavelengths, for several numbers of them.
+
+use std::ops::RangeInclusive;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
 use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 use spectra::optics::{infinite_film, infinite_film_from_ratio, infinite_film_slope};
 
-use super::mixtures::MixtureSet;
-use super::rule::{NODE_BAND_NM, Quadrature, QuadratureFailure, on_line};
+use super::rule::{
+    MixtureSet, NODE_BAND_NM, Quadrature, QuadratureError, QuadratureFailure, on_line,
+};
 use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, Stop, minimise};
 use crate::library::PigmentLibrary;
 
-/// Number of random mixtures in the training set, besides all masstones; chosen by eye.
+/// Number of random mixtures in the training set, besides all masstones, chosen by eye.
 const TRAINING: usize = 700;
 /// Seed of the training set.
 const TRAINING_SEED: u64 = 2004;
@@ -42,10 +46,10 @@ impl Quadrature {
 
 /// Returns the best of several fits.
 ///
-/// The unknowns are the n nodes and, in each channel, all weights but the last, which follows from the sum,
-/// that of the white. The residuals are differences from the exact colours in the local metric of CIEDE2000.
-/// The starts are the nodes of `start`, the same nodes moved towards or away from their mean, and evenly
-/// spaced nodes.
+/// The unknowns are the n nodes and, in each channel, all weights but the last, which follows from the sum
+/// for the white. The residuals are differences from the exact colours in the local metric of CIEDE2000. The
+/// starts are the nodes of `start`, the same nodes moved towards or away from their mean, and evenly spaced
+/// nodes.
 fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let problem = Problem::new(start, training);
     let count = start.nodes_nm.len();
@@ -53,15 +57,21 @@ fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let scaled = |factor: f64| -> Vec<f64> {
         start.nodes_nm.iter().map(|nm| middle + factor * (nm - middle)).collect()
     };
-    let even = |low: f64, high: f64| -> Vec<f64> {
-        (0..count).map(|i| low + (high - low) * (i as f64 + 0.5) / count as f64).collect()
-    };
-    let starts =
-        [start.nodes_nm.clone(), scaled(0.85), scaled(1.1), even(410.0, 680.0), even(425.0, 650.0)];
+    let starts = [
+        start.nodes_nm.clone(),
+        scaled(0.85),
+        scaled(1.1),
+        even_nodes(count, 410.0, 680.0),
+        even_nodes(count, 425.0, 650.0),
+    ];
     let fits: Vec<(f64, Quadrature)> =
         starts.into_par_iter().map(|nodes| problem.solve(nodes)).collect();
     let best = fits.into_iter().reduce(|a, b| if b.0 < a.0 { b } else { a });
     best.expect("there is a start").1
+}
+
+fn even_nodes(count: usize, low: f64, high: f64) -> Vec<f64> {
+    (0..count).map(|i| low + (high - low) * (i as f64 + 0.5) / count as f64).collect()
 }
 
 struct Problem<'a> {
@@ -78,7 +88,7 @@ impl<'a> Problem<'a> {
             targets: training
                 .xyz
                 .iter()
-                .map(|xyz: &Xyz| {
+                .map(|xyz| {
                     let lab = Lab::from_xyz(*xyz, training.white);
                     (lab, ciede2000_metric(lab))
                 })
@@ -252,4 +262,76 @@ fn sum(at_nodes: &[(f64, f64)], weights: &[[f64; 3]]) -> Xyz {
         }
     }
     xyz.into()
+}
+
+/// Method of choosing wavelengths and weights. The module's table describes each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum QuadratureMethod {
+    /// The method of [`Quadrature::gauss`].
+    Gauss,
+    /// The method of [`Quadrature::moments`].
+    Moments,
+    /// The method of [`Quadrature::library`].
+    Library,
+}
+
+/// A quadrature with its colour error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuadratureTrial {
+    /// Method that chose the wavelengths.
+    pub method: QuadratureMethod,
+    /// Wavelengths and weights that it chose.
+    pub rule: Quadrature,
+    /// CIEDE2000 error over random mixtures that no method was fitted to.
+    pub error: QuadratureError,
+}
+
+/// Number of random mixtures that trials are tested on, the default of `impasto quadrature`.
+const MIXTURES: usize = 1000;
+/// Seed of these mixtures, the default of `impasto quadrature`.
+const SEED: u64 = 1;
+
+impl QuadratureMethod {
+    /// Every method, in the order of the module's table.
+    pub const ALL: [Self; 3] = [Self::Gauss, Self::Moments, Self::Library];
+
+    /// Name of the method, as programs spell it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gauss => "gauss",
+            Self::Moments => "moments",
+            Self::Library => "library",
+        }
+    }
+}
+
+impl QuadratureTrial {
+    /// Computes each method with each of `counts` wavelengths, ordered by method, and its error on
+    /// 1000 random mixtures of `library`. Uses all cores.
+    ///
+    /// # Errors
+    /// [`QuadratureFailure::Count`] if a count is not 1 to 32.
+    pub fn all(
+        viewing: &Viewing,
+        library: &PigmentLibrary,
+        counts: &RangeInclusive<usize>,
+    ) -> Result<Vec<Self>, QuadratureFailure> {
+        let weights = viewing.weights(library.grid).expect("the method fits the grid");
+        let mixtures = MixtureSet::random(library, &weights, MIXTURES, SEED);
+        let pairs: Vec<_> = QuadratureMethod::ALL
+            .into_iter()
+            .flat_map(|method| counts.clone().map(move |count| (method, count)))
+            .collect();
+        let trials = pairs.into_par_iter().map(|(method, count)| {
+            let rule = match method {
+                QuadratureMethod::Gauss => Quadrature::gauss(viewing, count)?,
+                QuadratureMethod::Moments => Quadrature::moments(viewing, count)?,
+                QuadratureMethod::Library => Quadrature::library(viewing, library, count)?,
+            };
+            let error = rule.error(&mixtures);
+            Ok(Self { method, rule, error })
+        });
+        trials.collect()
+    }
 }

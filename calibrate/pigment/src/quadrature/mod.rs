@@ -13,20 +13,11 @@
 //! [`EffectiveQuadrature`] begins with `library` and fits, besides nodes and weights, K and S of every pigment
 //! at the nodes. Painting computes with it.
 
-mod gauss;
-mod mixtures;
 mod rule;
-mod films;
 mod effective;
 mod fitted;
-mod effective_problem;
 mod effective_fit;
-mod trial;
-mod told;
 
-pub use effective::EffectiveQuadrature;
-pub use films::FilmSet;
-pub use gauss::GaussRule;
-pub use mixtures::MixtureSet;
-pub use rule::{Quadrature, QuadratureError, QuadratureFailure};
-pub use trial::{QuadratureMethod, QuadratureTrial};
+pub use effective::{EffectiveQuadrature, FilmSet};
+pub use fitted::{QuadratureMethod, QuadratureTrial};
+pub use rule::{GaussRule, MixtureSet, Quadrature, QuadratureError, QuadratureFailure};

@@ -1,7 +1,7 @@
 //! A file system in memory, with the calls of [`std::fs`] that impasto uses.
 //!
-//! A page has no disk. Its files lie here; the page itself copies those that should outlive it to
-//! the browser's storage, for which [`take_changes`] tells it what has changed.
+//! A page has no disk. Its files lie here. The page itself copies the files that should outlive it
+//! to the browser's storage: [`take_changes`] lists what has changed.
 
 mod open_file;
 
@@ -20,7 +20,7 @@ pub use open_file::{File, OpenOptions, *};
 /// Size, kind and time of what lies at a path.
 #[derive(Debug, Clone)]
 pub struct Metadata {
-    /// Number of bytes; none of a folder.
+    /// Number of bytes. A folder has none.
     bytes: Option<u64>,
     modified: SystemTime,
 }
@@ -39,7 +39,7 @@ impl Metadata {
         self.bytes.is_none()
     }
 
-    /// Number of bytes; 0 of a folder.
+    /// Number of bytes, and 0 for a folder.
     #[must_use]
     pub fn len(&self) -> u64 {
         self.bytes.unwrap_or(0)
@@ -137,7 +137,7 @@ impl Tree {
         }
     }
 
-    /// Writes a file whose folder is there.
+    /// Writes a file to an existing folder.
     fn put(&mut self, path: &Path, bytes: Arc<Vec<u8>>) -> io::Result<()> {
         let path = from_root(path);
         let folder = path.parent().ok_or(io::ErrorKind::IsADirectory)?;

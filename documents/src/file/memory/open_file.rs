@@ -40,12 +40,12 @@ impl OpenOptions {
         Self::default()
     }
 
-    /// Whether it is read; it always can be.
+    /// Whether we read it, which we always can.
     pub fn read(&mut self, _: bool) -> &mut Self {
         self
     }
 
-    /// Whether it is written; it always can be.
+    /// Whether we write it, which we always can.
     pub fn write(&mut self, _: bool) -> &mut Self {
         self
     }
@@ -253,7 +253,7 @@ pub fn read(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
 /// Content of a file of text.
 ///
 /// # Errors
-/// If there is no file at `path`, or it is no UTF-8.
+/// If there is no file at `path`, or it is not UTF-8.
 pub fn read_to_string(path: impl AsRef<Path>) -> io::Result<String> {
     String::from_utf8(read(path)?)
         .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
@@ -343,7 +343,7 @@ pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<u64> {
 /// Copies a file: the content is shared until one of both is written.
 ///
 /// # Errors
-/// Those of [`copy`].
+/// As [`copy`].
 pub fn hard_link(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<()> {
     copy(from, to).map(drop)
 }

@@ -1,22 +1,21 @@
-//! The faces of a mesh, grouped into a binary tree of patches.
+//! The faces of a mesh, grouped into a binary tree of patches, and random numbers for its nodes.
 //!
-//! The two parts of a patch have nearly equal area. Where triangles are smaller than a
-//! feature of noise, a whole patch of them carries one feature (Bousseau, Kaplan, Thollot
-//! and Sillion 2006). Triangles are grouped by position and by normal, so that the two
-//! sides of a thin leaf become two patches.
+//! The two parts of a patch have nearly equal area. Where triangles are smaller than a feature of
+//! noise, a whole patch of them carries one feature (Bousseau, Kaplan, Thollot and Sillion 2006).
+//! Triangles are grouped by position and by normal, so that the two sides of a thin leaf become two
+//! patches. A node has the same random numbers at every visit.
 
 use std::ops::Range;
 
 use glam::Vec3;
 
-use super::random::Seed;
 use crate::mesh::Mesh;
 
 /// Weight of the normal relative to the position when faces are grouped: a difference of 1
 /// in the normal counts as a distance of this many patch radii. Chosen by eye.
 const FACING: f32 = 0.5;
 
-/// A triangle of the mesh whose area is not 0.
+/// A triangle of the mesh with an area above 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
@@ -29,7 +28,7 @@ pub(super) struct Face {
 /// A node of the tree: some neighbouring faces.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Patch {
-    /// Its faces in [`Hierarchy::faces`]; one face if the patch is a leaf.
+    /// Its faces in [`Hierarchy::faces`], one face if the patch is a leaf.
     pub(super) faces: Range<usize>,
     pub(super) area: f64,
     /// Centre of a sphere that encloses the patch.
@@ -45,9 +44,9 @@ pub(super) struct Patch {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hierarchy {
     pub(super) faces: Vec<Face>,
-    /// For each face the summed area of the faces before it; then the area of all faces.
+    /// For each face the summed area of the faces before it, then the area of all faces.
     area_before: Vec<f64>,
-    /// All patches, each before its parts; the first is the whole mesh.
+    /// All patches, each before its parts. The first is the whole mesh.
     pub(super) patches: Vec<Patch>,
 }
 
@@ -101,15 +100,15 @@ impl Hierarchy {
         hierarchy
     }
 
-    /// Number of faces whose area is not 0.
+    /// Number of faces with an area above 0.
     #[must_use]
     pub fn faces(&self) -> usize {
         self.faces.len()
     }
 
-    /// Adds the patch of `faces`, of which the first has index `first`, and all its
-    /// descendants. The area of a patch is at most half that of its grandparent, so the
-    /// depth of recursion is bounded by the range of f32.
+    /// Adds the patch of `faces`, of which the first has index `first`, and all its descendants.
+    /// The area of a patch is at most half of its grandparent's, so the depth of recursion is
+    /// bounded by the range of f32.
     fn split(&mut self, faces: &mut [Face], first: usize) {
         let corners = || faces.iter().flat_map(|face| face.corners);
         let (low, high) = corners()
@@ -152,26 +151,51 @@ impl Hierarchy {
 /// Sorts faces along the coordinate (of position or normal) in which they spread most.
 /// Returns the index that divides them into halves of nearly equal area.
 fn halve(faces: &mut [Face], area: f64, radius: f32) -> usize {
-    let value = |face: &Face, axis: usize| match axis {
-        0..3 => face.center()[axis],
-        _ => face.normal[axis - 3] * radius * FACING,
-    };
+    fn value(face: &Face, axis: usize, radius: f32) -> f32 {
+        match axis {
+            0..3 => face.center()[axis],
+            _ => face.normal[axis - 3] * radius * FACING,
+        }
+    }
     let spreads = [0, 1, 2, 3, 4, 5].map(|axis: usize| {
         let mean =
-            faces.iter().map(|face| face.area * f64::from(value(face, axis))).sum::<f64>() / area;
+            faces.iter().map(|face| face.area * f64::from(value(face, axis, radius))).sum::<f64>()
+                / area;
         faces
             .iter()
-            .map(|face: &Face| face.area * (f64::from(value(face, axis)) - mean).powi(2))
+            .map(|face: &Face| face.area * (f64::from(value(face, axis, radius)) - mean).powi(2))
             .sum::<f64>()
     });
     let axis = (0..6).max_by(|&a, &b| spreads[a].total_cmp(&spreads[b])).unwrap_or(0);
-    faces.sort_by(|a, b| value(a, axis).total_cmp(&value(b, axis)).then(a.number.cmp(&b.number)));
+    faces.sort_by(|a, b| {
+        value(a, axis, radius).total_cmp(&value(b, axis, radius)).then(a.number.cmp(&b.number))
+    });
     let mut before = 0.0;
     let cut = faces.iter().position(|face| {
         before += face.area;
         before > area / 2.0
     });
     cut.unwrap_or(1).clamp(1, faces.len() - 1)
+}
+
+/// The random seed of one node of a tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Seed(pub(super) u64);
+
+impl Seed {
+    /// The seed of the node's child `number` (SplitMix64, Steele, Lea and Flood 2014).
+    pub(super) fn child(self, number: u64) -> Self {
+        let step = 0x9e37_79b9_7f4a_7c15u64.wrapping_mul(number.wrapping_add(1));
+        let mut bits = self.0.wrapping_add(step);
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        Self(bits ^ (bits >> 31))
+    }
+
+    /// A uniform number in 0..1. Each `number` gives an independent one.
+    pub(super) fn unit(self, number: u64) -> f32 {
+        (self.child(number).0 >> 40) as f32 / (1u64 << 24) as f32
+    }
 }
 
 #[cfg(test)]

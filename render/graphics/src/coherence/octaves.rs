@@ -1,14 +1,22 @@
-//! The octaves of feature noise: which octave a feature belongs to, and how strong it is.
+//! The octaves of feature noise, and a texture of smooth noise that repeats without a seam.
 //!
-//! Octave o has features of radius r / 2^o. A feature's rank is its priority converted to
-//! features per pixel, at the scale at which it is seen; ranks grow as the model moves
-//! away. Octave 0 takes features up to some rank, each further octave those up to four
-//! times the rank of the one before. So about the same number of features overlap in every
-//! octave. As the model moves away, features fade one after the other from each octave to
-//! the next.
+//! Octave o has features of radius r / 2^o. A feature's rank is its priority converted to features
+//! per pixel, at the scale at which it is seen. Ranks grow as the model moves away. Octave 0 takes
+//! features up to some rank, each further octave those up to four times the rank of the one before.
+//! So about the same number of features overlap in every octave. As the model moves away, features
+//! fade one after the other from each octave to the next.
+//!
+//! The repeating texture interpolates independent lattice values with cubic B-splines. It is
+//! smooth, has about one wavelength and repeats with the lattice. Interpolation lowers the spread
+//! between the nodes, so the texture is scaled to a standard deviation of [`SPREAD`].
 
-/// Width of the range of ranks, in octaves, over which a feature fades to the next octave.
-/// Wide fades pop less; narrow ones mix fewer sizes of features. Chosen by eye.
+use rayon::prelude::*;
+
+use super::hierarchy::Seed;
+use crate::field::Field;
+
+/// Width of the range of ranks, in octaves, over which a feature fades to the next octave. Wide
+/// fades pop less. Narrow ones mix fewer sizes of features. Chosen by eye.
 const FADE: f32 = 1.0;
 
 /// Standard deviation of both kinds of noise about their mean of 0.5. Values beyond 0 and
@@ -61,13 +69,17 @@ impl Octaves {
         let first = 4.0 / 3.0 * coverage / std::f32::consts::PI / (largest_px * largest_px);
         let radii = (0..count).map(|octave| largest_px / (1u32 << octave) as f32);
         let mut octaves = Self { each: radii.map(|radius| [radius, 1.0]).collect(), first };
-        let strength = |octave: usize| persistence.powi(octave as i32);
-        let all = (0..count).map(|octave| strength(octave).powi(2)).sum::<f32>().sqrt();
+        fn strength(octave: usize, persistence: f32) -> f32 {
+            persistence.powi(octave as i32)
+        }
+        let all =
+            (0..count).map(|octave| strength(octave, persistence).powi(2)).sum::<f32>().sqrt();
         for octave in 0..count {
             let radius = octaves.each[octave][0];
             // Features are placed at random, so their squares add (Campbell 1909).
             let variance = octaves.features(octave) * squared_profile_integral() * radius * radius;
-            octaves.each[octave][1] = SPREAD * strength(octave) / all / variance.sqrt();
+            octaves.each[octave][1] =
+                SPREAD * strength(octave, persistence) / all / variance.sqrt();
         }
         octaves
     }
@@ -88,9 +100,11 @@ impl Octaves {
     /// The share of a feature, 0 to 1, that belongs to `octave`. `level` is the logarithm of
     /// the rank: 0 where octave 0 ends, 1 where octave 1 ends.
     fn share(&self, octave: usize, level: f32) -> f32 {
-        let passed = |end: f32| profile((level - end) / FADE + 0.5);
-        let entered = if octave == 0 { 1.0 } else { passed(octave as f32 - 1.0) };
-        entered * (1.0 - passed(octave as f32))
+        fn passed(end: f32, level: f32) -> f32 {
+            profile((level - end) / FADE + 0.5)
+        }
+        let entered = if octave == 0 { 1.0 } else { passed(octave as f32 - 1.0, level) };
+        entered * (1.0 - passed(octave as f32, level))
     }
 
     /// Features of this rank and above belong to no octave.
@@ -134,6 +148,65 @@ fn squared_profile_integral() -> f32 {
     let rings = (0..STEPS).map(|i| (i as f32 + 0.5) / STEPS as f32);
     let sum: f32 = rings.map(|radius| profile(1.0 - radius).powi(2) * radius).sum();
     std::f32::consts::TAU * sum / STEPS as f32
+}
+
+/// Width and height of the texture in texels.
+const SIDE: usize = 512;
+
+/// Noise of 512 x 512 texels that repeats, with mean 0.5 and standard deviation
+/// [`SPREAD`]. Its waves are about `wave_texels` long, a power of two from 8 to 128.
+///
+/// # Panics
+/// If `wave_texels` is not such a number.
+#[must_use]
+pub fn repeating_noise(wave_texels: usize, seed: u64) -> Field<f32> {
+    let fits = wave_texels.is_power_of_two() && (8..=128).contains(&wave_texels);
+    assert!(fits, "waves of 8 to 128 texels, a power of two, found {wave_texels}");
+    // The shortest waves are two lattice steps long, the mean wave four.
+    let step = wave_texels / 4;
+    let nodes = SIDE / step;
+    let value = |i: usize, j: usize| {
+        let number = ((j % nodes) * nodes + i % nodes) as u64;
+        Seed(seed).child(number).unit(0) - 0.5
+    };
+    let splines: Vec<[f32; 4]> = (0..step).map(|i| spline(i as f32 / step as f32)).collect();
+    let rows = (0..SIDE).into_par_iter().flat_map_iter(|y| {
+        let j = y / step;
+        let down = &splines[y % step];
+        let columns: Vec<f32> = (0..nodes + 3)
+            .map(|i: usize| -> f32 { (0..4).map(|k| down[k] * value(i, j + k)).sum() })
+            .collect();
+        let splines = &splines;
+        (0..SIDE).map(move |x| {
+            let i = x / step;
+            let right = &splines[x % step];
+            (0..4).map(|k| right[k] * columns[i + k]).sum::<f32>()
+        })
+    });
+    let mut texture = Field::from_values(SIDE, SIDE, rows.collect());
+    let count = (SIDE * SIDE) as f64;
+    let mean = texture.values().iter().map(|&value| f64::from(value)).sum::<f64>() / count;
+    let spread = (texture
+        .values()
+        .iter()
+        .map(|&value: &f32| (f64::from(value) - mean).powi(2))
+        .sum::<f64>()
+        / count)
+        .sqrt();
+    let gain = f64::from(SPREAD) / spread;
+    for value in texture.values_mut() {
+        *value = (0.5 + (f64::from(*value) - mean) * gain) as f32;
+    }
+    texture
+}
+
+/// The weights of the four cubic B-splines at `t` (0..1) between two nodes.
+fn spline(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
+    fn inner(t: f32) -> f32 {
+        (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0
+    }
+    [s * s * s / 6.0, inner(t), inner(s), t * t * t / 6.0]
 }
 
 #[cfg(test)]
@@ -189,5 +262,25 @@ mod tests {
             })
             .sum();
         assert!((variance.sqrt() / f64::from(SPREAD) - 1.0).abs() < 0.01, "{}", variance.sqrt());
+    }
+
+    #[test]
+    fn the_texture_repeats_without_a_seam() {
+        let texture = repeating_noise(32, 5);
+        fn step(a: (usize, usize), b: (usize, usize), texture: &Field<f32>) -> f32 {
+            (texture[a] - texture[b]).abs()
+        }
+        let most = |inside: &dyn Fn(usize, usize) -> f32, at: usize| {
+            (0..SIDE).map(|i| inside(at, i)).fold(0.0, f32::max)
+        };
+        let across = |x: usize, y: usize| step((x, y), ((x + 1) % SIDE, y), &texture);
+        let down = |y: usize, x: usize| step((x, y), (x, (y + 1) % SIDE), &texture);
+        for steps in [&across as &dyn Fn(usize, usize) -> f32, &down] {
+            let usual = (0..SIDE - 1).map(|at| most(steps, at)).fold(0.0, f32::max);
+            assert!(most(steps, SIDE - 1) <= usual, "{} {usual}", most(steps, SIDE - 1));
+        }
+        let mean = texture.values().iter().sum::<f32>() / (SIDE * SIDE) as f32;
+        assert!((mean - 0.5).abs() < 1e-4, "{mean}");
+        assert_ne!(texture, repeating_noise(32, 6));
     }
 }

@@ -10,7 +10,7 @@ use std::ops::Range;
 use pulp::Simd;
 use rayon::prelude::*;
 
-use super::depth_tiles::{DepthTiles, SIDE};
+use super::depths::{DepthTiles, SIDE};
 use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane};
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
@@ -26,7 +26,7 @@ pub struct Splat {
     pub y: f32,
     /// 1 / radius, in 1 / pixels. The feature ends at the radius.
     pub narrowness: f32,
-    /// Value added at the centre; negative for a hollow.
+    /// Value added at the centre, negative for a hollow.
     pub amplitude: f32,
     /// Depth of the centre, 0 (near plane) to 1 (far plane).
     pub depth: f32,
@@ -34,18 +34,17 @@ pub struct Splat {
     pub slope_x: f32,
     /// Change of depth on its surface per pixel downwards.
     pub slope_y: f32,
-    /// 1 / tolerance in depth. Pixels within the tolerance of the feature's plane get its
-    /// full value; the value falls to 0 at twice the tolerance.
+    /// 1 / tolerance in depth. Pixels within the tolerance of the feature's plane get its full
+    /// value. The value falls to 0 at twice the tolerance.
     pub tightness: f32,
 }
 
-/// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a
-/// distance d from its centre a feature adds its amplitude times
-/// `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d / radius. Pixels whose `depth` is 1 show no
-/// surface and get 0.5.
+/// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a distance d
+/// from its centre a feature adds its amplitude times `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d /
+/// radius. Pixels of `depth` 1 show no surface and get 0.5.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made `depth`.
@@ -77,8 +76,10 @@ impl Splat {
         let radius = 1.0 / self.narrowness;
         let leaning = radius * self.slope_x.hypot(self.slope_y);
         let nearest = self.depth - leaning - REACH / self.tightness;
-        let limits = |at: f32| [at - radius, at + radius];
-        nearest > surfaces.farthest(limits(self.x), limits(self.y))
+        fn limits(at: f32, radius: f32) -> [f32; 2] {
+            [at - radius, at + radius]
+        }
+        nearest > surfaces.farthest(limits(self.x, radius), limits(self.y, radius))
     }
 
     /// Whether it may add to a pixel of the square with this first pixel and these depths.
@@ -86,13 +87,13 @@ impl Splat {
     fn reaches(&self, [column, row]: [usize; 2], [low, high]: [f32; 2]) -> bool {
         let radius = 1.0 / self.narrowness;
         // Where it and the pixels of the square overlap, to both sides of its centre.
-        let overlap = |first: usize, at: f32| {
+        fn overlap(first: usize, at: f32, radius: f32) -> [f32; 2] {
             let low = first as f32 + 0.5 - at;
             let high = (first + SIDE) as f32 - 0.5 - at;
             [low.max(-radius), high.min(radius)]
-        };
-        let [left, right] = overlap(column, self.x);
-        let [above, below] = overlap(row, self.y);
+        }
+        let [left, right] = overlap(column, self.x, radius);
+        let [above, below] = overlap(row, self.y, radius);
         if left > right || above > below {
             return false;
         }
@@ -168,8 +169,8 @@ impl<'a> Bands<'a> {
         Self { splats, across: width.div_ceil(SIDE), lists: Lists::new(down, &pairs) }
     }
 
-    /// For each square of a band the features that touch it; with `surfaces`, without those
-    /// that are hidden there.
+    /// For each square of a band the features that touch it, with `surfaces`, without those that
+    /// are hidden there.
     fn squares(&self, band: usize, surfaces: Option<&DepthTiles>) -> Lists {
         let ranges: Option<Vec<_>> = surfaces
             .map(|surfaces| (0..self.across).map(|column| surfaces.range(column, band)).collect());
@@ -208,7 +209,7 @@ impl<'a> Bands<'a> {
     }
 }
 
-/// [`draw_splats`] on the processor; `surfaces` are those of `depth`.
+/// [`draw_splats`] on the processor. `surfaces` are made from `depth`.
 pub(super) fn draw_splats_on_tiles(
     depth: &Field<f32>,
     surfaces: &DepthTiles,

@@ -1,9 +1,10 @@
-//! Frames of an animation: encoded sRGB with 8 bits per channel.
+//! Frames of an animation: encoded sRGB with 8 bits per channel, also compressed as PNG and
+//! animated PNG store them.
 
 use std::io::{BufRead, Seek};
 
 use documents::counted;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
 
@@ -13,10 +14,13 @@ use crate::field::Field;
 pub type Frame = Field<[u8; 3]>;
 
 /// A frame or animation cannot be made or read.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum FrameError {
     /// The picture is empty or larger than the format allows.
     #[error("a frame of {format} has 1 to {limit} pixels a side, found `{width} x {height}`")]
+    #[hint(if *format == "GIF", "write APNG, or a smaller picture")]
+    #[hint("ask for a smaller picture")]
     Size {
         /// Name of the format.
         format: &'static str,
@@ -45,12 +49,14 @@ pub enum FrameError {
     },
     /// The frame rate is out of range.
     #[error("0.1 to 100 frames a second, found `{found}`")]
+    #[hint("25 is usual")]
     Rate {
         /// Frames per second.
         found: f64,
     },
     /// The file is not a frame written by [`frame_png`].
     #[error("no frame: {reason}")]
+    #[hint("remove the file, and it is rendered again")]
     Unreadable {
         /// Reason given by the decoder.
         reason: String,
@@ -63,22 +69,6 @@ pub enum FrameError {
         /// Reason given by the encoder.
         reason: String,
     },
-}
-
-impl Explain for FrameError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Size { format: "GIF", .. } => "write APNG, or a smaller picture",
-            Self::Size { .. } => "ask for a smaller picture",
-            Self::Rate { .. } => "25 is usual",
-            Self::Unreadable { .. } => "remove the file, and it is rendered again",
-            _ => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }
 
 /// Frame rate of an animation.
@@ -117,7 +107,7 @@ impl FrameRate {
     }
 }
 
-/// Converts encoded sRGB in 0..1 to a frame; the fourth value is ignored.
+/// Converts encoded sRGB in 0..1 to a frame. The fourth value is ignored.
 #[must_use]
 pub fn frame_of(picture: &Field<[f32; 4]>) -> Frame {
     let pixels = picture.values().par_iter().map(|&[r, g, b, _]| {
@@ -152,7 +142,9 @@ pub fn frame_png(frame: &Frame) -> Result<Vec<u8>, FrameError> {
 /// # Errors
 /// [`FrameError::Unreadable`] for any other file: truncated, not PNG, other channels.
 pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
-    let broken = |reason: String| FrameError::Unreadable { reason };
+    fn broken(reason: String) -> FrameError {
+        FrameError::Unreadable { reason }
+    }
     let mut reader = Decoder::new(file).read_info().map_err(|error| broken(error.to_string()))?;
     let kind = reader.output_color_type();
     if kind != (ColorType::Rgb, BitDepth::Eight) {
@@ -185,11 +177,93 @@ pub(super) fn encoder_failed(format: &'static str, error: &dyn std::error::Error
     FrameError::Encoder { format, reason: error.to_string() }
 }
 
+/// First bytes of every PNG file.
+const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// End of the chunk IHDR of a frame: 8 bits of red, green and blue, the only methods of
+/// compression and filters, not interlaced.
+const KIND: [u8; 5] = [8, ColorType::Rgb as u8, 0, 0, 0];
+
+/// The pixels of a frame, filtered and compressed as in its PNG file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CompressedFrame {
+    width: u32,
+    height: u32,
+    zlib: Vec<u8>,
+}
+
+impl CompressedFrame {
+    /// Compresses a frame.
+    ///
+    /// # Errors
+    /// [`FrameError::Size`], [`FrameError::Encoder`].
+    pub fn new(frame: &Frame) -> Result<Self, FrameError> {
+        Self::from_png(&frame_png(frame)?).ok_or_else(|| FrameError::Encoder {
+            format: "PNG",
+            reason: "the encoder wrote another kind of picture".to_owned(),
+        })
+    }
+
+    /// The pixels of a whole PNG file as [`frame_png`] writes it. `None` for any other file. The
+    /// pixels themselves are not checked.
+    #[must_use]
+    pub fn from_png(bytes: &[u8]) -> Option<Self> {
+        let mut rest = bytes.strip_prefix(&SIGNATURE)?;
+        let mut size = None;
+        let mut zlib = Vec::new();
+        loop {
+            let (name, content);
+            (name, content, rest) = chunk(rest)?;
+            match name {
+                b"IHDR" => {
+                    let (width, after) = content.split_first_chunk()?;
+                    let (height, kind) = after.split_first_chunk()?;
+                    let own = kind == KIND;
+                    size = own.then(|| [*width, *height].map(u32::from_be_bytes));
+                }
+                b"IDAT" => zlib.extend_from_slice(content),
+                b"IEND" => {
+                    let [width, height] = size?;
+                    return Some(Self { width, height, zlib });
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Width in pixels.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width as usize
+    }
+
+    /// Height in pixels.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height as usize
+    }
+
+    /// The stream that the chunks of the file hold together.
+    pub(super) fn zlib(&self) -> &[u8] {
+        &self.zlib
+    }
+}
+
+/// Splits the name and the content of the first chunk off a file. `None` if the chunk is cut off.
+fn chunk(bytes: &[u8]) -> Option<(&[u8; 4], &[u8], &[u8])> {
+    let (length, rest) = bytes.split_first_chunk()?;
+    let (name, rest) = rest.split_first_chunk()?;
+    let (content, rest) = rest.split_at_checked(u32::from_be_bytes(*length) as usize)?;
+    let (_checksum, rest) = rest.split_first_chunk::<4>()?;
+    Some((name, content, rest))
+}
+
 #[cfg(test)]
 mod tests {
-    use std::io::Cursor;
-
     use super::*;
+    use crate::field::Field;
+    use png::{BitDepth, Encoder};
+    use std::io::Cursor;
 
     #[test]
     fn a_frame_comes_back_and_a_part_of_it_does_not() {
@@ -217,6 +291,31 @@ mod tests {
         assert_eq!(starts[24], 100);
         for found in [0.0, -1.0, f64::NAN, 1000.0] {
             assert!(FrameRate::new(found).is_err_and(|error| error.hint().is_some()));
+        }
+    }
+
+    #[test]
+    fn only_whole_files_of_frames_are_taken() {
+        let frame = Field::from_values(5, 3, (0..15).map(|i| [i, 99, 255 - i]).collect());
+        let file = frame_png(&frame).unwrap();
+        let compressed = CompressedFrame::from_png(&file).unwrap();
+        assert_eq!((compressed.width(), compressed.height()), (5, 3));
+        for length in 0..file.len() {
+            assert_eq!(CompressedFrame::from_png(&file[..length]), None, "{length} bytes");
+        }
+        for (color, depth, samples) in [
+            (ColorType::Rgba, BitDepth::Eight, 4),
+            (ColorType::Grayscale, BitDepth::Eight, 1),
+            (ColorType::Rgb, BitDepth::Sixteen, 6),
+        ] {
+            let mut bytes = Vec::new();
+            let mut encoder = Encoder::new(&mut bytes, 5, 3);
+            encoder.set_color(color);
+            encoder.set_depth(depth);
+            let mut writer = encoder.write_header().unwrap();
+            writer.write_image_data(&vec![7; 15 * samples]).unwrap();
+            writer.finish().unwrap();
+            assert_eq!(CompressedFrame::from_png(&bytes), None, "{color:?} {depth:?}");
         }
     }
 }

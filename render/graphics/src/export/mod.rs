@@ -1,41 +1,118 @@
-//! Picture files for other programs: PNG, TIFF, linear OpenEXR and OpenEXR of several parts,
-//! layers as OpenRaster, PLY, frames and animations (GIF, APNG).
+//! Picture files for other programs: PNG, TIFF, linear OpenEXR and OpenEXR of several parts, layers
+//! as OpenRaster, PLY, frames and animations (GIF, APNG).
 //!
-//! The functions take plain data and return bytes, the same bytes for the same data; the
-//! caller writes the files. Only [`Sequence`] works on a folder.
+//! The functions take plain data and return bytes, the same bytes for the same data. The caller
+//! writes the files. Only [`Sequence`] works on a folder.
 
-mod error;
-mod exr_part;
-mod linear_exr;
-mod srgb_samples;
-mod reduced;
-mod png;
-mod tiff16;
+mod exr;
+mod picture_file;
 mod open_raster;
 mod ply;
-mod picture_file;
 mod frame;
-mod compressed;
-mod color_table;
 mod animation;
-mod sequence_error;
 mod sequence;
-mod animation_file;
 
-pub use animation::{Apng, Gif};
-pub use animation_file::AnimationFormat;
-pub use color_table::ColorTable;
-pub use compressed::CompressedFrame;
-pub use error::{ExportError, check_cell, check_size};
-pub use exr_part::{ExrPart, exr_file, exr_parts};
-pub use frame::{Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};
-pub use linear_exr::{float_exr, linear_exr, rgb_channels};
-pub use open_raster::OpenRaster;
-pub use picture_file::{OutsideGamut, PictureFile, PictureFormat, picture_file};
+use documents::hint::Explain;
+
+pub use animation::{Apng, ColorTable, Gif};
+pub use exr::{ExrPart, exr_file, exr_parts, float_exr, linear_exr, rgb_channels};
+pub use frame::{CompressedFrame, Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};
+pub use open_raster::{OpenRaster, reduced, reduced_size};
+pub use picture_file::{
+    OutsideGamut, PictureFile, PictureFormat, Png, Srgb16, Tiff, grey16, picture_file, png8, png16,
+    rgba16, srgb8, srgb16, tiff16,
+};
 pub use ply::ply;
-pub use png::{Png, grey16, png8, png16, rgba16};
-pub use reduced::{reduced, reduced_size};
-pub use sequence::{Sequence, SequenceSettings};
-pub use sequence_error::SequenceError;
-pub use srgb_samples::{Srgb16, srgb8, srgb16};
-pub use tiff16::{Tiff, tiff16};
+pub use sequence::{AnimationFormat, Sequence, SequenceError, SequenceSettings};
+
+/// Data that cannot be written as a picture.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum ExportError {
+    /// The picture is empty or larger than the format allows.
+    #[error("a picture has 1 to 1073741822 cells a side, found `{width} x {height}`")]
+    Size {
+        /// Width in pixels.
+        width: usize,
+        /// Height in pixels.
+        height: usize,
+    },
+    /// The planes of one picture differ in size.
+    #[error("`{plane}` has another size than the picture of {width} x {height}")]
+    Differs {
+        /// Name of the plane that differs.
+        plane: String,
+        /// Width of the first plane in pixels.
+        width: usize,
+        /// Height of the first plane in pixels.
+        height: usize,
+    },
+    /// A value is infinite or not a number.
+    #[error("{what} at x {x}, y {y} is no finite number, found `{found}`")]
+    NotFinite {
+        /// Quantity that the value stands for.
+        what: String,
+        /// Column from 0.
+        x: usize,
+        /// Row from 0.
+        y: usize,
+        /// Value of the pixel.
+        found: f32,
+    },
+    /// An amount of pigment is negative.
+    #[error("{what} at x {x}, y {y} is 0 and up, found `{found}`")]
+    Negative {
+        /// Name of the pigment.
+        what: String,
+        /// Column from 0.
+        x: usize,
+        /// Row from 0.
+        y: usize,
+        /// Height in mm.
+        found: f32,
+    },
+    /// The size of a pixel is out of range.
+    #[error("a cell is 0.0001 to 100 mm wide, found `{cell_mm}`")]
+    Cell {
+        /// Width of a pixel in mm.
+        cell_mm: f64,
+    },
+    /// Wavelengths do not rise, or there is not one per plane.
+    #[error(
+        "wavelengths rise, in nm above 0, one for each plane; found `{found}` for plane {plane}"
+    )]
+    Wavelength {
+        /// Index of the plane, from 0.
+        plane: usize,
+        /// The wavelength, or the number of wavelengths.
+        found: String,
+    },
+    /// The encoder failed.
+    #[error("no {format} could be made: {reason}")]
+    Encoder {
+        /// Name of the format.
+        format: &'static str,
+        /// Reason given by the encoder.
+        reason: String,
+    },
+}
+
+/// Checks that a pixel size can be stored in PNG and OpenEXR: 0.0001 to 100 mm.
+///
+/// # Errors
+/// [`ExportError::Cell`].
+pub fn check_cell(cell_mm: f64) -> Result<(), ExportError> {
+    if (1e-4..=100.0).contains(&cell_mm) { Ok(()) } else { Err(ExportError::Cell { cell_mm }) }
+}
+
+/// Checks that a picture is not empty and not larger than the formats allow.
+///
+/// # Errors
+/// [`ExportError::Size`].
+pub fn check_size(width: usize, height: usize) -> Result<(), ExportError> {
+    let sides = 1..=1_073_741_822;
+    if sides.contains(&width) && sides.contains(&height) {
+        Ok(())
+    } else {
+        Err(ExportError::Size { width, height })
+    }
+}

@@ -6,7 +6,7 @@ use ply_rs_bw::ply::{
 };
 use ply_rs_bw::writer::Writer;
 
-use super::error::ExportError;
+use super::ExportError;
 
 /// Encodes triangles as a binary PLY file (Turk 1994): `x`, `y`, `z` of each vertex, its colour as
 /// `red`, `green`, `blue` (encoded sRGB, 0..1, written as bytes), and `vertex_indices` of each face.
@@ -14,7 +14,9 @@ use super::error::ExportError;
 /// # Errors
 /// [`ExportError::Encoder`] if there are 2^31 vertices or more.
 pub fn ply(vertices: &[([f32; 3], [f32; 3])], faces: &[[u32; 3]]) -> Result<Vec<u8>, ExportError> {
-    let failed = |reason: String| ExportError::Encoder { format: "PLY", reason };
+    fn failed(reason: String) -> ExportError {
+        ExportError::Encoder { format: "PLY", reason }
+    }
     if i32::try_from(vertices.len()).is_err() {
         return Err(failed(format!("{} vertices are more than 2147483647", vertices.len())));
     }

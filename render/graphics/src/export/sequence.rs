@@ -1,20 +1,20 @@
-//! A folder of numbered frames whose rendering can be interrupted and resumed.
+//! A folder of numbered frames that can be interrupted and resumed, and the animation made of it.
 //!
-//! Next to the frames (`frame-0001.png` and so on) lies `animation.json` with a digest of
-//! the settings they were rendered with. Complete frames of the same settings are kept.
-//! Frames of other settings are removed before the first new one is written, so a folder
-//! never mixes two animations.
+//! Next to the frames (`frame-0001.png` and so on) lies `animation.json` with a digest of the
+//! settings they were rendered with. Complete frames of the same settings are kept. Frames of other
+//! settings are removed before the first new one is written, so a folder never mixes two
+//! animations.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use documents::file::write_whole;
+use documents::file::{FileError, write_whole};
+use documents::hint::Explain;
 use serde::{Deserialize, Serialize};
 
-use super::compressed::CompressedFrame;
-use super::frame::{Frame, FrameError, frame_png, read_frame};
-use super::sequence_error::{MANIFEST, SequenceError};
+use super::animation::{Apng, ColorTable, Gif};
+use super::frame::{CompressedFrame, Frame, FrameError, FrameRate, frame_png, read_frame};
 
 const FORMAT: &str = "impasto-animation";
 const VERSION: u32 = 1;
@@ -53,12 +53,12 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Opens a folder of frames, creating it if needed. Frames rendered with other settings
-    /// are removed; no other file is touched.
+    /// Opens a folder of frames, creating it if needed. Frames rendered with other settings are
+    /// removed. No other file is touched.
     ///
     /// # Errors
-    /// [`SequenceError`] if a file cannot be read or written, if frames lack a manifest, or
-    /// if the manifest is invalid.
+    /// [`SequenceError`] if a file cannot be read or written, if frames lack a manifest, or if the
+    /// manifest is invalid.
     pub fn open(folder: &Path, settings: SequenceSettings) -> Result<Self, SequenceError> {
         fs::create_dir_all(folder).map_err(at(folder))?;
         let mut sequence = Self { folder: folder.to_owned(), settings, remaining: Vec::new() };
@@ -110,11 +110,11 @@ impl Sequence {
         Ok(())
     }
 
-    /// Makes the frames that remain by `picture`, in order, and writes them. Each is compressed
-    /// and written while the next one is made.
+    /// Makes the frames that remain by `picture`, in order, and writes them. Each is compressed and
+    /// written while the next one is made.
     ///
     /// # Errors
-    /// An error of `picture`, after the frames before it were written, or that of
+    /// An error of `picture`, after the frames before it were written, or an error of
     /// [`Self::write_frame`].
     pub fn write_frames<E: From<SequenceError>>(
         &mut self,
@@ -235,12 +235,123 @@ fn remove(path: &Path) -> Result<(), SequenceError> {
     }
 }
 
+/// File format of an animation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum AnimationFormat {
+    /// GIF, of 255 colours chosen for all its frames.
+    Gif,
+    /// An animated PNG, with all colours.
+    Apng,
+}
+
+impl AnimationFormat {
+    /// Format for a file extension: GIF for `.gif`, animated PNG for `.png` and `.apng`.
+    #[must_use]
+    pub fn from_path(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "gif" => Some(Self::Gif),
+            "png" | "apng" => Some(Self::Apng),
+            _ => None,
+        }
+    }
+
+    /// Joins all frames of a folder at `rate`. The last one is shown for `last` durations of a
+    /// frame, at least one.
+    ///
+    /// # Errors
+    /// [`SequenceError`] if a frame cannot be read, the format allows no such frames, or the
+    /// encoder fails.
+    pub fn encode(
+        self,
+        sequence: &Sequence,
+        (rate, last): (FrameRate, usize),
+    ) -> Result<Vec<u8>, SequenceError> {
+        let SequenceSettings { frames, width, height, .. } = *sequence.settings();
+        fn durations(index: usize, frames: usize, last: usize) -> usize {
+            if index + 1 == frames { last.max(1) } else { 1 }
+        }
+        match self {
+            Self::Gif => {
+                let table = ColorTable::of(sequence.frames())?;
+                let mut gif = Gif::new(Vec::new(), (width, height), rate, &table)?;
+                for (index, frame) in sequence.frames().enumerate() {
+                    gif.push_held(&frame?, durations(index, frames, last))?;
+                }
+                Ok(gif.finish()?)
+            }
+            Self::Apng => {
+                let mut bytes = Vec::new();
+                let mut apng = Apng::new(&mut bytes, (width, height), rate, frames)?;
+                for (index, frame) in sequence.compressed().enumerate() {
+                    apng.push_held(&frame?, durations(index, frames, last))?;
+                }
+                apng.finish()?;
+                Ok(bytes)
+            }
+        }
+    }
+}
+
+/// Name of the file that says what the frames of a folder belong to.
+pub(super) const MANIFEST: &str = "animation.json";
+
+/// A folder of frames cannot be used.
+#[derive(Debug, thiserror::Error, Explain)]
+#[fault(Environment)]
+pub enum SequenceError {
+    /// A frame or the manifest cannot be written.
+    #[error(transparent)]
+    #[hint("is the folder writable, and is there room?")]
+    #[fault(Environment)]
+    File(#[from] FileError),
+    /// A file or folder cannot be read or changed.
+    #[error("{}: {source}", .path.display())]
+    #[hint("is the folder writable, and is there room?")]
+    Io {
+        /// Path of the file or folder.
+        path: PathBuf,
+        /// Reason given by the system.
+        source: std::io::Error,
+    },
+    /// The folder holds frames but no manifest that says what they belong to.
+    #[error("{}: the folder holds frames but no {MANIFEST}", .path.display())]
+    #[hint("name an empty folder, or move the frames away")]
+    Foreign {
+        /// Path of the first such frame.
+        path: PathBuf,
+    },
+    /// `animation.json` is not a manifest of this version.
+    #[error("{}: {reason}", .path.display())]
+    #[hint("name an empty folder, or remove this one")]
+    Manifest {
+        /// Path of the manifest.
+        path: PathBuf,
+        /// Reason why it is rejected.
+        reason: String,
+    },
+    /// A frame cannot be encoded or decoded.
+    #[error("{}: {source}", .path.display())]
+    #[hint(inner)]
+    Frame {
+        /// Path of the frame.
+        path: PathBuf,
+        /// Error of the encoder or decoder.
+        source: FrameError,
+    },
+    /// The frames cannot be joined to an animation.
+    #[error(transparent)]
+    Animation(#[from] FrameError),
+}
+
 #[cfg(test)]
 mod tests {
-    use documents::hint::Explain;
-
     use super::*;
     use crate::field::Field;
+    use documents::hint::Explain;
+    use image::AnimationDecoder;
+    use image::codecs::gif::GifDecoder;
+    use image::codecs::png::PngDecoder;
+    use std::io::Cursor;
 
     fn settings(digest: &str) -> SequenceSettings {
         SequenceSettings { settings: digest.to_owned(), frames: 3, width: 4, height: 2 }
@@ -358,5 +469,47 @@ mod tests {
         let error = sequence.write_frame(0, &Field::filled(2, 2, [0; 3])).unwrap_err();
         assert!(error.to_string().contains("frame-0001.png"), "{error}");
         assert_eq!(sequence.remaining(), [0, 1, 2]);
+    }
+
+    fn encoded(format: AnimationFormat, last: usize) -> Vec<u8> {
+        let folder = tempfile::tempdir().unwrap();
+        let settings =
+            SequenceSettings { settings: "a".to_owned(), frames: 4, width: 6, height: 5 };
+        let mut sequence = Sequence::open(folder.path(), settings).unwrap();
+        for index in 0..4 {
+            let frame = Field::filled(6, 5, [40 * index as u8, 90, 200]);
+            sequence.write_frame(index, &frame).unwrap();
+        }
+        format.encode(&sequence, (FrameRate::new(10.0).unwrap(), last)).unwrap()
+    }
+
+    /// Durations of the frames in ms.
+    fn durations(frames: image::Frames<'_>) -> Vec<u32> {
+        let frames = frames.collect_frames().unwrap();
+        frames.iter().map(|frame| frame.delay().numer_denom_ms()).map(|(n, d)| n / d).collect()
+    }
+
+    #[test]
+    fn formats_are_known_by_their_extension() {
+        fn format(name: &str) -> Option<AnimationFormat> {
+            AnimationFormat::from_path(Path::new(name))
+        }
+        assert_eq!(format("a.GIF"), Some(AnimationFormat::Gif));
+        assert_eq!(format("a.png"), Some(AnimationFormat::Apng));
+        assert_eq!(format("a.apng"), Some(AnimationFormat::Apng));
+        assert_eq!((format("a.mp4"), format("a")), (None, None));
+    }
+
+    #[test]
+    fn the_last_frame_is_held() {
+        let gif = encoded(AnimationFormat::Gif, 15);
+        let decoder = GifDecoder::new(Cursor::new(&gif)).unwrap();
+        assert_eq!(durations(decoder.into_frames()), [100, 100, 100, 1500]);
+        let apng = encoded(AnimationFormat::Apng, 15);
+        let decoder = PngDecoder::new(Cursor::new(&apng)).unwrap().apng().unwrap();
+        assert_eq!(durations(decoder.into_frames()), [100, 100, 100, 1500]);
+        assert_eq!(gif, encoded(AnimationFormat::Gif, 15), "the same bytes every time");
+        let decoder = GifDecoder::new(Cursor::new(encoded(AnimationFormat::Gif, 0))).unwrap();
+        assert_eq!(durations(decoder.into_frames()), [100; 4], "each is shown once at least");
     }
 }

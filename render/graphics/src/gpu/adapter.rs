@@ -1,4 +1,6 @@
-//! The graphics adapters of this machine.
+//! The graphics adapters of this machine, and the reasons why a graphics device failed.
+
+use documents::hint::Explain;
 
 /// The user's choice of what computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -8,7 +10,7 @@ pub enum BackendChoice {
     Auto,
     /// The processor, never a graphics adapter.
     Cpu,
-    /// Any graphics adapter; hardware is preferred to software.
+    /// Any graphics adapter. Hardware is preferred to software.
     Gpu,
 }
 
@@ -23,7 +25,7 @@ pub enum Kind {
     Virtual,
     /// Hardware of a kind that the driver does not state.
     Other,
-    /// An emulation on the processor (such as lavapipe), for tests: slower than
+    /// An emulation on the processor (for example lavapipe), for tests: slower than
     /// [`BackendChoice::Cpu`].
     Software,
 }
@@ -121,8 +123,8 @@ fn unfit(limits: Limits, computes: bool) -> Option<String> {
     Some(format!("{} {} where {} are needed", lacking.1, lacking.0, lacking.2))
 }
 
-/// Every adapter of this machine, in order of preference; unfit ones come last. Empty if no
-/// driver is installed.
+/// Every adapter of this machine, in order of preference. Unfit ones come last. Empty if no driver
+/// is installed.
 #[must_use]
 pub fn adapters() -> Vec<Adapter> {
     // Excludes OpenGL, which another crate of the program may have enabled: kernels were
@@ -153,6 +155,51 @@ pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
                 BackendChoice::Gpu => true,
             }
     })
+}
+
+/// A graphics device failed. Computation on the processor never returns this.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[hint("paint on the processor: [backend=cpu]")]
+#[fault(Environment)]
+pub enum DeviceError {
+    /// No adapter can be used.
+    #[error("no graphics adapter: {reason}")]
+    NoAdapter {
+        /// The reason, one line.
+        reason: String,
+    },
+    /// The device was lost, with all its memory.
+    #[error("the graphics device was lost: {reason}")]
+    Lost {
+        /// Message of the driver.
+        reason: String,
+    },
+    /// A buffer is larger than the adapter allows.
+    #[error("{what} takes {bytes} bytes, the device lends {limit}")]
+    TooLarge {
+        /// Description of the content.
+        what: &'static str,
+        /// Size of the content in bytes.
+        bytes: u64,
+        /// Largest size of a buffer in bytes.
+        limit: u64,
+    },
+    /// The device has too little free memory.
+    #[error("{what} takes {bytes} bytes, more than the device has left")]
+    OutOfMemory {
+        /// Description of the content.
+        what: &'static str,
+        /// Size of the content in bytes.
+        bytes: u64,
+    },
+    /// The driver rejected a shader, a buffer or a command.
+    #[error("the graphics driver refuses {what}: {reason}")]
+    Refused {
+        /// Description of what was rejected.
+        what: String,
+        /// Message of the driver.
+        reason: String,
+    },
 }
 
 #[cfg(test)]

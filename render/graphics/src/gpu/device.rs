@@ -1,18 +1,17 @@
-//! An open device: its memory and its errors.
+//! An open device with its memory and its errors, and the choice between the processor and a
+//! device.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::adapter::Adapter;
-use super::error::DeviceError;
-use super::pipeline::Pipeline;
-use super::raster_pipeline::RasterPipeline;
-use super::stencil_pipeline::{ScatterPipeline, StencilPipeline};
+use super::adapter::{Adapter, BackendChoice, DeviceError, adapters, best};
+use super::pipelines::{Pipeline, RasterPipeline, ScatterPipeline, StencilPipeline};
 
-/// Number of submissions that may be pending on the device; the next one waits for the
-/// oldest. Chosen by hand: few, so that memory is freed soon.
+/// Number of submissions that may be pending on the device. The next one waits for the oldest.
+/// Chosen by hand: few, so that memory is freed soon.
 const IN_FLIGHT: usize = 3;
 
 /// Number of the next buffer.
@@ -33,8 +32,8 @@ struct Reported {
     refused: Option<String>,
 }
 
-/// An open device. It executes submissions in their order; an error of one may be returned
-/// by a later call.
+/// An open device. It executes submissions in their order. An error of one may be returned by a
+/// later call.
 #[derive(Debug)]
 pub struct Device {
     adapter: Adapter,
@@ -119,8 +118,8 @@ impl Device {
         self.reported.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the first error that the driver has reported since the last call; `what` names
-    /// the current operation.
+    /// Returns the first error that the driver has reported since the last call. `what` names the
+    /// current operation.
     pub(super) fn check(&self, what: &str) -> Result<(), DeviceError> {
         let mut reported = self.reported();
         if let Some(reason) = reported.lost.clone() {
@@ -132,7 +131,7 @@ impl Device {
         }
     }
 
-    /// Checks that a buffer may have `bytes`; `what` names its content in the error.
+    /// Checks that a buffer may have `bytes`. `what` names its content in the error.
     ///
     /// # Errors
     /// [`DeviceError::TooLarge`] beyond the limit of the adapter.
@@ -144,11 +143,11 @@ impl Device {
         Ok(())
     }
 
-    /// Allocates a buffer of `bytes` zeros; `what` names its content in errors.
+    /// Allocates a buffer of `bytes` zeros. `what` names its content in errors.
     ///
     /// # Errors
-    /// [`DeviceError::TooLarge`] beyond the limit of the adapter,
-    /// [`DeviceError::OutOfMemory`] if the device has no memory left.
+    /// [`DeviceError::TooLarge`] beyond the limit of the adapter, [`DeviceError::OutOfMemory`] if
+    /// the device has no memory left.
     pub fn buffer(&self, what: &'static str, bytes: u64) -> Result<Buffer, DeviceError> {
         self.check_size(what, bytes)?;
         let usage = wgpu::BufferUsages::STORAGE
@@ -158,7 +157,7 @@ impl Device {
         self.allocate(what, bytes, usage)
     }
 
-    /// Runs `compile`, which creates a pipeline; `what` names it in the error.
+    /// Runs `compile`, which creates a pipeline. `what` names it in the error.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
@@ -204,7 +203,7 @@ impl Device {
     }
 
     /// Polls the driver, which frees memory no longer in use. wgpu panics if the device is lost
-    /// during a wait; the panic is caught here.
+    /// during a wait. The panic is caught here.
     fn poll(&self, how: wgpu::PollType) -> Result<(), DeviceError> {
         self.check("a submission")?;
         let polled = catch_unwind(AssertUnwindSafe(|| self.inner.poll(how)));
@@ -241,4 +240,48 @@ impl Device {
 /// The message of a driver error without line breaks.
 pub(super) fn one_line(error: &wgpu::Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Whether the system may have graphics hardware. Linux has a device node for it, without one no
+/// driver is loaded, since some drivers print to the terminal.
+fn hardware_is_possible() -> bool {
+    const NODES: [&str; 5] = ["/dev/dri", "/dev/nvidiactl", "/dev/dxg", "/dev/kfd", "/dev/mali0"];
+    !cfg!(target_os = "linux") || NODES.iter().any(|node| Path::new(node).exists())
+}
+
+/// Opens the device that `choice` selects. `None` means the processor.
+///
+/// # Errors
+/// Only for [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] if there is no usable adapter,
+/// or the driver's error if it cannot be opened. `Auto` then selects the processor.
+pub fn choose(choice: BackendChoice) -> Result<Option<Device>, DeviceError> {
+    let skipped = match choice {
+        BackendChoice::Auto => !hardware_is_possible(),
+        BackendChoice::Cpu => true,
+        BackendChoice::Gpu => false,
+    };
+    if skipped {
+        return Ok(None);
+    }
+    let adapters = adapters();
+    let opened = best(&adapters, choice).map(Device::open).transpose();
+    match (choice, opened) {
+        (BackendChoice::Gpu, Ok(None)) => {
+            let unfit = adapters.first().and_then(|adapter| adapter.unfit.clone());
+            let reason = unfit.unwrap_or_else(|| "no driver offers one".to_owned());
+            Err(DeviceError::NoAdapter { reason })
+        }
+        (BackendChoice::Gpu, opened) => opened,
+        (_, opened) => Ok(opened.ok().flatten()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_processor_needs_no_adapter() {
+        assert!(matches!(choose(BackendChoice::Cpu), Ok(None)));
+    }
 }

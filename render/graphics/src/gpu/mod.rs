@@ -3,38 +3,17 @@
 //!
 //! Kernels keep to what every WebGPU device has: 8 storage buffers, workgroups of 64 invocations
 //! and 32-bit numbers. Buffers may be as large as the adapter allows.
-
-mod error;
-mod layout;
-mod kernel;
-mod raster;
-mod stencil;
-mod binding;
-mod pipeline;
-mod raster_pipeline;
-mod stencil_pipeline;
-mod rows;
+mod pipelines;
 mod adapter;
 mod device;
-mod choose;
 mod target;
-mod stencil_target;
 mod recording;
-mod transfer;
 mod drawing;
-mod stencil_drawing;
-mod submission;
 
-pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best};
-pub use choose::choose;
-pub use device::{Buffer, Device};
-pub use error::DeviceError;
-pub use kernel::{GROUP, Kernel, Storage, groups};
-pub use layout::Layout;
-pub use layout::layout;
-pub use raster::RasterShader;
+pub use adapter::{Adapter, BackendChoice, DeviceError, Kind, Limits, adapters, best};
+pub use device::{Buffer, Device, choose};
+pub use pipelines::{
+    GROUP, Kernel, Layout, RasterShader, ScatterShader, StencilShader, Storage, groups, layout,
+};
 pub use recording::{Recording, TriangleList, Triangles};
-pub use rows::Rows;
-pub use stencil::{ScatterShader, StencilShader};
-pub use stencil_target::StencilTarget;
-pub use target::Target;
+pub use target::{Rows, StencilTarget, Target};

@@ -1,14 +1,15 @@
-//! Commands recorded for the device: dispatches, draws and copies, with the parameters and
-//! data that they read.
+//! Commands recorded for the device (dispatches, draws and copies, with their parameters and data),
+//! and their submission to the driver.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::device::Buffer;
-use super::kernel::Kernel;
-use super::raster::RasterShader;
-use super::stencil::{ScatterShader, StencilShader};
-use super::stencil_target::StencilTarget;
-use super::target::Target;
+use super::adapter::DeviceError;
+use super::device::{Buffer, Device};
+use super::pipelines::{
+    Kernel, Pipeline, RasterShader, ScatterShader, StencilShader, Storage, bind_group,
+};
+use super::target::{StencilTarget, Target};
 
 /// Alignment of the parameters of each dispatch, in bytes: the largest that WebGPU adapters
 /// require.
@@ -63,7 +64,7 @@ pub(super) struct List {
 #[derive(Debug)]
 pub(super) struct StencilDraw {
     pub(super) shader: &'static StencilShader,
-    /// The scene whose depth is drawn before; none to keep the depth of the target.
+    /// The scene that gives the depth, drawn first, none to keep the depth of the target.
     pub(super) scene: Option<List>,
     pub(super) faces: List,
     pub(super) target: StencilTarget,
@@ -93,7 +94,7 @@ pub struct TriangleList<'a, P> {
 pub struct Triangles {
     /// Number of triangles.
     pub count: usize,
-    /// Culls triangles whose corners run clockwise in the picture.
+    /// Culls triangles with corners that run clockwise in the picture.
     pub front_only: bool,
     /// The four numbers of a pixel without a triangle.
     pub background: [u32; 4],
@@ -124,11 +125,11 @@ impl Recording {
         first as u32
     }
 
-    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z); 0 in any
+    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z), 0 in any
     /// direction records nothing.
     ///
     /// # Panics
-    /// If the size of `parameters` is not that of the kernel's parameters.
+    /// If `parameters` has not the size of the kernel's parameters.
     pub fn dispatch<P: bytemuck::Pod>(
         &mut self,
         kernel: &'static Kernel,
@@ -145,12 +146,12 @@ impl Recording {
         self.commands.push(Command::Dispatch { kernel, buffers, parameters, groups });
     }
 
-    /// Records a draw of triangles over the whole `target`; of equal depths the first triangle
+    /// Records a draw of triangles over the whole `target`. Of equal depths the first triangle
     /// wins. Then copies the four numbers of every pixel to `into`, row by row without gaps.
     ///
     /// # Panics
-    /// If the size of `parameters` or the number of buffers is not that of the shader, or
-    /// there are more than 2^32 corners.
+    /// If the shader needs another size of `parameters` or another number of buffers, or there are
+    /// more than 2^32 corners.
     pub fn draw<P: bytemuck::Pod>(
         &mut self,
         shader: &'static RasterShader,
@@ -176,14 +177,14 @@ impl Recording {
         })));
     }
 
-    /// Records the counting of faces in the stencil of `target`, which starts at 0: back faces
-    /// that are not before the depth of the target add 1, such front faces subtract 1, and it
-    /// wraps at 256. With a `scene`, its depth is drawn first; otherwise the target keeps the
-    /// depth of the last one. Then copies the stencil to [`StencilTarget::rows`].
+    /// Records the counting of faces in the stencil of `target`, which starts at 0: back faces that
+    /// are not before the depth of the target add 1, such front faces subtract 1, and it wraps at
+    /// 256. With a `scene`, its depth is drawn first, otherwise the target keeps the depth of the
+    /// last one. Then copies the stencil to [`StencilTarget::rows`].
     ///
     /// # Panics
-    /// If the size of the parameters or the number of buffers is not that of the shader, or
-    /// there are more than 2^32 corners.
+    /// If the shader needs another size of the parameters or another number of buffers, or there
+    /// are more than 2^32 corners.
     pub fn count_faces<P: bytemuck::Pod>(
         &mut self,
         shader: &'static StencilShader,
@@ -203,12 +204,12 @@ impl Recording {
         })));
     }
 
-    /// Records a draw of both sides of faces, whose shader adds to its last buffer at their
-    /// pixels in a picture of the size of `target`; the target itself is left as it is.
+    /// Records a draw of both sides of faces, whose shader adds to its last buffer at their pixels
+    /// in a picture of the size of `target`. The target itself is left as it is.
     ///
     /// # Panics
-    /// If the size of the parameters or the number of buffers is not that of the shader, or
-    /// there are more than 2^32 corners.
+    /// If the shader needs another size of the parameters or another number of buffers, or there
+    /// are more than 2^32 corners.
     pub fn scatter<P: bytemuck::Pod>(
         &mut self,
         shader: &'static ScatterShader,
@@ -268,4 +269,174 @@ impl Recording {
     pub fn bytes(&self) -> usize {
         self.parameters.len() + self.batch.len()
     }
+}
+
+/// Name of a kernel and numbers of its buffers: dispatches that agree in both share a bind
+/// group.
+type BindGroupKey = (&'static str, Vec<u64>);
+
+impl Device {
+    /// Compiles `kernel` unless that was done before. [`Self::submit`] calls this for each kernel.
+    /// An earlier call keeps the compilation out of the first submission.
+    ///
+    /// # Errors
+    /// [`DeviceError::Refused`] if the driver rejects the kernel.
+    pub fn prepare(&mut self, kernel: &'static Kernel) -> Result<(), DeviceError> {
+        if self.pipelines.contains_key(kernel.name) {
+            return Ok(());
+        }
+        let pipeline = self.compile(
+            || format!("kernel `{}`", kernel.name),
+            |device| Pipeline::compile(device, kernel),
+        )?;
+        self.check(kernel.name)?;
+        self.pipelines.insert(kernel.name, pipeline);
+        Ok(())
+    }
+
+    /// Submits the recorded commands in their order and empties the recording. Does not wait
+    /// for their completion.
+    ///
+    /// # Errors
+    /// [`DeviceError::Lost`] if the device was lost, [`DeviceError::Refused`] if the driver
+    /// rejects a command of this or an earlier submission.
+    ///
+    /// # Panics
+    /// If a kernel was recorded with fewer or more buffers than it declares.
+    pub fn submit(&mut self, recording: &mut Recording) -> Result<(), DeviceError> {
+        let submitted = self.submit_all(recording);
+        recording.clear();
+        submitted
+    }
+
+    fn submit_all(&mut self, recording: &Recording) -> Result<(), DeviceError> {
+        self.check("a submission")?;
+        if recording.is_empty() {
+            return Ok(());
+        }
+        let mut longest = 0;
+        for command in &recording.commands {
+            let parameters = match command {
+                Command::Dispatch { kernel, .. } => {
+                    self.prepare(kernel)?;
+                    kernel.parameters
+                }
+                Command::Draw(draw) => {
+                    self.prepare_raster(draw.shader, draw.front_only)?;
+                    draw.shader.parameters
+                }
+                Command::Stencil(draw) => {
+                    self.prepare_stencil(draw.shader)?;
+                    draw.shader.parameters
+                }
+                Command::Scatter(draw) => {
+                    self.prepare_scatter(draw.shader)?;
+                    draw.shader.parameters
+                }
+                Command::Copy { .. } => continue,
+            };
+            longest = longest.max(parameters.bytes);
+        }
+        let parameters = self.parameters.take();
+        let bytes = recording.parameters.len() + longest;
+        let parameters = self.filled("parameters", parameters, &recording.parameters, bytes)?;
+        let batch = self.batch.take();
+        let batch = self.filled("a batch", batch, &recording.batch, recording.batch.len())?;
+        let commands = self.encode(recording, &parameters, &batch);
+        (self.parameters, self.batch) = (Some(parameters), Some(batch));
+        let index = self.queue.submit([commands]);
+        self.follow(index)
+    }
+
+    /// A buffer of at least `bytes` that starts with `content`: `found` if it is large
+    /// enough, else a new one.
+    fn filled(
+        &mut self,
+        what: &'static str,
+        found: Option<Buffer>,
+        content: &[u8],
+        bytes: usize,
+    ) -> Result<Buffer, DeviceError> {
+        let bytes = bytes as u64;
+        let buffer = match found {
+            Some(buffer) if buffer.inner.size() >= bytes => buffer,
+            _ => {
+                let enlarged = (bytes + bytes / 2).min(self.adapter().limits.binding_bytes);
+                self.buffer(what, enlarged.max(bytes))?
+            }
+        };
+        if !content.is_empty() {
+            self.queue.write_buffer(&buffer.inner, 0, content);
+        }
+        Ok(buffer)
+    }
+
+    fn encode(
+        &self,
+        recording: &Recording,
+        parameters: &Buffer,
+        batch: &Buffer,
+    ) -> wgpu::CommandBuffer {
+        let mut encoder = self.inner.create_command_encoder(&Default::default());
+        let mut bind_groups: BTreeMap<BindGroupKey, wgpu::BindGroup> = BTreeMap::new();
+        let mut pass: Option<wgpu::ComputePass<'static>> = None;
+        for command in &recording.commands {
+            match command {
+                Command::Copy { from, to, bytes } => {
+                    pass = None;
+                    encoder.copy_buffer_to_buffer(&from.inner, 0, &to.inner, 0, *bytes);
+                }
+                Command::Draw(draw) => {
+                    pass = None;
+                    self.encode_draw(&mut encoder, draw, parameters);
+                }
+                Command::Stencil(draw) => {
+                    pass = None;
+                    self.encode_stencil(&mut encoder, draw, parameters);
+                }
+                Command::Scatter(draw) => {
+                    pass = None;
+                    self.encode_scatter(&mut encoder, draw, parameters);
+                }
+                Command::Dispatch { kernel, buffers, parameters: start, groups } => {
+                    let pipeline = &self.pipelines[kernel.name];
+                    let all = storage_buffers(kernel, buffers, batch);
+                    let numbers = all.iter().map(|buffer| buffer.number).collect();
+                    let group = bind_groups.entry((kernel.name, numbers)).or_insert_with(|| {
+                        bind_group(
+                            &self.inner,
+                            kernel.name,
+                            &pipeline.layout,
+                            (&parameters.inner, kernel.parameters.bytes),
+                            all.iter().map(|buffer| &buffer.inner),
+                        )
+                    });
+                    let pass = pass.get_or_insert_with(|| {
+                        encoder.begin_compute_pass(&Default::default()).forget_lifetime()
+                    });
+                    pass.set_pipeline(&pipeline.compute);
+                    pass.set_bind_group(0, &*group, &[*start]);
+                    pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+                }
+            }
+        }
+        drop(pass);
+        encoder.finish()
+    }
+}
+
+/// The storage buffers of `kernel` in the order of their bindings, `batch` included.
+fn storage_buffers<'a>(
+    kernel: &Kernel,
+    buffers: &'a [Buffer],
+    batch: &'a Buffer,
+) -> Vec<&'a Buffer> {
+    let expected = kernel.storage.iter().filter(|&&storage| storage != Storage::Batch).count();
+    assert_eq!(buffers.len(), expected, "buffers of {}", kernel.name);
+    let mut own = buffers.iter();
+    let all = kernel.storage.iter().filter_map(|storage| match storage {
+        Storage::Batch => Some(batch),
+        _ => own.next(),
+    });
+    all.collect()
 }

@@ -1,12 +1,17 @@
-//! Principal curvatures of a mesh and their directions at every vertex.
+//! Principal curvatures of a mesh and their directions at every vertex, computed over places: the
+//! distinct positions of a mesh, with one normal each, so that seams do not matter.
+//!
+//! The curvature tensors of triangles and places follow Rusinkiewicz, "Estimating curvatures and
+//! their derivatives on triangle meshes", 2004, section 3. They are carried from one tangent plane
+//! to the next. Plane vectors are complex numbers: x along the first axis, y along the second. A
+//! line (a direction of arbitrary sign) is the square of its vector, so its angle is doubled and
+//! both signs are one number (Palacios and Zhang, "Rotational symmetry field design on surfaces",
+//! 2007). [`DVec2::rotate`] is the complex product.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::model::Mesh;
-use super::places::Places;
-use super::shape_tensor::{PlaceShape, ShapeTensor, place_shapes};
-use super::tangent_plane::TangentPlane;
+use super::model::{Mesh, Neighbours};
 
 /// Principal curvatures of a surface at a vertex, in 1/length of the model: positive where the
 /// surface bends away from its normal (a sphere of radius 2 has 0.5 twice).
@@ -53,7 +58,7 @@ impl Mesh {
     ///
     /// Vertices with the same position count as one, so seams do not show. The normals are the
     /// mesh's own, averaged with their neighbours `rounds` times: 0 for a fine model, 1 to 3 for
-    /// one whose facets or roughness show. Every number is finite for a mesh that passes
+    /// one with visible facets or roughness. Every number is finite for a mesh that passes
     /// [`Mesh::check`].
     ///
     /// # Panics
@@ -80,12 +85,389 @@ fn single(vector: DVec3) -> [f32; 3] {
     vector.as_vec3().to_array()
 }
 
+/// Height of a triangle over its longest edge below which normals say nothing about the curvature
+/// across it: in f32 both ends of the height are the same point but for rounding.
+const LEAST_HEIGHT: f64 = 1e-5;
+
+/// A curvature tensor in a tangent plane, `[[mean + x, y], [y, mean - x]]`, in 1/length: curvature
+/// is positive where the surface bends away from its normal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct ShapeTensor {
+    /// Mean of both principal curvatures.
+    pub(super) mean: f64,
+    /// (x, y): half their difference, along the square of the direction of the greater one (by sign).
+    pub(super) difference: DVec2,
+}
+
+/// Curvature tensor of a place, in its tangent plane.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct PlaceShape {
+    /// Mean of the tensors of its triangles, weighted by their areas around the place.
+    pub(super) tensor: ShapeTensor,
+    /// Area of the surface that belongs to the place, 0 if no triangle with area meets there.
+    pub(super) area: f64,
+}
+
+/// Curvature tensor of a triangle, in its own plane, and the area that belongs to each corner.
+#[derive(Debug, Clone, Copy)]
+struct FaceShape {
+    plane: TangentPlane,
+    tensor: ShapeTensor,
+    areas: [f64; 3],
+}
+
+/// Curvature tensor of every place in the tangent plane given for it.
+pub(super) fn place_shapes(places: &Places, planes: &[TangentPlane]) -> Vec<PlaceShape> {
+    let triangles = places.triangles.par_iter().with_min_len(1 << 9);
+    let faces: Vec<Option<FaceShape>> = triangles
+        .map(|corners| {
+            let positions = corners.map(|corner| places.positions[corner as usize]);
+            let normals = corners.map(|corner| places.normals[corner as usize]);
+            FaceShape::new(positions, normals)
+        })
+        .collect();
+    let (starts, corners) = corners_of_places(places);
+    let planes = planes.par_iter().with_min_len(1 << 9).enumerate();
+    planes
+        .map(|(place, plane)| {
+            let mut shape = PlaceShape::default();
+            for &corner in &corners[starts[place] as usize..starts[place + 1] as usize] {
+                if let Some(face) = &faces[corner as usize / 3] {
+                    shape.add(face.tensor_in(plane), face.areas[corner as usize % 3]);
+                }
+            }
+            shape.finished()
+        })
+        .collect()
+}
+
+/// Corners at every place in ascending order: a place's first index into the list, and the list,
+/// where corner c of triangle t is 3 t + c.
+fn corners_of_places(places: &Places) -> (Vec<u32>, Vec<u32>) {
+    let corners = || places.triangles.iter().flatten();
+    let mut starts = vec![0_u32; places.positions.len() + 1];
+    corners().for_each(|&place| starts[place as usize + 1] += 1);
+    for place in 0..places.positions.len() {
+        starts[place + 1] += starts[place];
+    }
+    let mut next = starts.clone();
+    let mut list = vec![0; 3 * places.triangles.len()];
+    for (corner, &place) in corners().enumerate() {
+        list[next[place as usize] as usize] = corner as u32;
+        next[place as usize] += 1;
+    }
+    (starts, list)
+}
+
+impl PlaceShape {
+    fn add(&mut self, tensor: ShapeTensor, area: f64) {
+        self.tensor.mean += area * tensor.mean;
+        self.tensor.difference += area * tensor.difference;
+        self.area += area;
+    }
+
+    fn finished(self) -> Self {
+        let mean = self.tensor.mean / self.area;
+        let difference = self.tensor.difference / self.area;
+        match mean.is_finite() && difference.is_finite() {
+            true => Self { tensor: ShapeTensor { mean, difference }, area: self.area },
+            false => Self { area: self.area, ..Self::default() },
+        }
+    }
+}
+
+impl FaceShape {
+    /// Fits the tensor to the differences of the normals along the edges (equation 4 there). `None`
+    /// for a triangle that is flat to a line.
+    fn new(positions: [DVec3; 3], normals: [DVec3; 3]) -> Option<Self> {
+        let edges = [0, 1, 2].map(|i| positions[(i + 2) % 3] - positions[(i + 1) % 3]);
+        let longest = edges.iter().fold(0.0_f64, |most, edge| most.max(edge.length()));
+        let cross = edges[0].cross(edges[1]);
+        if cross.length() <= LEAST_HEIGHT * longest * longest {
+            return None;
+        }
+        // Triangles may be wound either way, and sides of thin sheets share places.
+        let side = if cross.dot(normals.iter().sum()) < 0.0 { -1.0 } else { 1.0 };
+        let normal = cross.normalize() * side;
+        let right = edges[0].normalize();
+        let plane = TangentPlane { normal, right, up: normal.cross(right) };
+        let normals = normals.map(|own| if own.dot(normal) < 0.0 { -own } else { own });
+        let mut squares = DMat3::ZERO;
+        let mut products = DVec3::ZERO;
+        for (i, edge) in edges.iter().enumerate() {
+            let step = plane.projected(*edge) / longest;
+            let change = plane.projected(normals[(i + 2) % 3] - normals[(i + 1) % 3]);
+            // Rows of the tensor [[e, f], [f, g]] times the step are the change.
+            for (row, change) in [DVec3::new(step.x, step.y, 0.0), DVec3::new(0.0, step.x, step.y)]
+                .into_iter()
+                .zip([change.x, change.y])
+            {
+                squares += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
+                products += row * change;
+            }
+        }
+        let [e, f, g] = (squares.inverse() * products / longest).to_array();
+        let tensor = ShapeTensor { mean: 0.5 * (e + g), difference: DVec2::new(0.5 * (e - g), f) };
+        let finite = tensor.mean.is_finite() && tensor.difference.is_finite();
+        finite.then(|| Self { plane, tensor, areas: mixed_areas(positions) })
+    }
+
+    /// The tensor in the tangent plane of one of the corners (section 3.2 there).
+    fn tensor_in(&self, plane: &TangentPlane) -> ShapeTensor {
+        let ShapeTensor { mean, difference } = self.tensor;
+        let facing = self.plane.normal.dot(plane.normal) >= 0.0;
+        let (from, sign) = match facing {
+            true => (self.plane, 1.0),
+            false => (self.plane.reversed(), -1.0),
+        };
+        let mirrored = if facing { difference } else { DVec2::new(difference.x, -difference.y) };
+        let turn = from.turn_of_squares(plane).unwrap_or(DVec2::X);
+        ShapeTensor { mean: sign * mean, difference: sign * turn.rotate(mirrored) }
+    }
+}
+
+/// Area that belongs to each corner of a triangle: its Voronoi cell, or in an obtuse triangle one
+/// half for the obtuse corner and a quarter for the others (Meyer, Desbrun, Schroeder and Barr,
+/// "Discrete differential-geometry operators for triangulated 2-manifolds", 2003, section 3.3).
+fn mixed_areas(at: [DVec3; 3]) -> [f64; 3] {
+    let twice = (at[1] - at[0]).cross(at[2] - at[0]).length();
+    let dots = [0, 1, 2].map(|i| (at[(i + 1) % 3] - at[i]).dot(at[(i + 2) % 3] - at[i]));
+    if let Some(obtuse) = dots.iter().position(|&dot| dot <= 0.0) {
+        let mut areas = [twice / 8.0; 3];
+        areas[obtuse] = twice / 4.0;
+        return areas;
+    }
+    [0, 1, 2].map(|i| {
+        let [next, last] = [(i + 1) % 3, (i + 2) % 3];
+        let toward = |from: usize, opposite: usize| {
+            at[from].distance_squared(at[i]) * dots[opposite] / twice
+        };
+        (toward(next, last) + toward(last, next)) / 8.0
+    })
+}
+
+/// Smallest value of 1 + cosine of the angle between two normals at which a vector can be carried.
+const LEAST_OPENING: f64 = 1e-9;
+
+/// A tangent plane: its unit normal and two unit axes, right-handed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TangentPlane {
+    pub(super) normal: DVec3,
+    pub(super) right: DVec3,
+    pub(super) up: DVec3,
+}
+
+impl TangentPlane {
+    /// A plane with this unit normal and axes that depend on it alone.
+    pub(super) fn of_normal(normal: DVec3) -> Self {
+        let (right, up) = normal.any_orthonormal_pair();
+        Self { normal, right, up }
+    }
+
+    /// The plane seen from its other side. The first axis stays.
+    pub(super) fn reversed(&self) -> Self {
+        Self { normal: -self.normal, right: self.right, up: -self.up }
+    }
+
+    /// Part of a vector in the plane.
+    pub(super) fn projected(&self, vector: DVec3) -> DVec2 {
+        DVec2::new(vector.dot(self.right), vector.dot(self.up))
+    }
+
+    /// Unit vector along a line that is given by its square of any length but 0. The sign is
+    /// arbitrary.
+    pub(super) fn along(&self, squared: DVec2) -> DVec3 {
+        let root = square_root(squared);
+        (self.right * root.x + self.up * root.y).normalize_or(self.right)
+    }
+
+    /// Factor that carries squares of vectors from this plane to another: the shortest turn
+    /// between both normals, in the axes of both. `None` if the normals are opposite.
+    pub(super) fn turn_of_squares(&self, other: &Self) -> Option<DVec2> {
+        let right = carried(self.right, self.normal, other.normal)?;
+        let turn = other.projected(right).try_normalize()?;
+        Some(turn.rotate(turn))
+    }
+}
+
+/// Carries a vector that is perpendicular to the unit normal `from` by the shortest turn that takes
+/// `from` to `to`. `None` if they are opposite.
+pub(super) fn carried(vector: DVec3, from: DVec3, to: DVec3) -> Option<DVec3> {
+    let opening = 1.0 + from.dot(to);
+    (opening > LEAST_OPENING).then(|| vector - (from + to) * (to.dot(vector) / opening))
+}
+
+/// Complex square root of a number of any length but 0, as a unit vector, 1 for 0.
+fn square_root(squared: DVec2) -> DVec2 {
+    let unit = squared.normalize_or(DVec2::X);
+    // Each form loses digits on the other side.
+    if unit.x >= 0.0 {
+        let x = f64::sqrt(0.5 * (1.0 + unit.x));
+        DVec2::new(x, unit.y / (2.0 * x))
+    } else {
+        let y = f64::sqrt(0.5 * (1.0 - unit.x));
+        DVec2::new(unit.y / (2.0 * y), y)
+    }
+}
+
+/// Sum of unit normals, relative to the sum of their weights, below which they cancel out (a sheet
+/// with two sides): then one of them is taken.
+const LEAST_SUM: f64 = 1e-3;
+
+/// Least and greatest stiffness of an edge: an obtuse triangle would give a negative one, a
+/// needle one without limit.
+const STIFFNESS: [f64; 2] = [0.05, 5.0];
+
+/// The distinct positions of a mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    /// Number of the place of every vertex.
+    pub(super) of_vertex: Vec<u32>,
+    /// Position of every place.
+    pub(super) positions: Vec<DVec3>,
+    /// Unit normal of every place.
+    pub(super) normals: Vec<DVec3>,
+    /// Places of the corners of every triangle that has three distinct ones.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Adjacency along edges.
+    pub(super) neighbours: Neighbours,
+    /// Stiffness of the edge to each neighbour, see [`Neighbours::slots`].
+    pub(super) stiffness: Vec<f64>,
+}
+
+impl Places {
+    /// The places of a mesh. Every normal is averaged `rounds` times with the mean of its
+    /// neighbours.
+    pub(super) fn of(mesh: &Mesh, rounds: usize) -> Self {
+        let (of_vertex, count) = mesh.weld();
+        let mut positions = vec![DVec3::ZERO; count];
+        for (&place, position) in of_vertex.iter().zip(&mesh.positions) {
+            positions[place as usize] = DVec3::from(position.map(f64::from));
+        }
+        let corners = mesh.triangles.iter().map(|triangle| triangle.corners);
+        let triangles = corners.map(|corners| corners.map(|corner| of_vertex[corner as usize]));
+        let triangles: Vec<[u32; 3]> =
+            triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect();
+        let neighbours = Neighbours::of_triangles(triangles.iter().copied(), count);
+        let normals = joined_normals(mesh, &of_vertex, &positions);
+        let stiffness = stiffness(&triangles, &positions, &neighbours);
+        let normals = averaged(normals, &neighbours, &stiffness, rounds);
+        Self { of_vertex, positions, normals, triangles, neighbours, stiffness }
+    }
+
+    /// Root mean square distance of the surface from its centre, weighted by area (the radius of a
+    /// sphere), 0 for a surface without area. Unlike a bounding box it does not change when the
+    /// model is turned.
+    pub(super) fn radius(&self) -> f64 {
+        let corners = self.triangles.iter().map(|corners| {
+            let at = corners.map(|corner| self.positions[corner as usize]);
+            (at, (at[1] - at[0]).cross(at[2] - at[0]).length())
+        });
+        let mean = |value: &dyn Fn(DVec3) -> DVec3| {
+            let (sum, area) = corners.clone().fold((DVec3::ZERO, 0.0), |(sum, all), (at, area)| {
+                (sum + at.map(value).iter().sum::<DVec3>() * (area / 3.0), all + area)
+            });
+            if area > 0.0 { sum / area } else { DVec3::ZERO }
+        };
+        let center = mean(&|at| at);
+        let squares = mean(&|at| (at - center) * (at - center));
+        squares.element_sum().sqrt()
+    }
+}
+
+/// One unit normal for every place: the sum of its vertices' normals, each weighted over its
+/// triangles by the sine of the angle over the lengths of both edges (Max, "Weights for computing
+/// vertex normals from facet normals", 1999), so that neither seams nor the cut into triangles
+/// shift it. A vertex without a normal has the triangle's. A place without triangles has the mean
+/// of its vertices' normals, or +y.
+fn joined_normals(mesh: &Mesh, of_vertex: &[u32], positions: &[DVec3]) -> Vec<DVec3> {
+    fn normal_of(vertex: usize, mesh: &Mesh) -> DVec3 {
+        DVec3::from(mesh.normals[vertex].map(f64::from))
+    }
+    let mut any = vec![DVec3::ZERO; positions.len()];
+    for (vertex, &place) in of_vertex.iter().enumerate() {
+        let own = &mut any[place as usize];
+        // Opposite normals would cancel out: the first side counts.
+        let normal = normal_of(vertex, mesh);
+        *own += if own.dot(normal) < 0.0 { -normal } else { normal };
+    }
+    let mut sums = vec![(DVec3::ZERO, 0.0); positions.len()];
+    for triangle in &mesh.triangles {
+        let places = triangle.corners.map(|corner| of_vertex[corner as usize] as usize);
+        let at = places.map(|place| positions[place]);
+        let facet = (at[1] - at[0]).cross(at[2] - at[0]).normalize_or_zero();
+        for i in 0..3 {
+            let [next, last] = [(i + 1) % 3, (i + 2) % 3].map(|other| at[other] - at[i]);
+            let weight =
+                next.cross(last).length() / (next.length_squared() * last.length_squared());
+            if weight.is_finite() {
+                let (sum, all) = &mut sums[places[i]];
+                *sum += weight * normal_of(triangle.corners[i] as usize, mesh).normalize_or(facet);
+                *all += weight;
+            }
+        }
+    }
+    let pairs = sums.par_iter().zip(&any);
+    let joined = pairs.map(|(&(sum, all), any)| {
+        let cancelled = sum.length() <= LEAST_SUM * all;
+        if cancelled { any.normalize_or(DVec3::Y) } else { sum.normalize_or(DVec3::Y) }
+    });
+    joined.collect()
+}
+
+/// Stiffness of the edges from all places to all neighbours: half the sum of the cotangents of the
+/// angles that face the edge (Pinkall and Polthier, "Computing discrete minimal surfaces and their
+/// conjugates", 1993), within [`STIFFNESS`]. With it sums over edges do not depend on the cut into
+/// triangles.
+fn stiffness(triangles: &[[u32; 3]], positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
+    let mut sums = vec![0.0; neighbours.slot_count()];
+    for corners in triangles {
+        let at = corners.map(|corner| positions[corner as usize]);
+        for i in 0..3 {
+            let [next, last] = [(i + 1) % 3, (i + 2) % 3];
+            let to_next = at[next] - at[i];
+            let to_last = at[last] - at[i];
+            let cotangent = to_next.dot(to_last) / to_next.cross(to_last).length();
+            if !cotangent.is_finite() {
+                continue;
+            }
+            for [from, to] in [[next, last], [last, next]] {
+                if let Some(slot) = neighbours.slot(corners[from], corners[to]) {
+                    sums[slot] += 0.5 * cotangent;
+                }
+            }
+        }
+    }
+    sums.iter_mut().for_each(|sum| *sum = sum.clamp(STIFFNESS[0], STIFFNESS[1]));
+    sums
+}
+
+/// Unit normals after rounds of averaging each, half and half, with the mean of its neighbours,
+/// weighted by stiffness: a diagonal or an open edge does not pull them to one side.
+fn averaged(
+    mut normals: Vec<DVec3>,
+    neighbours: &Neighbours,
+    stiffness: &[f64],
+    rounds: usize,
+) -> Vec<DVec3> {
+    for _ in 0..rounds {
+        let places = normals.par_iter().with_min_len(1 << 9).enumerate();
+        let next = places.map(|(place, &own)| {
+            let around = neighbours.of(place).iter().zip(&stiffness[neighbours.slots(place)]);
+            let sum: DVec3 = around.map(|(&to, &held)| held * (own + normals[to as usize])).sum();
+            // Opposite normals cancel out: keep the old one.
+            sum.try_normalize().unwrap_or(own)
+        });
+        normals = next.collect();
+    }
+    normals
+}
+
 #[cfg(test)]
 mod tests {
-    use glam::{Quat, Vec3};
-
     use super::*;
     use crate::mesh::test_shapes::{bare, cylinder, degrees_between, ragged, rough, torus, turned};
+    use glam::{Quat, Vec3};
 
     /// Greatest errors against known curvatures: of k, relative to the greatest at the vertex, and
     /// of the direction of the least, in degrees.
@@ -216,5 +598,85 @@ mod tests {
                 assert!(own.known || own.greatest == 0.0, "{name} {vertex}: {own:?}");
             }
         }
+    }
+
+    #[test]
+    fn areas_of_the_corners_add_up_to_the_triangle() {
+        for (corner, obtuse) in [([0.4, 1.0], None), ([-1.0, 0.3], Some(0)), ([0.5, 0.1], Some(2))]
+        {
+            let at = [[0.0, 0.0], [1.0, 0.0], corner].map(|[x, y]| DVec3::new(x, y, 0.0));
+            let areas = mixed_areas(at);
+            let whole = 0.5 * corner[1];
+            assert!((areas.iter().sum::<f64>() - whole).abs() < 1e-15, "{areas:?}");
+            if let Some(obtuse) = obtuse {
+                assert_eq!(areas[obtuse], 0.5 * whole, "{areas:?}");
+            }
+        }
+        let even = mixed_areas(
+            [[0.0, 0.0], [1.0, 0.0], [0.5, 0.75_f64.sqrt()]].map(|[x, y]| DVec3::new(x, y, 0.0)),
+        );
+        assert!((even[0] - even[2]).abs() < 1e-15, "{even:?}");
+    }
+
+    #[test]
+    fn a_triangle_on_a_saddle_has_the_tensor_of_the_saddle() {
+        // Height z = (p x^2 + 2 q x y + r y^2) / 2: the normal's change is minus the tensor.
+        let [p, q, r] = [0.8, -0.3, -0.5];
+        let normal = |x: f64, y: f64| DVec3::new(-(p * x + q * y), -(q * x + r * y), 1.0);
+        let places = [[-1e-4, -1e-4], [2e-4, 0.0], [0.0, 1e-4]];
+        let positions =
+            places.map(|[x, y]| DVec3::new(x, y, 0.5 * (p * x * x + 2.0 * q * x * y + r * y * y)));
+        let normals = places.map(|[x, y]| normal(x, y).normalize());
+        let face = FaceShape::new(positions, normals).unwrap();
+        let plane = TangentPlane { normal: DVec3::Z, right: DVec3::X, up: DVec3::Y };
+        let found = face.tensor_in(&plane);
+        assert!((found.mean + 0.5 * (p + r)).abs() < 1e-6, "{found:?}");
+        let wanted = DVec2::new(-0.5 * (p - r), -q);
+        assert!((found.difference - wanted).length() < 1e-6, "{found:?}, {wanted}");
+        // Seen from the other side every curvature has the other sign.
+        let below = TangentPlane { normal: -DVec3::Z, right: DVec3::X, up: -DVec3::Y };
+        let found = face.tensor_in(&below);
+        assert!((found.mean - 0.5 * (p + r)).abs() < 1e-6, "{found:?}");
+        let wanted = DVec2::new(0.5 * (p - r), -q);
+        assert!((found.difference - wanted).length() < 1e-6, "{found:?}, {wanted}");
+    }
+
+    fn planes() -> Vec<TangentPlane> {
+        let normals = [[0.0, 1.0, 0.0], [0.3, -0.5, 0.8], [-1.0, 1e-9, 0.0], [0.6, 0.6, -0.5]];
+        normals.map(|normal| TangentPlane::of_normal(DVec3::from(normal).normalize())).to_vec()
+    }
+
+    #[test]
+    fn a_line_is_the_root_of_its_square_up_to_the_sign() {
+        for plane in planes() {
+            for degrees in 0..360 {
+                let unit = DVec2::from_angle(f64::from(degrees).to_radians());
+                let vector = plane.right * unit.x + plane.up * unit.y;
+                let line = plane.along(unit.rotate(unit) * 7.0);
+                assert!((line.dot(vector).abs() - 1.0).abs() < 1e-14, "{degrees}: {line}");
+                assert!(line.dot(plane.normal).abs() < 1e-14, "{degrees}: {line}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_square_is_carried_as_the_line_that_it_stands_for_and_back() {
+        for from in planes() {
+            for to in planes() {
+                let turn = from.turn_of_squares(&to).unwrap();
+                let back = to.turn_of_squares(&from).unwrap();
+                assert!((turn.rotate(back) - DVec2::X).length() < 1e-12, "{turn} {back}");
+                let square = DVec2::from_angle(0.7);
+                let line = carried(from.along(square), from.normal, to.normal).unwrap();
+                let same = to.along(turn.rotate(square)).dot(line).abs();
+                assert!((same - 1.0).abs() < 1e-12, "{from:?} {to:?}: {same}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_carried_between_opposite_planes() {
+        let plane = TangentPlane::of_normal(DVec3::Y);
+        assert_eq!(plane.turn_of_squares(&TangentPlane::of_normal(-DVec3::Y)), None);
     }
 }

@@ -1,17 +1,20 @@
-//! The minimum or maximum of the pixels under a structuring element.
+//! The minimum or maximum of the pixels under a structuring element, on the processor tile by tile
+//! or as a kernel, and the openings and closings made of them.
 
-use super::extremum_on_cpu::extremum_into;
-use super::structuring_element::{Extremum, StructuringElement};
+use pulp::Simd;
+use rayon::prelude::*;
+
+use super::{Extremum, StructuringElement};
 use crate::compute::{ColorImage, Compute, GpuCompute, Image, Plane, assert_size};
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// The extremum of each channel under `element`, which is centred on each pixel in turn.
-/// Pixels outside the picture are ignored. The memory of `spare`, an image of the same
-/// size that is not needed any more, may be used for the result.
+/// The extremum of each channel under `element`, which is centred on each pixel in turn. Pixels
+/// outside the picture are ignored. The memory of `spare`, an image of the same size that is not
+/// needed any more, may be used for the result.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
 /// If `spare` has another size, or another form of [`Compute`] made an image.
@@ -102,4 +105,254 @@ fn extremum_on_gpu(
         (current, margin_in) = (out, margin_out);
     }
     Ok(current)
+}
+
+/// Removes light details that a round element of `radius_px` does not fit into. A radius of 0
+/// changes nothing. No pixel becomes lighter, and a second opening changes nothing.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
+///
+/// # Panics
+/// If another form of [`Compute`] made the image.
+pub fn opening(
+    compute: &mut Compute,
+    color: &ColorImage,
+    radius_px: u32,
+) -> Result<ColorImage, DeviceError> {
+    let element = StructuringElement::round(radius_px);
+    let eroded = extremum(compute, color, element, Extremum::Minimum, None)?;
+    extremum(compute, &eroded, element, Extremum::Maximum, None)
+}
+
+/// Removes dark details that a round element of `radius_px` does not fit into. A radius of 0
+/// changes nothing. No pixel becomes darker, and a second closing changes nothing.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
+///
+/// # Panics
+/// If another form of [`Compute`] made the image.
+pub fn closing(
+    compute: &mut Compute,
+    color: &ColorImage,
+    radius_px: u32,
+) -> Result<ColorImage, DeviceError> {
+    let element = StructuringElement::round(radius_px);
+    let dilated = extremum(compute, color, element, Extremum::Maximum, None)?;
+    extremum(compute, &dilated, element, Extremum::Minimum, None)
+}
+
+/// An [`opening`] followed by a [`closing`], in three passes rather than four.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
+///
+/// # Panics
+/// If another form of [`Compute`] made the image.
+pub fn opening_then_closing(
+    compute: &mut Compute,
+    color: &ColorImage,
+    radius_px: u32,
+) -> Result<ColorImage, DeviceError> {
+    let element = StructuringElement::round(radius_px);
+    let eroded = extremum(compute, color, element, Extremum::Minimum, None)?;
+    // The last pass of the opening and the first of the closing are one dilation.
+    let dilated = extremum(compute, &eroded, element.twice(), Extremum::Maximum, None)?;
+    extremum(compute, &dilated, element, Extremum::Minimum, Some(eroded))
+}
+
+/// Width and height of a tile in pixels, without the margin that the element needs.
+const TILE: (usize, usize) = (192, 96);
+
+/// Numbers per pixel.
+const CHANNELS: usize = 4;
+
+/// The extremum under the element of each pixel and channel, into `result`, which must
+/// have the size of `field`. Pixels outside the picture are ignored.
+///
+/// Works tile by tile and in place: each pixel gathers only from pixels after it, which
+/// have not been overwritten yet.
+pub(super) fn extremum_into(
+    field: &Field<[f32; 4]>,
+    element: StructuringElement,
+    which: Extremum,
+    result: &mut Field<[f32; 4]>,
+) {
+    let width = field.width();
+    let height = field.height();
+    let found = (result.width(), result.height());
+    assert_eq!(found, (width, height), "the result must have the size of the picture");
+    if width == 0 {
+        return;
+    }
+    if element.reach() == 0 {
+        result.values_mut().copy_from_slice(field.values());
+        return;
+    }
+    let tile = Tile::new(element, width.min(TILE.0), height.min(TILE.1));
+    let bands = result.values_mut().par_chunks_mut(width * tile.height).enumerate();
+    bands.for_each_init(Vec::new, |cells, (band, rows)| {
+        for left in (0..width).step_by(tile.width) {
+            tile.load(field, (left, band * tile.height), which, cells);
+            match which {
+                Extremum::Minimum => run::<false>(&tile, cells),
+                Extremum::Maximum => run::<true>(&tile, cells),
+            }
+            tile.store(cells, left, width, rows);
+        }
+    });
+}
+
+/// A tile of the picture with a margin around it, and the gathers that process it.
+struct Tile {
+    width: usize,
+    height: usize,
+    reach: usize,
+    /// Distance from one row to the next, in pixels.
+    stride: usize,
+    /// Index of the cell that holds the first result.
+    first: usize,
+    /// The gathers, in the order in which they are applied.
+    gathers: Vec<Gather>,
+}
+
+/// Replaces each pixel by the extremum of itself and some pixels after it.
+#[derive(Debug, Clone, Copy)]
+struct Gather {
+    /// Offsets of the gathered pixels, rising from 0.
+    offsets: [usize; Self::MAX_COUNT],
+    /// Number of offsets in use.
+    count: usize,
+}
+
+impl Gather {
+    const MAX_COUNT: usize = 5;
+
+    fn new(offsets: &[usize]) -> Self {
+        let mut all = [0; Self::MAX_COUNT];
+        all[..offsets.len()].copy_from_slice(offsets);
+        Self { offsets: all, count: offsets.len() }
+    }
+
+    /// Adds the gathers for a segment of `pixels` pixels, `step` apart: the first gather
+    /// joins up to 5 pixels, each further one up to 5 results of the one before.
+    fn segment(step: usize, pixels: usize, gathers: &mut Vec<Self>) {
+        let mut done = 1;
+        while done < pixels {
+            let next = (done * Self::MAX_COUNT).min(pixels);
+            let count = next.div_ceil(done);
+            let offsets: Vec<usize> =
+                (0..count).map(|i| step * (i * done).min(next - done)).collect();
+            gathers.push(Self::new(&offsets));
+            done = next;
+        }
+    }
+}
+
+impl Tile {
+    fn new(element: StructuringElement, width: usize, height: usize) -> Self {
+        let reach = element.reach() as usize;
+        let stride = width + 2 * reach;
+        let mut gathers = Vec::new();
+        for _ in 0..element.crosses() {
+            gathers.push(Gather::new(&[0, stride - 1, stride, stride + 1, 2 * stride]));
+        }
+        let diagonal = element.diagonal() as usize;
+        let square = element.square() as usize;
+        Gather::segment(stride + 1, 2 * diagonal + 1, &mut gathers);
+        Gather::segment(stride - 1, 2 * diagonal + 1, &mut gathers);
+        Gather::segment(1, 2 * square + 1, &mut gathers);
+        Gather::segment(stride, 2 * square + 1, &mut gathers);
+        Self { width, height, reach, stride, first: reach - square, gathers }
+    }
+
+    /// Copies the part of the picture at `(left, top)` with its margin into `cells`. Cells outside
+    /// the picture get a value that never is the extremum.
+    fn load(
+        &self,
+        field: &Field<[f32; 4]>,
+        (left, top): (usize, usize),
+        which: Extremum,
+        cells: &mut Vec<f32>,
+    ) {
+        let nothing = match which {
+            Extremum::Minimum => f32::INFINITY,
+            Extremum::Maximum => f32::NEG_INFINITY,
+        };
+        let rows = self.height + 2 * self.reach;
+        // SIMD vectors read a little beyond the last row.
+        cells.resize((self.stride * rows + Gather::MAX_COUNT) * CHANNELS, nothing);
+        let from = left.saturating_sub(self.reach);
+        let to = (left + self.width + self.reach).min(field.width());
+        let skipped = (from + self.reach - left) * CHANNELS;
+        for (row, cells) in cells.chunks_mut(self.stride * CHANNELS).take(rows).enumerate() {
+            let inside = (top + row).checked_sub(self.reach).filter(|y| *y < field.height());
+            let Some(y) = inside else {
+                cells.fill(nothing);
+                continue;
+            };
+            let source: &[f32] = bytemuck::cast_slice(field.row(y, from, to - from));
+            cells[..skipped].fill(nothing);
+            cells[skipped..][..source.len()].copy_from_slice(source);
+            cells[skipped + source.len()..].fill(nothing);
+        }
+    }
+
+    /// Copies the results into `rows`, whole rows of `width`, from column `left` on.
+    fn store(&self, cells: &[f32], left: usize, width: usize, rows: &mut [[f32; 4]]) {
+        let count = self.width.min(width - left);
+        for (row, cells) in rows.chunks_mut(width).zip(cells.chunks(self.stride * CHANNELS)) {
+            let found = &cells[self.first * CHANNELS..][..count * CHANNELS];
+            row[left..left + count].copy_from_slice(bytemuck::cast_slice(found));
+        }
+    }
+}
+
+/// Applies all gathers of a tile to its cells.
+fn run<const MAXIMUM: bool>(tile: &Tile, cells: &mut [f32]) {
+    struct Run<'a, const MAXIMUM: bool>(&'a Tile, &'a mut [f32]);
+
+    impl<const MAXIMUM: bool> pulp::WithSimd for Run<'_, MAXIMUM> {
+        type Output = ();
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) {
+            let Self(tile, cells) = self;
+            let mut last = tile.stride * (tile.height + 2 * tile.reach) * CHANNELS;
+            for gather in &tile.gathers {
+                let offsets = gather.offsets.map(|offset| offset * CHANNELS);
+                last -= offsets[gather.count - 1];
+                match gather.count {
+                    2 => gathered::<S, MAXIMUM, 2>(simd, cells, last, offsets),
+                    3 => gathered::<S, MAXIMUM, 3>(simd, cells, last, offsets),
+                    4 => gathered::<S, MAXIMUM, 4>(simd, cells, last, offsets),
+                    _ => gathered::<S, MAXIMUM, 5>(simd, cells, last, offsets),
+                }
+            }
+        }
+    }
+
+    crate::lanes::vectorized(Run::<MAXIMUM>(tile, cells));
+}
+
+/// Applies one gather of `COUNT` pixels to the first `last` numbers.
+#[inline(always)]
+fn gathered<S: Simd, const MAXIMUM: bool, const COUNT: usize>(
+    simd: S,
+    cells: &mut [f32],
+    last: usize,
+    offsets: [usize; Gather::MAX_COUNT],
+) {
+    for at in (0..last).step_by(S::F32_LANES) {
+        let mut found = S::as_simd_f32s(&cells[at..at + S::F32_LANES]).0[0];
+        for offset in &offsets[1..COUNT] {
+            let other = S::as_simd_f32s(&cells[at + offset..][..S::F32_LANES]).0[0];
+            found = match MAXIMUM {
+                true => simd.max_f32s(found, other),
+                false => simd.min_f32s(found, other),
+            };
+        }
+        S::as_mut_simd_f32s(&mut cells[at..at + S::F32_LANES]).0[0] = found;
+    }
 }

@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use super::bands::Sides;
-use super::packed::PackedMesh;
-use super::raster::{RASTER, RasterParams, Rasteriser};
-use super::visibility::{Fragment, VisibilityBuffer};
+use super::raster::{RASTER, RasterParams, Rasteriser, Sides};
+use super::{Fragment, PackedMesh, VisibilityBuffer};
 use crate::camera::Camera;
 use crate::compute::{Compute, GpuCompute, Image, Plane};
 use crate::field::Field;
@@ -25,7 +23,7 @@ impl Model {
     /// Copies a mesh into the memory of `compute`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
     pub fn new(compute: &mut Compute, mesh: PackedMesh) -> Result<Self, DeviceError> {
         match compute {
             Compute::Cpu => Ok(Self::Host(Box::new(HostModel::new(mesh)))),
@@ -33,13 +31,13 @@ impl Model {
         }
     }
 
-    /// The fragment that `camera` sees at the centre of each of `width` x `height` pixels,
-    /// of front and back faces.
+    /// The fragment that `camera` sees at the centre of each of `width` x `height` pixels, of front
+    /// and back faces.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; a device also refuses
-    /// pictures without a pixel, and those larger than it can draw (at least 2048 pixels a
-    /// side, usually 16384). Never on the processor.
+    /// [`DeviceError`] if a device has no memory left or was lost. A device also refuses pictures
+    /// without a pixel, and those larger than it can draw (at least 2048 pixels a side, usually
+    /// 16384). Never on the processor.
     ///
     /// # Panics
     /// If another form of [`Compute`] made the model.

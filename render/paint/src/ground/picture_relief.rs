@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{GroundError, check_range};
 use graphics::field::Field;
-use graphics::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
+use graphics::picture_formats::{CUT_OFF, is_cut_off_jpeg};
 
 /// Relief from a grey picture with 8 or 16 bits, stretched over the canvas. Heights are
 /// proportional to the stored values: black is 0, white is `depth_mm`. Coloured pictures

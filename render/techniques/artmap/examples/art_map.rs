@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     println!("tone      L*  (sample)  coherence  error  floor  contrast  length  border  use");
     let first = Texture::tiled(&map.keys[map.first].tile.color);
-    // Unevenness over more than some strokes is no stroke.
+    // Unevenness over more than some strokes is not a stroke.
     let level = |texture: &Texture| texture.levelled(4.0 * map.spacing);
     for key in &map.keys {
         let sample = samples.samples.iter().find(|sample| sample.name == key.name);

@@ -14,14 +14,12 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
-mod texel;
 pub mod texel_file;
 pub mod sample;
-mod tiling;
+mod relief;
 pub mod measures;
 pub mod passages;
 pub mod painted;
-mod relief;
 pub mod sheet;
 pub mod synthesis;
 pub mod map;

@@ -1,5 +1,6 @@
-//! Relief of paint under a raking light, without its colours.
+//! Relief of paint under a raking light, without its colours, and blur of fields that tile.
 
+use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use rayon::prelude::*;
@@ -14,7 +15,7 @@ const PER_SLOPE: f32 = 2.5;
 /// Linear grey of a level surface.
 const LEVEL: f32 = 0.25;
 
-/// Slopes of a surface to the right and downwards, as rise by run; 0 beyond the passage. Texels
+/// Slopes of a surface to the right and downwards, as rise by run, 0 beyond the passage. Texels
 /// beyond the passage count as high as the passage beside them.
 ///
 /// # Panics
@@ -28,23 +29,27 @@ pub(crate) fn slopes(
     let width = height_mm.width();
     let height = height_mm.height();
     let step = mm_per_texel as f32;
-    let row = |y: usize| {
-        let slopes = move |x: usize| {
-            let slope = |before: (usize, usize), after: (usize, usize)| {
-                let [low, high] = [before, after].map(|at| if mask[at] { at } else { (x, y) });
-                let texels = (high.0 - low.0) + (high.1 - low.1);
-                if texels == 0 {
-                    return 0.0;
-                }
-                (height_mm[high] - height_mm[low]) / (texels as f32 * step)
-            };
-            let across = slope((x.saturating_sub(1), y), ((x + 1).min(width - 1), y));
-            let down = slope((x, y.saturating_sub(1)), (x, (y + 1).min(height - 1)));
-            if mask[(x, y)] { [across, down] } else { [0.0; 2] }
-        };
-        (0..width).map(slopes).collect::<Vec<_>>()
-    };
-    let rows = (0..height).into_par_iter().flat_map_iter(row).collect();
+    let rows = (0..height)
+        .into_par_iter()
+        .flat_map_iter(|y: usize| {
+            (0..width)
+                .map(move |x: usize| {
+                    let slope = |before: (usize, usize), after: (usize, usize)| {
+                        let [low, high] =
+                            [before, after].map(|at| if mask[at] { at } else { (x, y) });
+                        let texels = (high.0 - low.0) + (high.1 - low.1);
+                        if texels == 0 {
+                            return 0.0;
+                        }
+                        (height_mm[high] - height_mm[low]) / (texels as f32 * step)
+                    };
+                    let across = slope((x.saturating_sub(1), y), ((x + 1).min(width - 1), y));
+                    let down = slope((x, y.saturating_sub(1)), (x, (y + 1).min(height - 1)));
+                    if mask[(x, y)] { [across, down] } else { [0.0; 2] }
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect();
     Field::from_values(width, height, rows)
 }
 
@@ -62,8 +67,8 @@ pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 
 }
 
 /// A white surface under one distant light from the upper left, after Lambert: linear grey 0 to 1,
-/// a quarter where the surface is level. `tangent` is that of the light's elevation. Nothing casts
-/// shadows.
+/// a quarter where the surface is level. `tangent` is the tangent of the light's elevation. Nothing
+/// casts shadows.
 pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
     // Half of the light's way along the canvas is from the left, half from above.
     let along = 0.5_f32.sqrt() / tangent;
@@ -77,6 +82,32 @@ pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
         })
         .collect();
     Field::from_values(slopes.width(), slopes.height(), values)
+}
+
+/// Blurs a field that tiles in both directions by a Gaussian of standard deviation `sigma`, in
+/// cells. The cells on opposite borders are neighbours.
+pub(crate) fn blurred_tile(field: &Field<f32>, sigma: f64) -> Field<f32> {
+    let width = field.width();
+    let height = field.height();
+    // The blur repeats the cells at the border. Four deviations keep that out of the tile.
+    let margin = (4.0 * sigma).ceil() as usize;
+    fn wrapped(index: usize, size: usize, margin: usize) -> usize {
+        (index as isize - margin as isize).rem_euclid(size as isize) as usize
+    }
+    let wide = width + 2 * margin;
+    let high = height + 2 * margin;
+    let mut repeated = Vec::with_capacity(wide * high);
+    for y in 0..high {
+        for x in 0..wide {
+            repeated.push([field[(wrapped(x, width, margin), wrapped(y, height, margin))]]);
+        }
+    }
+    let smooth = blurred(&Field::from_values(wide, high, repeated), sigma);
+    let mut values = Vec::with_capacity(width * height);
+    for y in margin..margin + height {
+        values.extend(smooth.row(y, margin, width).iter().map(|[value]| *value));
+    }
+    Field::from_values(width, height, values)
 }
 
 #[cfg(test)]
@@ -119,7 +150,9 @@ mod tests {
 
     #[test]
     fn the_light_is_low_for_flat_paint() {
-        let tangent = |slope: f32| raking_tangent([&plane(slope, slope)].into_iter());
+        fn tangent(slope: f32) -> f32 {
+            raking_tangent([&plane(slope, slope)].into_iter())
+        }
         assert!((tangent(0.1) - 0.25).abs() < 1e-3, "{}", tangent(0.1));
         assert!(tangent(0.05) < tangent(0.2), "{} {}", tangent(0.05), tangent(0.2));
         assert_eq!((tangent(0.0), tangent(9.0)), (TANGENTS[0], TANGENTS[1]));
@@ -134,5 +167,17 @@ mod tests {
         }
         let found = slopes(&heights, &mask, 0.25);
         assert!(found.values().iter().all(|slope| *slope == [0.0; 2]), "{found:?}");
+    }
+
+    #[test]
+    fn a_blur_goes_over_the_border_and_keeps_the_sum() {
+        let mut field = Field::filled(32, 24, 0.0);
+        field[(0, 0)] = 1.0;
+        let smooth = blurred_tile(&field, 3.0);
+        let sum: f32 = smooth.values().iter().sum();
+        assert!((sum - 1.0).abs() < 1e-4, "{sum}");
+        for (a, b) in [((1, 0), (31, 0)), ((0, 2), (0, 22)), ((3, 1), (29, 23))] {
+            assert!((smooth[a] - smooth[b]).abs() < 1e-7 && smooth[a] > 0.0);
+        }
     }
 }

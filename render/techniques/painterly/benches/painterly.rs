@@ -128,7 +128,7 @@ fn camera(mesh: &Mesh, (width, height): (usize, usize)) -> Camera {
     framing.fit(&mesh.positions)
 }
 
-/// A painter whose strokes and outlines are so wide that as many splats are drawn as the row has.
+/// A painter with strokes and outlines so wide that as many splats are drawn as the row has.
 fn painter(row: Row) -> (Painter, Camera) {
     let mesh = row.shape.mesh(20_000);
     let camera = camera(&mesh, row.size);
@@ -243,7 +243,7 @@ fn paint_of_colors(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| paint_layer(&paint.amounts(black_box(&painted), film), 0.25));
 }
 
-/// What the mixtures of a palette cost once.
+/// One-time cost of the mixtures of a palette.
 #[divan::bench(sample_count = 3)]
 fn mixtures(bencher: Bencher<'_, '_>) {
     bencher.bench_local(color_paint);
@@ -256,7 +256,7 @@ fn color_paint() -> ColorPaint {
     ColorPaint::new(library, slots, (&ground, &Lighting::default()), &settings).unwrap()
 }
 
-/// A photograph of one megapixel, from its pixels to the painted picture; the map is laid out each
+/// A photograph of one megapixel, from its pixels to the painted picture. The map is laid out each
 /// time too. Published: nothing.
 #[divan::bench(sample_count = 5)]
 fn photograph(bencher: Bencher<'_, '_>) {
@@ -282,7 +282,7 @@ fn photograph(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// What a model of 20,000 triangles costs once: directions, tones, matched offsets.
+/// One-time cost of a model of 20,000 triangles: directions, tones, matched offsets.
 #[divan::bench(args = ["torus-knot", "still-life"], sample_count = 3)]
 fn model(bencher: Bencher<'_, '_>, shape: &str) {
     let mesh = SampleModel::from_name(shape).unwrap().mesh(20_000);

@@ -33,9 +33,9 @@ pub(super) enum Coordinates {
 /// Kind of subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SubjectKind {
-    /// A model, whose colours are those without light: tones add the light.
+    /// A model. Its colours are without light: tones add the light.
     Model,
-    /// A picture, whose colours have their light already.
+    /// A picture. Its colours have their light already.
     Picture,
 }
 
@@ -84,10 +84,10 @@ impl Coloring {
             let unit = std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
             rgb_from_xyz.apply(unit).map(|value| value as f32)
         });
-        let encoded = |step: usize| {
+        fn encoded(step: usize) -> f32 {
             let value = step as f64 / STEPS as f64;
             Rgb([value; 3]).encoded().0[0] as f32
-        };
+        }
         let mut own = Self {
             coordinates,
             maps: vec![MapColors { mean: Vec3::ZERO, share: Vec3::ONE }; maps.len()],
@@ -104,17 +104,20 @@ impl Coloring {
             let shown: Vec<(Vec3, f64)> =
                 colors.iter().map(|&(color, area)| (own.of_encoded(color), area)).collect();
             let (_, of_model) = moments(&shown);
-            let of_map = |map: &&ArtMap| {
-                let texels = map.keys.iter().flat_map(|key| own.mapped(&key.tile.color));
-                let (mean, of_map) = moments(&texels.map(|color| (color, 1.0)).collect::<Vec<_>>());
-                let chroma = |axis: usize| {
-                    let like_model =
-                        if of_map[axis] > 0.0 { of_model[axis] / of_map[axis] } else { 1.0 };
-                    settings.chroma * (1.0 + settings.statistics * (like_model.min(1.0) - 1.0))
-                };
-                MapColors { mean, share: Vec3::new(settings.lightness, chroma(1), chroma(2)) }
-            };
-            own.maps = maps.iter().map(of_map).collect();
+            own.maps = maps
+                .iter()
+                .map(|map: &&ArtMap| {
+                    let texels = map.keys.iter().flat_map(|key| own.mapped(&key.tile.color));
+                    let (mean, of_map) =
+                        moments(&texels.map(|color| (color, 1.0)).collect::<Vec<_>>());
+                    let chroma = |axis: usize| {
+                        let like_model =
+                            if of_map[axis] > 0.0 { of_model[axis] / of_map[axis] } else { 1.0 };
+                        settings.chroma * (1.0 + settings.statistics * (like_model.min(1.0) - 1.0))
+                    };
+                    MapColors { mean, share: Vec3::new(settings.lightness, chroma(1), chroma(2)) }
+                })
+                .collect();
         }
         own
     }
@@ -151,7 +154,7 @@ impl Coloring {
         lab_of(color).x
     }
 
-    /// What a splat adds where the model is of this encoded sRGB.
+    /// Returns the colour that a splat adds where the model has this encoded sRGB.
     pub(super) fn of_splat(&self, color: Vec3) -> Vec3 {
         if self.of_model { self.of_encoded(color) } else { Vec3::ZERO }
     }
@@ -194,7 +197,7 @@ impl Coloring {
         }
     }
 
-    /// Encoded sRGB of CIELAB, without functions whose last bits differ between machines.
+    /// Encoded sRGB of CIELAB, without functions that differ in their last bits between machines.
     #[inline(always)]
     fn of_lab(&self, lab: Vec3) -> Vec3 {
         let middle = (lab.x + 16.0) / 116.0;
@@ -252,7 +255,7 @@ fn moments(colors: &[(Vec3, f64)]) -> (Vec3, Vec3) {
 mod tests {
     use graphics::encoding::linear_from_lab;
 
-    use super::super::made_up::map;
+    use super::super::test_scenes::map;
     use super::*;
 
     fn settings(space: ColorSpace) -> ColorSettings {

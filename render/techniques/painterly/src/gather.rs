@@ -1,29 +1,30 @@
-//! Pass 2: weighted sums of the strokes at each pixel of a square.
+//! Passes 2 and 3: weighted sums of the strokes at each pixel of a square, and the sums divided by
+//! their weights.
 //!
 //! Weights are Gaussians to a power, so that the strongest stroke of a place shows most. A first
-//! round sums the weights alone; the second looks up the map only where a weight matters.
+//! round sums the weights alone. The second looks up the map only where a weight matters.
 
+use glam::{Vec3, Vec4};
 use graphics::lanes::{greater, lesser};
+use graphics::smoothstep;
 use pulp::Simd;
 
-use super::depths::{bowl, bring_forward, nearness};
-use super::lists::SIDE;
-use super::splat::StrokeSplat;
-use super::square::{Lie, Square, Values};
+use super::coloring::Coloring;
+use super::splats::{Lie, SIDE, Square, StrokeSplat, Values, bowl, bring_forward, nearness};
 use super::tones::Tones;
 
 /// This share of the sum is taken from each weight, and what has no more is left out: a step of 8
 /// bits. So splats come in without a step.
 const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
-/// Factor of weights before they are raised to a power, so that those of a thin cover do not vanish
-/// among the numbers of f32.
+/// Factor of weights before they are raised to a power, so that the weights of a thin cover do not
+/// vanish among the numbers of f32.
 const SCALE: f32 = 8.0;
 
 /// Sums of weights below this are lost.
 pub(super) const LOST: f32 = 1e-30;
 
-/// What the strokes of one surface sum up to at each pixel of a square.
+/// Sums over the strokes of one surface at each pixel of a square.
 #[derive(Debug, Clone)]
 pub(super) struct Sums {
     /// Bytes of the map times 256, by channel, times weights.
@@ -49,7 +50,7 @@ pub(super) struct Gathered {
     raised: Vec<(u32, Values, Values)>,
 }
 
-/// What a square gathers from.
+/// The splats and tones that a square gathers from, and the sums that it gathers into.
 pub(super) struct Gather<'a> {
     pub(super) square: &'a Square,
     /// Indices of splats.
@@ -58,11 +59,11 @@ pub(super) struct Gather<'a> {
     pub(super) tones: &'a Tones,
     /// How often weights are squared.
     pub(super) squarings: u32,
-    /// Weight of the lowest furrow, before it is squared, by that of the highest ridge.
+    /// Weight of the lowest furrow, before it is squared, relative to the highest ridge.
     pub(super) furrow: f32,
     /// Whether splats have colours of their own.
     pub(super) colored: bool,
-    /// Whether the map is looked up; else only the weights of all splats are summed.
+    /// Whether the map is looked up, else only the weights of all splats are summed.
     pub(super) textured: bool,
     pub(super) into: &'a mut Gathered,
 }
@@ -153,7 +154,7 @@ impl pulp::WithSimd for Gather<'_> {
     }
 }
 
-/// Weighs the splats that reach out before the mesh: those of the nearest surface count.
+/// Weighs the splats that reach out before the mesh: the ones of the nearest surface count.
 #[inline(always)]
 fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gathered) {
     let mut nearest = [[f32::INFINITY; SIDE]; SIDE];
@@ -190,7 +191,7 @@ fn sum(
     });
 }
 
-/// What a splat shows at a pixel of a square.
+/// The texel and weight of a splat at a pixel of a square.
 pub(super) struct Part<'a> {
     pub(super) splat: &'a StrokeSplat,
     /// Row and column of the pixel.
@@ -294,4 +295,113 @@ fn times(one: &Values, other: &Values) -> Values {
 #[inline(always)]
 fn any(values: &Values) -> bool {
     values.iter().flatten().fold(0.0, |most, &value| greater(value, most)) > 0.0
+}
+
+/// Cover below which the strokes of the lowest layer thin out.
+pub(super) const THIN: f32 = 1e-3;
+
+/// Sums of weights over which strokes beyond an outline come in, from none to full cover, at the
+/// least overhang. The first falls to 0 at the full overhang.
+const OVERHANG: [f32; 2] = [0.7, 0.9];
+
+/// How much further the highest ridges of a stroke reach beyond an outline than its furrows.
+const BRISTLES: f32 = 1.0;
+
+/// Makes pixels of sums.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Divide<'a> {
+    pub(super) tones: &'a Tones,
+    pub(super) coloring: &'a Coloring,
+    /// How far strokes reach beyond outlines, 0 to 1.
+    pub(super) overhang: f32,
+    /// Cover around which strokes on the mesh end, above 0, up to [`THIN`] for the lowest layer.
+    pub(super) thin: f32,
+}
+
+impl Divide<'_> {
+    /// The pixel of a square: encoded sRGB with cover, and height. `covered` says whether the mesh
+    /// is seen there: then it is never bare where any stroke reaches.
+    #[inline(always)]
+    pub(super) fn pixel(
+        &self,
+        gathered: &Gathered,
+        covered: bool,
+        (row, column): (usize, usize),
+    ) -> ([f32; 4], f32) {
+        let [over, rest] = self.shares(gathered, covered, (row, column));
+        let on = self.surface(&gathered.on, row, column);
+        if over <= 0.0 {
+            return ([on.x, on.y, on.z, rest], on.w * rest);
+        }
+        let before = self.surface(&gathered.before, row, column);
+        let cover = over + rest;
+        let mixed = (before * over + on * rest) / cover;
+        ([mixed.x, mixed.y, mixed.z, cover], before.w * over + on.w * rest)
+    }
+
+    /// Shares of a pixel that show strokes before the mesh, and strokes on it.
+    #[inline(always)]
+    pub(super) fn shares(
+        &self,
+        gathered: &Gathered,
+        covered: bool,
+        (row, column): (usize, usize),
+    ) -> [f32; 2] {
+        #[inline(always)]
+        fn cover(sums: &Sums, column: usize, row: usize) -> f32 {
+            match sums.weight[row][column] > LOST {
+                true => sums.cover[row][column],
+                false => 0.0,
+            }
+        }
+        let under = match self.lowest() {
+            true => (cover(&gathered.on, column, row) * (1.0 / THIN)).min(1.0),
+            // Ridges of strokes on others reach further than furrows too.
+            false => {
+                let ridge = self.ridge(&gathered.on, row, column) - 0.5;
+                let on = cover(&gathered.on, column, row) * (1.0 + BRISTLES * ridge);
+                smoothstep([0.5 * self.thin, 1.5 * self.thin], on)
+            }
+        };
+        let out = cover(&gathered.before, column, row);
+        let over = if self.overhang > 0.0 && out > 0.0 {
+            // The ridges of a stroke reach further than its furrows.
+            let out = out * (1.0 + BRISTLES * (self.ridge(&gathered.before, row, column) - 0.5));
+            let start = OVERHANG[0] * (1.0 - self.overhang);
+            smoothstep([start, start + OVERHANG[1] - OVERHANG[0]], out)
+        } else {
+            0.0
+        };
+        let bare =
+            if covered && self.lowest() && out > 0.0 { (1.0 - over) * (1.0 - under) } else { 0.0 };
+        let over = over + bare;
+        if over <= 0.0 { [0.0, under] } else { [over, (1.0 - over) * under] }
+    }
+
+    /// Whether nothing lies below these strokes.
+    #[inline(always)]
+    fn lowest(&self) -> bool {
+        self.thin <= THIN
+    }
+
+    /// How high the brushwork stands, 0 to 1 of the map's heights, its lightness in maps without.
+    #[inline(always)]
+    fn ridge(&self, sums: &Sums, row: usize, column: usize) -> f32 {
+        let channel = if self.tones.step[3] > 0.0 { 3 } else { 0 };
+        let weight = sums.weight[row][column];
+        if weight > LOST { sums.bytes[row][column][channel] / (65_280.0 * weight) } else { 0.0 }
+    }
+
+    /// Encoded sRGB and height of one surface, zeros where it has no stroke.
+    #[inline(always)]
+    fn surface(&self, sums: &Sums, row: usize, column: usize) -> Vec4 {
+        let weight = sums.weight[row][column];
+        if weight <= LOST {
+            return Vec4::ZERO;
+        }
+        let bytes = sums.bytes[row][column].map(|sum| sum * (1.0 / (256.0 * weight)));
+        let [x, y, z, height] = self.tones.values(bytes);
+        let color = Vec3::new(x, y, z) + Vec3::from(sums.color[row][column]) / weight;
+        self.coloring.shown(color).extend(height)
+    }
 }

@@ -1,12 +1,14 @@
-//! The paint of maps laid out for painting: a slice for each tone, packed, at several sizes.
+//! The paint of one or several maps in common slots, laid out for painting: a packed slice for each
+//! tone, at several sizes, and a layer of paint made of amounts in mm.
 
 use artmap::map::{ArtMap, Between};
 use artmap::sample::{PaintOfSamples, TexelPaint};
+use documents::hint::Explain;
 use graphics::field::Field;
-use paint::layer::SLOTS;
+use paint::amount::quanta_from_mm;
+use paint::layer::{Layer, SLOTS};
 use rayon::prelude::*;
 
-use super::joined_paint::{PaintOfMapsError, joined};
 use super::tones::{LEAST_SIZE, tone_tiles};
 
 /// Pigments by slot, then vehicle, in mm.
@@ -22,7 +24,7 @@ const GROUPS: usize = (SLOTS + 1).div_ceil(LANES);
 pub(super) type PackedSums = [[f32; LANES]; GROUPS];
 
 /// Paint of all tones of some maps, in the order and sizes of `Tones`. Only what some texel has is
-/// stored, in 65,535 steps: the mean of many texels is that of their amounts.
+/// stored, in 65,535 steps: the mean of many texels is the mean of their amounts.
 #[derive(Debug, Clone)]
 pub(super) struct PaintTones {
     pub(super) of: PaintOfSamples,
@@ -46,10 +48,10 @@ struct Packed {
 }
 
 impl PaintTones {
-    /// Lays out the paint of maps; `None` if one of them has none.
+    /// Lays out the paint of maps, `None` if one of them has none.
     ///
     /// # Errors
-    /// [`PaintOfMapsError`] for maps whose pigments are not of one library, or more than eight.
+    /// [`PaintOfMapsError`] for maps with pigments of several libraries, or with more than eight.
     pub(super) fn new(
         maps: &[&ArtMap],
         between: Between,
@@ -176,15 +178,74 @@ fn halved(paint: &Field<Amounts>) -> Field<Amounts> {
     )
 }
 
+/// The pigments of all maps in common slots, and the common slot of each slot of each map.
+pub(super) fn joined(
+    paints: &[&PaintOfSamples],
+) -> Result<(PaintOfSamples, Vec<[usize; SLOTS]>), PaintOfMapsError> {
+    let library = &paints[0].library;
+    let mut slots = paints[0].slots;
+    let mut moves = Vec::new();
+    for paint in paints {
+        if paint.library != *library {
+            return Err(PaintOfMapsError::Libraries);
+        }
+        let mut of: [usize; SLOTS] = std::array::from_fn(|slot| slot);
+        for (slot, pigment) in paint.slots.iter().enumerate() {
+            let Some(pigment) = pigment else { continue };
+            let found = slots.iter().position(|own| own.as_ref() == Some(pigment));
+            of[slot] = found
+                .or_else(|| slots.iter().position(Option::is_none))
+                .ok_or(PaintOfMapsError::Pigments)?;
+            slots[of[slot]] = Some(*pigment);
+        }
+        moves.push(of);
+    }
+    Ok((PaintOfSamples { library: library.clone(), slots }, moves))
+}
+
+/// Why maps cannot make one painting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
+pub enum PaintOfMapsError {
+    /// Pigments are of several libraries.
+    #[error("the maps have pigments of different libraries")]
+    #[hint("make all maps of samples with the same pigment library")]
+    Libraries,
+    /// There are too many pigments.
+    #[error("the maps have more than {SLOTS} pigments together")]
+    #[hint("make all maps of samples with the same pigments")]
+    Pigments,
+}
+
+/// Cells that share the work of one thread at least.
+const CELLS: usize = 4096;
+
+/// The layer with the amounts of each cell, rounded to whole quanta. Cells are `cell_mm` wide.
+#[must_use]
+pub fn paint_layer(amounts: &Field<Amounts>, cell_mm: f64) -> Layer {
+    let width = amounts.width();
+    let height = amounts.height();
+    let mut layer = Layer::empty(width, height);
+    let cells = layer.pigments.values_mut().par_iter_mut().zip(layer.vehicle.values_mut());
+    let laid = cells.zip(amounts.values()).with_min_len(CELLS);
+    laid.for_each(|((pigments, vehicle), amounts)| {
+        // Most slots of most cells are empty.
+        fn quanta(mm: f32, cell_mm: f64) -> u32 {
+            if mm > 0.0 { quanta_from_mm(f64::from(mm), cell_mm) } else { 0 }
+        }
+        *pigments = std::array::from_fn(|slot| quanta(amounts[slot], cell_mm));
+        *vehicle = quanta(amounts[SLOTS], cell_mm);
+    });
+    layer
+}
+
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use paint::layer::Slots;
-    use pigment::PigmentLibrary;
-
-    use super::super::made_up::{SIZE, map};
+    use super::super::test_scenes::{SIZE, map};
     use super::*;
+    use paint::amount::mm_from_quanta;
+    use paint::layer::{Cell, Slots};
+    use pigment::{PigmentId, PigmentLibrary};
+    use std::sync::Arc;
 
     /// Slots of a map alone.
     const SAME: [usize; SLOTS] = [0, 1, 2, 3, 4, 5, 6, 7];
@@ -241,14 +302,15 @@ mod tests {
     fn paint_between_texels_is_their_mean_and_repeats() {
         let map = painted_map();
         let tones = PaintTones::new(&[&map], Between::Dissolve).unwrap().unwrap();
-        let at = |place: [usize; 2], share: [u32; 2]| {
+        fn at(place: [usize; 2], share: [u32; 2], tones: &PaintTones) -> [f32; 9] {
             let mut sums = PackedSums::default();
             tones.add(&mut sums, (0, 0), place, share, 1.0);
             tones.amounts(&sums, 1.0)
-        };
+        }
         let last = SIZE - 1;
-        let corners = [[last, last], [0, last], [last, 0], [0, 0]].map(|place| at(place, [0, 0]));
-        let between = at([last, last], [64, 192]);
+        let corners =
+            [[last, last], [0, last], [last, 0], [0, 0]].map(|place| at(place, [0, 0], &tones));
+        let between = at([last, last], [64, 192], &tones);
         let paint = map.keys[0].tile.paint.as_ref().unwrap();
         for channel in [1, 3, 5, 7, 8] {
             let shares = [0.75 * 0.25, 0.25 * 0.25, 0.75 * 0.75, 0.25 * 0.75];
@@ -259,5 +321,56 @@ mod tests {
             assert!((corners[3][channel] - texel).abs() <= 0.51 * tones.step[channel]);
         }
         assert!(between[0] == 0.0 && between[1] > 0.0);
+    }
+
+    fn paint(pigments: &[usize]) -> PaintOfSamples {
+        let mut slots = Slots::default();
+        for (slot, pigment) in slots.iter_mut().zip(pigments) {
+            *slot = Some(PigmentId(*pigment));
+        }
+        PaintOfSamples { library: Arc::new(PigmentLibrary::van_gogh_oils()), slots }
+    }
+
+    #[test]
+    fn pigments_of_several_maps_share_slots() {
+        let maps = [paint(&[4, 2]), paint(&[2, 7, 4])];
+        let (of, moves) = joined(&[&maps[0], &maps[1]]).unwrap();
+        assert_eq!(of.slots, paint(&[4, 2, 7]).slots);
+        assert_eq!((&moves[0][..2], &moves[1][..3]), (&[0, 1][..], &[1, 2, 0][..]));
+    }
+
+    #[test]
+    fn more_than_eight_pigments_and_other_libraries_are_refused() {
+        let many = paint(&[0, 1, 2, 3, 4]);
+        let more = paint(&[5, 6, 7, 8]);
+        assert_eq!(joined(&[&many, &more]).unwrap_err(), PaintOfMapsError::Pigments);
+        let mut other = PigmentLibrary::van_gogh_oils();
+        other.title = "another".into();
+        let other = PaintOfSamples { library: Arc::new(other), ..paint(&[0]) };
+        let error = joined(&[&many, &other]).unwrap_err();
+        assert!(error == PaintOfMapsError::Libraries && error.hint().is_some());
+    }
+
+    #[test]
+    fn cells_have_the_nearest_whole_quanta_of_their_amounts() {
+        let amounts = Field::from_values(
+            7,
+            3,
+            (0..21)
+                .map(|at: usize| std::array::from_fn(|slot| 0.001 * (at * slot) as f32 - 0.002))
+                .collect(),
+        );
+        let layer = paint_layer(&amounts, 0.2);
+        for (index, amounts) in amounts.values().iter().enumerate() {
+            let Cell { pigments, vehicle } = layer.cell(index);
+            let all = pigments.into_iter().chain([vehicle]).zip(amounts);
+            for (quanta, mm) in all {
+                let found = mm_from_quanta(quanta, 0.2);
+                let wanted = f64::from(mm.max(0.0));
+                let half = 0.5001 * mm_from_quanta(1, 0.2);
+                assert!((found - wanted).abs() <= half, "{found} {wanted}");
+            }
+        }
+        assert!(layer.cell(20).vehicle > 0 && layer.cell(20).pigments[7] > 0);
     }
 }

@@ -1,8 +1,11 @@
-//! Strokes and pictures of a subject from any camera, layer by layer.
+//! The painter: strokes and pictures of a subject from any camera, layer by layer, one layer over
+//! the other. With the maps and regions of a subject, the ground of its paintings, and the reasons
+//! why it cannot be painted.
 
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
+use documents::hint::Explain;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
@@ -10,33 +13,29 @@ use graphics::compute::{Compute, GreyImage};
 use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
+use graphics::mesh::{DirectionFault, MeshFault};
 use graphics::surface::Model;
 use paint::document::Slots;
+use paint::ground::{Ground, GroundError, GroundSpec};
 use pigment::PigmentLibrary;
+use rayon::prelude::*;
 
-use super::built_ground::BuiltGround;
-use super::color_paint::FilmHeight;
-use super::composed::over;
-use super::device_tones::ToneMemory;
-use super::divided::{Divide, THIN};
-use super::error::PainterError;
-use super::flow::phase;
-use super::joined_paint::PaintOfMapsError;
-use super::offsets::Matching;
-use super::paint_tones::PaintTones;
+use super::color_paint::{ColorPaintError, FilmHeight};
+use super::gather::{Divide, THIN};
+use super::paint_tones::{PaintOfMapsError, PaintTones};
 use super::passes::{PaintedPicture, painted};
-use super::roots::Roots;
-use super::settings::{LightWith, Offsets, OverlapSettings, Settings};
-use super::silhouette::outlines;
-use super::splat::StrokeSplat;
-use super::strokes::{Sight, ranks, splats};
-use super::subject::Subject;
-use super::tones::Tones;
+use super::places::Subject;
+use super::regions::{Regions, RegionsError};
+use super::roots::{Matching, Roots};
+use super::settings::{LightWith, Offsets, OverlapSettings, Settings, SettingsError};
+use super::splats::StrokeSplat;
+use super::strokes::{Sight, outlines, phase, ranks, splats};
+use super::tones::{ToneMemory, Tones};
 
 /// Cover around which the strokes of upper layers end.
 const THIN_ABOVE: f32 = 0.7;
 
-/// Distance of strokes in mm where a map does not tell it: that of a small flat brush.
+/// Distance of strokes in mm where a map does not give it: the distance of a small flat brush.
 const STROKE_MM: f64 = 3.0;
 
 /// Most pixels of a picture.
@@ -55,11 +54,12 @@ pub struct Painter {
     layers: Vec<Layered>,
     tones: Tones,
     settings: Settings,
-    /// The paint of the maps, if they have any; maps whose paint cannot be joined still have colours.
+    /// The paint of the maps, if they have any. Maps that cannot be joined in paint still have
+    /// colours.
     paint: Result<Option<PaintTones>, PaintOfMapsError>,
     /// Films of the subject's own colours.
     film: FilmHeight,
-    /// Pigments for them, if not those of the maps' library.
+    /// Pigments for them, if not from the maps' library.
     pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
     /// The ground of the last painting.
     pub(super) ground: Option<BuiltGround>,
@@ -90,10 +90,13 @@ impl Painter {
         if hierarchy.faces() == 0 {
             return Err(PainterError::NoArea);
         }
-        let first = |(number, map): (usize, &&ArtMap)| {
-            tones.nearest(number, map.keys[map.first.min(map.keys.len() - 1)].tone as f32)
-        };
-        let slices: Vec<usize> = maps.iter().enumerate().map(first).collect();
+        let slices: Vec<usize> = maps
+            .iter()
+            .enumerate()
+            .map(|(number, map): (usize, &&ArtMap)| {
+                tones.nearest(number, map.keys[map.first.min(map.keys.len() - 1)].tone as f32)
+            })
+            .collect();
         let mut strokes = 0;
         let mut continued = 0.0;
         let mut layers = Vec::new();
@@ -128,7 +131,7 @@ impl Painter {
         })
     }
 
-    /// Makes pictures on another device. They agree with those of the processor to rounding; strokes,
+    /// Makes pictures on another device. They agree with the processor's to rounding. Strokes,
     /// stages and paintings are the same to the bit.
     ///
     /// # Errors
@@ -140,12 +143,12 @@ impl Painter {
         Ok(self)
     }
 
-    /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds. The
-    /// same input gives the same bits on any number of threads.
+    /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds.
+    /// The same input gives the same bits on any number of threads.
     ///
     /// # Errors
     /// [`PainterError::Size`] for a picture without pixels or with more than 2^28,
-    /// [`PainterError::Time`] for a time that is no number.
+    /// [`PainterError::Time`] for a time that is not a number.
     pub fn paint(
         &mut self,
         camera: &Camera,
@@ -182,11 +185,11 @@ impl Painter {
         Ok(whole.unwrap_or_else(|| PaintedPicture::bare(size)))
     }
 
-    /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
-    /// the lowest first.
+    /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each
+    /// layer, the lowest first.
     ///
     /// # Errors
-    /// Those of [`Self::paint`].
+    /// As [`Self::paint`].
     pub fn splats(
         &mut self,
         camera: &Camera,
@@ -255,7 +258,8 @@ impl Painter {
         divide(&self.tones, &self.layers[layer], layer, &self.settings.overlap)
     }
 
-    /// Distance of the middle of the subject in front of the eye, at least that of the near plane.
+    /// Distance of the middle of the subject in front of the eye, at least the near plane's
+    /// distance.
     fn distance(&self, camera: &Camera) -> f32 {
         let [low, high] = self.bounds;
         let [_, _, back] = camera.axes();
@@ -278,21 +282,21 @@ impl Painter {
         &self.settings
     }
 
-    /// Share of strokes that continue a neighbour, 0 to 1; 0 with random offsets.
+    /// Share of strokes that continue a neighbour, 0 to 1, 0 with random offsets.
     #[must_use]
     pub fn matched(&self) -> f64 {
         self.matched
     }
 
-    /// Takes pigments for the colours of the subject from this library, instead of that of the maps:
-    /// those of a palette, or up to eight that suit the picture.
+    /// Takes pigments for the colours of the subject from this library instead of the maps'
+    /// library: the pigments of a palette, or up to eight that suit the picture.
     pub fn set_pigments(&mut self, library: Arc<PigmentLibrary>, palette: Option<Slots>) {
         self.pigments = Some((library, palette));
         self.ground = None;
     }
 
-    /// The library of pigments for the colours of the subject: the one that was set, that of the
-    /// maps, or the Van Gogh oils; and the palette, if one was set.
+    /// The library of pigments for the colours of the subject: the one that was set, the maps' own,
+    /// or the Van Gogh oils, and the palette, if one was set.
     pub(super) fn pigments(&self) -> (Arc<PigmentLibrary>, Option<Slots>) {
         self.pigments
             .clone()
@@ -356,4 +360,304 @@ fn kept(
         Some(starts)
     });
     (roots, matched)
+}
+
+#[cfg(test)]
+mod exact_tests {
+    //! Pictures of paintings, made from eight wavelengths, against exact spectra of the same amounts.
+
+    use std::sync::Arc;
+
+    use artmap::map::ArtMap;
+    use artmap::sample::{PaintOfSamples, TexelPaint};
+    use graphics::camera::Framing;
+    use graphics::field::Field;
+    use graphics::mesh::Mesh;
+    use paint::document::{Document, Lighting};
+    use paint::ground::GroundKind;
+    use paint::layer::SLOTS;
+    use paint::light::Light;
+    use paint::palette::palette_slots;
+    use paint::scene::{SpectralDocument, picture, scene};
+    use pigment::PigmentLibrary;
+    use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_ciede2000};
+
+    use crate::painter::Painter;
+    use crate::settings::Settings;
+    use crate::test_scenes::map;
+
+    /// The made-up map in paint: each tone another mixture of ochre, blue and white, in furrows with
+    /// more blue than on ridges.
+    fn painted_map() -> ArtMap {
+        let mut map = map(4);
+        let library = PigmentLibrary::van_gogh_oils();
+        let names = ["Lead White", "Chrome Yellow", "Ultramarine", "Vermilion", "Viridian"];
+        let slots = palette_slots(&names.map(str::to_owned), &library).unwrap();
+        for (tone, key) in map.keys.iter_mut().enumerate() {
+            let heights = key.tile.height_mm.as_ref().unwrap();
+            let texels = heights
+                .values()
+                .iter()
+                .map(|mm: &f32| {
+                    let share = (mm / 0.2).clamp(0.0, 1.0);
+                    let tone = tone as f32 / 3.0;
+                    let mut pigments_mm = [0.0; SLOTS];
+                    let parts =
+                        [0.1 + tone, share, 0.3 * (1.0 - share), 0.4 - 0.3 * tone, 0.2 * tone];
+                    pigments_mm
+                        .iter_mut()
+                        .zip(parts)
+                        .for_each(|(own, part)| *own = part * (0.01 + mm));
+                    TexelPaint { pigments_mm, vehicle_mm: 0.01 }
+                })
+                .collect();
+            key.tile.paint = Some(Field::from_values(heights.width(), heights.height(), texels));
+        }
+        map.paint = Some(PaintOfSamples { library: Arc::new(library), slots });
+        map.mm_per_texel = Some(0.25);
+        map
+    }
+
+    /// CIEDE2000 of the picture of a document without relief against its exact spectra, by cell.
+    fn differences(document: &Document) -> Vec<f64> {
+        let light = Light::named(&document.library, "D65", "1931-2").unwrap();
+        let seen = picture(document, &scene(document, &light));
+        let spectral = SpectralDocument::full(document);
+        let weights = light.viewing.weights(document.library.grid).unwrap();
+        fn lab(rgb: [f64; 3]) -> Lab {
+            let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb);
+            Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
+        }
+        (0..seen.values().len())
+            .map(|index: usize| {
+                let x = index % seen.width();
+                let y = index / seen.width();
+                let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
+                let white = light.quadrature.rule.white;
+                let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
+                let [r, g, b, _] = seen[(x, y)].map(f64::from);
+                delta_e_ciede2000(lab(exact), lab([r, g, b]))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn pictures_of_paintings_are_those_of_exact_spectra() {
+        let mesh = Mesh::torus_knot(4000);
+        let camera = Framing::default().fit(&mesh.positions);
+        let settings = Settings::default().changed("test", "colour.from = \"map\"").unwrap();
+        let mut painter = Painter::of_model(&mesh, &painted_map(), &settings).unwrap();
+        let ground = GroundKind::Panel.spec(1);
+        let document = painter.painting(&camera, (96, 72), 0.0, ("knot", &ground)).unwrap();
+        let level = Lighting { relief: 0.0, ..Lighting::default() };
+        let document = Document { lighting: level, ..document };
+        let differences = differences(&document);
+        let layer = &document.dry[0].paint;
+        let painted: Vec<f64> = differences
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| layer.cell(*index).volume() > 0)
+            .map(|(_, difference)| *difference)
+            .collect();
+        let mean = painted.iter().sum::<f64>() / painted.len() as f64;
+        let most = painted.iter().fold(0.0_f64, |most, off| most.max(*off));
+        assert!(painted.len() > 1000 && mean <= 0.3, "{mean} over {} cells", painted.len());
+        assert!(most > 0.0, "nothing was compared");
+    }
+}
+
+/// Paints one layer over another of the same size. Heights add up, as a dry layer lies on the one
+/// below.
+pub(super) fn over(mut lower: PaintedPicture, upper: &PaintedPicture) -> PaintedPicture {
+    let colors = lower.color.values_mut().par_iter_mut().zip(upper.color.values());
+    colors.for_each(|(lower, upper)| {
+        let share = upper[3];
+        let rest = lower[3] * (1.0 - upper[3]);
+        let cover = share + rest;
+        if share > 0.0 {
+            for channel in 0..3 {
+                lower[channel] = (upper[channel] * share + lower[channel] * rest) / cover;
+            }
+            lower[3] = cover;
+        }
+    });
+    add(&mut lower.height_mm, &upper.height_mm);
+    lower
+}
+
+fn add(lower: &mut Field<f32>, upper: &Field<f32>) {
+    lower.values_mut().iter_mut().zip(upper.values()).for_each(|(lower, upper)| *lower += upper);
+}
+
+/// A ground, and what it was built from but for the library.
+#[derive(Debug)]
+pub(super) struct BuiltGround {
+    spec: GroundSpec,
+    size: (usize, usize),
+    cell_mm: f64,
+    ground: Ground,
+}
+
+impl BuiltGround {
+    /// The ground of a painting of this size and width of cells. It is kept for the next one.
+    pub(super) fn kept(
+        kept: &mut Option<Self>,
+        spec: &GroundSpec,
+        (size, cell_mm): ((usize, usize), f64),
+        library: &PigmentLibrary,
+    ) -> Result<Ground, GroundError> {
+        if let Some(own) = kept
+            .as_ref()
+            .filter(|own: &&Self| own.spec == *spec && own.size == size && own.cell_mm == cell_mm)
+        {
+            return Ok(own.ground.clone());
+        }
+        let ground = spec.build(size.0, size.1, cell_mm, library)?;
+        *kept = Some(Self { spec: spec.clone(), size, cell_mm, ground: ground.clone() });
+        Ok(ground)
+    }
+}
+
+/// A model or a picture cannot be painted.
+#[derive(Debug, thiserror::Error, Explain)]
+#[fault(Setting)]
+pub enum PainterError {
+    /// A setting is out of its range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The mesh cannot be drawn.
+    #[error(transparent)]
+    Mesh(#[from] MeshFault),
+    /// Directions cannot be found.
+    #[error(transparent)]
+    Directions(#[from] DirectionFault),
+    /// The mesh cannot be held in memory.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// Regions do not fit the subject.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+    /// The paint of several maps cannot be joined.
+    #[error(transparent)]
+    Maps(#[from] PaintOfMapsError),
+    /// No triangle of the mesh has an area.
+    #[error("no triangle of the mesh has an area")]
+    #[hint("the model is a line or a point: export it again")]
+    #[fault(Input)]
+    NoArea,
+    /// The map has no tile.
+    #[error("the art map has no tile")]
+    #[hint("build the map again from at least one sample")]
+    #[fault(Input)]
+    NoTile,
+    /// The map has no pigments, or the width of its texels is unknown.
+    #[error("the art map has colours only")]
+    #[hint("build a map of samples from an impasto painting or a painted style")]
+    #[fault(Input)]
+    NoPaint,
+    /// The colours of the subject cannot be painted.
+    #[error(transparent)]
+    Colors(#[from] ColorPaintError),
+    /// The ground cannot be made.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+    /// The picture has no pixel, or too many.
+    #[error("a picture of {width} x {height} pixels cannot be painted")]
+    #[hint("pictures have 1 to 268435456 pixels")]
+    Size {
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+    },
+    /// The time is not a number.
+    #[error("the time is `{seconds}` seconds")]
+    #[hint("times are seconds from the start, for example 0.5")]
+    Time {
+        /// The time asked for.
+        seconds: f64,
+    },
+    /// The camera looks nowhere.
+    #[error("the camera at {eye} looks at {target}, with {up} upwards")]
+    #[hint("place the eye away from its target, and let upwards point elsewhere than there")]
+    Camera {
+        /// Its eye.
+        eye: Vec3,
+        /// Where it looks.
+        target: Vec3,
+        /// Its upwards direction.
+        up: Vec3,
+    },
+}
+
+/// Maps with their names, and the regions that are painted with one or another.
+#[derive(Debug, Clone)]
+pub struct Brushwork<'a> {
+    /// At least one. The first is for everything that no region covers.
+    pub maps: Vec<(&'a str, &'a ArtMap)>,
+    /// Regions, which call maps by their names.
+    pub regions: Regions,
+}
+
+impl<'a> Brushwork<'a> {
+    /// One map everywhere.
+    #[must_use]
+    pub fn of(map: &'a ArtMap) -> Self {
+        Self { maps: vec![("", map)], regions: Regions::default() }
+    }
+
+    /// Checks that there is a map, and that each has a tile.
+    pub(super) fn check(&self) -> Result<(), PainterError> {
+        match self.maps.is_empty()
+            || self.maps.iter().any(|(_, map)| map.keys.is_empty() || map.size() == 0)
+        {
+            true => Err(PainterError::NoTile),
+            false => Ok(()),
+        }
+    }
+
+    pub(super) fn names(&self) -> Vec<&'a str> {
+        self.maps.iter().map(|(name, _)| *name).collect()
+    }
+
+    pub(super) fn art_maps(&self) -> Vec<&'a ArtMap> {
+        self.maps.iter().map(|(_, map)| *map).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paint::ground::GroundKind;
+
+    #[test]
+    fn a_layer_covers_what_lies_below_by_its_share() {
+        let one = |color: [f32; 4], height| PaintedPicture {
+            color: Field::filled(1, 1, color),
+            height_mm: Field::filled(1, 1, height),
+        };
+        let lower = one([0.2, 0.4, 0.6, 1.0], 0.1);
+        let half = over(lower.clone(), &one([1.0, 0.0, 0.0, 0.5], 0.2));
+        assert_eq!(half.color.values()[0], [0.6, 0.2, 0.3, 1.0]);
+        assert!((half.height_mm.values()[0] - 0.3).abs() < 1e-6);
+        assert_eq!(over(lower.clone(), &one([0.9; 4].map(|_| 0.0), 0.0)), lower);
+        let beyond = over(one([0.0; 4], 0.0), &one([0.3, 0.5, 0.7, 0.4], 0.2));
+        assert_eq!(beyond.color.values()[0], [0.3, 0.5, 0.7, 0.4]);
+    }
+
+    #[test]
+    fn another_ground_or_size_is_built_anew() {
+        let library = PigmentLibrary::van_gogh_oils();
+        let mut kept = None;
+        let mut built = |kind: GroundKind, size: (usize, usize), cell_mm: f64| {
+            let spec = kind.spec(1);
+            let found = BuiltGround::kept(&mut kept, &spec, (size, cell_mm), &library).unwrap();
+            assert_eq!(found, spec.build(size.0, size.1, cell_mm, &library).unwrap());
+        };
+        for size in [(12, 9), (12, 9), (9, 12)] {
+            built(GroundKind::Linen, size, 0.2);
+        }
+        built(GroundKind::Panel, (9, 12), 0.2);
+        built(GroundKind::Panel, (9, 12), 0.3);
+    }
 }

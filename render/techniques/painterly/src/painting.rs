@@ -1,19 +1,23 @@
-//! Paintings with pigments: a dry layer for each layer of strokes.
+//! Paintings with pigments (a dry layer for each layer of strokes), pictures of the steps to them,
+//! and frames for compositing: OpenEXR with cover, depth, height and direction.
 
 use artmap::sample::PaintOfSamples;
+use documents::hint::Explain;
+use glam::{Vec2, Vec3};
 use graphics::camera::Camera;
+use graphics::coherence::Projection;
+use graphics::compute::GreyImage;
+use graphics::encoding::linear_from_encoded;
+use graphics::export::{ExportError, float_exr};
 use graphics::field::Field;
 use paint::document::{Document, Lighting, Medium};
 use paint::ground::GroundSpec;
 
-use super::amounts::amounts;
-use super::built_ground::BuiltGround;
 use super::color_paint::{ColorPaint, ColorPaintSettings};
-use super::composed::over;
-use super::error::PainterError;
-use super::paint_layer::paint_layer;
-use super::paint_tones::Amounts;
-use super::painter::Painter;
+use super::paint_tones::{Amounts, paint_layer};
+use super::painter::{BuiltGround, Painter, PainterError, over};
+use super::passes::amounts;
+use super::splats::{Lists, SIDE, StrokeSplat};
 
 /// Amounts of all layers, and what they are amounts of.
 struct Mixed {
@@ -22,22 +26,22 @@ struct Mixed {
 }
 
 impl Painter {
-    /// Paints the subject as [`Self::paint`] does, with pigments: a painting with a dry layer for each
-    /// layer of strokes, a cell for each pixel.
+    /// Paints the subject as [`Self::paint`] does, with pigments: a painting with a dry layer for
+    /// each layer of strokes, a cell for each pixel.
     ///
-    /// Where colours are the maps', amounts are the weighted means of the amounts that strokes show,
-    /// so strokes that overlap do not pile up within a layer. Where they are the subject's, each cell
-    /// is a film of the mixture that shows its colour, as high as the brushwork: of up to eight
-    /// pigments of the library ([`Self::set_pigments`]) that suit the picture.
+    /// Where colours are the maps', amounts are the weighted means of the amounts that strokes
+    /// show, so strokes that overlap do not pile up within a layer. Where they are the subject's,
+    /// each cell is a film of the mixture that shows its colour, as high as the brushwork: of up to
+    /// eight pigments of the library ([`Self::set_pigments`]) that suit the picture.
     ///
     /// Cells are as wide as the first map's strokes demand: `strokes.width_px` of them to the
-    /// distance of its strokes in mm (3 mm where the map does not tell).
+    /// distance of its strokes in mm (3 mm where the map does not give it).
     ///
     /// # Errors
-    /// Those of [`Self::paint`]; [`PainterError::NoPaint`] for the colours of maps without pigments,
-    /// [`PainterError::Maps`] for those of maps whose pigments do not go together,
-    /// [`PainterError::Colors`] for a library that cannot paint colours,
-    /// [`PainterError::Ground`] for a ground that cannot be made.
+    /// As [`Self::paint`], and [`PainterError::NoPaint`] for the colours of maps without pigments,
+    /// [`PainterError::Maps`] for maps with pigments that do not go together,
+    /// [`PainterError::Colors`] for a library that cannot paint colours, [`PainterError::Ground`]
+    /// for a ground that cannot be made.
     pub fn painting(
         &mut self,
         camera: &Camera,
@@ -103,5 +107,248 @@ impl Painter {
         let paint = ColorPaint::new(library.clone(), slots, under, &settings)?;
         let layers = layers.iter().map(|layer| paint.amounts(layer, self.film())).collect();
         Ok(Mixed { of: PaintOfSamples { library, slots }, layers })
+    }
+}
+
+/// Depths of the subject are shown from this grey (far) to white (near).
+const FAR: f32 = 0.15;
+
+/// A picture of a step, encoded sRGB with cover.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// Its content, in lower case with hyphens.
+    pub name: String,
+    /// The picture.
+    pub picture: Field<[f32; 4]>,
+}
+
+impl Painter {
+    /// The steps to the picture that [`Self::paint`] gives: depth. Of each layer the strokes (each
+    /// in a colour of its own where it is the strongest), their directions (as hues: red level,
+    /// cyan upright), their tones and what they paint, the height of the brushwork, and the
+    /// picture.
+    ///
+    /// # Errors
+    /// As [`Self::paint`].
+    pub fn stages(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+        seconds: f64,
+    ) -> Result<Vec<Stage>, PainterError> {
+        let (depth, layers) = self.splats(camera, size, seconds)?;
+        let mut named: Vec<(String, Field<[f32; 4]>)> = vec![("depth".to_owned(), greys(&depth))];
+        let mut whole = None;
+        let depth = GreyImage::from(depth);
+        for (number, splats) in layers.iter().enumerate() {
+            let strongest = strongest(depth.host(), splats);
+            let mut shown = |name: &str, color: &dyn Fn(&StrokeSplat) -> Vec3| {
+                let values = strongest
+                    .values()
+                    .iter()
+                    .map(|index: &Option<u32>| match index {
+                        Some(index) => color(&splats[*index as usize]).extend(1.0).to_array(),
+                        None => [0.0; 4],
+                    })
+                    .collect();
+                let picture = Field::from_values(size.0, size.1, values);
+                named.push((format!("layer-{}-{name}", number + 1), picture));
+            };
+            shown("strokes", &|splat| own_color(splat));
+            shown("directions", &|splat| hue(2.0 * splat.turn()));
+            shown("tones", &|splat| Vec3::splat(self.tone_of(splat) / 100.0));
+            let painted = self.painted(&depth, splats, number)?;
+            named.push((format!("layer-{}-painted", number + 1), painted.color.clone()));
+            whole = Some(match whole {
+                None => painted,
+                Some(lower) => over(lower, &painted),
+            });
+        }
+        if let Some(whole) = whole {
+            named.push(("height".to_owned(), heights(&whole.height_mm)));
+            named.push(("picture".to_owned(), whole.color));
+        }
+        Ok(named.into_iter().map(|(name, picture)| Stage { name, picture }).collect())
+    }
+}
+
+/// The strongest splat on the subject at each pixel.
+pub(super) fn strongest(depth: &Field<f32>, splats: &[StrokeSplat]) -> Field<Option<u32>> {
+    let width = depth.width();
+    let height = depth.height();
+    let lists = Lists::new(width, height, splats);
+    let mut strongest = Field::filled(width, height, None);
+    for y in 0..height {
+        for x in 0..width {
+            let mut best = 0.0;
+            for &number in lists.of(y / SIDE * lists.across + x / SIDE) {
+                let splat = &splats[number as usize];
+                let off = Vec2::new(x as f32 + 0.5 - splat.x, y as f32 + 0.5 - splat.y);
+                fn part(axis: [f32; 2], off: Vec2) -> f32 {
+                    Vec2::from(axis).dot(off)
+                }
+                let square = part(splat.across, off).powi(2) + part(splat.along, off).powi(2);
+                let plane = splat.depth + Vec2::from(splat.slope).dot(off);
+                let hidden = plane > depth[(x, y)] + splat.tolerance;
+                let weight = splat.weight * (1.0 - square);
+                if weight > best && !hidden {
+                    best = weight;
+                    strongest[(x, y)] = Some(number);
+                }
+            }
+        }
+    }
+    strongest
+}
+
+/// Depth as grey: the nearest white, nothing bare.
+fn greys(depth: &Field<f32>) -> Field<[f32; 4]> {
+    let seen = || depth.values().iter().copied().filter(|depth| *depth < 1.0);
+    let near = seen().fold(1.0, f32::min);
+    let far = seen().fold(0.0, f32::max);
+    Field::from_values(
+        depth.width(),
+        depth.height(),
+        depth
+            .values()
+            .iter()
+            .map(|&depth: &f32| {
+                if depth >= 1.0 {
+                    return [0.0; 4];
+                }
+                let grey = 1.0 - (1.0 - FAR) * (depth - near) / (far - near).max(1e-6);
+                [grey, grey, grey, 1.0]
+            })
+            .collect(),
+    )
+}
+
+/// Height as grey: the highest white.
+fn heights(heights: &Field<f32>) -> Field<[f32; 4]> {
+    let most = heights.values().iter().copied().fold(1e-6, f32::max);
+    let values = heights
+        .values()
+        .iter()
+        .map(|height: &f32| {
+            let grey = height / most;
+            [grey, grey, grey, 1.0]
+        })
+        .collect();
+    Field::from_values(heights.width(), heights.height(), values)
+}
+
+/// A colour that sets a stroke apart from its neighbours.
+fn own_color(splat: &StrokeSplat) -> Vec3 {
+    // Places in the map scatter over the whole of it.
+    let place = splat.offset[0] * 7.0 + splat.offset[1] * 13.0;
+    hue(std::f32::consts::TAU * place) * (0.55 + 0.4 * (splat.offset[0] * 29.0).fract().abs())
+}
+
+/// A colour of this hue in radians.
+fn hue(angle: f32) -> Vec3 {
+    let third = std::f32::consts::TAU / 3.0;
+    Vec3::new(0.0, third, 2.0 * third).map(|shift| 0.5 + 0.5 * (angle - shift).cos())
+}
+
+/// Width of a pixel in mm: 96 to the inch.
+const PX_MM: f64 = 25.4 / 96.0;
+
+/// A frame for compositing cannot be made.
+#[derive(Debug, thiserror::Error, Explain)]
+pub enum CompositingError {
+    /// The subject cannot be painted.
+    #[error(transparent)]
+    Painter(#[from] PainterError),
+    /// The file cannot be made.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+}
+
+impl Painter {
+    /// The picture that [`Self::paint`] gives as an OpenEXR file of 32-bit floats: `R`, `G`, `B` in
+    /// linear sRGB times the cover, `A` the cover, `Z` the distance of the subject in front of the
+    /// eye (infinite where there is none), `height` of the brushwork in mm, and `direction.x`,
+    /// `direction.y`, the unit direction of the strongest stroke of the uppermost layer that shows
+    /// (x to the right, y downwards, 0 where there is none).
+    ///
+    /// # Errors
+    /// As [`Self::paint`], and [`CompositingError::Export`] for pictures that OpenEXR cannot hold.
+    pub fn exr_frame(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+        seconds: f64,
+    ) -> Result<Vec<u8>, CompositingError> {
+        let (depth, layers) = self.splats(camera, size, seconds)?;
+        let painted = self.picture(depth.clone(), &layers)?;
+        let projection = Projection::new(camera, size.0, size.1);
+        let [_, _, back] = camera.axes();
+        let mut directions = vec![[0.0; 2]; size.0 * size.1];
+        for splats in &layers {
+            let strongest = strongest(&depth, splats);
+            for (direction, index) in directions.iter_mut().zip(strongest.values()) {
+                if let Some(index) = index {
+                    let (sin, cos) = splats[*index as usize].turn().sin_cos();
+                    *direction = [cos, sin];
+                }
+            }
+        }
+        let linear = linear_from_encoded(&painted.color);
+        let colors = |channel: usize| linear.values().iter().map(move |own| own[channel] * own[3]);
+        let cover = linear.values().iter().map(|own| own[3]);
+        let channels: [(&str, Vec<f32>); 8] = [
+            ("R", colors(0).collect()),
+            ("G", colors(1).collect()),
+            ("B", colors(2).collect()),
+            ("A", cover.collect()),
+            (
+                "Z",
+                (0..size.0 * size.1)
+                    .map(|index: usize| {
+                        let at = (index % size.0, index / size.0);
+                        match depth[at] < 1.0 {
+                            true => (camera.eye - projection.unproject(at, depth[at])).dot(back),
+                            false => f32::INFINITY,
+                        }
+                    })
+                    .collect(),
+            ),
+            ("height", painted.height_mm.values().to_vec()),
+            ("direction.x", directions.iter().map(|[x, _]| *x).collect()),
+            ("direction.y", directions.iter().map(|[_, y]| *y).collect()),
+        ];
+        let channels = channels.into_iter().map(|(name, values)| (name.to_owned(), values));
+        Ok(float_exr(size, PX_MM, channels.collect())?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::settings::Settings;
+    use super::super::test_scenes::map;
+    use super::*;
+    use graphics::camera::Framing;
+    use graphics::mesh::Mesh;
+
+    #[test]
+    fn stages_end_with_the_picture_that_is_painted_without_them() {
+        let mesh = Mesh::torus_knot(4000);
+        let camera = Framing::default().fit(&mesh.positions);
+        let mut settings = Settings::default();
+        settings.layers.count = 2;
+        let mut painter = Painter::of_model(&mesh, &map(2), &settings).unwrap();
+        let stages = painter.stages(&camera, (96, 72), 0.0).unwrap();
+        let names: Vec<&str> = stages.iter().map(|stage| &stage.name[..]).collect();
+        assert_eq!((names.len(), names[0], names[2]), (11, "depth", "layer-1-directions"));
+        assert_eq!(names[10], "picture");
+        let painted = painter.paint(&camera, (96, 72), 0.0).unwrap().color;
+        assert_eq!(stages[10].picture, painted);
+        for stage in &stages[..5] {
+            fn seen(picture: &Field<[f32; 4]>) -> f32 {
+                picture.values().iter().filter(|pixel| pixel[3] > 0.5).count() as f32
+            }
+            let share = seen(&stage.picture) / seen(&painted);
+            assert!((0.7..1.1).contains(&share), "{}: {share}", stage.name);
+        }
     }
 }

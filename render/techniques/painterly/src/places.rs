@@ -1,4 +1,5 @@
-//! Attributes of a subject at a feature: normal, direction of strokes, colour, detail, region.
+//! Attributes of a subject at each feature (normal, direction of strokes, colour, detail, region),
+//! and the subject laid out for painting: what models and pictures have in common.
 
 use std::sync::Arc;
 
@@ -8,6 +9,7 @@ use graphics::field::Field;
 use graphics::mesh::{Curvature, DirectionField, FlowField, Mesh};
 use graphics::surface::{Fragment, PackedMesh, SurfacePoint};
 
+use super::coloring::Coloring;
 use super::regions::RegionMap;
 use super::settings::LayerSettings;
 
@@ -22,7 +24,7 @@ const FADE_RINGS: usize = 2;
 pub(super) struct Place {
     /// Unit normal, interpolated.
     pub(super) normal: Vec3,
-    /// Unit direction of strokes along the surface; it is the direction of flow too.
+    /// Unit direction of strokes along the surface. It is the direction of flow too.
     pub(super) along: Vec3,
     /// Strength of the flow, 0 to 1.
     pub(super) flow: f32,
@@ -80,11 +82,11 @@ impl Directions {
             Some(given) => lines.oriented_by(given, FADE_RINGS),
         };
         let curvatures = mesh.curvatures(NORMAL_ROUNDS);
-        let along = |direction: [f32; 3], curvature: f32| {
+        fn along(direction: [f32; 3], curvature: f32) -> Mat3 {
             let direction = Vec3::from(direction);
             Mat3::from_cols_array_2d(&[0, 1, 2].map(|i| (direction * direction[i]).to_array()))
                 * curvature
-        };
+        }
         Self {
             lines,
             arrows,
@@ -229,16 +231,33 @@ pub(super) fn colors(mesh: &Mesh, packed: &PackedMesh) -> Vec<(Vec3, f64)> {
         .collect()
 }
 
+/// A subject.
+#[derive(Debug)]
+pub(super) struct Subject {
+    /// Its surface for the strokes of each layer, the lowest first, at least one.
+    pub(super) surfaces: Vec<Surface>,
+    /// The mesh that hides what lies behind it.
+    pub(super) packed: Arc<PackedMesh>,
+    /// For each triangle whether its part of the mesh is closed.
+    pub(super) closed: Vec<bool>,
+    pub(super) coloring: Arc<Coloring>,
+    /// L* of the darkest and of the lightest tone, if the subject's lightness decides the tone.
+    pub(super) lightness: Option<[f32; 2]>,
+    /// Units of the subject along the longer side of a picture in which strokes have the size of the
+    /// settings.
+    pub(super) units: f32,
+    /// Strokes are kept up to this many times the density of that picture.
+    pub(super) more: f32,
+}
+
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use graphics::coherence::{Features, Hierarchy};
-    use graphics::mesh::DirectionSettings;
-
     use super::super::regions::Regions;
     use super::super::settings::Settings;
     use super::*;
+    use graphics::coherence::{Features, Hierarchy};
+    use graphics::mesh::DirectionSettings;
+    use std::sync::Arc;
 
     #[test]
     fn places_have_the_normals_directions_and_colours_of_the_mesh() {

@@ -119,7 +119,7 @@ impl From<StrokeDirection> for Along {
     }
 }
 
-/// What stays as the model comes nearer.
+/// The property of strokes that stays the same as the model comes nearer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Zoom {
@@ -190,7 +190,7 @@ documents::settings! {
     }
 }
 
-/// What the light moves with.
+/// The object that the light moves with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightWith {
@@ -230,7 +230,7 @@ documents::settings! {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ColorSource {
-    /// Those of the map on a model; a picture's own.
+    /// Those of the map on a model, a picture's own.
     #[default]
     Auto,
     /// The map's own colours.

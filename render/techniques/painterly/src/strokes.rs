@@ -1,18 +1,23 @@
-//! The strokes of a sight: which splats are drawn, where, how large, and with which tone.
+//! The strokes of a view: which splats are drawn, where, how large, and with which tone. Strokes
+//! along outlines and strokes that move along the surface, in loops that close, are here too.
 //!
 //! A splat's weight is continuous in camera, light and time: it fades with its rank, so that the
 //! density in the picture stays, and where the surface or the stroke turns away from the eye.
+//!
+//! Strokes along outlines are narrow, in the darkest tone, before all others. The normal at an
+//! outline is across the direction to the eye. A line of even width on the screen takes all places
+//! up to a cosine that depends on how the surface bends: at a distance of w behind the outline of a
+//! ball of radius R the cosine is sqrt(2 w / R).
 
 use glam::{Mat2, Vec2, Vec3};
 use graphics::coherence::{Density, Features, Projection, SeenFeature};
 use graphics::smoothstep;
 use rayon::prelude::*;
 
-use super::flow::{moved, twinkled};
 use super::regions::Style;
 use super::roots::{Root, Roots};
-use super::settings::{Settings, Zoom};
-use super::splat::StrokeSplat;
+use super::settings::{FlowSettings, Settings, Zoom};
+use super::splats::StrokeSplat;
 use super::tones::Tones;
 
 /// Cosines between eye and normal over which splats gain weight against others. A wide range keeps
@@ -56,7 +61,7 @@ pub(super) struct Sight<'a> {
     pub(super) px_per_unit: f32,
     /// Distance of the middle of the model in front of the eye, above 0.
     pub(super) distance: f32,
-    /// For each triangle whether it is hidden where it turns away; empty where all are seen.
+    /// For each triangle whether it is hidden where it turns away, empty where all are seen.
     pub(super) closed: &'a [bool],
 }
 
@@ -92,7 +97,7 @@ pub(super) fn splats(
         .collect()
 }
 
-/// The splat of one feature; `None` if it has no weight.
+/// The splat of one feature, `None` if it has no weight.
 fn splat(
     seen: &SeenFeature,
     (root, roots): (&Root, &Roots),
@@ -121,7 +126,9 @@ fn splat(
     }
     let flat = along.try_normalize()?;
     let tilt = settings.strokes.tilt;
-    let lean = |flat: Vec2, drawn: Vec2| flat + (drawn - flat) * tilt;
+    fn lean(flat: Vec2, drawn: Vec2, tilt: f32) -> Vec2 {
+        flat + (drawn - flat) * tilt
+    }
     let size = style.size * sight.zoom(per_unit);
     let radii = settings.strokes.radii_px().map(|radius| radius * size);
     let wrap = settings.light.wrap;
@@ -133,7 +140,7 @@ fn splat(
     };
     let tone = darkest + (lightest - darkest) * root.tone.unwrap_or(lit) + twinkle;
     let brushed = Brushed {
-        axes: [lean(Vec2::new(flat.y, -flat.x), across), lean(flat, along)],
+        axes: [lean(Vec2::new(flat.y, -flat.x), across, tilt), lean(flat, along, tilt)],
         radii,
         weight,
         cover,
@@ -159,7 +166,7 @@ pub(super) struct Brushed {
 }
 
 impl Brushed {
-    /// The splat of a feature; `None` if it is seen edge-on.
+    /// The splat of a feature, `None` if it is seen edge-on.
     pub(super) fn splat(
         &self,
         seen: &SeenFeature,
@@ -217,7 +224,7 @@ impl Brushed {
 }
 
 impl Sight<'_> {
-    /// Size of strokes by that of the settings, where a unit of the model has so many pixels.
+    /// Size of strokes relative to the settings, where a unit of the model has so many pixels.
     fn zoom(&self, px_per_unit: f32) -> f32 {
         match self.settings.strokes.zoom {
             Zoom::Screen => 1.0,
@@ -232,8 +239,8 @@ impl Sight<'_> {
     }
 }
 
-/// Distance by which strokes go on in each other: that of the middle of the model for all places
-/// that are about as far, so that strokes do not slide in the map while the model turns.
+/// Distance by which strokes go on in each other: the distance of the middle of the model for all
+/// places that are about as far, so that strokes do not slide in the map while the model turns.
 fn calm_distance(own: f32, middle: f32) -> f32 {
     let [nearest, farthest] = [middle / CALM, middle * CALM];
     if own < nearest {
@@ -242,5 +249,220 @@ fn calm_distance(own: f32, middle: f32) -> f32 {
         own / CALM
     } else {
         middle
+    }
+}
+
+/// Splats of a line per area of a splat, where the surface faces the eye. There are more towards
+/// outlines.
+const DENSITY: f32 = 1.5;
+
+/// Length of a splat by its width.
+const STRETCH: f32 = 4.0;
+
+/// Half the width of a splat relative to the line.
+const RADIUS: f32 = 0.8;
+
+/// Part of the line in pixels behind the outline, by its width.
+const BEHIND: f32 = 0.5;
+
+/// Greatest cosine at which a place belongs to an outline, however much the surface bends.
+const MOST: f32 = 0.6;
+
+/// How much the cosine of a triangle may differ from the cosine of the smooth surface.
+const UNEVEN: f32 = 0.2;
+
+/// Weight against other strokes, after it is raised to the power of the sharpness.
+const STRENGTH: f32 = 256.0;
+
+/// Part of a splat in the cover beyond outlines.
+const COVER: f32 = 1.0;
+
+/// The splats of outlines, in an order that does not depend on the sight, none for lines of no
+/// width.
+pub(super) fn outlines(
+    features: &Features,
+    roots: &Roots,
+    tones: &Tones,
+    sight: &Sight<'_>,
+) -> Vec<StrokeSplat> {
+    let width = sight.settings.silhouette.width_px;
+    if width <= 0.0 {
+        return Vec::new();
+    }
+    let radii = [RADIUS * width, RADIUS * STRETCH * width];
+    let end = DENSITY / (radii[0] * radii[1]);
+    let seen = features.seen_where(
+        sight.projection,
+        Density::Facing,
+        end,
+        radii[1],
+        |seen: &SeenFeature| {
+            seen.facing.abs() < MOST + UNEVEN && sight.may_see(seen) && {
+                let most = most(roots.greatest_bend(&seen.feature), seen, sight);
+                seen.facing.abs() < most + UNEVEN
+            }
+        },
+    );
+    seen.par_iter()
+        .with_min_len(256)
+        .filter_map(|seen: &SeenFeature| {
+            outline(seen, (&roots.single(&seen.feature), roots), tones, sight, (radii, end))
+        })
+        .collect()
+}
+
+fn outline(
+    seen: &SeenFeature,
+    (root, roots): (&Root, &Roots),
+    tones: &Tones,
+    sight: &Sight<'_>,
+    (radii, end): ([f32; 2], f32),
+) -> Option<StrokeSplat> {
+    let projection = sight.projection;
+    let to_eye = (projection.camera().eye - seen.feature.position).try_normalize()?;
+    let normal = root.place.normal;
+    let cosine = normal.dot(to_eye).abs();
+    // Curvature of the surface towards the eye decides how far the cosine grows behind the outline.
+    let back = to_eye.reject_from_normalized(normal).try_normalize()?;
+    let bend = back.dot(root.place.bend * back).abs();
+    let silhouette = &sight.settings.silhouette;
+    let most = most(bend, seen, sight);
+    let present = 1.0 - smoothstep([0.4 * end, end], seen.rank);
+    let share = present * (1.0 - smoothstep([0.5 * most, most], cosine));
+    if share <= 0.0 {
+        return None;
+    }
+    let line = normal.cross(to_eye);
+    let drawn = Vec2::from(projection.moved([seen.x, seen.y], seen.distance, line));
+    let along = drawn.try_normalize()?;
+    let weight = strength(sight.settings.overlap.sharpness) * share;
+    let brushed = Brushed {
+        axes: [Vec2::new(along.y, -along.x), along],
+        radii,
+        weight,
+        cover: COVER * share,
+        tone: 0.0,
+        color: root.color * (1.0 - silhouette.darkness),
+    };
+    brushed.splat(seen, (root, roots.style(root)), tones, sight)
+}
+
+/// The cosine at which a line ends on a surface of this curvature towards the eye.
+fn most(bend: f32, seen: &SeenFeature, sight: &Sight<'_>) -> f32 {
+    let per_unit = sight.projection.focal_px() / seen.distance;
+    let behind = 2.0 * BEHIND * sight.settings.silhouette.width_px * bend / per_unit;
+    behind.sqrt().min(MOST)
+}
+
+/// The weight that gives [`STRENGTH`] at a power of `sharpness`.
+fn strength(sharpness: u32) -> f32 {
+    (0..sharpness.max(1).ilog2()).fold(STRENGTH, |weight, _| weight.sqrt())
+}
+
+/// Where strokes stand in a loop, 0 to below 1. A whole number of loops later it is the same to
+/// the bit.
+///
+/// `seconds` is divided by the duration in f64, so that times which are whole multiples of a frame
+/// rate do not drift.
+pub(super) fn phase(seconds: f64, settings: &FlowSettings) -> f32 {
+    let loops = seconds / f64::from(settings.loop_seconds);
+    let phase = (loops - loops.floor()) as f32;
+    // Steps of 2^-20, so that rounding before the end of a loop and after it agree.
+    let steps = (phase * 1_048_576.0).round() / 1_048_576.0;
+    if steps >= 1.0 { 0.0 } else { steps }
+}
+
+/// How much lighter a stroke is, -1 to 1, at a `phase` of a loop with so many changes to lighter
+/// and darker. `own` (0 to 1) is where the stroke stands at the beginning.
+pub(super) fn twinkled(twinkles: u32, phase: f32, own: f32) -> f32 {
+    let at = phase * twinkles as f32 + own;
+    let at = at - at.floor();
+    // A parabola up and one down, close to a sine.
+    let half = if at < 0.5 { 4.0 * at } else { 4.0 * at - 2.0 };
+    let arc = half * (2.0 - half);
+    if at < 0.5 { arc } else { -arc }
+}
+
+/// Change of the place in the map along the stroke, in widths of the map, at a `phase` of the loop
+/// (equation 11 of Yan and others 2008). Strokes move by a whole number of widths in a loop, up to
+/// `periods`, the more the stronger the flow is, 0 to 1: so every loop closes.
+pub(super) fn moved(strength: f32, phase: f32, periods: u32) -> f32 {
+    let periods = (periods as f32 * strength.clamp(0.0, 1.0)).round();
+    // The brushwork moves along the arrow if the place in the map moves against it.
+    let back = -periods * phase;
+    back - back.floor()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outlines_are_as_strong_at_every_sharpness() {
+        for sharpness in [1, 2, 4, 8, 16] {
+            let found = strength(sharpness).powi(sharpness as i32);
+            assert!((found / STRENGTH - 1.0).abs() < 1e-4, "{sharpness}: {found}");
+        }
+    }
+
+    fn settings(periods: u32) -> FlowSettings {
+        FlowSettings { periods, loop_seconds: 2.4, ..FlowSettings::default() }
+    }
+
+    #[test]
+    fn a_loop_ends_where_it_began_to_the_bit() {
+        let settings = settings(3);
+        for frame in 0..48 {
+            let place = |frame| {
+                moved(
+                    0.8,
+                    phase(f64::from(frame) * f64::from(settings.loop_seconds) / 48.0, &settings),
+                    settings.periods,
+                )
+            };
+            for loops in [1, 2, 7, 1000] {
+                assert_eq!(place(frame).to_bits(), place(frame + 48 * loops).to_bits(), "{frame}");
+            }
+        }
+    }
+
+    #[test]
+    fn strokes_of_weak_flow_go_on_over_the_end_of_a_loop() {
+        for strength in [0.1, 0.4, 0.6, 0.9] {
+            let step = |from: f32, to: f32| {
+                let [from, to] = [from, to].map(|phase| moved(strength, phase, 3));
+                (from - to).rem_euclid(1.0)
+            };
+            let inside = step(0.25, 0.5);
+            let over = step(0.75, 0.0);
+            assert!((inside - over).abs() < 1e-6, "{strength}: {inside}, {over}");
+        }
+    }
+
+    #[test]
+    fn strokes_move_evenly_and_stand_where_there_is_no_flow() {
+        fn step(phase: f32) -> f32 {
+            let step = moved(1.0, phase, 2) - moved(1.0, phase + 0.01, 2);
+            step.rem_euclid(1.0)
+        }
+        assert!((0..99).all(|i| (step(i as f32 * 0.01) - 0.02).abs() < 1e-4));
+        assert_eq!(moved(0.0, 0.3, 2), 0.0);
+        assert_eq!(moved(1.0, 0.3, 0), 0.0);
+    }
+
+    #[test]
+    fn twinkling_strokes_are_as_much_lighter_as_darker_and_close_their_loop() {
+        let values: Vec<f32> = (0..240).map(|i| twinkled(3, i as f32 / 240.0, 0.2)).collect();
+        assert!(values.iter().sum::<f32>().abs() < 1e-3);
+        let (least, most) =
+            values.iter().fold((1.0_f32, -1.0_f32), |(a, b), &v| (a.min(v), b.max(v)));
+        assert!(least < -0.99 && most > 0.99 && (-1.0..=1.0).contains(&most));
+        let steps = (0..240).map(|i| (values[(i + 1) % 240] - values[i]).abs());
+        assert!(steps.fold(0.0, f32::max) < 0.11);
+        for i in 0..=100 {
+            let at = i as f32 / 100.0;
+            let sine = (std::f32::consts::TAU * at).sin();
+            assert!((twinkled(1, at, 0.0) - sine).abs() < 0.06, "{at}");
+        }
     }
 }

@@ -1,10 +1,13 @@
-//! The maps laid out for painting: a slice for each tone, packed, at several sizes.
+//! The maps laid out for painting: a packed slice for each tone, at several sizes, and the same in
+//! the memory of a graphics device.
 
 use std::ops::Range;
 
 use artmap::map::{ArtMap, Between, Tile};
 use glam::Vec3;
+use graphics::compute::{Compute, GpuCompute, Plane};
 use graphics::field::Field;
+use graphics::gpu::{Buffer, DeviceError};
 use graphics::picture::Picture;
 use rayon::prelude::*;
 
@@ -115,15 +118,17 @@ impl Tones {
         self.nearest(map, darkest + tone.clamp(0.0, 1.0) * (lightest - darkest))
     }
 
-    /// Index of the slice of a map whose mean L* is nearest.
+    /// Index of the slice of a map with the nearest mean L*.
     pub(super) fn nearest(&self, map: usize, wanted: f32) -> usize {
         let first = self.maps[map].slices.start;
         let slices = &self.slices[self.maps[map].slices.clone()];
         let above = slices.partition_point(|slice| slice.tone < wanted);
         let below = above.saturating_sub(1);
         let above = above.min(slices.len() - 1);
-        let off = |at: usize| (slices[at].tone - wanted).abs();
-        first + if off(below) <= off(above) { below } else { above }
+        fn off(at: usize, slices: &[Slice], wanted: f32) -> f32 {
+            (slices[at].tone - wanted).abs()
+        }
+        first + if off(below, slices, wanted) <= off(above, slices, wanted) { below } else { above }
     }
 
     /// Mean L* of a slice.
@@ -166,8 +171,10 @@ impl Tones {
 pub(super) fn tone_tiles(map: &ArtMap, between: Between) -> Vec<Tile> {
     let shares: Vec<(usize, f64)> = (0..map.keys.len())
         .flat_map(|lower| {
-            let tone = |at: usize| map.keys.get(at).map(|key| key.tone);
-            let steps = match (tone(lower), tone(lower + 1)) {
+            fn tone(at: usize, map: &ArtMap) -> Option<f64> {
+                map.keys.get(at).map(|key| key.tone)
+            }
+            let steps = match (tone(lower, map), tone(lower + 1, map)) {
                 (Some(own), Some(next)) => ArtMap::steps(own, next, STEP),
                 _ => 0,
             };
@@ -196,7 +203,7 @@ impl Texels {
     /// Returns 256 times the interpolated bytes.
     #[inline(always)]
     pub(super) fn between(&self, column: usize, row: usize, across: u32, down: u32) -> [f32; 4] {
-        // Nothing of this wraps; said so, tests are as fast as programs.
+        // Nothing of this wraps. Said so, tests are as fast as programs.
         let stride = self.size.wrapping_add(1);
         let at = row.wrapping_mul(stride).wrapping_add(column);
         let above = pair(&self.packed, at);
@@ -205,7 +212,7 @@ impl Texels {
         let lower = u64::from(down);
         let left = 256_u64.wrapping_sub(right);
         let upper = 256_u64.wrapping_sub(lower);
-        // Two mixes of whole numbers in lanes of 16 bits; the first is rounded to 8 bits again.
+        // Two mixes of whole numbers in lanes of 16 bits. The first is rounded to 8 bits again.
         let mix = |a: u64, b: u64, low: u64, high: u64| {
             a.wrapping_mul(low).wrapping_add(b.wrapping_mul(high))
         };
@@ -226,7 +233,7 @@ fn pair(texels: &[u32], at: usize) -> [u32; 2] {
     [pair[0], pair[1]]
 }
 
-/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3: that of the channels.
+/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3 of the channels.
 #[inline(always)]
 fn spread(texel: u32) -> u64 {
     const EVEN: u64 = 0x00ff_00ff;
@@ -258,21 +265,22 @@ fn sizes(tile: &Tile, coloring: &Coloring, map: usize) -> Vec<(usize, Values)> {
 fn halved(color: &Picture, heights: &[f32]) -> (Picture, Vec<f32>) {
     let size = color.width();
     let half = color.width() / 2;
-    let corners = |index: usize| {
+    fn corners(index: usize, half: usize) -> [(usize, usize); 4] {
         let x = 2 * (index % half);
         let y = 2 * (index / half);
         [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]
-    };
-    let mean_color = |index| {
-        let sum: Vec3 = corners(index).map(|at| Vec3::from(color[at])).iter().sum();
-        (sum / 4.0).to_array()
-    };
-    let colors = (0..half * half).map(mean_color).collect();
+    }
+    let colors = (0..half * half)
+        .map(|index| {
+            let sum: Vec3 = corners(index, half).map(|at| Vec3::from(color[at])).iter().sum();
+            (sum / 4.0).to_array()
+        })
+        .collect();
     (
         Field::from_values(half, half, colors),
         (0..half * half)
             .map(|index| {
-                corners(index).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0
+                corners(index, half).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0
             })
             .collect(),
     )
@@ -291,7 +299,7 @@ fn range<'a>(
 }
 
 /// Value of a byte of 0 and change from byte to byte for heights: a few lumps and pits are cut, so
-/// that bytes tell the ridges of strokes.
+/// that bytes resolve the ridges of strokes.
 fn usual_heights(heights: impl Iterator<Item = f32>, [low, step]: [f32; 2]) -> (f32, f32) {
     let (count, sum, square) = heights.fold((0.0_f64, 0.0, 0.0), |(count, sum, square), height| {
         let height = f64::from(height);
@@ -305,10 +313,6 @@ fn usual_heights(heights: impl Iterator<Item = f32>, [low, step]: [f32; 2]) -> (
 }
 
 fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNELS]) -> Texels {
-    let byte = |value: f32, channel: usize| match step[channel] {
-        0.0 => 0,
-        step => ((value - low[channel]) / step).round().clamp(0.0, 255.0) as u8,
-    };
     Texels {
         size,
         packed: (0..(size + 1) * (size + 1))
@@ -316,17 +320,103 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
                 let x = index % (size + 1) % size;
                 let y = index / (size + 1) % size;
                 let value = values[y * size + x];
-                u32::from_le_bytes([0, 2, 1, 3].map(|channel| byte(value[channel], channel)))
+                u32::from_le_bytes([0, 2, 1, 3].map(|channel| match step[channel] {
+                    0.0 => 0,
+                    step => {
+                        ((value[channel] - low[channel]) / step).round().clamp(0.0, 255.0) as u8
+                    }
+                }))
             })
             .collect(),
+    }
+}
+
+/// Tones in the memory of whatever computes. The processor reads [`Tones`] themselves.
+#[derive(Debug, Clone)]
+pub(super) enum ToneMemory {
+    /// The processor's memory.
+    Host,
+    /// The memory of a graphics device.
+    Device(DeviceTones),
+}
+
+/// Texels of all tones and the table of encoded light, copied once.
+#[derive(Debug, Clone)]
+pub(super) struct DeviceTones {
+    texels: Plane<u32>,
+    encoded: Plane<f32>,
+    /// First texel of each size of each slice, and its width.
+    tiles: Vec<Vec<[u32; 2]>>,
+}
+
+impl ToneMemory {
+    /// Copies the tones to where `compute` reads them.
+    ///
+    /// # Errors
+    /// [`DeviceError::TooLarge`] for tones beyond the device's buffer limit, and other errors of a
+    /// device, never on the processor.
+    pub(super) fn new(
+        compute: &mut Compute,
+        tones: &Tones,
+        coloring: &Coloring,
+    ) -> Result<Self, DeviceError> {
+        match compute {
+            Compute::Cpu => Ok(Self::Host),
+            Compute::Gpu(gpu) => DeviceTones::new(gpu, tones, coloring).map(Self::Device),
+        }
+    }
+
+    /// The tones on a device.
+    ///
+    /// # Panics
+    /// If they are in the processor's memory.
+    pub(super) fn device(&self) -> &DeviceTones {
+        match self {
+            Self::Device(tones) => tones,
+            Self::Host => panic!("a graphics device was handed tones in the processor's memory"),
+        }
+    }
+}
+
+impl DeviceTones {
+    fn new(gpu: &mut GpuCompute, tones: &Tones, coloring: &Coloring) -> Result<Self, DeviceError> {
+        let count: usize = tones.sizes().flatten().map(|texels| texels.packed().len()).sum();
+        gpu.device().check_size("the art map", (count * size_of::<u32>()) as u64)?;
+        let mut packed = Vec::with_capacity(count);
+        let mut tile = |texels: &Texels| {
+            let first = packed.len() as u32;
+            packed.extend_from_slice(texels.packed());
+            [first, texels.size as u32]
+        };
+        let tiles = tones.sizes().map(|sizes| sizes.iter().map(&mut tile).collect()).collect();
+        let texels = gpu.plane(packed.len(), 1)?;
+        gpu.write(&texels, &packed)?;
+        let encoded = gpu.plane(coloring.encoded.len(), 1)?;
+        gpu.write(&encoded, &coloring.encoded)?;
+        Ok(Self { texels, encoded, tiles })
+    }
+
+    /// First texel of a tone at a size, and the width of its tile.
+    pub(super) fn tile(&self, slice: usize, halvings: usize) -> [u32; 2] {
+        self.tiles[slice][halvings]
+    }
+
+    /// Bytes of all texels, as [`Texels::packed`] has them.
+    pub(super) fn texels(&self) -> &Buffer {
+        self.texels.buffer()
+    }
+
+    /// Encoded values of linear ones.
+    pub(super) fn encoded(&self) -> &Buffer {
+        self.encoded.buffer()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::coloring::SubjectKind;
-    use super::super::made_up::map;
     use super::super::settings::ColorSettings;
+    use super::super::test_scenes::map;
     use super::*;
 
     fn tones() -> (ArtMap, Tones) {
@@ -386,12 +476,17 @@ mod tests {
             [0.5, 1.4, 1.5, 2.7, 2.9].map(|scale| tones.halvings(0, scale)),
             [0, 0, 1, 1, 2]
         );
-        let mean = |halvings: usize| {
+        fn mean(halvings: usize, tones: &Tones) -> f32 {
             let texels = tones.texels(4, halvings);
             let size = texels.size;
             let all = (0..size * size).map(|at| texels.between(at % size, at / size, 0, 0)[0]);
             all.sum::<f32>() / 256.0 / (size * size) as f32
-        };
-        assert!((mean(0) - mean(2)).abs() < 6.0, "{} {}", mean(0), mean(2));
+        }
+        assert!(
+            (mean(0, &tones) - mean(2, &tones)).abs() < 6.0,
+            "{} {}",
+            mean(0, &tones),
+            mean(2, &tones)
+        );
     }
 }

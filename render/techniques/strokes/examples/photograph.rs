@@ -18,7 +18,7 @@ const RAYS: usize = 24;
 
 type Vector = [f64; 3];
 
-/// A ball. Coordinates: x to the right, y upwards, z away from the viewer; `shine` is the gloss.
+/// A ball. Coordinates: x to the right, y upwards, z away from the viewer. `shine` is the gloss.
 struct Ball {
     middle: Vector,
     radius: f64,
@@ -71,7 +71,7 @@ fn met(balls: &[Ball], from: Vector, way: Vector) -> Option<(f64, &Ball)> {
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// The first hit of a ray: position, normal, colour, shine; `None` if it is the wall.
+/// The first hit of a ray: position, normal, colour, shine. `None` if it is the wall.
 fn seen(balls: &[Ball], from: Vector, way: Vector) -> Option<(Vector, Vector, Vector, f64)> {
     let table = if way[1] < 0.0 { -from[1] / way[1] } else { f64::INFINITY };
     if let Some((far, ball)) = met(balls, from, way).filter(|(far, _)| *far < table) {

@@ -37,7 +37,7 @@ pub enum FirstLayerError {
 
 /// Paint of a dry layer that shows `photograph` on the ground of `document` in paint of its wet
 /// pigments, under its light. The photograph is as large as the canvas allows without
-/// stretching it, in the middle; the canvas beside it stays bare.
+/// stretching it, in the middle. The rest of the canvas stays bare.
 ///
 /// # Errors
 /// [`FirstLayerError`] for an unknown light and for pigments that give no separation.
@@ -65,10 +65,8 @@ pub fn first_layer(photograph: &Photograph, document: &Document) -> Result<Layer
 /// The largest rectangle of the shape `size` in the middle of a canvas.
 fn fitted(size: (usize, usize), (columns, rows): (usize, usize)) -> Rect {
     let scale = (columns as f64 / size.0 as f64).min(rows as f64 / size.1 as f64);
-    let side =
-        |pixels: usize, most: usize| ((pixels as f64 * scale).round() as usize).clamp(1, most);
-    let width = side(size.0, columns);
-    let height = side(size.1, rows);
+    let width = ((size.0 as f64 * scale).round() as usize).clamp(1, columns);
+    let height = ((size.1 as f64 * scale).round() as usize).clamp(1, rows);
     Rect { x: (columns - width) / 2, y: (rows - height) / 2, width, height }
 }
 

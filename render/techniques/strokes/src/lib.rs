@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`StrokePainter`] does all of it. [`plan_layer`] plans the strokes of one brush along the
-//! structure of the picture; [`Painter`] paints them, coarse to fine.
+//! structure of the picture. [`Painter`] paints them, coarse to fine.
 
 mod settings;
 mod planned_strokes;

@@ -122,7 +122,7 @@ impl Painter<'_> {
     }
 
     /// Colour error of the canvas against the target, both blurred by a Gaussian with
-    /// standard deviation `blur_cells`; 0 compares cell by cell.
+    /// standard deviation `blur_cells`. 0 compares cell by cell.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -165,11 +165,9 @@ impl Painter<'_> {
         cell_mm: f64,
     ) -> Vec<PlannedStroke> {
         let plan = Plan { seed: self.plan.seed.wrapping_add(round), ..self.plan.clone() };
-        let strokes = |current| plan_strokes(target, current, self.separation, &plan, cell_mm);
-        match (target.level, round) {
-            (0, 0) => strokes(&unlike(self.target)),
-            _ => strokes(painted),
-        }
+        let unlike = (target.level == 0 && round == 0).then(|| unlike(self.target));
+        let current = unlike.as_ref().unwrap_or(painted);
+        plan_strokes(target, current, self.separation, &plan, cell_mm)
     }
 
     /// Heights that the brush lays.

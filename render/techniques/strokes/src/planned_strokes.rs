@@ -35,7 +35,7 @@ pub(super) const COVER: f64 = 0.8;
 pub struct PlannedStroke {
     /// Index of the brush in the plan.
     pub level: usize,
-    /// Share of the pigment in each slot of the palette; the shares sum to 1.
+    /// Share of the pigment in each slot of the palette. The shares sum to 1.
     pub recipe: [f64; SLOTS],
     /// Height in mm that the paint should have on the canvas.
     pub height_mm: f64,
@@ -48,8 +48,8 @@ pub struct PlannedStroke {
 
 /// Plans the strokes of the plan's brush number `level`, in the order to paint them.
 ///
-/// `current` is the canvas so far, as it looks when dry; each cell is `cell_mm` wide.
-/// Differences that the palette cannot reduce are ignored; without a difference there are no
+/// `current` is the canvas so far, as it looks when dry. Each cell is `cell_mm` wide.
+/// We ignore differences that the palette cannot reduce. Without a difference there are no
 /// strokes. Equal input gives equal strokes.
 ///
 /// # Panics
@@ -237,8 +237,8 @@ fn mean_color(picture: &Picture, path: &[[f64; 2]]) -> [f32; 3] {
     sum.map(|value| (value / path.len() as f64) as f32)
 }
 
-/// Poses of the brush along a path of points in cells. The broad side lies across the motion;
-/// pressure rises over the first brush width and falls over the last.
+/// Poses of the brush along a path of points in cells. The broad side lies across the motion.
+/// Pressure rises over the first brush width and falls over the last.
 pub(super) fn poses(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> Vec<Sample> {
     let mut walked = vec![0.0];
     for ends in path.windows(2) {
@@ -296,7 +296,7 @@ pub(super) struct LevelTarget {
     pub(super) blur_cells: f64,
     /// The target, blurred.
     pub(super) picture: Picture,
-    /// The same in CIELAB.
+    /// The target in CIELAB.
     pub(super) lab: Field<[f32; 3]>,
     /// Directions of its structure.
     pub(super) flow: OrientationField,
@@ -454,7 +454,7 @@ fn beyond(input: &TraceInput<'_>, [x, y]: [f64; 2]) -> f64 {
     (-x).max(x - width).max(-y).max(y - height)
 }
 
-/// Column and row of the cell that holds a point; for a point off the canvas, the nearest.
+/// Column and row of the cell that holds a point, or of the nearest one for a point off the canvas.
 pub(super) fn cell<T>(field: &Field<T>, [x, y]: [f64; 2]) -> (usize, usize) {
     ((x as usize).min(field.width() - 1), (y as usize).min(field.height() - 1))
 }

@@ -7,7 +7,7 @@ use paint::ground::GroundKind;
 use paint::strokes::MAX_CELLS;
 use serde::{Deserialize, Serialize};
 
-/// Least width of a brush in cells; a narrower one lays no even line.
+/// Least width of a brush in cells. A narrower one lays no even line.
 const NARROWEST_CELLS: f64 = 2.0;
 /// Least width of a brush in mm.
 const NARROWEST_MM: f64 = 0.2;
@@ -17,15 +17,15 @@ const BROADEST_MM: f64 = 100.0;
 /// How to paint a photograph in strokes, or to separate it into pigments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrokeSettings {
-    /// Title of the painting; empty by default.
+    /// Title of the painting, empty by default.
     pub title: String,
-    /// Width of the painting in mm, 5 to 5000; 200 by default. Its height follows the shape
+    /// Width of the painting in mm, 5 to 5000, by default 200. Its height follows the shape
     /// of the photograph.
     pub width_mm: f64,
-    /// Width and height of a cell in mm, 0.02 to 5; 0.25 by default. Time grows with the
+    /// Width and height of a cell in mm, 0.02 to 5, by default 0.25. Time grows with the
     /// square of the resolution.
     pub cell_mm: f64,
-    /// Ground to paint on; linen by default.
+    /// Ground to paint on, by default linen.
     pub ground: GroundKind,
     /// Names of up to eight pigments of the library. If empty (the default), those are chosen
     /// that come nearest to the photograph's colours.
@@ -34,12 +34,12 @@ pub struct StrokeSettings {
     /// wider than the painting. If empty (the default), 16, 8, 4, 2 and 1 mm for a painting
     /// 200 mm wide, and in proportion.
     pub brushes_mm: Vec<f64>,
-    /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0.5 to 100; 6 by
-    /// default. Less takes more strokes.
+    /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0.5 to 100, by
+    /// default 6. Less takes more strokes.
     pub tolerance: f64,
-    /// Seed of all random choices; 1 by default.
+    /// Seed of all random choices, by default 1.
     pub seed: u64,
-    /// Whether paint must hide the ground; true by default. If false, the ground may show
+    /// Whether paint must hide the ground, by default true. If false, the ground may show
     /// through, which reaches lighter and more saturated colours. That is for separations
     /// only: strokes overlap, so their paint must hide.
     pub hides: bool,
@@ -144,9 +144,9 @@ pub enum StrokeSettingsError {
     #[error("a canvas has at most {MAX_CELLS} cells, found `{columns} x {rows}`")]
     #[hint("take larger cells ([cell_mm]) or a smaller painting ([width_mm])")]
     TooManyCells {
-        /// Columns of cells; a whole number.
+        /// Columns of cells, a whole number.
         columns: f64,
-        /// Rows of cells; a whole number.
+        /// Rows of cells, a whole number.
         rows: f64,
     },
 }
@@ -158,7 +158,7 @@ pub enum Order {
     /// Random order, from the seed.
     #[default]
     Shuffled,
-    /// Dark before light, like oil painters; random among strokes within the same 5 units
+    /// Dark before light, like oil painters. Random among strokes within the same 5 units
     /// of L*.
     DarkToLight,
 }
@@ -168,7 +168,7 @@ pub enum Order {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plan {
-    /// Width of the brush of each level in mm, coarse to fine; 0.05 to 1000.
+    /// Width of the brush of each level in mm, coarse to fine, 0.05 to 1000.
     pub sizes_mm: Vec<f64>,
     /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0 to 200. Less takes
     /// more strokes.
@@ -188,7 +188,7 @@ pub struct Plan {
     pub most_strokes: usize,
     /// Thickness in mm that black strokes have at least, 0.001 to 10.
     pub darks_mm: f64,
-    /// Thickness in mm that white strokes have at least, 0.001 to 10; a brush lays at most
+    /// Thickness in mm that white strokes have at least, 0.001 to 10. A brush lays at most
     /// 0.06 of its width.
     pub lights_mm: f64,
     /// Pressure of the brush in the middle of a stroke, 0..1.
@@ -240,12 +240,12 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] for the first number out of range, and for a plan without brushes.
     pub fn check(&self) -> Result<(), PlanError> {
-        let fault = |field, value, wanted| Err(PlanError::Number { field, value, wanted });
         if self.sizes_mm.is_empty() {
             return Err(PlanError::NoBrush);
         }
         if let Some(&size) = self.sizes_mm.iter().find(|size| !(0.05..=1000.0).contains(*size)) {
-            return fault("sizes_mm", size, "0.05 to 1000 mm");
+            let wanted = "0.05 to 1000 mm";
+            return Err(PlanError::Number { field: "sizes_mm", value: size, wanted });
         }
         for (field, value, least, most, wanted) in [
             ("tolerance", self.tolerance, 0.0, 200.0, "0 to 200"),
@@ -261,7 +261,7 @@ impl Plan {
             ("speed", self.speed, 1e-3, 1e6, "0.001 to 1000000 brush sizes a second"),
         ] {
             if !(least..=most).contains(&value) {
-                return fault(field, value, wanted);
+                return Err(PlanError::Number { field, value, wanted });
             }
         }
         Ok(())

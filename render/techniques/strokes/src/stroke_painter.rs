@@ -67,7 +67,7 @@ pub struct StrokePainter {
 /// A photograph that has been painted in strokes.
 #[derive(Debug)]
 pub struct PaintedPhotograph {
-    /// The session on the painted canvas; it cannot undo.
+    /// The session on the painted canvas. It cannot undo.
     pub session: PaintingSession,
     /// The strokes. Played on a bare canvas, they give the same painting bit for bit.
     pub script: StrokeScript,
@@ -87,7 +87,7 @@ impl PaintedPhotograph {
 
 impl StrokePainter {
     /// Fits the photograph to a canvas, chooses the pigments and computes the separation,
-    /// which takes some seconds. The light is that of [`Lighting::default`].
+    /// which takes some seconds. The light is the one of [`Lighting::default`].
     ///
     /// # Errors
     /// [`StrokePainterError`] for settings out of range, unknown pigments, and pigments that
@@ -110,7 +110,7 @@ impl StrokePainter {
         let palette = PaletteSpec::from_names(pigments.iter().map(String::as_str));
         let mut script = StrokeScript::new(&settings.title, "", canvas, palette);
         script.library = Some(library.title.clone());
-        // The films of the separation are those of this medium.
+        // The separation computed its films in this medium.
         script.medium = Some(Medium::of(library));
         let resolved = script.resolve(library)?;
         let ground = script.canvas.ground(library)?;
@@ -264,8 +264,8 @@ const STEM: &str = "separation";
 /// A photograph separated into pigments, as files in memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeparatedFiles {
-    /// The files of [`pigment_maps`]; `separation.rebuilt.png`, the picture that the
-    /// pigments make together; and `separation.errors.json`, its colour error.
+    /// The files of [`pigment_maps`], then `separation.rebuilt.png`, the picture that the
+    /// pigments make together, and `separation.errors.json`, its colour error.
     pub files: Vec<NamedFile>,
     /// Colour error of the rebuilt picture.
     pub error: ColorErrors,
@@ -283,11 +283,12 @@ impl StrokePainter {
         let heights = separation.separate(target);
         let width = target.width();
         let height = target.height();
-        let map = |(slot, name): (usize, &String)| {
+        let mut maps = Vec::new();
+        for (slot, name) in self.pigments().iter().enumerate() {
             let values = heights.values().iter().map(|cell| cell[slot]).collect();
-            PigmentMap { name: name.clone(), height_mm: Field::from_values(width, height, values) }
-        };
-        let maps: Vec<PigmentMap> = self.pigments().iter().enumerate().map(map).collect();
+            let height_mm = Field::from_values(width, height, values);
+            maps.push(PigmentMap { name: name.clone(), height_mm });
+        }
         let picture = rebuild_picture(separation.film(), &heights);
         let error = ColorErrors::between(separation, target, &picture);
         let opaque = picture.values().iter().map(|&[red, green, blue]| [red, green, blue, 1.0]);

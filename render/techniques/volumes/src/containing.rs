@@ -10,8 +10,7 @@ use std::sync::OnceLock;
 
 use glam::{DVec3, Vec3};
 
-use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
-use crate::volume::Volume;
+use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 
 /// Crossed edges after which all faces are searched instead, as a walk over flat faces may circle.
 const MOST_CROSSED: usize = 64;

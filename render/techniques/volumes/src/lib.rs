@@ -10,17 +10,10 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod saved;
-pub mod sphere_mesh;
 pub mod volume;
 
 #[cfg(test)]
 mod test_volumes;
-
-#[cfg(test)]
-mod test_surfaces;
-
-#[cfg(test)]
-mod test_device;
 mod device_memory;
 pub mod containing;
 pub mod surfaces;

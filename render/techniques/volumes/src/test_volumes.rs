@@ -1,7 +1,16 @@
 //! Volumes and scenes for tests.
+//!
+//! Surfaces for tests.
+//!
+//! A graphics device for tests, and how far its pictures may be from the processor's.
+
+use std::io::Write;
 
 use glam::{DVec3, Vec3};
 use graphics::camera::Camera;
+use graphics::compute::Compute;
+use graphics::field::Field;
+use graphics::gpu::{BackendChoice, choose};
 use graphics::mesh::{Material, Mesh, Triangle};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -69,4 +78,72 @@ pub(crate) fn camera(turned_deg: f32, distance: f32) -> Camera {
     let eye = target + distance * Vec3::new(sin, 0.0, cos);
     let up = Vec3::Y;
     Camera { eye, target, up, field_of_view_deg: 40.0, near: 0.05 * distance, far: 3.0 * distance }
+}
+
+/// A mesh of plain triangles whose normals point up.
+pub(crate) fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
+    let count = positions.len();
+    Mesh {
+        positions: positions.to_vec(),
+        normals: vec![[0.0, 1.0, 0.0]; count],
+        texture_coordinates: vec![[0.0; 2]; count],
+        colors: vec![[1.0; 3]; count],
+        triangles: triangles.iter().map(|&corners| Triangle { corners, material: 0 }).collect(),
+        materials: vec![Material::plain([1.0; 3])],
+    }
+}
+
+/// A sheet of `squares` by `squares` squares: the places of `at(u, v)` for u and v in 0..1.
+pub(crate) fn sheet(squares: u32, at: impl Fn(f32, f32) -> [f32; 3]) -> Mesh {
+    let row = squares + 1;
+    let share = |i: u32| i as f32 / squares as f32;
+    let points: Vec<_> = (0..row * row).map(|i| at(share(i % row), share(i / row))).collect();
+    let firsts = (0..squares * squares).map(|i| i / squares * row + i % squares);
+    let triangles: Vec<[u32; 3]> =
+        firsts.flat_map(|a| [[a, a + row + 1, a + 1], [a, a + row, a + row + 1]]).collect();
+    bare(&points, &triangles)
+}
+
+/// Both meshes as one.
+pub(crate) fn joined(mut one: Mesh, other: &Mesh) -> Mesh {
+    let first = one.positions.len() as u32;
+    one.positions.extend(&other.positions);
+    one.normals.extend(&other.normals);
+    one.texture_coordinates.extend(&other.texture_coordinates);
+    one.colors.extend(&other.colors);
+    one.triangles.extend(other.triangles.iter().map(|triangle| Triangle {
+        corners: triangle.corners.map(|corner| corner + first),
+        material: triangle.material,
+    }));
+    one
+}
+
+/// A device, hardware before software. `None` without an adapter, with a note on standard error.
+/// Appends the name of the adapter (or `none`) to the file that the environment variable
+/// `IMPASTO_GPU_TESTS` names, if it is set.
+pub(crate) fn device() -> Option<Compute> {
+    let device = choose(BackendChoice::Gpu).ok().flatten();
+    let name = device.as_ref().map_or("none", |device| &device.adapter().name);
+    if let Some(path) = std::env::var_os("IMPASTO_GPU_TESTS") {
+        let mut list = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
+        writeln!(list, "{name}").unwrap();
+    }
+    if device.is_none() {
+        let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
+    }
+    device.map(Compute::gpu)
+}
+
+/// Greatest difference of two pictures, and the share of pixels that differ by more than 1/255.
+pub(crate) fn far(one: &Field<[f32; 4]>, other: &Field<[f32; 4]>) -> (f32, f32) {
+    assert_eq!((one.width(), one.height()), (other.width(), other.height()));
+    let mut most = 0.0_f32;
+    let mut over = 0;
+    for (a, b) in one.values().iter().zip(other.values()) {
+        let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(off.is_finite(), "{a:?} {b:?}");
+        most = most.max(off);
+        over += usize::from(off > 1.0 / 255.0);
+    }
+    (most, over as f32 / one.values().len().max(1) as f32)
 }

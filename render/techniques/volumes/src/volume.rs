@@ -1,9 +1,11 @@
 //! One volume of paint: a closed mesh whose vertices are particles.
+//!
+//! Triangulated unit spheres of six levels of detail: an icosahedron, subdivided.
 
-use glam::Vec3;
+use std::sync::OnceLock;
+
+use glam::{DVec3, Vec3};
 use paint::layer::Cell;
-
-use crate::sphere_mesh::SphereMesh;
 
 /// Places and velocities of the particles of a volume, in the order of its [`SphereMesh`].
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,7 +30,7 @@ pub struct Volume {
     pub radius: f32,
     /// Radius that it grows or shrinks to.
     pub target_radius: f32,
-    /// Level of detail of its mesh, 0 to [`crate::sphere_mesh::MOST_DETAIL`].
+    /// Level of detail of its mesh, 0 to [`MOST_DETAIL`].
     pub detail: u8,
     /// Index of the region that it colours.
     pub region: u16,
@@ -54,7 +56,7 @@ impl Volume {
     /// A resting ball without paint.
     ///
     /// # Panics
-    /// If `detail` is above [`crate::sphere_mesh::MOST_DETAIL`].
+    /// If `detail` is above [`MOST_DETAIL`].
     #[must_use]
     pub fn ball(center: Vec3, radius: f32, detail: u8, seed: u64) -> Self {
         let mesh = SphereMesh::of_detail(detail);
@@ -106,6 +108,132 @@ impl Volume {
     }
 }
 
+/// Highest level of detail, of 10,242 vertices.
+pub const MOST_DETAIL: u8 = 5;
+
+/// A unit sphere of triangles: an icosahedron whose faces are halved along every edge once per
+/// level of detail, with all vertices on the sphere.
+///
+/// The vertices of a level are the first ones of the next level, and the faces `4 f` to `4 f + 3`
+/// of the next level lie in face `f` of this one.
+#[derive(Debug)]
+pub struct SphereMesh {
+    /// Unit vectors from the centre to the vertices.
+    pub directions: Vec<[f32; 3]>,
+    /// Components of the unit vectors along x, y and z, one array each.
+    pub axes: [Vec<f32>; 3],
+    /// Corners of the faces, counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 3]>,
+    /// The vertices joined to each vertex by an edge, in ascending order: six, but five for the
+    /// first 12, whose last entry is the vertex itself.
+    pub neighbours: Vec<[u32; 6]>,
+    /// Distance from the centre to the nearest face, below 1.
+    pub inradius: f32,
+    /// Least determinant of the unit vectors to the corners of a face, above 0.
+    pub least_cone: f32,
+}
+
+impl SphereMesh {
+    /// The sphere with `detail` 0 to [`MOST_DETAIL`]: 10 4^detail + 2 vertices, 20 4^detail
+    /// faces.
+    ///
+    /// # Panics
+    /// If `detail` is above [`MOST_DETAIL`].
+    #[must_use]
+    pub fn of_detail(detail: u8) -> &'static Self {
+        static MESHES: [OnceLock<SphereMesh>; MOST_DETAIL as usize + 1] =
+            [const { OnceLock::new() }; MOST_DETAIL as usize + 1];
+        MESHES[usize::from(detail)].get_or_init(|| Self::subdivided(detail))
+    }
+
+    fn subdivided(detail: u8) -> Self {
+        let (mut vertices, mut faces) = icosahedron();
+        for _ in 0..detail {
+            faces = halved(&mut vertices, &faces);
+        }
+        let neighbours = neighbours(vertices.len(), &faces);
+        let to_plane = faces.iter().map(|face| {
+            let [a, b, c] = face.map(|corner| vertices[corner as usize]);
+            (b - a).cross(c - a).normalize().dot(a)
+        });
+        let inradius = to_plane.fold(1.0, f64::min) as f32;
+        let cones = faces.iter().map(|face| {
+            let [a, b, c] = face.map(|corner| vertices[corner as usize]);
+            a.dot(b.cross(c))
+        });
+        let least_cone = cones.fold(1.0, f64::min) as f32;
+        let directions = vertices.iter().map(|at| at.to_array().map(|value| value as f32));
+        let directions: Vec<_> = directions.collect();
+        let axes = std::array::from_fn(|axis| directions.iter().map(|at| at[axis]).collect());
+        Self { directions, axes, faces, neighbours, inradius, least_cone }
+    }
+}
+
+fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
+    let mut vertices = Vec::with_capacity(12);
+    for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
+        let turned = [DVec3::new(0.0, a, b), DVec3::new(a, b, 0.0), DVec3::new(b, 0.0, a)];
+        vertices.extend(turned.map(DVec3::normalize));
+    }
+    // Edges of the icosahedron have one length; faces are the triples joined by edges.
+    let joined = |a: usize, b: usize| vertices[a].distance(vertices[b]) < 1.1;
+    let mut faces = Vec::with_capacity(20);
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                if joined(a, b) && joined(b, c) && joined(c, a) {
+                    let volume = vertices[a].cross(vertices[b]).dot(vertices[c]);
+                    let [b, c] = if volume > 0.0 { [b, c] } else { [c, b] };
+                    faces.push([a as u32, b as u32, c as u32]);
+                }
+            }
+        }
+    }
+    (vertices, faces)
+}
+
+/// The four faces of every face, with the new vertices at the middles of edges appended.
+fn halved(vertices: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    let mut edges: Vec<[u32; 2]> = faces
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let first = vertices.len() as u32;
+    for &[a, b] in &edges {
+        vertices.push((vertices[a as usize] + vertices[b as usize]).normalize());
+    }
+    let middle = |a: u32, b: u32| {
+        let found = edges.partition_point(|&edge| edge < [a.min(b), a.max(b)]);
+        first + found as u32
+    };
+    let four = faces.iter().flat_map(|&[a, b, c]| {
+        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+    });
+    four.collect()
+}
+
+fn neighbours(count: usize, faces: &[[u32; 3]]) -> Vec<[u32; 6]> {
+    let mut lists = vec![Vec::with_capacity(6); count];
+    // Every edge has two faces, which run along it in opposite directions.
+    for &[a, b, c] in faces {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            lists[from as usize].push(to);
+        }
+    }
+    let own = lists.into_iter().zip(0..).map(|(mut list, own): (Vec<u32>, u32)| {
+        list.sort_unstable();
+        let mut six = [own; 6];
+        six[..list.len()].copy_from_slice(&list);
+        six
+    });
+    own.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,6 +246,48 @@ mod tests {
             let [a, b, c] = face.map(|corner| vertices[corner as usize]);
             let to_plane = (b - a).cross(c - a).normalize().dot(a - ball.center);
             assert!((0.4999..0.53).contains(&to_plane), "{to_plane}");
+        }
+    }
+
+    #[test]
+    fn every_level_is_a_closed_sphere_of_known_size() {
+        // Distances of the nearest face, from a second implementation in numpy.
+        for (detail, inradius) in [(0, 0.795), (2, 0.982), (3, 0.9955), (4, 0.9989)] {
+            let mesh = SphereMesh::of_detail(detail);
+            assert_eq!(mesh.directions.len(), 10 * 4_usize.pow(detail.into()) + 2);
+            assert_eq!(mesh.faces.len(), 20 * 4_usize.pow(detail.into()));
+            assert!((mesh.inradius - inradius).abs() < 1e-2, "{detail}: {}", mesh.inradius);
+            let mut edges: Vec<[u32; 2]> =
+                mesh.faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+            edges.sort_unstable();
+            let count = edges.len();
+            edges.dedup();
+            assert_eq!(edges.len(), count);
+            assert!(edges.iter().all(|&[a, b]| edges.binary_search(&[b, a]).is_ok()));
+        }
+    }
+
+    #[test]
+    fn faces_of_a_level_lie_in_those_of_the_level_above() {
+        let [coarse, fine] = [2, 3].map(SphereMesh::of_detail);
+        assert_eq!(coarse.directions, fine.directions[..coarse.directions.len()]);
+        for (i, face) in coarse.faces.iter().enumerate() {
+            let children = &fine.faces[4 * i..4 * i + 4];
+            for &corner in face {
+                assert!(children.iter().any(|child| child.contains(&corner)), "{i}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_vertex_has_six_neighbours_or_five() {
+        let mesh = SphereMesh::of_detail(3);
+        for (vertex, neighbours) in mesh.neighbours.iter().enumerate() {
+            let own = neighbours.iter().filter(|&&other| other as usize == vertex).count();
+            assert_eq!(own, usize::from(vertex < 12), "{vertex}");
+            for &other in neighbours {
+                assert!(mesh.neighbours[other as usize].contains(&(vertex as u32)) || own == 1);
+            }
         }
     }
 }

@@ -228,7 +228,7 @@ fn making_textures(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| Textures::new(SIZE.0, SIZE.1, &settings).unwrap());
 }
 
-/// All textures of a photograph, whose blooms depend on its colours.
+/// All textures of a photograph. Its blooms depend on its colours.
 #[divan::bench]
 fn making_textures_of_a_photograph(bencher: Bencher<'_, '_>) {
     let wash = wash().color;
@@ -236,7 +236,7 @@ fn making_textures_of_a_photograph(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| Textures::of_photograph(&wash, &settings).unwrap());
 }
 
-/// Blooms of water alone, those of [`making_textures_of_a_photograph`].
+/// Only the blooms of water of [`making_textures_of_a_photograph`].
 #[divan::bench(name = "back_runs")]
 fn blooming(bencher: Bencher<'_, '_>) {
     let wash = wash().color;
@@ -447,7 +447,7 @@ fn smooth_toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     });
 }
 
-/// Includes the download of the picture. Uses any adapter; does nothing without one.
+/// Includes the download of the picture. Does nothing without an adapter.
 #[divan::bench(args = TRIANGLES)]
 fn toon_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let Ok(compute) = Compute::choose(BackendChoice::Gpu) else { return };

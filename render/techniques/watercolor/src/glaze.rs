@@ -112,7 +112,7 @@ impl GlazePainter {
         &self.light
     }
 
-    /// Names of the pigments in use; none before they are chosen.
+    /// Names of the pigments in use. Empty before they are chosen.
     #[must_use]
     pub fn pigments(&self) -> Vec<&str> {
         let slots = self.glazes.as_ref().map(|glazes| *glazes.slots()).unwrap_or_default();

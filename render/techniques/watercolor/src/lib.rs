@@ -3,7 +3,7 @@
 //! After Bousseau, Kaplan, Thollot and Sillion, "Interactive watercolor rendering with
 //! temporal coherence and abstraction" (NPAR 2006). A photograph is abstracted to flat
 //! regions ([`PhotographPainter`]), a mesh is shaded in a few steps of light
-//! ([`ModelPainter`]); the resulting [`Wash`] then goes through the same effects ([`paint()`])
+//! ([`ModelPainter`]). The resulting [`Wash`] then goes through the same effects ([`paint()`])
 //! or becomes a painting of calibrated pigments ([`GlazePainter`]). The style is a value,
 //! [`Settings`], with [`Preset`]s to start from.
 //!

@@ -30,10 +30,10 @@ const WAVE_TEXELS: usize = 32;
 /// Octaves of the grain, the finer of the two feature noises.
 const GRAIN_OCTAVES: usize = 2;
 
-/// Samples along each side of a pixel unless told otherwise: enough for smooth silhouettes.
+/// Samples along each side of a pixel by default: enough for smooth silhouettes.
 const USUAL_SAMPLES: usize = 2;
 
-/// Least and greatest width and height of the map of cast shadows, in pixels; between them it
+/// Least and greatest width and height of the map of cast shadows, in pixels. Between them it
 /// is as large as the picture.
 const LEAST_SHADOW_PX: usize = 512;
 const MOST_SHADOW_PX: usize = 2048;
@@ -135,7 +135,7 @@ impl ModelPainter {
         })
     }
 
-    /// Averages `samples` x `samples` samples for each pixel; at least 1, by default 2.
+    /// Averages `samples` x `samples` samples for each pixel, at least 1 and by default 2.
     #[must_use]
     pub fn with_samples(mut self, samples: usize) -> Self {
         self.toon.samples = samples.max(1);
@@ -167,7 +167,7 @@ impl ModelPainter {
         &self.textures.paper.texture
     }
 
-    /// Name of the device that computes: `cpu`, or that of a graphics adapter.
+    /// Name of the device that computes: `cpu`, or the name of a graphics adapter.
     #[must_use]
     pub fn compute_name(&self) -> &str {
         self.compute.name()
@@ -176,7 +176,7 @@ impl ModelPainter {
     /// Paints the mesh as `camera` sees it. The picture is encoded sRGB, covered everywhere.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn paint(&mut self, camera: &Camera) -> Result<Field<[f32; 4]>, DeviceError> {
         self.paint_stages(camera, None)
     }
@@ -185,7 +185,7 @@ impl ModelPainter {
     /// stage.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn paint_stages(
         &mut self,
         camera: &Camera,
@@ -205,7 +205,7 @@ impl ModelPainter {
     /// ([`super::GlazePainter::paint`]).
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn wash(&mut self, camera: &Camera) -> Result<(Wash, Textures), DeviceError> {
         let ShadedFrame { color, noise } = self.shaded(camera)?;
         let TextureImages { flow, dispersion, paper, touch, .. } = &self.textures;
@@ -230,7 +230,7 @@ impl ModelPainter {
     /// The colours of the surface without light, encoded sRGB with coverage.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn unlit(&mut self, camera: &Camera) -> Result<Field<[f32; 4]>, DeviceError> {
         let Self { compute, model, toon, width, height, .. } = self;
         let samples = toon.samples;

@@ -13,7 +13,7 @@
 //! All of it happens on the processor, before the effects of water and paper, and is the same
 //! for colours and for glazes of pigments.
 
-use graphics::blur::blurred;
+use graphics::blurred;
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
 use graphics::smoothstep;
@@ -25,8 +25,8 @@ use crate::settings::{MarginSettings, Settings, WetSettings};
 use crate::textures::Quantiles;
 
 /// The wash in `width` x `height` pixels. `original` and `flat` are the photograph and its flat
-/// colours in the size of abstraction, at most this one; `abstraction` are the settings for that
-/// size, `settings` those for the picture.
+/// colours in the size of abstraction, at most this one. `abstraction` are the settings for that
+/// size, `settings` the ones for the picture.
 pub(super) fn photograph_wash(
     (original, flat): (&Field<[f32; 4]>, &Field<[f32; 4]>),
     (width, height): (usize, usize),
@@ -63,8 +63,8 @@ pub(super) fn photograph_wash(
             if let Some(margin) = &margin {
                 covered *= margin.painted(x, y);
             }
-            let lifted = |i: usize| dark[i] + (1.0 - dark[i]) * color[i];
-            *out = [lifted(0), lifted(1), lifted(2), covered];
+            let [r, g, b] = [0, 1, 2].map(|i| dark[i] + (1.0 - dark[i]) * color[i]);
+            *out = [r, g, b, covered];
         }
     });
     wash
@@ -183,13 +183,8 @@ impl<'a> Enlarged<'a> {
 
     /// A smooth picture of the size of the flat one at a pixel, interpolated linearly.
     fn smooth<const N: usize>(&self, picture: &Field<[f32; N]>, x: usize, y: usize) -> [f32; N] {
-        let place = |at: usize, step: f32, size: usize| {
-            let at = ((at as f32 + 0.5) * step - 0.5).clamp(0.0, (size - 1) as f32);
-            let low = at as usize;
-            (low, (low + 1).min(size - 1), at - low as f32)
-        };
-        let (left, right, a) = place(x, self.step[0], picture.width());
-        let (above, below, b) = place(y, self.step[1], picture.height());
+        let (left, right, a) = linear_taps(x, self.step[0], picture.width());
+        let (above, below, b) = linear_taps(y, self.step[1], picture.height());
         let corners = [(left, above), (right, above), (left, below), (right, below)];
         let [p, q, r, s] = corners.map(|corner| picture[corner]);
         std::array::from_fn(|i| {
@@ -201,15 +196,26 @@ impl<'a> Enlarged<'a> {
 
     /// Columns and rows around a pixel, each with its weights.
     fn taps(&self, x: usize, y: usize) -> [([usize; 4], [f32; 4]); 2] {
-        let axis = |at: usize, step: f32, size: usize| {
-            let place = (at as f32 + 0.5) * step - 0.5;
-            let low = place.floor();
-            let cells =
-                [-1.0, 0.0, 1.0, 2.0].map(|by| (low + by).clamp(0.0, (size - 1) as f32) as usize);
-            (cells, b_spline(place - low))
-        };
-        [axis(x, self.step[0], self.flat.width()), axis(y, self.step[1], self.flat.height())]
+        [
+            cubic_taps(x, self.step[0], self.flat.width()),
+            cubic_taps(y, self.step[1], self.flat.height()),
+        ]
     }
+}
+
+/// The two cells of a line of `size` cells around a pixel of `step` cells, and the share of the second.
+fn linear_taps(at: usize, step: f32, size: usize) -> (usize, usize, f32) {
+    let at = ((at as f32 + 0.5) * step - 0.5).clamp(0.0, (size - 1) as f32);
+    let low = at as usize;
+    (low, (low + 1).min(size - 1), at - low as f32)
+}
+
+/// The four cells of a line of `size` cells around a pixel of `step` cells, with their weights.
+fn cubic_taps(at: usize, step: f32, size: usize) -> ([usize; 4], [f32; 4]) {
+    let place = (at as f32 + 0.5) * step - 0.5;
+    let low = place.floor();
+    let cells = [-1.0, 0.0, 1.0, 2.0].map(|by| (low + by).clamp(0.0, (size - 1) as f32) as usize);
+    (cells, b_spline(place - low))
 }
 
 /// Weights of the cubic B-spline at the share `t` between the second and third of four cells.
@@ -310,7 +316,7 @@ fn covered_blur(color: &Field<[f32; 4]>, sigma: f32) -> Field<[f32; 4]> {
     })
 }
 
-/// Where the paper is wet, 0 to 1, over the share of the picture that the settings say.
+/// How wet the paper is, 0 to 1. The settings say over which share of the picture.
 fn wet_places(width: usize, height: usize, settings: &WetSettings) -> Field<f32> {
     let mut noise = random(settings.seed, 41);
     let octaves = [Hills::new(&mut noise), Hills::new(&mut noise)];
@@ -341,21 +347,23 @@ fn displaced(color: &Field<[f32; 4]>, settings: &WetSettings) -> Field<[f32; 4]>
     let mut moved = Field::filled(width, height, [0.0; 4]);
     moved.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         for (x, out) in row.iter_mut().enumerate() {
-            let at = |axis: usize| -> f32 {
-                let octave = |octave: usize| {
+            let [right, down] = [0, 3].map(|first| {
+                let octaves = [0, 1, 2].map(|octave| {
                     let finer = (1 << octave) as f32 * step;
-                    hills[3 * axis + octave].at(x as f32 * finer, y as f32 * finer)
+                    hills[first + octave].at(x as f32 * finer, y as f32 * finer)
                         / (1 << octave) as f32
-                };
-                settings.reach_px * (octave(0) + octave(1) + octave(2))
-            };
-            let place = |from: usize, by: f32, size: usize| {
-                (from as f32 + by).round().clamp(0.0, (size - 1) as f32) as usize
-            };
-            *out = color[(place(x, at(0), width), place(y, at(1), height))];
+                });
+                settings.reach_px * (octaves[0] + octaves[1] + octaves[2])
+            });
+            *out = color[(moved_by(x, right, width), moved_by(y, down, height))];
         }
     });
     moved
+}
+
+/// The place on a line of `size` places that lies nearest to `by` beyond `from`.
+fn moved_by(from: usize, by: f32, size: usize) -> usize {
+    (from as f32 + by).round().clamp(0.0, (size - 1) as f32) as usize
 }
 
 /// The mean of two colours, weighted by share and coverage.

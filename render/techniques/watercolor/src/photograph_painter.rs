@@ -17,11 +17,11 @@ use super::pipeline::{FrameTextures, Masks, StageObserver, Wash, WashImages, pai
 use super::settings::{AbstractionSettings, Settings};
 use super::textures::{PaperTextureError, Textures};
 
-/// Longer side in pixels of the largest picture in which regions are looked for; those of larger
-/// ones are enlarged.
+/// Longer side in pixels of the largest picture in which we look for regions. Regions of larger
+/// pictures are enlarged.
 const REGIONS_LONGER_SIDE_PX: usize = 1600;
 
-/// Paints photographs as watercolors, on the processor unless told otherwise.
+/// Paints photographs as watercolors, by default on the processor.
 ///
 /// ```
 /// use graphics::picture::Photograph;
@@ -45,8 +45,8 @@ pub struct PhotographPainter {
 /// A photograph made ready for painting: its wash and the textures of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedPhotograph {
-    /// The photograph in the size in which regions are looked for, encoded sRGB with coverage:
-    /// that of the painting, with its longer side at most 1600 px.
+    /// The photograph in the size in which we look for regions, encoded sRGB with coverage: as
+    /// large as the painting, with its longer side at most 1600 px.
     pub original: Field<[f32; 4]>,
     /// Each region of the photograph in its mean colour, in the size of `original`.
     pub segmented: Field<[f32; 4]>,
@@ -102,7 +102,7 @@ impl PhotographPainter {
         (width, height_for_width(photograph, width))
     }
 
-    /// Name of the device that computes: `cpu`, or that of a graphics adapter.
+    /// Name of the device that computes: `cpu`, or the name of a graphics adapter.
     #[must_use]
     pub fn compute_name(&self) -> &str {
         self.compute.name()
@@ -151,7 +151,7 @@ impl PhotographPainter {
     /// called with the picture after each stage.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn paint_prepared(
         &mut self,
         prepared: &PreparedPhotograph,
@@ -165,14 +165,14 @@ impl PhotographPainter {
     /// Applies all effects as [`Self::paint_prepared`] does, in the memory of `prepared`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn finish(&mut self, prepared: PreparedPhotograph) -> Result<Field<[f32; 4]>, DeviceError> {
         let PreparedPhotograph { original, segmented, wash, textures, settings, .. } = prepared;
         drop((original, segmented));
         self.paint_wash(wash, textures, &settings, None)
     }
 
-    /// Applies all effects to a wash whose memory is used for the picture.
+    /// Applies all effects to a wash, in its memory.
     fn paint_wash(
         &mut self,
         Wash { color, controls }: Wash,
@@ -258,7 +258,7 @@ pub struct AbstractedPhotograph {
     pub regions: usize,
 }
 
-/// Abstracts `photograph` to a picture of `width_px` pixels, whose height follows from the
+/// Abstracts `photograph` to a picture of `width_px` pixels. Its height follows from the
 /// proportions of the photograph.
 ///
 /// # Errors

@@ -86,7 +86,7 @@ pub struct FrameTextures<'a> {
     pub dispersion: &'a GreyImage,
     /// Heights of the paper, 0 to 1.
     pub paper: &'a PaperImage,
-    /// Touch of the dry brush; without it the heights of the paper decide.
+    /// Touch of the dry brush. Without it the heights of the paper decide.
     pub touch: Option<(&'a GreyImage, &'a Quantiles)>,
     /// Change of density by back-runs, 0 to 1, with 0.5 for none.
     pub back_runs: Option<&'a GreyImage>,
@@ -102,14 +102,14 @@ impl<'a> From<&'a TextureImages> for FrameTextures<'a> {
 }
 
 /// Paints `wash`: applies all effects and composites the result on the paper. `settings` are
-/// those for its size ([`Settings::for_size`]).
+/// the ones for its size ([`Settings::for_size`]).
 ///
 /// With an `observer` every stage is computed by itself and downloaded. On the processor the
-/// stages are bit for bit those of a run without an observer, which applies all changes of
+/// result is bit for bit the same as without an observer, where we apply all changes of
 /// density in one pass.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -220,14 +220,16 @@ fn dry_brush_reach(
     settings: &Settings,
 ) -> DryBrushReach {
     let DryBrushSettings { softness, patches, darkest, outline_px, .. } = settings.dry_brush;
-    let above = |amount| touch.map_or_else(|| paper.height_above(amount), |touch| touch.at(amount));
     let threshold = match settings.dry_brush.amount {
-        amount if amount > 0.0 => above(amount) + 0.5 * softness,
+        amount if amount > 0.0 => {
+            let above = touch.map_or_else(|| paper.height_above(amount), |touch| touch.at(amount));
+            above + 0.5 * softness
+        }
         _ => 0.0,
     };
     // A step of contrast c, blurred by sigma, has a gradient of 0.8 c / sigma in its middle.
     let outline = outline_px / OUTLINE_SIGMAS / 0.8 / OUTLINE_CONTRAST;
-    // Water in the paint makes a dark of the subject paler; it stays a dark.
+    // Water in the paint makes a dark of the subject paler, but it stays a dark.
     let darkest = darkest * (1.0 - (1.0 - darkest) * (settings.wash.density - 1.0)).max(0.0);
     DryBrushReach { threshold, softness, patches, outline, darkest }
 }
@@ -243,7 +245,7 @@ fn paper_shading(paper: &PaperTexture, settings: &Settings) -> PaperShading {
 pub struct Wash {
     /// Encoded sRGB in 0..1, then coverage: 1 where paint is, 0 on bare paper.
     pub color: Field<[f32; 4]>,
-    /// Where effects are weaker.
+    /// Places with weaker effects.
     pub controls: Controls,
 }
 
@@ -306,7 +308,7 @@ impl Wash {
     /// Copies the wash into the memory of `compute`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn upload(&self, compute: &mut Compute) -> Result<WashImages, DeviceError> {
         let color = compute.upload(&self.color)?;
         WashImages::new(compute, color, &self.controls)
@@ -317,7 +319,7 @@ impl WashImages {
     /// A picture in the memory of `compute`, with controls that are copied there.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn new(
         compute: &mut Compute,
         color: ColorImage,

@@ -12,7 +12,7 @@ use graphics::surface::{Fragment, Model, VisibilityBuffer};
 const VIEW_DEG: f32 = 4.0;
 
 /// Cosine of the light below which shadows fade, since light that grazes a surface gives it little
-/// anyway. About 14 degrees; chosen by eye.
+/// anyway. About 14 degrees, chosen by eye.
 pub(super) const GRAZING: f32 = 0.25;
 
 /// Offset along the normal, and tolerance of distance, of a point in a shadow map, in its
@@ -36,7 +36,7 @@ pub struct ShadowMap {
 /// The measures of a shadow map that shading needs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShadowView {
-    /// From model coordinates to those of the light's picture, as for a camera.
+    /// From model coordinates to the light's picture, as for a camera.
     pub(super) clip_from_model: Mat4,
     /// Distances of the near and the far plane from the light.
     pub(super) planes: [f32; 2],
@@ -53,7 +53,7 @@ impl ShadowMap {
     /// `direction` (towards the light, of length 1).
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     ///
     /// # Panics
     /// If another form of [`Compute`] made the model.
@@ -97,7 +97,7 @@ impl ShadowMap {
 
 impl ShadowView {
     /// The share of light, 0 to 1, that reaches a place on a surface: the mean over a square of
-    /// the map. `cosine`, above 0, is that of the angle between `normal` and the light.
+    /// the map. `cosine`, above 0, belongs to the angle between `normal` and the light.
     pub(super) fn lit(
         &self,
         map: &VisibilityBuffer,
@@ -110,8 +110,7 @@ impl ShadowView {
         let soft = self.soft as f32;
         let x = (clip.x / clip.w + 1.0) / 2.0 * side - 0.5;
         let y = (1.0 - clip.y / clip.w) / 2.0 * side - 0.5;
-        let inside = |at: f32| at >= soft && at < side - 1.0 - soft;
-        if !(inside(x) && inside(y)) {
+        if ![x, y].iter().all(|&at| at >= soft && at < side - 1.0 - soft) {
             return 1.0;
         }
         let left = x as usize;
@@ -143,20 +142,24 @@ impl ShadowView {
         }
         let a = x - left as f32;
         let b = y - top as f32;
-        let share = |at: usize, [first, last]: [usize; 2], part: f32| match at {
-            at if at == first => 1.0 - part,
-            at if at == last => part,
-            _ => 1.0,
-        };
         let mut lit = 0.0;
         for row in rows {
             let mut sum = 0.0;
             for column in columns.clone() {
-                sum += share(column, [first, last], a) * free(column, row);
+                sum += border_share(column, [first, last], a) * free(column, row);
             }
-            lit += share(row, [upper, lower], b) * sum;
+            lit += border_share(row, [upper, lower], b) * sum;
         }
         lit / (2.0 * soft + 1.0).powi(2)
+    }
+}
+
+/// Share of a row or column of pixels in a square from inside of the first to inside of the last.
+fn border_share(at: usize, [first, last]: [usize; 2], part: f32) -> f32 {
+    match at {
+        at if at == first => 1.0 - part,
+        at if at == last => part,
+        _ => 1.0,
     }
 }
 

@@ -5,7 +5,7 @@
 //! C of the surface is painted, as all of their watercolor does:
 //! `C (1 - (1 - C) (d - 1))` with `d = 1 + strength (0.5 - grey)`, at least 0. So shade is
 //! thick paint, light is thin paint, and white stays white. Where another surface stands
-//! between the light and a point, the diffuse term is that of the shade.
+//! between the light and a point, the point lies in the shade.
 
 use glam::{Mat4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -29,9 +29,9 @@ pub struct Toon {
     pub light: DistantLight,
     /// Grey by the cosine between light and surface.
     pub tones: ToneRamp,
-    /// Density gained from grey 1 to grey 0; 0 shows colours without light.
+    /// Density gained from grey 1 to grey 0. 0 shows colours without light.
     pub strength: f32,
-    /// Darkness of cast shadows: 1 is that of the shade, 0 casts none.
+    /// Darkness of cast shadows: 1 is as dark as the shade, 0 casts none.
     pub shadow: f32,
     /// Encoded sRGB of the glaze that cast shadows lay over the surface.
     pub shadow_color: [f32; 3],
@@ -57,10 +57,10 @@ impl Default for Toon {
 /// Shades what `camera` sees of `model`, which was drawn into `visible`: encoded sRGB in
 /// 0..1, with the share of the pixel that surfaces cover, and (1, 1, 1, 0) where there are
 /// none. The picture is `toon.samples` times smaller than `visible`. Shadows are cast by what
-/// `shadows`, a map of the light of `toon`, shows; without it there are none.
+/// `shadows`, a map of the light of `toon`, shows. Without it there are none.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If `visible` is of another mesh, its size is no multiple of the samples, or another form
@@ -178,10 +178,10 @@ impl Shader<'_> {
                 _ => view.lit(map, point.position(), normal, cosine),
             };
             *last = Some((fragment.triangle, lit));
-            // Where light grazes, a coarse mesh would shadow the rounder surface that its normals tell.
+            // At grazing light a coarse mesh would shadow the rounder surface that its normals describe.
             let shadow = self.toon.shadow * (1.0 - lit) * (cosine / GRAZING).min(1.0);
             cosine *= 1.0 - shadow;
-            // Density darkens colours by itself; the glaze is for what is white.
+            // Density darkens colours by itself. White needs the glaze.
             let glaze = shadow * albedo.min_element();
             albedo *= Vec3::ONE + (Vec3::from(self.toon.shadow_color) - Vec3::ONE) * glaze;
         }
@@ -232,7 +232,7 @@ struct ToonParams {
     light: [f32; 3],
     samples: u32,
     size: [u32; 2],
-    /// Width and height of the shadow map; 0 without shadows.
+    /// Width and height of the shadow map, or 0 without shadows.
     side: u32,
     /// Darkness of cast shadows.
     shadow: f32,

@@ -18,7 +18,7 @@ pub struct EnviAbout {
     pub samples: usize,
     /// Wavelengths of the bands in nm.
     pub wavelengths_nm: Vec<f64>,
-    /// Description for readers; braces and line breaks are left out.
+    /// Description for readers. Braces and line breaks are left out.
     pub description: String,
 }
 
@@ -48,7 +48,7 @@ impl EnviWriter {
         Ok(Self { header: path.to_owned(), about, data, lines: 0 })
     }
 
-    /// Adds whole rows of reflectances, those of all bands of one pixel after another. Values are rounded to
+    /// Adds whole rows of reflectances, pixel by pixel with all bands of each. Values are rounded to
     /// 0.0001, and lie between 0 and 6.5535 in the file.
     ///
     /// # Errors

@@ -1,17 +1,16 @@
-//! A smooth field of lines along a surface.
+//! A smooth field of lines along a surface, and arrows made from it, along which things can move. A
+//! spanning tree gives the lines their signs.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::evidence::Evidence;
-use super::links::Links;
-use super::settings::{DirectionFault, DirectionSettings, Guide, Line};
-use super::smoothing::smooth_squares;
-use super::within::line_within;
+use super::smoothing::{Evidence, Link, Links, line_within, smooth_squares, vector_within};
+use super::{DirectionFault, DirectionSettings, Guide, Line};
+use crate::mesh::curvature::{PlaceShape, Places, TangentPlane, carried, place_shapes};
 use crate::mesh::model::Mesh;
-use crate::mesh::places::Places;
-use crate::mesh::shape_tensor::{PlaceShape, place_shapes};
-use crate::mesh::tangent_plane::TangentPlane;
 
 /// Least smoothing length, as a share of the model's radius: places without curvature
 /// take their neighbours' directions through it.
@@ -23,8 +22,8 @@ const LEAST_ALONG: f64 = 1e-3;
 /// A smooth field of tangent directions of arbitrary sign on a mesh, one for every vertex.
 ///
 /// It belongs to the model: it does not depend on a camera, and it turns with the mesh. Only a
-/// connected part without any direction in its shape, such as a sphere or a plane, follows a fixed
-/// axis (y, or x if its surface faces up), and its poles stay singular.
+/// connected part without any direction in its shape, for example a sphere or a plane, follows a
+/// fixed axis (y, or x if its surface faces up), and its poles stay singular.
 #[derive(Debug, Clone)]
 pub struct DirectionField {
     pub(super) of_vertex: Vec<u32>,
@@ -49,18 +48,17 @@ struct Base<'a> {
 }
 
 impl DirectionField {
-    /// The field along the principal directions of the mesh's curvature
-    /// ([`Mesh::curvatures`]), smoothed over `settings.smoothing` as lines of two-fold
-    /// symmetry. A direction counts by the difference between the absolute values of both
-    /// curvatures times the model's radius; where they are equal the neighbours decide. Vertices
-    /// with a guide have its direction.
+    /// The field along the principal directions of the mesh's curvature ([`Mesh::curvatures`]),
+    /// smoothed over `settings.smoothing` as lines of two-fold symmetry. A direction counts by the
+    /// difference between the absolute values of both curvatures times the model's radius. Where
+    /// they are equal the neighbours decide. Vertices with a guide have its direction.
     ///
     /// # Errors
-    /// [`DirectionFault`] if the smoothing is outside 0..1, or a guide has no such vertex or no part
-    /// along the surface there.
+    /// [`DirectionFault`] if the smoothing is outside 0..1, or a guide has no such vertex or no
+    /// part along the surface there.
     ///
     /// # Panics
-    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions;
+    /// If a triangle has a vertex that does not exist, or there are fewer normals than positions.
     /// [`Mesh::check`] finds both.
     pub fn of_curvature(
         mesh: &Mesh,
@@ -75,14 +73,14 @@ impl DirectionField {
     }
 
     /// The field through given lines, one for each vertex, smoothed over `settings.smoothing`. A
-    /// line counts by its weight and the area around its vertex; where weights are 0 the neighbours
+    /// line counts by its weight and the area around its vertex. Where weights are 0 the neighbours
     /// decide. Vertices with a guide have its direction.
     ///
     /// # Errors
-    /// Those of [`Self::of_curvature`].
+    /// As [`Self::of_curvature`].
     ///
     /// # Panics
-    /// Those of [`Self::of_curvature`], or if there are fewer lines than vertices.
+    /// As [`Self::of_curvature`], and if there are fewer lines than vertices.
     pub fn of_lines(
         mesh: &Mesh,
         lines: &[Line],
@@ -143,9 +141,9 @@ impl DirectionField {
         self.squares[self.of_vertex[vertex] as usize].length().min(1.0) as f32
     }
 
-    /// Unit direction, of arbitrary sign, at a point inside a triangle with these corners, whose
-    /// barycentric weights are not negative and add up to 1. But for the sign it is continuous
-    /// in the triangle and across its edges, except at singular points.
+    /// Unit direction, of arbitrary sign, at a point inside a triangle with these corners. The
+    /// barycentric weights are not negative and add up to 1. But for the sign it is continuous in
+    /// the triangle and across its edges, except at singular points.
     ///
     /// # Panics
     /// If the mesh has no such vertices.
@@ -158,7 +156,7 @@ impl DirectionField {
     }
 }
 
-/// Line with this square; a projected axis where nothing determines it.
+/// Line with this square, a projected axis where nothing determines it.
 fn line(plane: &TangentPlane, square: DVec2) -> DVec3 {
     let axis = plane.projected(DVec3::Y);
     plane.along(if square == DVec2::ZERO { axis.rotate(axis) } else { square })
@@ -193,4 +191,281 @@ fn fixed_squares(
         given[place as usize] = unit.rotate(unit);
     }
     Ok((fixed, given))
+}
+
+/// Part of an arrow along an axis below which it does not decide the sign of a connected part.
+const LEAST_PART: f64 = 1e-3;
+
+/// Lines with signs: an arrow for every vertex, and a strength that fades to 0 where neighbours
+/// disagree.
+#[derive(Debug, Clone)]
+pub struct FlowField {
+    of_vertex: Vec<u32>,
+    normals: Vec<DVec3>,
+    /// Unit arrows at all places.
+    arrows: Vec<DVec3>,
+    /// Strength of the flow at all places, 0 to 1.
+    strengths: Vec<f64>,
+    singular: Vec<bool>,
+}
+
+impl DirectionField {
+    /// Gives the lines signs along the spanning tree of greatest reliability, which grows from all
+    /// places with a guide at once, so that flow runs along guides and not against them. Where
+    /// signs cannot agree, around singular places and across the cuts that half turns force,
+    /// vertices are marked as singular and the strength is 0. It rises to 1 over `fade_rings` rings
+    /// of edges (2 or 3 are usual, 0 leaves it at 1 beside singular vertices).
+    #[must_use]
+    pub fn oriented(&self, fade_rings: usize) -> FlowField {
+        self.signed(self.arrows(), fade_rings)
+    }
+
+    /// Gives the lines the signs of arrows of any length, one for each vertex, 0 leaves a vertex
+    /// without. A connected part takes those vertices' signs as [`Self::oriented`] does, turned
+    /// over if most given arrows say so.
+    ///
+    /// # Panics
+    /// If there are fewer arrows than vertices.
+    #[must_use]
+    pub fn oriented_by(&self, given: &[[f32; 3]], fade_rings: usize) -> FlowField {
+        let mut wanted = vec![DVec3::ZERO; self.lines.len()];
+        for (&place, arrow) in self.of_vertex.iter().zip(given) {
+            wanted[place as usize] += DVec3::from(arrow.map(f64::from));
+        }
+        let mut arrows = self.arrows();
+        let (order, parts) = self.links.parts();
+        for part in parts {
+            let places = || order[part.clone()].iter().map(|&place| place as usize);
+            let agreement: f64 = places().map(|place| arrows[place].dot(wanted[place])).sum();
+            for place in places() {
+                let own = arrows[place].dot(wanted[place]);
+                if own < 0.0 || (own == 0.0 && agreement < 0.0) {
+                    arrows[place] = -arrows[place];
+                }
+            }
+        }
+        self.signed(arrows, fade_rings)
+    }
+
+    fn signed(&self, arrows: Vec<DVec3>, fade_rings: usize) -> FlowField {
+        let singular: Vec<bool> =
+            (0..arrows.len()).map(|place| self.is_singular(&arrows, place)).collect();
+        let full = fade_rings.saturating_add(1);
+        let steps = rings(&self.links, &singular, full);
+        let strengths = steps.iter().map(|&ring| smooth(ring as f64 / full as f64));
+        FlowField {
+            of_vertex: self.of_vertex.clone(),
+            normals: self.planes.iter().map(|plane| plane.normal).collect(),
+            strengths: strengths.collect(),
+            arrows,
+            singular,
+        }
+    }
+
+    /// Unit arrows at all places, signed along the tree.
+    fn arrows(&self) -> Vec<DVec3> {
+        let reliabilities: Vec<f64> = self.squares.iter().map(|square| square.length()).collect();
+        let guided = (0..).zip(&self.guided).filter(|(_, guide)| guide.is_some());
+        let seeds: Vec<u32> = guided.map(|(place, _)| place).collect();
+        let tree = spanning_tree(&self.links, &reliabilities, &seeds, |place, link| {
+            self.squares[place].dot(link.turn.rotate(self.squares[link.to as usize]))
+        });
+        let mut arrows = self.lines.clone();
+        for step in tree {
+            let place = step.place as usize;
+            let against = match (step.from, self.guided[place]) {
+                (_, Some(guide)) => arrows[place].dot(guide) < 0.0,
+                (Some(from), None) => self.cosine(&arrows, place, from as usize) < 0.0,
+                (None, None) => points_back(arrows[place]),
+            };
+            if against {
+                arrows[place] = -arrows[place];
+            }
+        }
+        arrows
+    }
+
+    /// Cosine of the angle between the arrows of two neighbours, carried along their link.
+    fn cosine(&self, arrows: &[DVec3], place: usize, other: usize) -> f64 {
+        let normal = |place: usize| self.planes[place].normal;
+        let there = carried(arrows[other], normal(other), normal(place));
+        there.map_or(0.0, |there| arrows[place].dot(there))
+    }
+
+    /// Whether the arrow of a neighbour differs by more than 90 degrees.
+    fn is_singular(&self, arrows: &[DVec3], place: usize) -> bool {
+        let mut links = self.links.of(place).iter();
+        links.any(|link| self.cosine(arrows, place, link.to as usize) < 0.0)
+    }
+}
+
+impl FlowField {
+    /// Unit arrow at a vertex, perpendicular to its smoothed normal.
+    ///
+    /// # Panics
+    /// If the mesh has no such vertex.
+    #[must_use]
+    pub fn arrow(&self, vertex: usize) -> [f32; 3] {
+        self.arrows[self.of_vertex[vertex] as usize].as_vec3().to_array()
+    }
+
+    /// Strength of the flow at a vertex, 0 at a singular one to 1.
+    ///
+    /// # Panics
+    /// If the mesh has no such vertex.
+    #[must_use]
+    pub fn strength(&self, vertex: usize) -> f32 {
+        self.strengths[self.of_vertex[vertex] as usize] as f32
+    }
+
+    /// Whether the arrow of a neighbour of this vertex differs by more than 90 degrees.
+    ///
+    /// # Panics
+    /// If the mesh has no such vertex.
+    #[must_use]
+    pub fn is_singular(&self, vertex: usize) -> bool {
+        self.singular[self.of_vertex[vertex] as usize]
+    }
+
+    /// Flow at a point inside a triangle with these corners, whose barycentric weights are not
+    /// negative and add up to 1: a tangent vector. Its length, 0 to 1, is the strength. It is
+    /// continuous in the triangle and across its edges.
+    ///
+    /// # Panics
+    /// If the mesh has no such vertices.
+    #[must_use]
+    pub fn within(&self, corners: [u32; 3], weights: [f32; 3]) -> [f32; 3] {
+        let places = corners.map(|corner| self.of_vertex[corner as usize] as usize);
+        let normals = places.map(|place| self.normals[place]);
+        let vectors = places.map(|place| self.strengths[place] * self.arrows[place]);
+        vector_within(normals, vectors, weights.map(f64::from)).as_vec3().to_array()
+    }
+}
+
+/// Whether the first arrow of a part points down, or if it is level to the left, or backwards.
+fn points_back(arrow: DVec3) -> bool {
+    let parts = [arrow.y, arrow.x, arrow.z];
+    parts.into_iter().find(|part| part.abs() > LEAST_PART).is_some_and(|part| part < 0.0)
+}
+
+/// Number of links from every place to the nearest singular one, at most `most`.
+fn rings(links: &Links, singular: &[bool], most: usize) -> Vec<usize> {
+    let mut rings: Vec<usize> = singular.iter().map(|&is| if is { 0 } else { most }).collect();
+    let mut edge: Vec<usize> = (0..singular.len()).filter(|&place| singular[place]).collect();
+    for ring in 1..most {
+        let mut next = Vec::new();
+        for place in edge {
+            for link in links.of(place) {
+                let other = &mut rings[link.to as usize];
+                if *other > ring {
+                    *other = ring;
+                    next.push(link.to as usize);
+                }
+            }
+        }
+        if next.is_empty() {
+            break;
+        }
+        edge = next;
+    }
+    rings
+}
+
+/// Smoothstep over 0..1.
+fn smooth(at: f64) -> f64 {
+    at * at * (3.0 - 2.0 * at)
+}
+
+/// A place reached by the tree, from a place reached before, or as the first of its part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Step {
+    pub(super) place: u32,
+    pub(super) from: Option<u32>,
+}
+
+/// A link that the tree may grow along.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    reliability: f64,
+    place: u32,
+    from: u32,
+}
+
+impl Ord for Candidate {
+    /// The greater is taken first: the more reliable, then the lower indices.
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.reliability
+            .total_cmp(&other.reliability)
+            .then(other.place.cmp(&self.place))
+            .then(other.from.cmp(&self.from))
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Candidate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Candidate {}
+
+/// All places in the order in which the spanning tree of greatest reliability reaches them, grown
+/// from the most reliable place of each connected part (Prim, "Shortest connection networks and
+/// some generalizations", 1957; over surfaces: Hoppe et al., "Surface reconstruction from
+/// unorganized points", 1992). Parts with places among `seeds` grow from all of these at once.
+/// Ties go to the lower index.
+pub(super) fn spanning_tree(
+    links: &Links,
+    of_place: &[f64],
+    seeds: &[u32],
+    of_link: impl Fn(usize, &Link) -> f64,
+) -> Vec<Step> {
+    let mut roots: Vec<u32> = (0..links.count() as u32).collect();
+    roots.sort_unstable_by(|&a, &b| {
+        of_place[b as usize].total_cmp(&of_place[a as usize]).then(a.cmp(&b))
+    });
+    let mut reached = vec![false; links.count()];
+    let mut steps = Vec::with_capacity(links.count());
+    let mut candidates = BinaryHeap::new();
+    let mut reach = |step: Step, reached: &mut [bool], candidates: &mut BinaryHeap<Candidate>| {
+        reached[step.place as usize] = true;
+        steps.push(step);
+        for link in links.of(step.place as usize) {
+            if !reached[link.to as usize] {
+                let reliability = of_link(step.place as usize, link);
+                candidates.push(Candidate { reliability, place: link.to, from: step.place });
+            }
+        }
+    };
+    for &place in seeds {
+        reach(Step { place, from: None }, &mut reached, &mut candidates);
+    }
+    for root in roots {
+        while let Some(step) = unreached(&mut candidates, &reached) {
+            reach(step, &mut reached, &mut candidates);
+        }
+        if !reached[root as usize] {
+            reach(Step { place: root, from: None }, &mut reached, &mut candidates);
+        }
+    }
+    while let Some(step) = unreached(&mut candidates, &reached) {
+        reach(step, &mut reached, &mut candidates);
+    }
+    steps
+}
+
+/// The best candidate with a place that is not reached yet.
+fn unreached(candidates: &mut BinaryHeap<Candidate>, reached: &[bool]) -> Option<Step> {
+    while let Some(Candidate { place, from, .. }) = candidates.pop() {
+        if !reached[place as usize] {
+            return Some(Step { place, from: Some(from) });
+        }
+    }
+    None
 }

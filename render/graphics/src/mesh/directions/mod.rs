@@ -6,19 +6,100 @@
 //! guides -------------------------+-> smoothing -> lines -> spanning tree -> flow
 //! links between tangent planes ---+
 //! ```
-
-mod links;
-mod settings;
-mod evidence;
 mod smoothing;
-mod within;
 mod field;
-mod spanning_tree;
-mod flow;
 
 #[cfg(test)]
 mod tests;
 
-pub use field::DirectionField;
-pub use flow::FlowField;
-pub use settings::{Along, DirectionFault, DirectionSettings, Guide, Line};
+use documents::hint::Explain;
+
+pub use field::{DirectionField, FlowField};
+
+/// The principal direction that a field follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Along {
+    /// The direction in which the surface bends least: along a branch.
+    #[default]
+    Least,
+    /// The direction in which the surface bends most: around a branch.
+    Greatest,
+}
+
+/// Settings of a field of directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DirectionSettings {
+    /// The principal direction that the field follows, the least by default.
+    pub along: Along,
+    /// Rounds of averaging normals before curvature is computed, see
+    /// [`Mesh::curvatures`](crate::mesh::Mesh::curvatures), 1 by default.
+    pub normal_rounds: usize,
+    /// Length over which directions are smoothed where curvature is well defined, as a share of the
+    /// model's radius (root mean square distance of the surface from its centre): 0 to 1, 0.05 by
+    /// default. Where curvature says less the length grows by itself.
+    pub smoothing: f64,
+}
+
+impl Default for DirectionSettings {
+    fn default() -> Self {
+        Self { along: Along::Least, normal_rounds: 1, smoothing: 0.05 }
+    }
+}
+
+/// A direction that a vertex asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Line {
+    /// Direction of any length and sign in the model's axes. Only its part along the surface
+    /// counts.
+    pub along: [f32; 3],
+    /// How much it counts, 0 to 1.
+    pub weight: f32,
+}
+
+/// A direction that the field must have at a vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guide {
+    /// Index of the vertex. All vertices at the same position follow. Of several guides at one
+    /// position the last one counts.
+    pub vertex: u32,
+    /// Direction of any length in the model's axes. Only its part along the surface counts. Lines
+    /// have no sign, but flow has the sign of the guide
+    /// ([`DirectionField::oriented`](DirectionField::oriented)).
+    pub along: [f32; 3],
+}
+
+/// A fault of the settings or guides of a field of directions. Indices count from 0.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum DirectionFault {
+    /// The smoothing is outside 0..1.
+    #[error("the smoothing of directions is `{found}`, not 0 to 1")]
+    #[hint("it is a share of the model's radius; 0.05 is usual")]
+    Smoothing {
+        /// The smoothing asked for.
+        found: f64,
+    },
+    /// A guide refers to a vertex that does not exist.
+    #[error("guide {guide} is at vertex {found}, of {vertices}")]
+    #[hint("guides belong to one model: draw them again on this one")]
+    NoSuchVertex {
+        /// Index of the guide.
+        guide: usize,
+        /// Vertex index it refers to.
+        found: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A guide has no part along the surface, or is not a number.
+    #[error(
+        "guide {guide} at vertex {vertex} points along `{found:?}`, which is not on the surface"
+    )]
+    #[hint("draw the guide along the surface, not towards or away from it")]
+    OffSurface {
+        /// Index of the guide.
+        guide: usize,
+        /// Index of the vertex.
+        vertex: u32,
+        /// The direction asked for.
+        found: [f32; 3],
+    },
+}

@@ -4,40 +4,47 @@
 //! With squares z of unit lines, and links that carry them between tangent planes, it minimises
 //! spread * sum of stiffness |z_i - turn z_j|^2 over the links + sum of weight |z_i - wanted_i|^2
 //! over the places (Knoeppel, Crane, Pinkall and Schroeder, "Globally optimal direction fields",
-//! 2013, section 4, with the alignment as a quadratic term). That is one linear system, solved by
+//! 2013, section 4, with the alignment as a quadratic term). This is one linear system, solved by
 //! conjugate gradients with a diagonal preconditioner (Hestenes and Stiefel, 1952).
+//!
+//! The evidence is the direction and strength that curvature asks for at every place. A link joins
+//! two neighbouring places: it knows how squares of tangent vectors turn on the way, and how
+//! strongly it holds both together.
 
-use glam::DVec2;
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::evidence::Evidence;
-use super::links::Links;
+use super::{Along, Line};
+use crate::mesh::curvature::{PlaceShape, Places, ShapeTensor, TangentPlane, carried};
+use crate::smoothstep;
 
-/// Residual, relative to that of no lines at all, at which the solver stops.
+/// Residual at which the solver stops, relative to the residual without any lines.
 const RESIDUAL: f64 = 1e-8;
 
 /// Most steps of the solver. A plane of 100,000 triangles that a guide in one corner decides takes
 /// about 1000, a still life of that size 400.
 const MOST_STEPS: usize = 4000;
 
-/// Places in one portion of a sum; sums are added portion by portion, so that the number of threads
+/// Places in one portion of a sum. Sums are added portion by portion, so that the number of threads
 /// does not matter.
 const PORTION: usize = 1 << 11;
 
-/// The system whose solution is the smooth field.
+/// The system that the smooth field solves.
 struct System<'a> {
     links: &'a Links,
     /// Square of the smoothing length.
     spread: f64,
     evidence: &'a Evidence,
     fixed: &'a [bool],
-    /// One over the diagonal of the matrix; 0 at fixed places and at those that nothing determines.
+    /// One over the diagonal of the matrix, 0 at fixed places and at those that nothing determines.
     inverse_diagonal: Vec<f64>,
 }
 
-/// Squares of the smooth lines at all places; their length, at most 1 but for rounding, tells how
-/// well the surroundings agree. Places that are `fixed` keep the value of `given`; one that
-/// nothing determines gets 0.
+/// Squares of the smooth lines at all places. Their length, at most 1 but for rounding, shows how
+/// well the surroundings agree. Places that are `fixed` keep the value of `given`. One that nothing
+/// determines gets 0.
 pub(super) fn smooth_squares(
     links: &Links,
     evidence: &Evidence,
@@ -49,9 +56,13 @@ pub(super) fn smooth_squares(
     let mut squares = system.start(given);
     let mut product = vec![DVec2::ZERO; squares.len()];
     system.multiply(&squares, &mut product);
-    let rest = |place: usize| evidence.squares[place] - product[place];
-    let free = |place: usize| if fixed[place] { DVec2::ZERO } else { rest(place) };
-    let mut residual: Vec<DVec2> = (0..squares.len()).map(free).collect();
+    let mut residual: Vec<DVec2> = (0..squares.len())
+        .map(
+            |place: usize| {
+                if fixed[place] { DVec2::ZERO } else { evidence.squares[place] - product[place] }
+            },
+        )
+        .collect();
     let mut scaled = system.preconditioned(&residual);
     let mut direction = scaled.clone();
     let mut size = dot(&residual, &scaled);
@@ -118,7 +129,7 @@ impl<'a> System<'a> {
         dot(&residual, &self.preconditioned(&residual))
     }
 
-    /// Product of the matrix and a field; at fixed places the product is of no use.
+    /// Product of the matrix and a field. At fixed places the product is of no use.
     fn multiply(&self, field: &[DVec2], product: &mut [DVec2]) {
         let rows = product.par_iter_mut().with_min_len(1 << 9).enumerate();
         rows.for_each(|(place, product)| {
@@ -149,4 +160,269 @@ fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
 fn add_scaled(field: &mut [DVec2], factor: f64, other: &[DVec2]) {
     let pairs = field.par_iter_mut().with_min_len(PORTION).zip(other);
     pairs.for_each(|(value, other)| *value += *other * factor);
+}
+
+/// Difference of both curvatures, relative to the greater one, from which a direction begins to
+/// count, and from which it counts fully: below, the shape of the triangles decides it.
+const ANISOTROPY: [f64; 2] = [0.03, 0.15];
+
+/// Mean reliability of a connected part above which no axis is added, and below which it is added
+/// fully.
+const SHAPELESS: [f64; 2] = [0.005, 0.03];
+
+/// An axis counts for a connected part if it lies along its surface at least half as well as the
+/// best axis.
+const AXIS_SHARE: f64 = 0.5;
+
+/// Directions asked for at all places: sums of squares of vectors in the tangent planes and of
+/// their weights (reliability in 0..1 times area).
+#[derive(Debug, Clone)]
+pub(super) struct Evidence {
+    /// Weight at every place.
+    pub(super) weights: Vec<f64>,
+    /// Weighted unit square at every place.
+    pub(super) squares: Vec<DVec2>,
+}
+
+impl Evidence {
+    /// Principal directions of a model of this radius.
+    pub(super) fn of_curvature(shapes: &[PlaceShape], radius: f64, along: Along) -> Self {
+        let weight = |shape: &PlaceShape| shape.area * reliability(&shape.tensor, radius);
+        let weights: Vec<f64> = shapes.iter().map(weight).collect();
+        let pairs = shapes.iter().zip(&weights);
+        let squares =
+            pairs.map(|(shape, weight)| principal_square(&shape.tensor, along) * *weight).collect();
+        Self { weights, squares }
+    }
+
+    /// Lines of the vertices, weighted by the area of their places.
+    pub(super) fn of_lines(
+        of_vertex: &[u32],
+        planes: &[TangentPlane],
+        shapes: &[PlaceShape],
+        lines: &[Line],
+    ) -> Self {
+        let mut own =
+            Self { weights: vec![0.0; planes.len()], squares: vec![DVec2::ZERO; planes.len()] };
+        for (&place, line) in of_vertex.iter().zip(lines) {
+            let place = place as usize;
+            let flat = planes[place].projected(DVec3::from(line.along.map(f64::from)));
+            let Some(unit) = flat.try_normalize() else { continue };
+            let weight = f64::from(line.weight.clamp(0.0, 1.0)) * shapes[place].area;
+            own.weights[place] += weight;
+            own.squares[place] += weight * unit.rotate(unit);
+        }
+        own
+    }
+
+    /// Adds an axis of the model to every connected part without a direction of curvature, for
+    /// example a sphere or a plane, unless it has a fixed place.
+    pub(super) fn add_axes(
+        &mut self,
+        links: &Links,
+        planes: &[TangentPlane],
+        shapes: &[PlaceShape],
+        fixed: &[bool],
+    ) {
+        let (order, parts) = links.parts();
+        for part in parts {
+            let places = || order[part.clone()].iter().map(|&place| place as usize);
+            if places().any(|place| fixed[place]) {
+                continue;
+            }
+            let area: f64 = places().map(|place| shapes[place].area).sum();
+            let weight: f64 = places().map(|place| self.weights[place]).sum();
+            let share = 1.0 - smoothstep(SHAPELESS, weight / area.max(f64::MIN_POSITIVE));
+            if share == 0.0 {
+                continue;
+            }
+            let axis = axis_along(&order, part.clone(), planes, shapes);
+            for place in places() {
+                let flat = planes[place].projected(axis);
+                let weight = share * shapes[place].area;
+                self.weights[place] += weight * flat.length_squared();
+                self.squares[place] += weight * flat.rotate(flat);
+            }
+        }
+    }
+}
+
+/// How far the principal directions of a tensor can be relied on, 0..1: grows with the difference
+/// between the absolute values of both curvatures times the model's radius, and is 0 where they are
+/// nearly equal. On a saddle with curvatures +k and -k neither is the least.
+fn reliability(tensor: &ShapeTensor, radius: f64) -> f64 {
+    let mean = tensor.mean.abs();
+    let half = tensor.difference.length();
+    let difference = 2.0 * mean.min(half);
+    if difference <= 0.0 {
+        return 0.0;
+    }
+    let scaled = difference * radius;
+    scaled / (1.0 + scaled) * smoothstep(ANISOTROPY, difference / (mean + half))
+}
+
+/// Unit square of the principal direction, or 0 if there is none.
+fn principal_square(tensor: &ShapeTensor, along: Along) -> DVec2 {
+    // On a convex surface the curvature that is greater by sign is also greater by size.
+    let greatest = if tensor.mean >= 0.0 { tensor.difference } else { -tensor.difference };
+    let square = greatest.normalize_or_zero();
+    match along {
+        Along::Least => -square,
+        Along::Greatest => square,
+    }
+}
+
+/// The axis that lies along the surface of a part: y, or else x, or else z.
+fn axis_along(
+    order: &[u32],
+    part: Range<usize>,
+    planes: &[TangentPlane],
+    shapes: &[PlaceShape],
+) -> DVec3 {
+    let axes = [DVec3::Y, DVec3::X, DVec3::Z];
+    let lengths = axes.map(|axis| {
+        let places = order[part.clone()].iter().map(|&place| place as usize);
+        places
+            .map(|place| shapes[place].area * planes[place].projected(axis).length_squared())
+            .sum::<f64>()
+    });
+    let most = lengths.iter().fold(0.0_f64, |most, &length| most.max(length));
+    let found = lengths.iter().position(|&length| length >= AXIS_SHARE * most);
+    axes[found.unwrap_or(0)]
+}
+
+/// A link from one place to a neighbour.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link {
+    /// Place at the other end.
+    pub(super) to: u32,
+    /// Above 0, and the same in both directions.
+    pub(super) stiffness: f64,
+    /// Factor that carries squares of vectors from the neighbour's tangent plane to this one.
+    pub(super) turn: DVec2,
+}
+
+/// The links of every place.
+#[derive(Debug, Clone)]
+pub(super) struct Links {
+    starts: Vec<u32>,
+    all: Vec<Link>,
+}
+
+impl Links {
+    /// The links along the edges of the triangles. The stiffness is the edge's times (1 + cosine of
+    /// the angle between the normals) / 2. Places of opposite normals have no link.
+    pub(super) fn new(places: &Places, planes: &[TangentPlane]) -> Self {
+        let mut starts = vec![0];
+        let mut all = Vec::with_capacity(places.stiffness.len());
+        for place in 0..places.neighbours.count() {
+            let stiffness = &places.stiffness[places.neighbours.slots(place)];
+            for (&to, stiffness) in places.neighbours.of(place).iter().zip(stiffness) {
+                let here = &planes[place];
+                let there = &planes[to as usize];
+                if let Some(turn) = there.turn_of_squares(here) {
+                    let folded = 0.5 * (1.0 + here.normal.dot(there.normal));
+                    all.push(Link { to, stiffness: stiffness * folded, turn });
+                }
+            }
+            starts.push(all.len() as u32);
+        }
+        Self { starts, all }
+    }
+
+    /// Number of places.
+    pub(super) fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The links of a place.
+    pub(super) fn of(&self, place: usize) -> &[Link] {
+        &self.all[self.starts[place] as usize..self.starts[place + 1] as usize]
+    }
+
+    /// The places in connected groups: a list of all places, and the range of each group in it.
+    /// Groups are ordered by their first place.
+    pub(super) fn parts(&self) -> (Vec<u32>, Vec<Range<usize>>) {
+        let mut reached = vec![false; self.count()];
+        let mut order: Vec<u32> = Vec::with_capacity(self.count());
+        let mut parts = Vec::new();
+        for first in 0..self.count() {
+            if reached[first] {
+                continue;
+            }
+            reached[first] = true;
+            let start = order.len();
+            let mut next = start;
+            order.push(first as u32);
+            while next < order.len() {
+                for link in self.of(order[next] as usize) {
+                    if !std::mem::replace(&mut reached[link.to as usize], true) {
+                        order.push(link.to);
+                    }
+                }
+                next += 1;
+            }
+            parts.push(start..order.len());
+        }
+        (order, parts)
+    }
+}
+
+/// Unit line at a point of a triangle, from the normals and unit lines at its corners, whose
+/// weights are not negative and add up to 1. The lines are carried to the plane of the interpolated
+/// normal and averaged as squares, so their signs do not matter, and two triangles agree along the
+/// edge that they share.
+pub(super) fn line_within(normals: [DVec3; 3], lines: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let plane = TangentPlane::of_normal(normal_within(normals, weights));
+    let mut sum = DVec2::ZERO;
+    for i in 0..3 {
+        if let Some(line) = carried(lines[i], normals[i], plane.normal) {
+            let flat = plane.projected(line);
+            sum += weights[i] * flat.rotate(flat);
+        }
+    }
+    plane.along(sum)
+}
+
+/// Tangent vector at a point of a triangle, from the normals and tangent vectors at its corners.
+pub(super) fn vector_within(normals: [DVec3; 3], vectors: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let normal = normal_within(normals, weights);
+    let parts = (0..3).filter_map(|i| Some(weights[i] * carried(vectors[i], normals[i], normal)?));
+    parts.sum()
+}
+
+/// Interpolated unit normal, the heaviest corner's if they cancel out.
+fn normal_within(normals: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let sum: DVec3 = (0..3).map(|i| weights[i] * normals[i]).sum();
+    let heaviest = (1..3).fold(0, |most, i| if weights[i] > weights[most] { i } else { most });
+    sum.try_normalize().unwrap_or(normals[heaviest])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tensor(mean: f64, half: f64) -> ShapeTensor {
+        ShapeTensor { mean, difference: DVec2::new(half, 0.0) }
+    }
+
+    #[test]
+    fn the_evidence_is_continuous_where_a_saddle_is_symmetric() {
+        let pull = |mean| {
+            let tensor = tensor(mean, 1.0);
+            reliability(&tensor, 1.0) * principal_square(&tensor, Along::Least)
+        };
+        assert_eq!(pull(0.0), DVec2::ZERO);
+        assert!((pull(1e-3) - pull(-1e-3)).length() < 1e-3, "{} {}", pull(1e-3), pull(-1e-3));
+        assert!(pull(0.5).x < -0.3 && pull(-0.5).x > 0.3, "{} {}", pull(0.5), pull(-0.5));
+    }
+
+    #[test]
+    fn reliability_grows_with_the_difference_and_does_not_depend_on_scale() {
+        let ball = reliability(&tensor(1.0, 0.005), 1.0);
+        let egg = reliability(&tensor(1.0, 0.1), 1.0);
+        let branch = reliability(&tensor(1.0, 1.0), 1.0);
+        assert!(ball == 0.0 && egg > 0.05 && branch > 2.0 * egg, "{ball} {egg} {branch}");
+        assert!((reliability(&tensor(1e-6, 1e-6), 1e6) - branch).abs() < 1e-12);
+    }
 }

@@ -62,7 +62,9 @@ fn assert_sound(name: &str, mesh: &Mesh, field: &DirectionField, flow: &FlowFiel
 #[test]
 fn lines_follow_the_least_or_the_greatest_curvature() {
     let ring = torus(4000, 1.0, 0.4);
-    let around = |at: Vec3| Vec3::Z.cross(at).normalize();
+    fn around(at: Vec3) -> Vec3 {
+        Vec3::Z.cross(at).normalize()
+    }
     let error = greatest_error(&ring, &field(&ring), |_| true, around);
     assert!(error < 1.0, "torus, least: {error} deg");
     let settings = DirectionSettings { along: Along::Greatest, ..DirectionSettings::default() };
@@ -89,8 +91,12 @@ fn flat_places_take_the_direction_of_their_neighbours() {
 fn a_ball_has_smooth_lines_with_two_poles() {
     let mesh = Mesh::sphere(6000);
     let field = field(&mesh);
-    let meridian = |at: Vec3| (Vec3::Y - at * at.y).normalize();
-    let error = greatest_error(&mesh, &field, |at| at.y.abs() < 0.9, meridian);
+    let error = greatest_error(
+        &mesh,
+        &field,
+        |at| at.y.abs() < 0.9,
+        |at: Vec3| (Vec3::Y - at * at.y).normalize(),
+    );
     assert!(error < 1.0, "{error} deg");
     let flow = field.oriented(2);
     let singular = |vertex: usize| flow.is_singular(vertex);
@@ -122,15 +128,16 @@ fn smoothing_lowers_the_roughness_of_a_noisy_field_and_keeps_guides() {
     let along = Vec3::new(0.3, 0.7, 0.6);
     let guides: Vec<Guide> =
         (0..1000).step_by(50).map(|vertex| Guide { vertex, along: along.to_array() }).collect();
-    let of = |smoothing: f64, guides: &[Guide]| {
+    fn of(smoothing: f64, guides: &[Guide], mesh: &Mesh) -> DirectionField {
         let settings =
             DirectionSettings { smoothing, normal_rounds: 0, ..DirectionSettings::default() };
-        DirectionField::of_curvature(&mesh, &settings, guides).unwrap()
-    };
-    let [raw, some, much] = [0.0, 0.05, 0.2].map(|smoothing| roughness(&mesh, &of(smoothing, &[])));
+        DirectionField::of_curvature(mesh, &settings, guides).unwrap()
+    }
+    let [raw, some, much] =
+        [0.0, 0.05, 0.2].map(|smoothing| roughness(&mesh, &of(smoothing, &[], &mesh)));
     assert!(some < 0.5 * raw && much < 0.3 * raw, "{raw}, {some}, {much} deg");
-    let free = of(0.2, &[]);
-    let guided = of(0.2, &guides);
+    let free = of(0.2, &[], &mesh);
+    let guided = of(0.2, &guides, &mesh);
     let mut moved = 0.0_f32;
     for guide in &guides {
         let vertex = guide.vertex as usize;
@@ -196,7 +203,9 @@ fn flow_fades_over_rings_of_edges() {
     };
     assert_eq!(strengths(0), [0.0, 1.0]);
     assert!(strengths(usize::MAX).into_iter().all(|strength| strength < 0.01), "endless rings");
-    let smooth = |at: f32| at * at * (3.0 - 2.0 * at);
+    fn smooth(at: f32) -> f32 {
+        at * at * (3.0 - 2.0 * at)
+    }
     let [first, second] = [smooth(1.0 / 3.0), smooth(2.0 / 3.0)];
     for (found, wanted) in strengths(2).into_iter().zip([0.0, first, second, 1.0]) {
         assert!((found - wanted).abs() < 1e-6, "{found}, {wanted}");
@@ -286,21 +295,27 @@ fn bad_meshes_have_sound_fields() {
 #[test]
 fn faults_of_settings_and_guides_are_named() {
     let mesh = square(100);
-    let of = |smoothing: f64, vertex: u32, along: [f32; 3]| {
+    fn of(smoothing: f64, vertex: u32, along: [f32; 3], mesh: &Mesh) -> Option<DirectionFault> {
         let settings = DirectionSettings { smoothing, ..DirectionSettings::default() };
-        DirectionField::of_curvature(&mesh, &settings, &[Guide { vertex, along }]).err()
-    };
-    for found in [-0.1, 1.1] {
-        assert_eq!(of(found, 0, [1.0; 3]), Some(DirectionFault::Smoothing { found }));
+        DirectionField::of_curvature(mesh, &settings, &[Guide { vertex, along }]).err()
     }
-    assert!(of(f64::NAN, 0, [1.0; 3]).is_some());
+    for found in [-0.1, 1.1] {
+        assert_eq!(of(found, 0, [1.0; 3], &mesh), Some(DirectionFault::Smoothing { found }));
+    }
+    assert!(of(f64::NAN, 0, [1.0; 3], &mesh).is_some());
     let vertices = mesh.positions.len();
     let fault = DirectionFault::NoSuchVertex { guide: 0, found: 500, vertices };
-    assert_eq!(of(0.1, 500, [1.0; 3]), Some(fault));
+    assert_eq!(of(0.1, 500, [1.0; 3], &mesh), Some(fault));
     let found = [0.0, 0.0, 2.0];
-    assert_eq!(of(0.1, 3, found), Some(DirectionFault::OffSurface { guide: 0, vertex: 3, found }));
+    assert_eq!(
+        of(0.1, 3, found, &mesh),
+        Some(DirectionFault::OffSurface { guide: 0, vertex: 3, found })
+    );
     for along in [[0.0; 3], [f32::NAN, 1.0, 0.0], [f32::INFINITY, 1.0, 0.0]] {
-        assert!(matches!(of(0.1, 3, along), Some(DirectionFault::OffSurface { .. })), "{along:?}");
+        assert!(
+            matches!(of(0.1, 3, along, &mesh), Some(DirectionFault::OffSurface { .. })),
+            "{along:?}"
+        );
     }
 }
 
@@ -308,13 +323,17 @@ fn faults_of_settings_and_guides_are_named() {
 fn given_lines_are_followed_and_spread_where_none_are_given() {
     let mesh = square(400);
     let wanted = Vec3::new(0.6, 0.8, 0.0);
-    let line = |at: &[f32; 3]| match at[0] > 0.3 {
-        true => {
-            Line { along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(), weight: 1.0 }
-        }
-        false => Line { along: [0.8, -0.6, 0.0], weight: 0.0 },
-    };
-    let lines: Vec<Line> = mesh.positions.iter().map(line).collect();
+    let lines: Vec<Line> = mesh
+        .positions
+        .iter()
+        .map(|at: &[f32; 3]| match at[0] > 0.3 {
+            true => Line {
+                along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(),
+                weight: 1.0,
+            },
+            false => Line { along: [0.8, -0.6, 0.0], weight: 0.0 },
+        })
+        .collect();
     let field = DirectionField::of_lines(&mesh, &lines, &DirectionSettings::default(), &[]);
     let worst = greatest_error(&mesh, &field.unwrap(), |_| true, |_| wanted);
     assert!(worst < 0.5, "{worst}");
@@ -344,7 +363,7 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
     let split = field.oriented_by(&both, 1);
     for (vertex, at) in mesh.positions.iter().enumerate() {
         assert!(Vec3::from(split.arrow(vertex)).dot(Vec3::from(both[vertex])) > 0.99);
-        // Columns are 1/7 apart; one ring of edges on both sides of the cut is weak.
+        // Columns are 1/7 apart. One ring of edges on both sides of the cut is weak.
         let near = (at[0] - 0.07).abs() < 0.25;
         assert!(!near || split.strength(vertex) < 1.0, "{at:?}");
     }
@@ -354,25 +373,26 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
 fn flow_runs_along_every_guide_and_stops_where_guides_meet() {
     let mesh = square(1000);
     let settings = DirectionSettings::default();
-    let flow = |guides: &[Guide]| {
-        DirectionField::of_curvature(&mesh, &settings, guides).unwrap().oriented(1)
-    };
-    let guide =
-        |vertex: usize, along: Vec3| Guide { vertex: vertex as u32, along: along.to_array() };
-    let most = |side: f32| {
+    fn flow(guides: &[Guide], mesh: &Mesh, settings: &DirectionSettings) -> FlowField {
+        DirectionField::of_curvature(mesh, settings, guides).unwrap().oriented(1)
+    }
+    fn guide(vertex: usize, along: Vec3) -> Guide {
+        Guide { vertex: vertex as u32, along: along.to_array() }
+    }
+    fn most(side: f32, mesh: &Mesh) -> usize {
         let places = mesh.positions.iter().map(|&[x, ..]| side * x).enumerate();
         places.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
-    };
-    let left = most(-1.0);
-    let right = most(1.0);
+    }
+    let left = most(-1.0, &mesh);
+    let right = most(1.0, &mesh);
     for along in [Vec3::Y, -Vec3::Y, Vec3::X, -Vec3::X] {
-        let one = flow(&[guide(left, along)]);
+        let one = flow(&[guide(left, along)], &mesh, &settings);
         for vertex in 0..mesh.positions.len() {
             assert!(Vec3::from(one.arrow(vertex)).dot(along) > 0.9, "vertex {vertex} of {along}");
             assert!(!one.is_singular(vertex), "vertex {vertex} of {along}");
         }
     }
-    let two = flow(&[guide(left, Vec3::Y), guide(right, -Vec3::Y)]);
+    let two = flow(&[guide(left, Vec3::Y), guide(right, -Vec3::Y)], &mesh, &settings);
     assert!(two.arrow(left)[1] > 0.9 && two.arrow(right)[1] < -0.9, "both have their sign");
     assert!(two.strength(left) > 0.0 && two.strength(right) > 0.0, "both flow");
     assert!((0..mesh.positions.len()).any(|vertex| two.is_singular(vertex)), "they meet");

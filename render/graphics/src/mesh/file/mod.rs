@@ -1,11 +1,6 @@
 //! Models read from files.
-
-mod error;
 mod part;
-mod picture;
-mod obj_lines;
 mod obj;
-mod gltf_values;
 mod gltf;
 mod ply;
 
@@ -13,11 +8,11 @@ use std::path::Path;
 
 use documents::file::{is_standard_input, read};
 
-pub use error::MeshError;
+pub use part::MeshError;
 
 use super::model::Mesh;
 
-/// Reads the bytes of a model; its name is for errors, its pictures lie in the folder.
+/// Reads the bytes of a model. Its name is for errors, its pictures lie in the folder.
 type Reader = fn(&str, &Path, &[u8]) -> Result<Mesh, MeshError>;
 
 /// The reader of a model without a name: by its first bytes, or, of OBJ, by a line with a vertex.
@@ -36,8 +31,8 @@ fn by_content(bytes: &[u8]) -> Option<Reader> {
 }
 
 impl Mesh {
-    /// Reads a model from a Wavefront OBJ file with its materials, a glTF 2.0 file (`.gltf`
-    /// or `.glb`) or a PLY file. The format follows from the file extension, that of standard
+    /// Reads a model from a Wavefront OBJ file with its materials, a glTF 2.0 file (`.gltf` or
+    /// `.glb`) or a PLY file. The format follows from the file extension, the format of standard
     /// input (`-`) from its first bytes. Missing normals are computed.
     ///
     /// # Errors
@@ -69,7 +64,9 @@ impl Mesh {
 
     /// Normalises the normals, and computes those that are missing (stored as zeros).
     fn complete_normals(&mut self) {
-        let unit = |normal: &[f32; 3]| glam::Vec3::from(*normal).try_normalize();
+        fn unit(normal: &[f32; 3]) -> Option<glam::Vec3> {
+            glam::Vec3::from(*normal).try_normalize()
+        }
         if self.normals.iter().all(|normal| unit(normal).is_some()) {
             self.normals.iter_mut().for_each(|normal| {
                 *normal = glam::Vec3::from(*normal).normalize().into();

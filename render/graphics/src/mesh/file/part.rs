@@ -1,12 +1,19 @@
-//! Parts of a model as files store them, appended to one mesh.
+//! Parts of a model as files store them, appended to one mesh, texture images, errors of reading
+//! models.
 
-use crate::mesh::model::{Material, Mesh, Triangle};
+use std::io::Cursor;
+
+use documents::hint::Explain;
+use image::{ImageReader, Limits};
+
+use crate::mesh::model::{Material, Mesh, MeshFault, Texture, Triangle};
+use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 
 /// Vertices and triangles of one material.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<[f32; 3]>,
-    /// Empty, or one per position; likewise the next two lists.
+    /// Empty, or one per position, likewise the next two lists.
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texture_coordinates: Vec<[f32; 2]>,
     pub(super) colors: Vec<[f32; 3]>,
@@ -25,7 +32,7 @@ pub(super) const PAINTED: Material =
     Material { name: String::new(), color: [1.0; 3], texture: None };
 
 impl Mesh {
-    /// Appends a part. Missing attributes are filled in; missing normals become zeros, to be
+    /// Appends a part. Missing attributes are filled in. Missing normals become zeros, to be
     /// computed later.
     pub(super) fn add(&mut self, part: Part) {
         let first = self.positions.len() as u32;
@@ -43,5 +50,105 @@ impl Mesh {
             corners: [0, 1, 2].map(|i| first.saturating_add(corners[i])),
             material,
         }));
+    }
+}
+
+/// Longest side of an accepted texture, in texels: the usual limit of graphics devices.
+const LONGEST: u32 = 16_384;
+
+impl Texture {
+    /// Decodes a PNG, JPEG, TIFF or WebP image. The error is the decoder's reason.
+    pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        if is_cut_off_jpeg(bytes) {
+            return Err(CUT_OFF.to_owned());
+        }
+        let mut reader = ImageReader::new(Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|error| error.to_string())?;
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(LONGEST);
+        limits.max_image_height = Some(LONGEST);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(|error| error.to_string())?.into_rgba8();
+        let (width, height) = picture.dimensions();
+        let texels = picture.pixels().map(|pixel| u32::from_le_bytes(pixel.0)).collect();
+        Ok(Self { width, height, texels })
+    }
+}
+
+/// A model could not be read. Every message starts with the file's path.
+#[derive(Debug, thiserror::Error, Explain)]
+pub enum MeshError {
+    /// The file cannot be opened or read.
+    #[error("{name}: {error}")]
+    #[hint("check the path")]
+    #[fault(Environment)]
+    Unreadable {
+        /// Path of the file.
+        name: String,
+        /// Reason given by the system.
+        #[source]
+        error: std::io::Error,
+    },
+    /// The file extension is not one of a supported format.
+    #[error("{name}: no file extension of a model: `{extension}`")]
+    #[hint("models are read from .obj, .gltf, .glb and .ply files")]
+    UnknownFormat {
+        /// Path of the file.
+        name: String,
+        /// The extension, lower case, empty if there is none.
+        extension: String,
+    },
+    /// The content violates the file's format.
+    #[error("{name}: {place}: {reason}")]
+    #[hint("correct that place, or export the model again")]
+    Malformed {
+        /// Path of the file.
+        name: String,
+        /// Line or element, for example `line 12`.
+        place: String,
+        /// Reason, with the offending text.
+        reason: String,
+    },
+    /// A texture image of the model cannot be read.
+    #[error("{name}: the texture `{texture}`: {reason}")]
+    #[hint(
+        "put the picture ({NAMES}) where the model names it, or export the model with its \
+        pictures"
+    )]
+    Texture {
+        /// Path of the model.
+        name: String,
+        /// Path of the image as the model gives it.
+        texture: String,
+        /// Reason why it cannot be read.
+        reason: String,
+    },
+    /// The file was read, but its mesh fails [`Mesh::check`](crate::mesh::Mesh::check).
+    #[error("{name}: {fault}")]
+    #[hint(inner = fault)]
+    Faulty {
+        /// Path of the file.
+        name: String,
+        /// The defect found.
+        #[source]
+        fault: MeshFault,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use documents::hint::Fault;
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_not_there_is_no_fault_of_the_data() {
+        let error = Mesh::open("no/such/model.obj".as_ref()).unwrap_err();
+        assert_eq!(error.fault(), Fault::Environment, "{error}");
+        let name = "model.obj".to_owned();
+        let place = "line 1".to_owned();
+        let torn = MeshError::Malformed { name, place, reason: "torn".to_owned() };
+        assert_eq!(torn.fault(), Fault::Input);
     }
 }

@@ -8,11 +8,10 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
 };
 
-use super::error::MeshError;
-use super::part::{PAINTED, PLAIN, Part};
+use super::part::{MeshError, PAINTED, PLAIN, Part};
 use crate::mesh::model::Mesh;
 
-/// Reads a PLY file; elements other than vertices and faces are skipped.
+/// Reads a PLY file. Elements other than vertices and faces are skipped.
 pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let malformed = |place: &str, reason: &str| MeshError::Malformed {
         name: name.to_owned(),
@@ -43,14 +42,14 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
         };
         read.map_err(|error| failed(&of, text, error))?;
     }
-    let has = |element: &str, property: &str| {
+    fn has(element: &str, property: &str, header: &Header) -> bool {
         header.elements.get(element).is_some_and(|found| found.properties.contains_key(property))
-    };
-    let lacking = ["x", "y", "z"].iter().find(|axis| !has("vertex", axis));
+    }
+    let lacking = ["x", "y", "z"].iter().find(|axis| !has("vertex", axis, &header));
     if let Some(axis) = lacking {
         return Err(malformed("element `vertex`", &format!("it has no property `{axis}`")));
     }
-    Ok(assembled(&vertices, &faces, &|property| has("vertex", property)))
+    Ok(assembled(&vertices, &faces, &|property| has("vertex", property, &header)))
 }
 
 fn elements<E: PropertyAccess>(
@@ -117,10 +116,12 @@ impl PropertyAccess for Vertex {
             "ny" => self.normal[1] = value,
             "nz" => self.normal[2] = value,
             _ => {
-                let column = |row: &[&str]| row.iter().position(|name| *name == key);
-                if let Some(axis) = COORDINATES.iter().find_map(|row| column(row)) {
+                fn column(row: &[&str], key: &str) -> Option<usize> {
+                    row.iter().position(|name| *name == key)
+                }
+                if let Some(axis) = COORDINATES.iter().find_map(|row| column(row, key)) {
                     self.coordinates[axis] = value;
-                } else if let Some(channel) = COLORS.iter().find_map(|row| column(row)) {
+                } else if let Some(channel) = COLORS.iter().find_map(|row| column(row, key)) {
                     // Integer colours are scaled by the greatest value of their type.
                     self.color[channel] = match property {
                         Property::UChar(_) | Property::Char(_) => value / 255.0,
@@ -149,7 +150,9 @@ impl PropertyAccess for Face {
             return PropertyAccessResult::Ignored;
         }
         // A negative index is mapped to one that is out of range.
-        let whole = |value: i64| u32::try_from(value).unwrap_or(u32::MAX);
+        fn whole(value: i64) -> u32 {
+            u32::try_from(value).unwrap_or(u32::MAX)
+        }
         self.corners = match property {
             Property::ListChar(list) => list.into_iter().map(|at| whole(at.into())).collect(),
             Property::ListUChar(list) => list.into_iter().map(u32::from).collect(),

@@ -4,9 +4,7 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec3};
 
-use super::grid::GridSize;
-use super::sphere::unit_sphere;
-use super::sweep::{lathe, mix_colors, tube};
+use super::{GridSize, lathe, mix_colors, tube, unit_sphere};
 use crate::mesh::model::{Material, Mesh, Texture};
 use crate::smoothstep;
 
@@ -33,19 +31,21 @@ impl Mesh {
             Material::named("wood", [0.42, 0.30, 0.20]),
         ];
         let mut mesh = Self { materials, ..Self::default() };
-        let share = |percent: usize| triangles * percent / 100;
-        add_cloth(&mut mesh, share(26));
-        add_jug(&mut mesh, share(22), Vec3::new(-0.75, 0.0, -0.35));
+        fn share(percent: usize, triangles: usize) -> usize {
+            triangles * percent / 100
+        }
+        add_cloth(&mut mesh, share(26, triangles));
+        add_jug(&mut mesh, share(22, triangles), Vec3::new(-0.75, 0.0, -0.35));
         for (x, z, lean, turn, size) in
             [(0.62, 0.05, 0.10, 0.4, 1.0), (1.35, -0.55, -0.16, 2.2, 0.92)]
         {
             let pose = Quat::from_rotation_y(turn) * Quat::from_rotation_x(lean);
-            add_pear(&mut mesh, share(13), Vec3::new(x, 0.02, z), pose, size);
+            add_pear(&mut mesh, share(13, triangles), Vec3::new(x, 0.02, z), pose, size);
         }
         let down = Quat::from_rotation_y(0.5) * Quat::from_rotation_z(1.45);
-        add_pear(&mut mesh, share(13), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
-        add_lemon(&mut mesh, share(6), Vec3::new(-0.72, 0.29, 1.28));
-        add_orange(&mut mesh, share(7), Vec3::new(-1.35, 0.43, 0.75));
+        add_pear(&mut mesh, share(13, triangles), Vec3::new(0.75, 0.41, 0.95), down, 0.9);
+        add_lemon(&mut mesh, share(6, triangles), Vec3::new(-0.72, 0.29, 1.28));
+        add_orange(&mut mesh, share(7, triangles), Vec3::new(-1.35, 0.43, 0.75));
         mesh
     }
 
@@ -59,7 +59,7 @@ impl Mesh {
 
 /// Four blue stripes and a red one on linen white.
 fn stripes() -> Texture {
-    let texel = |x: u32| {
+    fn texel(x: u32) -> u32 {
         let blue = (8..16).contains(&(x % 32));
         let red = (19..21).contains(&(x % 32));
         let [r, g, b] = match (blue, red) {
@@ -68,7 +68,7 @@ fn stripes() -> Texture {
             _ => [238, 230, 214],
         };
         u32::from_le_bytes([r, g, b, 255])
-    };
+    }
     Texture { width: 64, height: 2, texels: (0..128).map(|i| texel(i % 64)).collect() }
 }
 
@@ -131,12 +131,14 @@ fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let handle = [[-0.38, 1.66], [-0.72, 1.72], [-0.92, 1.40], [-0.84, 0.95], [-0.58, 0.70]];
     let points = handle.map(|[z, y]| Vec3::new(z, y, 0.0));
     // Both ends lie inside the body.
-    let thickness = |v: f32| (0.085 - 0.02 * v) * smoothstep([0.0, 0.04], v.min(1.0 - v));
+    fn thickness(v: f32) -> f32 {
+        (0.085 - 0.02 * v) * smoothstep([0.0, 0.04], v.min(1.0 - v))
+    }
     let handle = tube(&points, thickness);
     let turn = spout * Quat::from_rotation_y(-TAU / 4.0);
     mesh.add_grid(GridSize::for_triangles(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
     mesh.tint(first, |position| {
-        // The foot is bare clay; a band stays pale.
+        // The foot is bare clay. A band stays pale.
         let band =
             smoothstep([0.84, 0.88], position.y) * (1.0 - smoothstep([1.08, 1.12], position.y));
         let glazed = mix_colors([0.36, 0.54, 0.68], [0.84, 0.86, 0.84], band);

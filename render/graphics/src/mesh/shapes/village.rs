@@ -6,9 +6,7 @@ use glam::{Quat, Vec2, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::grid::GridSize;
-use super::sphere::unit_sphere;
-use super::sweep::{lathe, mix_colors};
+use super::{GridSize, lathe, mix_colors, unit_sphere};
 use crate::mesh::model::{Material, Mesh};
 use crate::smoothstep;
 
@@ -133,7 +131,7 @@ fn add_land(mesh: &mut Mesh, triangles: usize) {
     });
 }
 
-/// A flat quad; corners row by row from the upper left.
+/// A flat quad, corners row by row from the upper left.
 fn add_flat(mesh: &mut Mesh, corners: [Vec3; 4], material: u32) {
     let [a, b, c, d] = corners;
     mesh.add_grid(GridSize { columns: 1, rows: 1 }, material, |Vec2 { x, y }| {
@@ -147,13 +145,12 @@ fn add_flat(mesh: &mut Mesh, corners: [Vec3; 4], material: u32) {
 /// width, the height of the walls, and half the length.
 fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u32; 2]) {
     let turn = Quat::from_rotation_y(turn);
-    let placed = |x: f32, y: f32, z: f32| at + turn * Vec3::new(x, y, z);
     let [w, h, l] = size.to_array();
     let foot = -0.8;
     let ridge = h + 1.05 * w;
     // The second side is the first turned by 180 degrees.
     for side in [1.0, -1.0] {
-        let on = |x: f32, y: f32, z: f32| placed(side * x, y, side * z);
+        let on = |x: f32, y: f32, z: f32| at + turn * Vec3::new(side * x, y, side * z);
         add_flat(mesh, [on(w, h, l), on(w, h, -l), on(w, foot, l), on(w, foot, -l)], wall);
         add_flat(mesh, [on(-w, h, l), on(w, h, l), on(-w, foot, l), on(w, foot, l)], wall);
         // The upper edge of the gable is a point.

@@ -4,8 +4,7 @@ use graphics::field::Field;
 use graphics::picture::Picture;
 use rayon::prelude::*;
 
-use super::art_map::ArtMap;
-use super::between::Between;
+use super::{ArtMap, Between};
 use crate::relief::{raked, raking_tangent, slopes};
 
 /// Largest side of a tile on the sheet in pixels.
@@ -21,10 +20,10 @@ const REPEATS: usize = 3;
 
 impl ArtMap {
     /// A picture of the map in linear sRGB, dark tones to the left. Rows from the top: the key
-    /// tiles; the tiles at 25, 50 and 75 % of the way between two neighbours, in the gap below
-    /// both; each key tile repeated three times in both directions; where height and size are
-    /// known, the surfaces of the key tiles in grey under a light from the upper left. Tiles above 256
-    /// texels are shown smaller.
+    /// tiles, the tiles at 25, 50 and 75 % of the way between two neighbours, in the gap below
+    /// both, each key tile repeated three times in both directions. Where height and size are
+    /// known, the surfaces of the key tiles in grey under a light from the upper left. Tiles above
+    /// 256 texels are shown smaller.
     #[must_use]
     pub fn sheet(&self, between: Between) -> Picture {
         let size = self.size();
@@ -38,8 +37,8 @@ impl ArtMap {
             tiles: keys.par_iter().map(|key| shrunk(&key.tile.color, side, step)).collect(),
         });
         rows.extend(self.between_rows(between, side, step));
-        let repeated = |color: &Picture| shrunk(color, side, REPEATS * step);
-        let tiles = keys.par_iter().map(|key| repeated(&key.tile.color)).collect();
+        let tiles =
+            keys.par_iter().map(|key| shrunk(&key.tile.color, side, REPEATS * step)).collect();
         rows.push(Row { left: GAP, tiles });
         rows.extend(self.relief_row(side, step));
         let width = GAP + column * keys.len();
@@ -64,16 +63,16 @@ impl ArtMap {
             return None;
         }
         let tangent = raking_tangent(surfaces.iter().flatten());
-        let ground = || Field::filled(side, side, GROUND);
         let tiles = surfaces.par_iter().map(|surface| {
-            surface.as_ref().map_or_else(ground, |slopes: &Field<[f32; 2]>| {
-                shrunk(&raked(slopes, tangent), side, step)
-            })
+            surface.as_ref().map_or_else(
+                || Field::filled(side, side, GROUND),
+                |slopes: &Field<[f32; 2]>| shrunk(&raked(slopes, tangent), side, step),
+            )
         });
         Some(Row { left: GAP, tiles: tiles.collect() })
     }
 
-    /// A row of in-betweens for each share; none for maps of one tile.
+    /// A row of in-betweens for each share, none for maps of one tile.
     fn between_rows(&self, between: Between, side: usize, step: usize) -> Vec<Row> {
         let columns: Vec<[Picture; 3]> = (0..self.keys.len())
             .into_par_iter()
@@ -126,8 +125,7 @@ fn shrunk(tile: &Picture, side: usize, step: usize) -> Picture {
 
 #[cfg(test)]
 mod tests {
-    use super::super::art_map::KeyMap;
-    use super::super::tile::Tile;
+    use super::super::{KeyMap, Tile};
     use super::*;
     use crate::synthesis::SynthesisSettings;
 

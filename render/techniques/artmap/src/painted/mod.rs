@@ -11,17 +11,12 @@
 //! assert_eq!(set.samples[0].name, "tone 1");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-
-mod shipped;
-mod style_error;
 mod plan;
 mod tones;
-mod brushwork;
 mod swatch;
 mod set;
 
-pub use brushwork::{SwatchStroke, strokes};
-pub use plan::{CanvasPlan, Layout, PaintPlan, StrokePlan, Style, ToneSource};
+pub use plan::{CanvasPlan, Layout, PaintPlan, StrokePlan, Style, StyleError, ToneSource};
 pub use set::{PaintedError, PaintedSettings, painted_samples};
-pub use style_error::StyleError;
+pub use swatch::{SwatchStroke, strokes};
 pub use tones::{TONES, Tone, ToneLadder, TonesError};

@@ -1,15 +1,14 @@
-//! A style of painting as data: brush, strokes, paint and canvas of a swatch.
+//! A style of painting as data: brush, strokes, paint and canvas of a swatch. Styles are read from
+//! TOML files, and some ship with this crate.
 
 use std::path::Path;
 use std::str::FromStr;
 
-use documents::text::{Source, read_text};
+use documents::hint::{Explain, Fault};
+use documents::text::{Source, TextError, read_text};
 use paint::BrushSpec;
 use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
-
-use super::shipped::{NAMES, SHIPPED};
-use super::style_error::StyleError;
 
 /// Order of the strokes of a coat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,7 +26,7 @@ pub enum Layout {
 pub enum ToneSource {
     /// Every tone has a mixture of its own.
     Mixture,
-    /// Every tone is painted with the darkest mixture; light tones have fewer strokes.
+    /// Every tone is painted with the darkest mixture. Light tones have fewer strokes.
     Density,
 }
 
@@ -41,10 +40,10 @@ pub struct StrokePlan {
     pub length_spread: f64,
     /// Distance of neighbouring strokes across their direction in mm, 0.05 to 100.
     pub spacing_mm: f64,
-    /// Distance from the middle of a stroke to that of the next one below it in mm, 0.1 to 1000.
+    /// Distance between the middles of a stroke and the next one below it in mm, 0.1 to 1000.
     pub advance_mm: f64,
     /// Shift of each column against the one left of it, as a share of the advance: 0 aligns the
-    /// strokes in bands, 0.5 lays them like bricks; 0 to 1.
+    /// strokes in bands, 0.5 lays them like bricks, 0 to 1.
     pub stagger: f64,
     /// Greatest displacement of a stroke as a share of spacing and advance, 0 to 1.
     pub jitter: f64,
@@ -62,7 +61,7 @@ pub struct StrokePlan {
     pub layout: Layout,
     /// Number of coats, 1 to 4. The paint dries between them, except the wet share.
     pub coats: u32,
-    /// Whether all tones have the same strokes; if not, each has strokes of a seed of its own.
+    /// Whether all tones have the same strokes. If not, each has strokes of a seed of its own.
     pub nested: bool,
 }
 
@@ -71,7 +70,7 @@ pub struct StrokePlan {
 #[serde(deny_unknown_fields)]
 pub struct PaintPlan {
     /// Height of an even film of the tone below the first coat in mm, so that gaps between strokes
-    /// show no bare ground, 0 to 1; absent is 0, none.
+    /// show no bare ground, 0 to 1. Absent is 0, none.
     #[serde(default)]
     pub underpainting_mm: f64,
     /// Height of the paint on the head of the loaded brush in mm, 0.001 to 5.
@@ -153,7 +152,7 @@ impl Style {
     /// Reads the TOML file of a style and checks it.
     ///
     /// # Errors
-    /// [`StyleError`] for a file that cannot be read, and those of [`Style::from_toml`].
+    /// [`StyleError`] for a file that cannot be read, and the errors of [`Style::from_toml`].
     pub fn open(path: &Path) -> Result<Self, StyleError> {
         Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
@@ -255,11 +254,77 @@ impl FromStr for Style {
     }
 }
 
+/// A style cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
+pub enum StyleError {
+    /// The file cannot be read, is no TOML, or has an unknown or missing key.
+    #[error(transparent)]
+    #[hint(if matches!(_0, TextError::File(_)), inner)]
+    #[hint("begin with the text of a style that ships: [show_style=oil-flat]")]
+    #[fault(with = if matches!(_0, TextError::File(_)) { _0.fault() } else { Fault::Setting })]
+    Text(#[from] TextError),
+    /// No style that ships has this name.
+    #[error("there is no style called `{name}`")]
+    #[hint("choose [style] among {}", NAMES.join(", "))]
+    Unknown {
+        /// Name that was looked up.
+        name: String,
+    },
+    /// A number is out of its range.
+    #[error("style {style}: {key} is {least} to {most}, found `{value}`")]
+    Number {
+        /// Name of the style.
+        style: String,
+        /// Group and key of the number.
+        key: &'static str,
+        /// Value of the number.
+        value: f64,
+        /// Least value allowed.
+        least: f64,
+        /// Greatest value allowed.
+        most: f64,
+    },
+    /// A swatch would take too much memory or time.
+    #[hint("take larger cells, wider spacing or shorter strokes")]
+    #[error("style {style}: a swatch has at most {most} {what}, found `{found:.0}`")]
+    TooLarge {
+        /// Name of the style.
+        style: String,
+        /// Items that are too many.
+        what: &'static str,
+        /// Number of the items.
+        found: f64,
+        /// Greatest number allowed.
+        most: f64,
+    },
+}
+
+/// Names and TOML files of the styles, in the order in which programs list them.
+pub(super) const SHIPPED: [(&str, &str); 6] = [
+    ("oil-flat", include_str!("styles/oil-flat.toml")),
+    ("oil-long", include_str!("styles/oil-long.toml")),
+    ("dabs", include_str!("styles/dabs.toml")),
+    ("knife", include_str!("styles/knife.toml")),
+    ("hatching", include_str!("styles/hatching.toml")),
+    ("dry-brush", include_str!("styles/dry-brush.toml")),
+];
+
+/// Names of the styles.
+pub(super) const NAMES: [&str; SHIPPED.len()] = {
+    let mut names = [""; SHIPPED.len()];
+    let mut at = 0;
+    while at < names.len() {
+        names[at] = SHIPPED[at].0;
+        at += 1;
+    }
+    names
+};
+
 #[cfg(test)]
 mod tests {
-    use documents::hint::Explain;
-
     use super::*;
+    use documents::hint::Explain;
 
     #[test]
     fn shipped_styles_are_valid_have_their_names_and_come_back_from_toml() {
@@ -285,7 +350,7 @@ mod tests {
         assert!(error.to_string().contains("mine.toml"), "{error}");
         let error = Style::open(&folder.path().join("no.toml")).unwrap_err();
         assert!(error.to_string().contains("no.toml: cannot be read"), "{error}");
-        assert_eq!(error.fault(), documents::hint::Fault::Environment);
+        assert_eq!(error.fault(), Fault::Environment);
     }
 
     #[test]

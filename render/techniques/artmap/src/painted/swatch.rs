@@ -1,8 +1,15 @@
-//! Painting of one swatch: the strokes of a tone on a canvas of their own, without its margins.
+//! Painting of one swatch: the strokes of a tone, from a style and a seed, on a separate canvas
+//! without its margins.
+//!
+//! Strokes run along y, from top to bottom. They start at the points of a jittered grid, so that
+//! strokes cover evenly. Everything that differs from stroke to stroke is drawn from the seed
+//! alone.
 
 use std::sync::Arc;
 
+use graphics::field::Field;
 use graphics::tile::Rect;
+use paint::Sample as BrushworkSample;
 use paint::amount::{quanta_from_mm, share_of_65536};
 use paint::document::{Document, Lighting, Medium};
 use paint::engine::{BrushId, PaintEngine};
@@ -10,13 +17,14 @@ use paint::ground::{Ground, GroundError};
 use paint::layer::{Cell, Layer, SLOTS};
 use paint::light::Light;
 use paint::painting::{Painting, PaintingError};
+use rand::seq::SliceRandom;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
-use super::brushwork::SwatchStroke;
-use super::plan::{Style, ToneSource};
+use super::plan::{Layout, Style, ToneSource};
 use super::tones::{Tone, ToneLadder};
 use crate::sample::Sample;
 use crate::sample::from_painting::{level_colors, summed_height, summed_paint};
-use graphics::field::Field;
 
 /// Everything that the swatches of a set share.
 #[derive(Debug)]
@@ -204,12 +212,224 @@ fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
         for y in 0..height {
             let index = y * width + x;
             let [a, b] = [dark.cell(index), light.cell(index)];
-            let blended = |a: u32, b: u32| {
+            fn blended(a: u32, b: u32, light_parts: u32) -> u32 {
                 share_of_65536(a, 65536 - light_parts) + share_of_65536(b, light_parts)
-            };
-            let pigments = std::array::from_fn(|slot| blended(a.pigments[slot], b.pigments[slot]));
-            mixed.set_cell(index, Cell { pigments, vehicle: blended(a.vehicle, b.vehicle) });
+            }
+            let pigments = std::array::from_fn(|slot| {
+                blended(a.pigments[slot], b.pigments[slot], light_parts)
+            });
+            mixed.set_cell(
+                index,
+                Cell { pigments, vehicle: blended(a.vehicle, b.vehicle, light_parts) },
+            );
         }
     }
     mixed
+}
+
+/// Knots of the pattern of a half-mixed brush around its head.
+pub(super) const KNOTS: usize = 20;
+/// Steps of ranks from column to column and from row to row: Roberts' sequence R2 (2018): its first
+/// numbers below any share lie evenly on the plane.
+const RANK_STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+/// Points of a stroke's path for each width of the brush.
+const POINTS: f64 = 2.0;
+/// Speed of the hand in brush widths a second. Time only orders the samples.
+const SPEED: f64 = 10.0;
+
+/// A stroke of a swatch. Its paint is relative to the tone that it is painted in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SwatchStroke {
+    /// Coat of the stroke, from 0.
+    pub coat: u32,
+    /// Rank among all strokes, 0 to 1: a tone of density `share` has the strokes below it.
+    pub rank: f64,
+    /// Poses of the brush, in mm from the corner of the canvas.
+    pub samples: Vec<BrushworkSample>,
+    /// L* of the stroke relative to its tone.
+    pub lightness: f64,
+    /// L* around the head relative to the stroke, at knots that are evenly spaced.
+    pub streaks: Vec<f64>,
+    /// Height of the paint on the head in mm.
+    pub load_mm: f64,
+}
+
+/// Strokes on the canvas of a swatch with its margins, in the order in which they are painted.
+#[must_use]
+pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let (across, along) = style.margins();
+    let side = style.canvas.side_cells;
+    fn mm(cells: usize, style: &Style) -> f64 {
+        cells as f64 * style.canvas.cell_mm
+    }
+    let size = [mm(side + 2 * across, style), mm(side + 2 * along, style)];
+    let inner = [mm(along, style), mm(along + side, style)];
+    let mut all = Vec::new();
+    for coat in 0..style.strokes.coats {
+        let mut strokes = coat_strokes(style, coat, size, &mut random);
+        // A stroke that does not reach the swatch would only cost time.
+        strokes.retain(|stroke| {
+            stroke.samples.iter().any(|sample: &BrushworkSample| {
+                let reach = style.brush.size_mm;
+                (inner[0] - reach..inner[1] + reach).contains(&sample.y_mm)
+            })
+        });
+        if style.strokes.layout == Layout::Scatter {
+            strokes.shuffle(&mut random);
+        }
+        all.append(&mut strokes);
+    }
+    all
+}
+
+/// Strokes of one coat over a canvas of `width` x `height` mm, column by column.
+fn coat_strokes(
+    style: &Style,
+    coat: u32,
+    [width, height]: [f64; 2],
+    random: &mut ChaCha8Rng,
+) -> Vec<SwatchStroke> {
+    let plan = &style.strokes;
+    let columns = (width / plan.spacing_mm).ceil() as i64;
+    let rows = (height / plan.advance_mm).ceil() as i64 + 1;
+    // Strokes of a coat lie between the strokes of the coat before.
+    let shift = 0.5 * f64::from(coat % 2);
+    let mut strokes = Vec::new();
+    for column in 0..columns {
+        let phase = (plan.stagger * column as f64).fract() + shift;
+        for row in -1..rows {
+            let x = (column as f64 + 0.5 + shift) * plan.spacing_mm;
+            let y = (row as f64 + 0.5 + phase) * plan.advance_mm;
+            let mut jitter = |mm: f64| plan.jitter * mm * random.random_range(-0.5..=0.5);
+            let middle = [x + jitter(plan.spacing_mm), y + jitter(plan.advance_mm)];
+            let [step, down] = RANK_STEPS;
+            let rank = (step * column as f64 + down * (row + 1) as f64).fract();
+            strokes.push(stroke(style, coat, rank, middle, random));
+        }
+    }
+    strokes
+}
+
+/// One stroke about `middle`, in mm.
+fn stroke(
+    style: &Style,
+    coat: u32,
+    rank: f64,
+    middle: [f64; 2],
+    random: &mut ChaCha8Rng,
+) -> SwatchStroke {
+    let plan = &style.strokes;
+    let paint = &style.paint;
+    let mut about = |spread: f64| spread * random.random_range(-1.0..=1.0);
+    let length = plan.length_mm * (1.0 + about(plan.length_spread));
+    // The sum of three even numbers is nearly normal, with a standard deviation of 1.
+    let angle = (0..3).map(|_| about(1.0)).sum::<f64>() * plan.angle_deg.to_radians();
+    let sagitta = about(plan.bend) * length;
+    let pressure = (plan.pressure * (1.0 + about(plan.pressure_spread))).clamp(0.0, 1.0);
+    let lightness = about(paint.lightness_spread);
+    let load_mm = paint.load_mm * (1.0 + about(paint.load_spread));
+    let streaks = (0..KNOTS).map(|_| about(paint.streaks)).collect();
+    let samples = samples(style, middle, [length, angle, sagitta, pressure]);
+    SwatchStroke { coat, rank, samples, lightness, streaks, load_mm }
+}
+
+/// Poses along an arc from top to bottom. The broad side of the brush lies across the motion.
+/// Pressure falls towards both ends over a brush width.
+fn samples(
+    style: &Style,
+    [x, y]: [f64; 2],
+    [length, angle, sagitta, pressure]: [f64; 4],
+) -> Vec<BrushworkSample> {
+    let size = style.brush.size_mm;
+    let points = (POINTS * length / size).ceil().clamp(4.0, 200.0);
+    let taper = size.min(length / 2.0);
+    let (sin, cos) = angle.sin_cos();
+    let pose = |at: usize| {
+        let share = at as f64 / points;
+        let along = length * (share - 0.5);
+        let across = sagitta * (1.0 - (2.0 * share - 1.0).powi(2));
+        let slope = -4.0 * sagitta * (2.0 * share - 1.0) / length;
+        let rise = ((share.min(1.0 - share) * length) / taper).clamp(0.0, 1.0);
+        let eased = rise * rise * (3.0 - 2.0 * rise);
+        BrushworkSample {
+            seconds: share * length / (size * SPEED),
+            x_mm: x + across * cos + along * sin,
+            y_mm: y + along * cos - across * sin,
+            pressure: pressure * (style.strokes.lift + (1.0 - style.strokes.lift) * eased),
+            tilt_x_deg: 0.0,
+            tilt_y_deg: 0.0,
+            // At 0 the broad side runs along x. The head turns with the heading.
+            twist_deg: -(angle + slope.atan()).to_degrees(),
+        }
+    };
+    (0..=points as usize).map(pose).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn style(name: &str) -> Style {
+        let mut style = Style::named(name).unwrap();
+        style.canvas.side_cells = 120;
+        style
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_strokes_and_another_seed_others() {
+        for name in Style::ALL {
+            let style = style(name);
+            assert_eq!(strokes(&style, 5), strokes(&style, 5), "{name}");
+            assert_ne!(strokes(&style, 5), strokes(&style, 6), "{name}");
+        }
+    }
+
+    #[test]
+    fn strokes_run_down_within_their_spread_and_stay_evenly_spaced() {
+        for name in Style::ALL {
+            let style = style(name);
+            let made = strokes(&style, 3);
+            let (across, _) = style.margins();
+            let mm = (120 + 2 * across) as f64 * style.canvas.cell_mm;
+            for stroke in &made {
+                let ends = [stroke.samples[0], stroke.samples[stroke.samples.len() - 1]];
+                let way = [ends[1].x_mm - ends[0].x_mm, ends[1].y_mm - ends[0].y_mm];
+                let length = way[0].hypot(way[1]) / style.strokes.length_mm;
+                let spread = style.strokes.length_spread + 1e-9;
+                assert!((length - 1.0).abs() <= spread, "{name}: {length}");
+                let most = 3.0 * style.strokes.angle_deg.to_radians() + 1e-9;
+                assert!(way[0].atan2(way[1]).abs() <= most, "{name}: {way:?}");
+            }
+            let columns = (mm / style.strokes.spacing_mm).ceil();
+            let first = made.iter().filter(|stroke| stroke.coat == 0).count() as f64;
+            assert!(first >= columns, "{name}: {first} strokes in {columns} columns");
+        }
+    }
+
+    #[test]
+    fn heads_turn_with_a_bent_stroke() {
+        let mut style = style("oil-long");
+        (style.strokes.bend, style.strokes.angle_deg) = (0.2, 0.0);
+        for stroke in strokes(&style, 1) {
+            for pair in stroke.samples.windows(2) {
+                let way = [pair[1].x_mm - pair[0].x_mm, pair[1].y_mm - pair[0].y_mm];
+                let heading = -way[0].atan2(way[1]).to_degrees();
+                let twist = (pair[0].twist_deg + pair[1].twist_deg) / 2.0;
+                assert!((twist - heading).abs() < 2.0, "{twist} for {heading}");
+            }
+        }
+    }
+
+    #[test]
+    fn ranks_thin_the_strokes_out_evenly() {
+        let mut style = style("hatching");
+        style.canvas.side_cells = 600;
+        let made = strokes(&style, 1);
+        for share in [0.1, 0.35, 0.7] {
+            let kept = made.iter().filter(|stroke| stroke.rank < share).count();
+            let found = kept as f64 / made.len() as f64;
+            assert!((found - share).abs() < 0.04, "{share}: {found}");
+        }
+    }
 }

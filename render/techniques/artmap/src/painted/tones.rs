@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use paint::layer::{SLOTS, Slots};
 use pigment::library::AmountKind;
 use pigment::matching::{RecipeSearch, TargetColor, USUAL_TOLERANCE};
@@ -55,7 +55,7 @@ pub struct ToneLadder {
 impl ToneLadder {
     /// Finds `count` tones of `hue` (`#rrggbb` or `L,a,b`) in even steps of L*.
     ///
-    /// The darkest and the lightest mixture that keep the hue bound the range; the tones lie within
+    /// The darkest and the lightest mixture that keep the hue bound the range. The tones lie within
     /// it, `margin` L* from both ends, so that strokes may be darker or lighter than their tone.
     /// All mixtures come from the recipe search against the masstones of the library: the pigments
     /// of the mixture nearest to the hue, the white, the darkest paint, and dark paints of a like
@@ -63,8 +63,8 @@ impl ToneLadder {
     /// where the paints reach less.
     ///
     /// # Errors
-    /// [`TonesError`] for a hue that is no colour, a count out of range, a library that cannot be
-    /// mixed or has no white, and a hue whose mixtures span less than the margins.
+    /// [`TonesError`] for a hue that is not a colour, a count out of range, a library that cannot
+    /// be mixed or has no white, and a hue with mixtures that span less than the margins.
     pub fn new(
         library: Arc<PigmentLibrary>,
         hue: &str,
@@ -143,7 +143,7 @@ impl ToneLadder {
     }
 
     /// Shares by slot of a mixture with this L*, blended from the two nearest mixtures of the
-    /// ladder; beyond the range, the mixture at its end.
+    /// ladder, beyond the range, the mixture at its end.
     #[must_use]
     pub fn shares_at(&self, lightness: f64) -> [f64; SLOTS] {
         let above = self.rungs.partition_point(|rung| rung.lab.lightness < lightness);
@@ -151,19 +151,21 @@ impl ToneLadder {
             return self.rungs[above.min(self.rungs.len() - 1)].shares;
         }
         let [dark, light] = [&self.rungs[above - 1], &self.rungs[above]];
-        let blended = |share: f64| -> [f64; SLOTS] {
+        fn blended(share: f64, dark: &Tone, light: &Tone) -> [f64; SLOTS] {
             std::array::from_fn(|slot| {
                 dark.shares[slot] + share * (light.shares[slot] - dark.shares[slot])
             })
-        };
+        }
         let mut low = 0.0;
         let mut high = 1.0;
         for _ in 0..SHARE_BISECTIONS {
             let middle = (low + high) / 2.0;
-            let under = self.lab_of(&blended(middle)).is_some_and(|lab| lab.lightness < lightness);
+            let under = self
+                .lab_of(&blended(middle, dark, light))
+                .is_some_and(|lab| lab.lightness < lightness);
             if under { low = middle } else { high = middle }
         }
-        blended((low + high) / 2.0)
+        blended((low + high) / 2.0, dark, light)
     }
 
     /// Two mixtures `spread` L* below and above a mean: blended in equal parts they have this L*.
@@ -270,14 +272,16 @@ fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesEr
     Ok((best.lab[0], best.shares))
 }
 
-/// L* farthest from that of `base` towards `end` at which a mixture keeps the hue.
+/// L* farthest from `base` towards `end` at which a mixture keeps the hue.
 fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
     let mut kept = base.lightness;
     let mut lost = end;
     for _ in 0..BISECTIONS {
         let lightness = (kept + lost) / 2.0;
         let (found, _) = mixture_at(search, base, lightness)?;
-        let chroma = |lab: Lab| lab.to_lch().chroma;
+        fn chroma(lab: Lab) -> f64 {
+            lab.to_lch().chroma
+        }
         let keeps = hue_difference(found, base) <= HUE_TOLERANCE
             && chroma(found) >= LEAST_CHROMA * chroma(shaded(base, lightness))
             && (found.lightness - lightness).abs() <= LIGHTNESS_TOLERANCE;
@@ -292,19 +296,24 @@ fn hue_difference(found: Lab, base: Lab) -> f64 {
 }
 
 /// Tones of a hue cannot be mixed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum TonesError {
-    /// The hue is no colour.
+    /// The hue is not a colour.
     #[error(transparent)]
+    #[fault(Setting)]
     Hue(#[from] ColorCodeError),
     /// The number of tones is out of range.
     #[error("a set has {} to {} tones, found `{found}`", TONES.start(), TONES.end())]
+    #[hint("leave [tones] out for 7 tones")]
     Count {
         /// Number of tones asked for.
         found: usize,
     },
     /// The library holds washes, not paints that hide.
     #[error("library {library} has absolute amounts: its paints have no white to be mixed with")]
+    #[hint("choose a library of relative amounts with [pigments]")]
+    #[fault(Input)]
     Absolute {
         /// Title of the library.
         library: String,
@@ -319,6 +328,7 @@ pub enum TonesError {
     #[error(
         "mixtures of the hue {hue} reach from L* {darkest:.1} to {lightest:.1}, too little for tones that keep `{margin}` from both ends"
     )]
+    #[hint("choose another [hue], fewer [tones] or other [pigments]")]
     Narrow {
         /// The hue as it was given.
         hue: String,
@@ -331,27 +341,74 @@ pub enum TonesError {
     },
 }
 
-impl Explain for TonesError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Hue(error) => return error.hint(),
-            Self::Count { .. } => "leave [tones] out for 7 tones",
-            Self::Absolute { .. } => "choose a library of relative amounts with [pigments]",
-            Self::Palette(error) => return error.hint(),
-            Self::Match(error) => return error.hint(),
-            Self::Narrow { .. } => "choose another [hue], fewer [tones] or other [pigments]",
-        }))
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ladder(hue: &str, count: usize) -> ToneLadder {
+        ToneLadder::new(Arc::new(PigmentLibrary::van_gogh_oils()), hue, count, 6.0).unwrap()
     }
 
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Palette(error) => error.fault(),
-            Self::Match(error) => error.fault(),
-            Self::Absolute { .. } => Fault::Input,
-            Self::Hue(_) | Self::Count { .. } | Self::Narrow { .. } => Fault::Setting,
+    #[test]
+    fn tones_rise_in_even_steps_and_keep_the_hue() {
+        for (hue, count) in [("#c9a227", 7), ("#3f6fa8", 5), ("#a04030", 6)] {
+            let ladder = ladder(hue, count);
+            let tones = ladder.tones();
+            assert_eq!(tones.len(), count);
+            let steps = tones.windows(2).map(|w| w[1].lab.lightness - w[0].lab.lightness);
+            let steps: Vec<f64> = steps.collect();
+            let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+            assert!(mean > 4.0, "{hue}: steps of {mean}");
+            assert!(steps.iter().all(|step| (step - mean).abs() < 1.0), "{hue}: {steps:?}");
+            let base = hue.parse::<ColorCode>().unwrap().lab();
+            for tone in tones {
+                assert!(hue_difference(tone.lab, base) < 2.0 * HUE_TOLERANCE, "{hue}: {tone:?}");
+                let even = shaded(base, tone.lab.lightness).to_lch().chroma;
+                assert!(tone.lab.to_lch().chroma > 0.3 * even, "{hue}: {tone:?} is too grey");
+                assert!((tone.shares.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+                let again = ladder.lab_of(&tone.shares).unwrap();
+                assert!((again.lightness - tone.lab.lightness).abs() < 1e-6, "{hue}");
+            }
         }
     }
-}
 
-#[cfg(test)]
-mod tests;
+    #[test]
+    fn mixtures_between_tones_have_the_lightness_asked_for() {
+        let ladder = ladder("#c9a227", 5);
+        let [darkest, lightest] = ladder.range();
+        for step in 0..=20 {
+            let wanted = darkest + (lightest - darkest) * f64::from(step) / 20.0;
+            let found = ladder.lab_of(&ladder.shares_at(wanted)).unwrap().lightness;
+            assert!((found - wanted).abs() < 0.1, "{wanted}: {found}");
+        }
+        for tone in ladder.tones() {
+            let [dark, light] = ladder.shares_about(tone.lab.lightness, 5.0);
+            let mean = std::array::from_fn(|slot| (dark[slot] + light[slot]) / 2.0);
+            let [dark, mean, light] = [dark, mean, light].map(|shares| ladder.lab_of(&shares));
+            let off = mean.unwrap().lightness - tone.lab.lightness;
+            assert!(off.abs() < 0.1, "{tone:?}: {off}");
+            let span = light.unwrap().lightness - dark.unwrap().lightness;
+            // Near the ends of the range there is less room.
+            assert!((8.5..10.2).contains(&span), "{tone:?}: {span}");
+        }
+        assert_eq!(ladder.shares_at(0.0), ladder.rungs[0].shares);
+        assert_eq!(ladder.shares_at(100.0), ladder.rungs[6].shares);
+    }
+
+    #[test]
+    fn impossible_tones_are_refused_with_a_way_out() {
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
+        let refused = |hue: &str, count, margin| {
+            ToneLadder::new(Arc::clone(&library), hue, count, margin).unwrap_err()
+        };
+        assert!(matches!(refused("ochre", 7, 5.0), TonesError::Hue(_)));
+        assert!(matches!(refused("#c9a227", 1, 5.0), TonesError::Count { found: 1 }));
+        let narrow = refused("#c9a227", 7, 40.0);
+        assert!(matches!(narrow, TonesError::Narrow { .. }), "{narrow}");
+        assert!(narrow.hint().unwrap().to_string().contains("`hue`"));
+        let mut washes = PigmentLibrary::van_gogh_oils();
+        washes.amounts = AmountKind::Absolute;
+        let error = ToneLadder::new(Arc::new(washes), "#c9a227", 7, 5.0).unwrap_err();
+        assert!(matches!(error, TonesError::Absolute { .. }));
+    }
+}

@@ -1,4 +1,4 @@
-//! Made-up paintings for tests: textures of strokes whose masks, directions and spacings are known.
+//! Made-up paintings for tests: textures of strokes with known masks, directions and spacings.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -56,17 +56,17 @@ impl Default for Texture {
 impl Texture {
     /// Encoded colour at a place. `random` are numbers from -1 to 1.
     fn at(&self, x: f64, y: f64, random: &[f64]) -> [f64; 3] {
-        let noise = |a: i64, b: i64, channel: i64| {
+        fn noise(a: i64, b: i64, channel: i64, random: &[f64]) -> f64 {
             let mixed = (a * 0x9E37_79B1 + b * 0x85EB_CA77 + channel * 0xC2B2_AE3D) as u64;
             random[(mixed ^ (mixed >> 15)) as usize % VALUES]
-        };
+        }
         let (sin, cos) = self.degrees.to_radians().sin_cos();
         let across = (y * cos - x * sin) / self.spacing;
         let along = (x * cos + y * sin) / self.spacing;
         let (profile, row, part) = if self.brush == Brush::Specks {
             let mut found = (-0.5, 0, 0);
             for (i, j) in (0..9).map(|i| (across as i64 - 1 + i % 3, along as i64 - 1 + i / 3)) {
-                let middle = [0, 1].map(|k| 0.5 + 0.5 * noise(i, j, 7 + k));
+                let middle = [0, 1].map(|k| 0.5 + 0.5 * noise(i, j, 7 + k, random));
                 let off = (across - i as f64 - middle[0]).hypot(along - j as f64 - middle[1]);
                 let value = (-(off / 0.3).powi(2)).exp() - 0.5;
                 if value > found.0 {
@@ -76,7 +76,7 @@ impl Texture {
             found
         } else {
             let uneven = if self.brush == Brush::Loose { 0.12 } else { 0.0 };
-            let edge = |row: i64| row as f64 + uneven * noise(row, 0, 9);
+            let edge = |row: i64| row as f64 + uneven * noise(row, 0, 9, random);
             let mut row = across.floor() as i64;
             row += i64::from(across >= edge(row + 1)) - i64::from(across < edge(row));
             let place = (across - edge(row)) / (edge(row + 1) - edge(row));
@@ -85,17 +85,18 @@ impl Texture {
                 Brush::Round => (-((place - 0.5) / 0.25).powi(2)).exp() - 0.5,
                 Brush::Hatching | Brush::Specks => 0.2 - (-((place - 0.5) / 0.15).powi(2)).exp(),
             };
-            let part = (along / 6.0 + 3.0 * noise(row, 1, 8)).floor() as i64;
+            let part = (along / 6.0 + 3.0 * noise(row, 1, 8, random)).floor() as i64;
             (profile, row, part)
         };
         [0, 1, 2].map(|channel| {
-            let uneven = 0.25 * noise(row, part, 4) + 0.12 * noise(row, part, channel as i64);
+            let uneven = 0.25 * noise(row, part, 4, random)
+                + 0.12 * noise(row, part, channel as i64, random);
             (self.color[channel] + self.contrast * (profile + uneven)).clamp(0.0, 1.0)
         })
     }
 }
 
-/// A picture in linear light in which `texture_at` tells the texture of each pixel.
+/// A picture in linear light in which `texture_at` gives the texture of each pixel.
 pub(super) fn textured(
     width: usize,
     height: usize,
@@ -106,21 +107,28 @@ pub(super) fn textured(
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let values: Vec<f64> = (0..VALUES).map(|_| random.random_range(-1.0..1.0)).collect();
     let grain: Vec<f64> = (0..VALUES).map(|_| random.random_range(-0.012..0.012)).collect();
-    let pixel = |i: usize| {
-        let x = i % width;
-        let y = i / width;
-        let texture = &textures[texture_at(x, y)];
-        let mut sum = [0.0; 3];
-        for k in 0..4 {
-            let place = |at: usize, half: usize| at as f64 + 0.5 * half as f64 - 0.25;
-            // Away from 0, so that truncating is rounding down.
-            let color = texture.at(place(x, k % 2) + 1e3, place(y, k / 2) + 1e3, &values);
-            (0..3).for_each(|channel| sum[channel] += color[channel] / 4.0);
-        }
-        let grain = grain[(x * 7919 + y * 104_729) % VALUES];
-        sum.map(|value| (value + grain).clamp(0.0, 1.0).powf(2.2) as f32)
-    };
-    Field::from_values(width, height, (0..width * height).map(pixel).collect())
+    Field::from_values(
+        width,
+        height,
+        (0..width * height)
+            .map(|i: usize| {
+                let x = i % width;
+                let y = i / width;
+                let texture = &textures[texture_at(x, y)];
+                let mut sum = [0.0; 3];
+                for k in 0..4 {
+                    fn place(at: usize, half: usize) -> f64 {
+                        at as f64 + 0.5 * half as f64 - 0.25
+                    }
+                    // Away from 0, so that truncating is rounding down.
+                    let color = texture.at(place(x, k % 2) + 1e3, place(y, k / 2) + 1e3, &values);
+                    (0..3).for_each(|channel| sum[channel] += color[channel] / 4.0);
+                }
+                let grain = grain[(x * 7919 + y * 104_729) % VALUES];
+                sum.map(|value| (value + grain).clamp(0.0, 1.0).powf(2.2) as f32)
+            })
+            .collect(),
+    )
 }
 
 /// A made-up painting with scribbles.

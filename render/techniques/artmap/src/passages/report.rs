@@ -1,8 +1,10 @@
-//! Report of a sample that was taken.
+//! Report of a sample that was taken, and a picture with its marks and passages drawn on it.
 
 use graphics::field::Field;
+use graphics::picture::Picture;
 
-use super::direction::StrokeDirection;
+use super::marks::{DrawnArea, Marks, MarksError};
+use super::upright::StrokeDirection;
 
 /// Channel of the picture in which strokes were seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +20,7 @@ pub enum StrokesSeen {
 pub enum SpacingSource {
     /// Two points that the painter marked.
     Marked,
-    /// Set for all samples whose marks give none.
+    /// Set for all samples without marks that give one.
     Set,
     /// Estimated by autocorrelation across the strokes.
     Estimated {
@@ -37,7 +39,7 @@ pub struct PassageReport {
     pub name: String,
     /// Pixels of the passage in the picture.
     pub mask: Field<bool>,
-    /// Number of regions of the over-segmentation under the scribble; 0 for a rectangle.
+    /// Number of regions of the over-segmentation under the scribble, 0 for a rectangle.
     pub regions_under: usize,
     /// Direction of the strokes.
     pub direction: StrokeDirection,
@@ -72,5 +74,180 @@ impl PassageReport {
             (right, below) = (right.max(x + 1), below.max(y + 1));
         }
         [left, top, right.saturating_sub(left), below.saturating_sub(top)]
+    }
+}
+
+/// Names and linear sRGB of the colours of marks, in their order, after the last the first again.
+/// They can be told apart with deficient colour vision (Okabe and Ito 2008).
+const COLORS: [(&str, [f32; 3]); 7] = [
+    ("orange", [0.791, 0.347, 0.0]),
+    ("sky blue", [0.093, 0.456, 0.814]),
+    ("green", [0.0, 0.342, 0.171]),
+    ("yellow", [0.871, 0.776, 0.054]),
+    ("blue", [0.0, 0.168, 0.445]),
+    ("vermilion", [0.665, 0.112, 0.0]),
+    ("purple", [0.604, 0.191, 0.386]),
+];
+
+/// Linear grey towards which everything beyond the passages fades, and its share.
+const FADED: (f32, f32) = (0.55, 0.7);
+
+/// Colour of the rim of a line.
+const RIM: [f32; 3] = [0.9; 3];
+
+/// Width of a line as a share of the longer side.
+const LINE: f64 = 1.0 / 400.0;
+
+/// Name of the colour in which [`marked_picture`] draws the mark number `index`, from 0.
+#[must_use]
+pub fn drawn_in(index: usize) -> &'static str {
+    COLORS[index % COLORS.len()].0
+}
+
+/// Linear sRGB of the colour of the mark number `index`, from 0, see [`drawn_in`].
+#[must_use]
+pub fn color_of_mark(index: usize) -> [f32; 3] {
+    COLORS[index % COLORS.len()].1
+}
+
+/// The picture with each mark drawn on it in a colour of its own, and, if there are any, the
+/// outlines of the `passages` that were taken by them. Everything beyond the passages is faded.
+///
+/// # Errors
+/// [`MarksError`] if a mark lies off the picture or two lines cross.
+///
+/// # Panics
+/// If a passage has another size than the picture.
+pub fn marked_picture(
+    picture: &Picture,
+    marks: &Marks,
+    passages: &[PassageReport],
+) -> Result<Picture, MarksError> {
+    let width = picture.width();
+    let height = picture.height();
+    let areas = marks.drawn(width, height)?;
+    let mut shown = picture.clone();
+    if !passages.is_empty() {
+        fade(&mut shown, passages);
+    }
+    let reach = (LINE * width.max(height) as f64 / 2.0).round().max(1.0) as usize;
+    for (index, (mark, area)) in marks.samples.iter().zip(&areas).enumerate() {
+        let color = color_of_mark(index);
+        if let Some(passage) = passages.iter().find(|passage| passage.name == mark.name) {
+            outline(&mut shown, &passage.mask, reach, color);
+        }
+        match area {
+            DrawnArea::Line(pixels) => {
+                // The rim keeps a line apart from paint of its own colour.
+                thick(&mut shown, pixels, reach + reach.div_ceil(2), RIM);
+                thick(&mut shown, pixels, reach, color);
+            }
+            DrawnArea::Whole(pixels) => {
+                let mut mask = Field::filled(width, height, false);
+                pixels.iter().for_each(|&pixel| mask.values_mut()[pixel as usize] = true);
+                outline(&mut shown, &mask, reach, color);
+            }
+        }
+    }
+    Ok(shown)
+}
+
+fn fade(shown: &mut Picture, passages: &[PassageReport]) {
+    let (grey, share) = FADED;
+    for (index, pixel) in shown.values_mut().iter_mut().enumerate() {
+        if passages.iter().all(|passage| !passage.mask.values()[index]) {
+            *pixel = pixel.map(|value| value + share * (grey - value));
+        }
+    }
+}
+
+/// Colours the pixels of `mask` that lie within `reach` of its outline.
+fn outline(shown: &mut Picture, mask: &Field<bool>, reach: usize, color: [f32; 3]) {
+    let width = mask.width();
+    let height = mask.height();
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let around = [
+            (x.checked_sub(reach), Some(y)),
+            (Some(x + reach), Some(y)),
+            (Some(x), y.checked_sub(reach)),
+            (Some(x), Some(y + reach)),
+        ];
+        if mask[(x, y)]
+            && around.into_iter().any(|(x, y)| {
+                !(match (x, y) {
+                    (Some(x), Some(y)) => x < width && y < height && mask[(x, y)],
+                    _ => false,
+                })
+            })
+        {
+            shown[(x, y)] = color;
+        }
+    }
+}
+
+/// Colours squares of `reach` around the pixels of a line.
+fn thick(shown: &mut Picture, pixels: &[u32], reach: usize, color: [f32; 3]) {
+    let width = shown.width();
+    let height = shown.height();
+    for pixel in pixels.iter().map(|&pixel| pixel as usize) {
+        let x = pixel % width;
+        let y = pixel / width;
+        let left = x.saturating_sub(reach);
+        let across = (x + reach).min(width - 1) + 1 - left;
+        for row in y.saturating_sub(reach)..=(y + reach).min(height - 1) {
+            shown.row_mut(row, left, across).fill(color);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::marks::{Mark, MarkedArea};
+    use super::super::upright::StrokeDirection;
+    use super::*;
+
+    fn marks() -> Marks {
+        let line = MarkedArea::Scribble(vec![[10.0, 10.0], [20.0, 10.0]]);
+        let rectangle = MarkedArea::Rectangle { x: 40, y: 5, width: 12, height: 15 };
+        let samples = [("line", line), ("rectangle", rectangle)].into_iter();
+        let samples =
+            samples.map(|(name, area)| Mark { name: name.to_owned(), area, spacing: None });
+        Marks { file: "m.toml".to_owned(), painting: None, samples: samples.collect() }
+    }
+
+    #[test]
+    fn lines_and_outlines_have_the_color_of_their_mark_and_the_rest_is_faded() {
+        let picture = Field::filled(60, 30, [0.1; 3]);
+        let alone = marked_picture(&picture, &marks(), &[]).unwrap();
+        let [orange, blue] = [COLORS[0].1, COLORS[1].1];
+        assert_eq!((alone[(15, 10)], alone[(15, 11)], alone[(15, 12)]), (orange, orange, RIM));
+        assert_eq!((alone[(15, 13)], alone[(23, 10)]), ([0.1; 3], [0.1; 3]));
+        assert_eq!((alone[(40, 5)], alone[(51, 12)], alone[(45, 10)]), (blue, blue, [0.1; 3]));
+        assert_eq!(alone[(0, 29)], [0.1; 3], "nothing is faded without passages");
+
+        let mask = (0..1800).map(|i| i % 60 < 30 && i / 60 < 20).collect();
+        let passage = PassageReport {
+            name: "line".to_owned(),
+            mask: Field::from_values(60, 30, mask),
+            regions_under: 1,
+            direction: StrokeDirection { degrees: 0.0, coherence: 0.0, turned: false },
+            direction_seen: StrokesSeen::Color,
+            spacing_px: 5.0,
+            spacing_source: SpacingSource::Marked,
+            scale: [1.0; 2],
+            lightness: 50.0,
+        };
+        let shown = marked_picture(&picture, &marks(), &[passage]).unwrap();
+        assert_eq!((shown[(29, 15)], shown[(0, 0)], shown[(5, 19)]), (orange, orange, orange));
+        assert_eq!((shown[(5, 15)], shown[(15, 10)]), ([0.1; 3], orange));
+        assert!(shown[(0, 29)][0] > 0.35, "{:?}", shown[(0, 29)]);
+    }
+
+    #[test]
+    fn marks_off_the_picture_are_refused() {
+        let error = marked_picture(&Field::filled(30, 30, [0.1; 3]), &marks(), &[]).unwrap_err();
+        assert!(error.to_string().contains("`rectangle`"), "{error}");
+        assert_eq!((drawn_in(0), drawn_in(8)), ("orange", "sky blue"));
+        assert_eq!(color_of_mark(8), COLORS[1].1);
     }
 }

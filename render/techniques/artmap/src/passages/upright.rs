@@ -1,12 +1,16 @@
-//! Upright samples: all channels of a passage through one resampling.
+//! Upright samples: the direction of a passage's strokes, their distance estimated by
+//! autocorrelation, the frame that says which place of the picture each texel shows, and one
+//! resampling of all channels.
 
+use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use graphics::tile::Rect;
 use paint::layer::SLOTS;
+use rayon::prelude::*;
 
-use super::frame::{Frame, Tap};
-use super::source::SourcePicture;
+use super::joining::RegionTraits;
+use super::settings::SourcePicture;
 use crate::sample::TexelPaint;
 
 /// Channels of an upright passage, cut to the extent of its mask.
@@ -85,22 +89,286 @@ fn cut_to_extent(texels: Field<Option<Texel>>) -> Field<Option<Texel>> {
     }
 }
 
+/// Coherence below which a passage has no direction.
+const LEAST_COHERENCE: f64 = 0.2;
+
+/// Direction of the strokes of a passage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrokeDirection {
+    /// Angle of the strokes in degrees, 0 to 180: 0 along x, 90 along y, growing from x (right) to
+    /// y (down).
+    pub degrees: f64,
+    /// Share of the strong gradients that agree in direction, 0 to 1.
+    pub coherence: f64,
+    /// Whether the passage is turned until its strokes run along y. It is not if the coherence is
+    /// below 0.2.
+    pub turned: bool,
+}
+
+impl StrokeDirection {
+    /// Direction of the strokes among `pixels`, which lie `depth` deep inside the passage.
+    pub(super) fn of(
+        pixels: &[u32],
+        depth: &Field<u32>,
+        intensity: &Field<f32>,
+        gradient: &Field<[f32; 2]>,
+    ) -> Self {
+        let traits = RegionTraits::of(pixels, depth, intensity, gradient);
+        let coherence = traits.coherence();
+        let degrees = traits.angle().to_degrees();
+        Self { degrees, coherence, turned: coherence >= LEAST_COHERENCE }
+    }
+
+    /// Unit vector along the strokes, y for a passage that is not turned.
+    pub(super) fn along(&self) -> [f64; 2] {
+        if !self.turned {
+            return [0.0, 1.0];
+        }
+        let (sin, cos) = self.degrees.to_radians().sin_cos();
+        [cos, sin]
+    }
+}
+
+/// Axes and size of an upright sample.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Frame {
+    /// Place of the texel (0, 0) in the picture, in pixels from the first pixel's middle.
+    origin: [f64; 2],
+    /// Unit vector across the strokes: x of the sample.
+    across: [f64; 2],
+    /// Unit vector along the strokes: y of the sample.
+    along: [f64; 2],
+    /// Texels per pixel, across and along.
+    scale: [f64; 2],
+    /// Width and height in texels.
+    pub(super) size: [usize; 2],
+}
+
+/// A pixel that contributes to a texel, and its weight.
+pub(super) type Tap = (usize, f32);
+
+impl Frame {
+    /// The frame that holds all true pixels of `mask`, which has at least one.
+    ///
+    /// A frame along y of scale 1 shows the pixels as they are.
+    pub(super) fn around(mask: &Field<bool>, along: [f64; 2], scale: [f64; 2]) -> Self {
+        let across = [along[1], -along[0]];
+        let mut least = [f64::INFINITY; 2];
+        let mut most = [f64::NEG_INFINITY; 2];
+        for (pixel, _) in mask.values().iter().enumerate().filter(|(_, inside)| **inside) {
+            let place = [(pixel % mask.width()) as f64, (pixel / mask.width()) as f64];
+            for (axis, direction) in [across, along].into_iter().enumerate() {
+                let length = dot(place, direction);
+                least[axis] = least[axis].min(length);
+                most[axis] = most[axis].max(length);
+            }
+        }
+        let size = [0, 1].map(|axis| {
+            let texels = (most[axis] - least[axis]) * scale[axis];
+            // Rounding must not add a row.
+            (texels - 1e-9).ceil().max(0.0) as usize + 1
+        });
+        let origin = [0, 1].map(|i| least[0] * across[i] + least[1] * along[i]);
+        Self { origin, across, along, scale, size }
+    }
+
+    /// The field of `gather` for each texel that lies in the mask by at least half, `None`
+    /// elsewhere. Weights are above 0 and sum to 1 over pixels inside of the mask, so that nothing
+    /// from outside bleeds in.
+    pub(super) fn resampled<T: Send + Sync>(
+        &self,
+        mask: &Field<bool>,
+        gather: impl Fn(&[Tap]) -> T + Sync,
+    ) -> Field<Option<T>> {
+        let [width, height] = self.size;
+        let texels = (0..width * height).into_par_iter().with_min_len(256).map_init(
+            Vec::new,
+            |taps, texel| {
+                let place = [(texel % width) as f64, (texel / width) as f64];
+                self.taps(mask, place, taps).then(|| gather(taps))
+            },
+        );
+        Field::from_values(width, height, texels.collect())
+    }
+
+    /// Fills `taps` for the texel at `place`. False if it lies outside of the mask.
+    ///
+    /// A texel is a tent over the sample's axes: one texel to each side, or one pixel where pixels
+    /// are larger.
+    fn taps(&self, mask: &Field<bool>, place: [f64; 2], taps: &mut Vec<Tap>) -> bool {
+        taps.clear();
+        let lengths = [0, 1].map(|axis| place[axis] / self.scale[axis]);
+        let middle = [0, 1]
+            .map(|i| self.origin[i] + lengths[0] * self.across[i] + lengths[1] * self.along[i]);
+        // Half widths of the tent in pixels along its axes.
+        let half = self.scale.map(|scale| (1.0 / scale).max(1.0));
+        let reach = [0, 1].map(|i| half[0] * self.across[i].abs() + half[1] * self.along[i].abs());
+        let range =
+            |i: usize| (middle[i] - reach[i]).ceil() as i64..=(middle[i] + reach[i]).floor() as i64;
+        let mut inside = 0.0;
+        let mut all = 0.0;
+        for y in range(1) {
+            for x in range(0) {
+                let off = [x as f64 - middle[0], y as f64 - middle[1]];
+                let tent = |direction, half: f64| (1.0 - dot(off, direction).abs() / half).max(0.0);
+                let weight = tent(self.across, half[0]) * tent(self.along, half[1]);
+                // Below that, pixels beyond the tent would count by rounding alone.
+                if weight < 1e-9 {
+                    continue;
+                }
+                all += weight;
+                let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { continue };
+                if x < mask.width() && y < mask.height() && mask[(x, y)] {
+                    inside += weight;
+                    taps.push((y * mask.width() + x, weight as f32));
+                }
+            }
+        }
+        taps.iter_mut().for_each(|(_, weight)| *weight /= inside as f32);
+        inside > 0.0 && inside >= 0.5 * all
+    }
+}
+
+fn dot(one: [f64; 2], other: [f64; 2]) -> f64 {
+    one[0] * other[0] + one[1] * other[1]
+}
+
+/// Smallest difference of maximum and minimum of the autocorrelation.
+const LEAST_SHARPNESS: f64 = 0.1;
+
+/// Smallest autocorrelation at the maximum. Blotches of one size without order have a minimum too,
+/// from which the autocorrelation rises to about 0.
+const LEAST_PEAK: f64 = 0.1;
+
+/// Rise or fall of the autocorrelation that counts as one.
+const RIPPLE: f64 = 0.02;
+
+/// Standard deviation in pixels of the smoothing against noise.
+const NOISE_SIGMA: f64 = 1.0;
+
+/// Largest distance that is looked for, as a share of the passage's width.
+const LARGEST_SHARE: f64 = 1.0 / 4.0;
+
+/// An estimated distance of strokes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Estimate {
+    /// Distance of neighbouring strokes in pixels.
+    pub(super) spacing_px: f64,
+    /// Difference of the first maximum of the autocorrelation and the minimum before it, up to 2.
+    pub(super) sharpness: f64,
+}
+
+/// Distance of strokes among the true pixels of `mask`, which run along `along`. If `turned` is
+/// false, strokes have no direction, and the mean over x and y is taken.
+///
+/// The first minimum of the autocorrelation across the strokes and the maximum after it are looked
+/// for. A parabola through the maximum gives fractions of a pixel. `None` if there is none, if the
+/// sharpness is below 0.1, or if the maximum itself is.
+pub(super) fn estimated(
+    intensity: &Field<f32>,
+    mask: &Field<bool>,
+    along: [f64; 2],
+    turned: bool,
+) -> Option<Estimate> {
+    let mut correlation = across(intensity, mask, along);
+    if !turned {
+        let other = across(intensity, mask, [along[1], -along[0]]);
+        correlation.truncate(other.len());
+        correlation.iter_mut().zip(other).for_each(|(one, other)| *one = (*one + other) / 2.0);
+    }
+    first_peak(&correlation)
+}
+
+/// Autocorrelation across the strokes, at distances of 0, 1, .. pixels.
+fn across(intensity: &Field<f32>, mask: &Field<bool>, along: [f64; 2]) -> Vec<f64> {
+    let frame = Frame::around(mask, along, [1.0; 2]);
+    let upright = frame.resampled(mask, |taps| {
+        taps.iter().map(|&(pixel, weight)| weight * intensity.values()[pixel]).sum::<f32>()
+    });
+    let detail = detail(&upright);
+    let width = detail.width();
+    let largest = (width as f64 * LARGEST_SHARE) as usize;
+    (0..=largest).into_par_iter().map(|lag| correlation(&detail, lag)).collect()
+}
+
+/// Detail of the intensity and 1 in the passage, zeros elsewhere: the difference of a narrow and a
+/// wide mean, neither of which looks beyond the passage.
+fn detail(upright: &Field<Option<f32>>) -> Field<[f32; 2]> {
+    let width = upright.width();
+    let height = upright.height();
+    let weighted = upright.values().iter().map(|value| value.map_or([0.0; 2], |v| [v, 1.0]));
+    let weighted = Field::from_values(width, height, weighted.collect());
+    let narrow = blurred(&weighted, NOISE_SIGMA);
+    let wide = blurred(&weighted, width.max(6) as f64 / 6.0);
+    let means = narrow.values().iter().zip(wide.values()).zip(upright.values());
+    let detail = means.map(|((narrow, wide), inside)| match inside {
+        Some(_) => [narrow[0] / narrow[1] - wide[0] / wide[1], 1.0],
+        None => [0.0; 2],
+    });
+    Field::from_values(width, height, detail.collect())
+}
+
+/// Correlation of the detail with itself `lag` pixels to the right.
+fn correlation(detail: &Field<[f32; 2]>, lag: usize) -> f64 {
+    let width = detail.width();
+    let mut product = 0.0;
+    let mut left = 0.0;
+    let mut right = 0.0;
+    for row in detail.values().chunks_exact(width.max(1)) {
+        for (one, other) in row.iter().zip(&row[lag..]) {
+            let both = f64::from(one[1] * other[1]);
+            let [one, other] = [one, other].map(|detail| f64::from(detail[0]) * both);
+            product += one * other;
+            left += one * one;
+            right += other * other;
+        }
+    }
+    let norm = (left * right).sqrt();
+    if norm > 1e-12 { product / norm } else { 0.0 }
+}
+
+/// The first maximum after the first minimum, each of which stands out by [`RIPPLE`], `None` if it
+/// is not clear.
+fn first_peak(correlation: &[f64]) -> Option<Estimate> {
+    let mut valley = 0;
+    let mut peak = None;
+    for (lag, &value) in correlation.iter().enumerate().skip(1) {
+        match peak {
+            None if value < correlation[valley] => valley = lag,
+            None if value > correlation[valley] + RIPPLE => peak = Some(lag),
+            Some(highest) if value > correlation[highest] => peak = Some(lag),
+            Some(highest) if value < correlation[highest] - RIPPLE => {
+                let [before, top, after] =
+                    [highest - 1, highest, highest + 1].map(|i| correlation[i]);
+                let bend = before - 2.0 * top + after;
+                let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+                let sharpness = top - correlation[valley];
+                let spacing_px = highest as f64 + shift.clamp(-0.5, 0.5);
+                let clear = sharpness >= LEAST_SHARPNESS && top >= LEAST_PEAK;
+                return clear.then_some(Estimate { spacing_px, sharpness });
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use pigment::library::PigmentLibrary;
-
+    use super::super::made_up::{Brush, Texture, textured};
+    use super::super::regions::{Regions, gradient_of, intensity_of};
     use super::*;
     use crate::sample::PaintOfSamples;
+    use pigment::library::PigmentLibrary;
+    use std::sync::Arc;
 
     /// A picture of all channels, with other values inside of a disc than outside.
     fn disc() -> (SourcePicture, Field<bool>) {
-        let inside = |i: usize| {
+        fn inside(i: usize) -> bool {
             let x = (i % 60) as f64 - 30.0;
             let y = (i / 60) as f64 - 25.0;
             x.hypot(y) < 20.0
-        };
+        }
         let field = |value: &dyn Fn(bool) -> f32| -> Field<f32> {
             Field::from_values(60, 50, (0..3000).map(|i| value(inside(i))).collect())
         };
@@ -180,5 +448,126 @@ mod tests {
                 assert!((0..rows).any(|y| found.mask[(x, y)]), "column {x} should be cut off");
             }
         }
+    }
+
+    fn direction_of(texture: Texture) -> StrokeDirection {
+        let intensity = intensity_of(&textured(160, 120, 5, &[texture], |_, _| 0));
+        let whole = Regions { labels: Field::filled(160, 120, 0), count: 1 };
+        let pixels: Vec<u32> = (0..160 * 120).collect();
+        StrokeDirection::of(&pixels, &whole.depths(), &intensity, &gradient_of(&intensity))
+    }
+
+    #[test]
+    fn strokes_have_their_direction_within_2_degrees() {
+        for brush in Brush::ALL.into_iter().filter(|brush| brush.has_direction()) {
+            for degrees in [0.0, 30.0, 75.0, 120.0, 179.0] {
+                let texture = Texture { brush, degrees, ..Texture::default() };
+                let found = direction_of(texture);
+                let off = (found.degrees - degrees).abs();
+                let off = off.min(180.0 - off);
+                assert!(off < 2.0, "{brush:?} at {degrees}: {found:?}");
+                assert!(found.turned, "{brush:?} at {degrees}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn specks_are_not_turned() {
+        let found = direction_of(Texture { brush: Brush::Specks, ..Texture::default() });
+        assert!(!found.turned && found.coherence < 0.2, "{found:?}");
+        assert_eq!(found.along(), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_frame_along_y_of_scale_1_shows_the_pixels_as_they_are() {
+        let mut mask = Field::filled(12, 9, true);
+        (0..12).for_each(|x| mask[(x, 0)] = false);
+        mask[(5, 4)] = false;
+        let frame = Frame::around(&mask, [0.0, 1.0], [1.0; 2]);
+        assert_eq!(frame.size, [12, 8]);
+        let found = frame.resampled(&mask, |taps| taps.to_vec());
+        for y in 0..8 {
+            for x in 0..12 {
+                let wanted = mask[(x, y + 1)].then(|| vec![((y + 1) * 12 + x, 1.0)]);
+                assert_eq!(found[(x, y)], wanted, "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_turned_frame_runs_along_the_strokes() {
+        // Values grow along 30 degrees: along y of the frame.
+        let mask = Field::filled(60, 50, true);
+        let (sin, cos) = 30f64.to_radians().sin_cos();
+        let frame = Frame::around(&mask, [cos, sin], [1.0, 2.0]);
+        let found = frame.resampled(&mask, |taps: &[Tap]| -> f64 {
+            taps.iter()
+                .map(|&(pixel, weight)| {
+                    f64::from(weight) * ((pixel % 60) as f64 * cos + (pixel / 60) as f64 * sin)
+                })
+                .sum()
+        });
+        let x = frame.size[0] / 2;
+        let y = frame.size[1] / 2;
+        fn at(x: usize, y: usize, found: &Field<Option<f64>>) -> f64 {
+            found[(x, y)].unwrap()
+        }
+        assert!(
+            (at(x, y + 8, &found) - at(x, y, &found) - 4.0).abs() < 0.15,
+            "two texels a pixel along y"
+        );
+        assert!((at(x + 5, y, &found) - at(x, y, &found)).abs() < 0.15, "and even across");
+    }
+
+    #[test]
+    fn a_smaller_sample_takes_means() {
+        let mask = Field::filled(40, 40, true);
+        let frame = Frame::around(&mask, [0.0, 1.0], [0.25; 2]);
+        let found = frame.resampled(&mask, |taps| {
+            taps.iter().map(|&(p, weight)| weight * (((p % 40 + p / 40) % 2) as f32)).sum::<f32>()
+        });
+        let middle = found[(5, 5)].unwrap();
+        assert!((middle - 0.5).abs() < 0.05, "{middle}");
+    }
+
+    fn estimate(texture: Texture) -> Option<Estimate> {
+        let (sin, cos) = texture.degrees.to_radians().sin_cos();
+        let picture = textured(200, 150, 11, &[texture], |_, _| 0);
+        let mask = Field::filled(200, 150, true);
+        estimated(&intensity_of(&picture), &mask, [cos, sin], texture.brush.has_direction())
+    }
+
+    #[test]
+    fn spacings_are_within_8_percent_on_four_brushes_of_five_or_refused() {
+        for (degrees, spacing) in [(90.0, 12.0), (30.0, 9.5), (140.0, 17.0)] {
+            let mut near = 0;
+            for brush in Brush::ALL {
+                let texture = Texture { brush, degrees, spacing, ..Texture::default() };
+                let Some(found) = estimate(texture) else { continue };
+                let off = found.spacing_px / spacing - 1.0;
+                assert!(off.abs() < 0.08, "{brush:?} {degrees} {spacing}: {found:?}");
+                near += 1;
+            }
+            assert!(near >= 4, "{near} of 5 brushes at {degrees}, {spacing}");
+        }
+    }
+
+    #[test]
+    fn a_peak_is_refined_between_pixels_and_noise_is_refused() {
+        fn wave(lag: usize) -> f64 {
+            (std::f64::consts::TAU * lag as f64 / 10.4).cos()
+        }
+        let found = first_peak(&(0..30).map(wave).collect::<Vec<_>>()).unwrap();
+        assert!((found.spacing_px - 10.4).abs() < 0.05, "{found:?}");
+        assert!(found.sharpness > 1.8, "{found:?}");
+        let falling: Vec<f64> = (0..30).map(|lag| (-0.2 * f64::from(lag)).exp()).collect();
+        assert_eq!(first_peak(&falling), None);
+        fn faint(height: f64) -> Vec<f64> {
+            (0..30).map(|lag| height * wave(lag) - if lag > 0 { 0.3 } else { 0.0 }).collect()
+        }
+        assert_eq!(first_peak(&faint(0.35)), None, "a maximum near 0 is none");
+        assert!(first_peak(&faint(0.6)).is_some(), "one of 0.3 is");
+        let flat = Field::filled(80, 60, 0.5);
+        assert_eq!(estimated(&flat, &Field::filled(80, 60, true), [0.0, 1.0], true), None);
     }
 }

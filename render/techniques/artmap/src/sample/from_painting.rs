@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::amount::mm_from_quanta;
@@ -16,7 +16,7 @@ use pigment::{PigmentId, PigmentLibrary, Recipe, Viewing};
 use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_ciede2000};
 
-use crate::texel::{PaintOfSamples, TexelPaint};
+use crate::texel_file::{PaintOfSamples, TexelPaint};
 
 /// Share of a painting's pigment below which a pigment counts as minor.
 pub const MINOR: f64 = 0.01;
@@ -46,7 +46,8 @@ impl WholePainting {
     /// multiplied by its opacity, its height is not.
     ///
     /// With `merge_minor`, pigments below [`MINOR`] of all pigment count as the remaining pigment
-    /// whose masstone is nearest by CIEDE2000, if the painting has more pigments than a table holds.
+    /// with the nearest masstone by CIEDE2000, if the painting has more pigments than a table
+    /// holds.
     ///
     /// # Errors
     /// [`FromPaintingError`] for more than eight pigments, and a library without visible
@@ -58,21 +59,25 @@ impl WholePainting {
         for (slot, pigment) in slots.iter_mut().zip(&kept) {
             *slot = Some(*pigment);
         }
-        let place = |pigment: PigmentId| {
-            let target = merged.iter().find(|(minor, _)| *minor == pigment);
-            let target = target.map_or(pigment, |(_, into)| *into);
-            kept.iter().position(|kept| *kept == target)
-        };
         let light = Light::named(&document.library, "D65", "1931-2")?;
-        let name = |pigment: PigmentId| document.library[pigment].name.clone();
+        fn name(pigment: PigmentId, document: &Document) -> String {
+            document.library[pigment].name.clone()
+        }
         Ok(Self {
             title: document.title.clone(),
             color: level_colors(document, &light),
-            paint: summed_paint(document, place),
+            paint: summed_paint(document, |pigment: PigmentId| {
+                let target = merged.iter().find(|(minor, _)| *minor == pigment);
+                let target = target.map_or(pigment, |(_, into)| *into);
+                kept.iter().position(|kept| *kept == target)
+            }),
             height_mm: summed_height(document),
             mm_per_texel: document.cell_mm,
             pigments: PaintOfSamples { library: Arc::new(document.library.clone()), slots },
-            merged: merged.iter().map(|&(minor, into)| [name(minor), name(into)]).collect(),
+            merged: merged
+                .iter()
+                .map(|&(minor, into)| [name(minor, document), name(into, document)])
+                .collect(),
         })
     }
 }
@@ -107,7 +112,9 @@ fn table(
     used: &[(PigmentId, f64)],
     merge_minor: bool,
 ) -> Result<(Vec<PigmentId>, Merged), FromPaintingError> {
-    let ids = |used: &[(PigmentId, f64)]| used.iter().map(|(id, _)| *id).collect::<Vec<_>>();
+    fn ids(used: &[(PigmentId, f64)]) -> Vec<PigmentId> {
+        used.iter().map(|(id, _)| *id).collect::<Vec<_>>()
+    }
     if used.len() <= SLOTS {
         return Ok((ids(used), Vec::new()));
     }
@@ -123,10 +130,11 @@ fn table(
     }
     let colors = masstones(library);
     let nearest = |id: PigmentId| {
-        let distance =
-            |other: PigmentId| delta_e_ciede2000(colors[id.index()], colors[other.index()]);
+        fn distance(other: PigmentId, colors: &[Lab], id: &PigmentId) -> f64 {
+            delta_e_ciede2000(colors[id.index()], colors[other.index()])
+        }
         let kept = ids(&kept).into_iter();
-        kept.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+        kept.min_by(|a, b| distance(*a, &colors, &id).total_cmp(&distance(*b, &colors, &id)))
     };
     let merged = ids(&minor).into_iter().filter_map(|id| Some((id, nearest(id)?))).collect();
     Ok((ids(&kept), merged))
@@ -157,7 +165,9 @@ pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
         lighting: &Lighting { relief: 0.0, ..Lighting::default() },
     };
     let mut scene = appearance.scene(light);
-    let matt = |gloss: Gloss| Gloss { strength: 0.0, ..gloss };
+    fn matt(gloss: Gloss) -> Gloss {
+        Gloss { strength: 0.0, ..gloss }
+    }
     let lamp = &mut scene.lamp;
     (lamp.wet, lamp.dry, lamp.ground) = (matt(lamp.wet), matt(lamp.dry), matt(lamp.ground));
     let shown = picture(document, &scene);
@@ -216,43 +226,157 @@ pub(crate) fn summed_height(document: &Document) -> Field<f32> {
 }
 
 /// A painting cannot be sampled.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum FromPaintingError {
     /// The painting holds more pigments than a table of samples.
     #[error(
         "painting `{title}` has {} pigments, samples hold {SLOTS}: {}",
         names.len(), names.join(", ")
     )]
+    #[hint(if *minor == 0, "sample parts of the painting that have fewer pigments")]
+    #[hint("{minor} of them are below 1 %: merge them into others with [merge_minor]")]
     TooManyPigments {
         /// Title of the painting.
         title: String,
         /// Names of its pigments.
         names: Vec<String>,
-        /// Number of minor pigments whose merging would help; 0 if it would not.
+        /// Number of minor pigments that are worth merging, 0 if it would not.
         minor: usize,
     },
     /// The painting's library has no wavelengths in common with daylight.
     #[error(transparent)]
+    #[fault(Input)]
     Light(#[from] PaintLightError),
 }
 
-impl Explain for FromPaintingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::TooManyPigments { minor: 0, .. } => {
-                Some(Hint::new("sample parts of the painting that have fewer pigments"))
+#[cfg(test)]
+mod tests {
+    use paint::canvas::Canvas;
+    use paint::ground::GroundKind;
+    use paint::session::PaintingSession;
+    use paint::{BrushSpec, HeadShape, Sample};
+    use spectra::color::RgbSpace;
+
+    use super::*;
+
+    /// A painting of two strokes in different pigments. The first is dry.
+    fn painting() -> Document {
+        let oils = PigmentLibrary::van_gogh_oils();
+        let ground = GroundKind::Panel.spec(1);
+        let canvas = Canvas { width_mm: 24.0, height_mm: 12.0, cell_mm: 0.25, ground };
+        let mut session = PaintingSession::on_canvas(&oils, &canvas).unwrap();
+        let spec = BrushSpec { shape: HeadShape::Flat, size_mm: 4.0 };
+        session.set_brush("flat", &spec).unwrap();
+        for (name, y_mm) in [("Vermilion", 5.0), ("Cobalt Blue", 7.0)] {
+            session.load("flat", [(name, 1.0), ("Zinc White", 1.0)], 0.3).unwrap();
+            let ends = [3.0, 21.0]
+                .map(|x_mm| Sample { twist_deg: 90.0, ..Sample::upright(x_mm, x_mm, y_mm, 0.6) });
+            session.stroke("flat", &ends).unwrap();
+            session.canvas_mut().dry(if y_mm == 5.0 { 1.0 } else { 0.0 }).unwrap();
+        }
+        session.canvas_mut().document().unwrap()
+    }
+
+    #[test]
+    fn every_pigment_keeps_its_total_and_heights_are_the_sum_of_all_paint() {
+        let document = painting();
+        let whole = WholePainting::of(&document, false).unwrap();
+        let slots = whole.pigments.slots;
+        assert_eq!(slots.iter().flatten().count(), 3);
+        let quantum_mm = mm_from_quanta(1, document.cell_mm);
+        for (slot, pigment) in slots.iter().enumerate() {
+            let mut exact = 0.0;
+            for (of, _, layer) in layers(&document) {
+                let totals = layer.totals();
+                let held =
+                    of.iter().zip(totals).filter(|(held, _)| held.is_some() && *held == pigment);
+                exact += held.map(|(_, total)| total as f64 * quantum_mm).sum::<f64>();
             }
-            Self::TooManyPigments { minor, .. } => Some(Hint::new(format!(
-                "{minor} of them are below 1 %: merge them into others with [merge_minor]"
-            ))),
-            Self::Light(error) => error.hint(),
+            let texels = whole.paint.values().iter();
+            let found: f64 = texels.map(|texel| f64::from(texel.pigments_mm[slot])).sum();
+            assert!((found - exact).abs() <= 1e-6 * exact, "{slot}: {found}, not {exact}");
+            assert_eq!(exact > 0.0, pigment.is_some(), "{slot}");
+        }
+        for (texel, height) in whole.paint.values().iter().zip(whole.height_mm.values()) {
+            let sum = texel.pigments_mm.iter().sum::<f32>() + texel.vehicle_mm;
+            assert!((sum - height).abs() < 1e-5, "{sum} in {height}");
         }
     }
 
-    fn fault(&self) -> Fault {
-        Fault::Input
+    #[test]
+    fn colors_are_those_of_the_exact_spectra_and_carry_no_relief() {
+        let document = painting();
+        let whole = WholePainting::of(&document, false).unwrap();
+        let exact = paint::scene::SpectralDocument::full(&document);
+        let weights = Viewing::default().weights(document.library.grid).unwrap();
+        let lab = |xyz| Lab::from_xyz(xyz, weights.white());
+        for (x, y) in [(2, 2), (40, 20), (60, 24), (50, 14), (66, 15), (70, 30)] {
+            let wanted = lab(weights.xyz(&exact.measured_reflectance(x, y)));
+            let rgb = spectra::color::Rgb(whole.color[(x, y)].map(f64::from)).encoded();
+            let xyz = RgbSpace::Srgb.xyz_from_encoded(
+                rgb,
+                weights.white(),
+                spectra::color::Adaptation::Bradford,
+            );
+            let off = delta_e_ciede2000(wanted, lab(xyz));
+            assert!(off < 0.5, "{x}, {y}: {off}");
+        }
+    }
+
+    /// The painting with layers of a quantum or more of further pigments.
+    fn crowded(amounts: &[u32]) -> Document {
+        let mut document = painting();
+        for (index, &amount) in amounts.iter().enumerate() {
+            let mut paint = document.wet.clone();
+            paint.pigments.values_mut().fill([0; SLOTS]);
+            paint.vehicle.values_mut().fill(0);
+            paint.pigments[(index, 3)][0] = amount;
+            let mut slots = Slots::default();
+            slots[0] = Some(PigmentId(if index < 1 { 0 } else { index + 11 }));
+            document.push_dry(slots, paint);
+        }
+        document
+    }
+
+    #[test]
+    fn more_pigments_than_slots_are_refused_by_name_or_merged_when_asked() {
+        let document = crowded(&[5000; 7]);
+        let error = WholePainting::of(&document, false).unwrap_err();
+        assert!(error.to_string().contains("10 pigments, samples hold 8: "), "{error}");
+        assert!(error.to_string().contains("Vermilion"), "{error}");
+        assert!(error.hint().unwrap().to_string().contains("`merge_minor`"), "{error}");
+        let merged = WholePainting::of(&document, true).unwrap();
+        assert_eq!(merged.merged.len(), 7);
+        assert_eq!(merged.pigments.slots.iter().flatten().count(), 3);
+        fn sum(whole: &WholePainting) -> f64 {
+            let texels = whole.paint.values().iter().flat_map(|texel| texel.pigments_mm);
+            texels.map(f64::from).sum()
+        }
+        let before = WholePainting::of(&painting(), false).unwrap();
+        let more = 7.0 * 5000.0 * mm_from_quanta(1, document.cell_mm);
+        let off = sum(&merged) - sum(&before) - more;
+        assert!(off.abs() < 1e-6 * sum(&before), "{off} of {more}");
+
+        let even = crowded(&[500_000_000; 7]);
+        let error = WholePainting::of(&even, true).unwrap_err();
+        assert!(matches!(error, FromPaintingError::TooManyPigments { minor: 0, .. }), "{error}");
+    }
+
+    #[test]
+    fn a_faded_layer_counts_by_its_optical_thickness_and_keeps_its_height() {
+        let document = painting();
+        let mut faded = document.clone();
+        faded.dry[0].opacity = 0.5;
+        let [whole, half] = [&document, &faded].map(|painting| WholePainting::of(painting, false));
+        let whole = whole.unwrap();
+        let half = half.unwrap();
+        assert_eq!(whole.height_mm, half.height_mm);
+        let vermilion = document.library.find("Vermilion").unwrap();
+        let slot = whole.pigments.slots.iter().position(|slot| *slot == Some(vermilion)).unwrap();
+        fn sum(of: &WholePainting, slot: usize) -> f64 {
+            of.paint.values().iter().map(|texel| f64::from(texel.pigments_mm[slot])).sum()
+        }
+        let share = sum(&half, slot) / sum(&whole, slot);
+        assert!(share > 0.5 - 1e-6 && share < 0.8, "{share}");
     }
 }
-
-#[cfg(test)]
-mod tests;

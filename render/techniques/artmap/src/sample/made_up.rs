@@ -4,7 +4,7 @@ use graphics::field::Field;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::passage::Sample;
+use super::Sample;
 
 /// A sample of `size` x `size` texels covered by upright strokes `spacing` texels wide and about
 /// four times as long, around a linear grey of `tone`. Equal seeds give strokes at equal places.

@@ -1,10 +1,15 @@
-//! One level of a sample's Gaussian pyramid, with what patches are compared by.
+//! One level of a sample's Gaussian pyramid with the values that patches are compared by, the grid
+//! of patches on a map that tiles, and the settings and errors of the synthesis.
+//!
+//! Samples may be nested: their strokes stand at the places of another sample's strokes, as in
+//! painted tones with the same strokes.
 
+use documents::hint::Explain;
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
+use serde::{Deserialize, Serialize};
 
-use super::settings::Features;
 use crate::sample::Sample;
 
 /// Number of channels that patches of different samples are compared by.
@@ -44,13 +49,13 @@ impl Channels {
     pub(crate) fn of(sample: &Sample) -> Self {
         let lab = lab_from_linear(&sample.color);
         let (width, height) = sample.size();
-        let height_mm =
-            |index: usize| sample.height_mm.as_ref().map_or(0.0, |heights| heights.values()[index]);
         let values = lab
             .values()
             .iter()
             .enumerate()
-            .map(|(index, &[l, a, b]): (usize, &[f32; 3])| [l, a, b, height_mm(index)])
+            .map(|(index, &[l, a, b]): (usize, &[f32; 3])| {
+                [l, a, b, sample.height_mm.as_ref().map_or(0.0, |heights| heights.values()[index])]
+            })
             .collect();
         Self { values: Field::from_values(width, height, values), mask: sample.mask.clone() }
     }
@@ -76,7 +81,7 @@ impl Channels {
         Self { values, mask: Field::from_values(width, height, mask) }
     }
 
-    /// Blurs the channels; texels outside the mask give nothing and take their neighbours'.
+    /// Blurs the channels. Texels outside the mask give nothing and take their neighbours'.
     fn smooth(&self, sigma: f64) -> Field<[f32; LOOKS]> {
         let weighed = self
             .values
@@ -107,7 +112,7 @@ impl Channels {
         )
     }
 
-    /// Slope of a channel of `fine` over its L*, over the mask; 0 where L* is even.
+    /// Slope of a channel of `fine` over its L*, over the mask, 0 where L* is even.
     fn slope_over_lightness(&self, fine: &Field<[f32; LOOKS]>, channel: usize) -> f32 {
         let (mean, deviation) = self.moments(|index| fine.values()[index][0]);
         let covariance = self
@@ -130,15 +135,15 @@ impl Channels {
 }
 
 impl Level {
-    /// The level of `channels`, whose strokes are `spacing` texels apart.
+    /// The level of `channels`, with strokes `spacing` texels apart.
     pub(crate) fn new(channels: &Channels, spacing: f64, features: Features) -> Self {
         let values = &channels.values;
         let width = values.width();
         let height = values.height();
         let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
         let edges = edge_strength(&fine);
-        // Across the tones of one paint, a* and b* may rise or fall with L*; what L* tells is left
-        // to L*.
+        // Across the tones of one paint, a* and b* may rise or fall with L*. What follows from L*
+        // is left to L*.
         let slopes = [1, 2].map(|channel| channels.slope_over_lightness(&fine, channel));
         let raw = |index: usize| {
             let [l, a, b, height] = fine.values()[index];
@@ -159,7 +164,9 @@ impl Level {
         };
         let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
         let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
-        let per = |deviation: f64| if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 };
+        fn per(deviation: f64) -> f32 {
+            if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 }
+        }
         let per_color = per(color);
         let per_height = HEIGHT * per(deviation(3));
         let look = |&[l, a, b, height]: &[f32; LOOKS]| {
@@ -184,7 +191,7 @@ impl Level {
     }
 
     /// Places whose patch of `patch` x `patch` texels, from there to the right and down, lies in
-    /// the mask; row by row.
+    /// the mask, row by row.
     pub(crate) fn places(&self, patch: usize) -> Vec<[u16; 2]> {
         let width = self.mask.width();
         let height = self.mask.height();
@@ -197,13 +204,17 @@ impl Level {
                 outside[(y + 1) * (width + 1) + x + 1] = outside[y * (width + 1) + x + 1] + row;
             }
         }
-        let corner = |x: usize, y: usize| outside[y * (width + 1) + x];
+        fn corner(x: usize, y: usize, outside: &[u32], width: usize) -> u32 {
+            outside[y * (width + 1) + x]
+        }
         let mut places = Vec::new();
         for y in 0..(height + 1).saturating_sub(patch) {
             for x in 0..(width + 1).saturating_sub(patch) {
                 let right = x + patch;
                 let below = y + patch;
-                if corner(right, below) + corner(x, y) == corner(right, y) + corner(x, below) {
+                if corner(right, below, &outside, width) + corner(x, y, &outside, width)
+                    == corner(right, y, &outside, width) + corner(x, below, &outside, width)
+                {
                     places.push([x as u16, y as u16]);
                 }
             }
@@ -239,4 +250,257 @@ pub(crate) fn difference(a: &[f32; LOOKS], b: &[f32; LOOKS]) -> f32 {
         sum += (a[channel] - b[channel]) * (a[channel] - b[channel]);
     }
     sum
+}
+
+/// Properties by which patches of two samples are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Features {
+    /// Strength of edges, lightness, height, a* and b*.
+    #[default]
+    Tone,
+    /// Strength of edges, a* and b*: equations 1 and 2 of Yan and others (2008), with a* and b*
+    /// instead of the angle of hue, which means nothing in greys.
+    Paper,
+}
+
+/// Settings of [`key_maps`](super::key_maps).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SynthesisSettings {
+    /// Width and height of the maps in texels, [`SynthesisSettings::SIZES`].
+    pub size: usize,
+    /// Name of the sample that gets the first map, which the others follow, without it the sample
+    /// with the strongest contrast of lightness.
+    pub first: Option<String>,
+    /// Properties by which patches are compared.
+    pub features: Features,
+    /// Number of links of a patch to each other sample, 1..=512.
+    pub links: usize,
+    /// Weight of the likeness of linked patches relative to the likeness of overlaps, 0..=16:
+    /// higher keeps maps closer to the first one, lower makes better seams.
+    pub follow: f32,
+    /// Penalty on places that were used before, 0..=16.
+    pub uniformity: f32,
+    /// Seed of the choices of the first map.
+    pub seed: u64,
+}
+
+impl SynthesisSettings {
+    /// Range of [`SynthesisSettings::size`].
+    pub const SIZES: std::ops::RangeInclusive<usize> = 64..=1024;
+
+    /// Least distance of neighbouring strokes in texels.
+    pub const LEAST_SPACING: f64 = 6.0;
+}
+
+impl Default for SynthesisSettings {
+    fn default() -> Self {
+        Self {
+            size: 256,
+            first: None,
+            features: Features::default(),
+            links: 32,
+            follow: 8.0,
+            uniformity: 1.0,
+            seed: 1,
+        }
+    }
+}
+
+/// Why maps could not be synthesised.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum SynthesisError {
+    /// There are no samples.
+    #[error("there is no sample to synthesise from")]
+    #[hint("mark at least one passage of the painting")]
+    NoSample,
+    /// A setting is out of its range.
+    #[error("`{name}` is {found}, it must lie within {range}")]
+    #[hint("change [{name}]")]
+    #[fault(Setting)]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Its value.
+        found: String,
+        /// The range.
+        range: String,
+    },
+    /// No sample has the name of the first map.
+    #[error("no sample is called `{name}`; there are {}", .known.join(", "))]
+    #[hint("name one of the samples as [first]")]
+    #[fault(Setting)]
+    UnknownFirst {
+        /// The name that was asked for.
+        name: String,
+        /// Names of all samples.
+        known: Vec<String>,
+    },
+    /// Strokes stand too close, or too far apart for the size of the maps.
+    #[error(
+        "strokes of sample `{name}` are {spacing:.1} texels apart; maps of {size} texels take \
+         {least} to {most:.0}"
+    )]
+    #[hint("scale the picture, or make maps of another [size]")]
+    Spacing {
+        /// Name of the sample.
+        name: String,
+        /// Its spacing in texels.
+        spacing: f64,
+        /// Size of the maps in texels.
+        size: usize,
+        /// Least spacing.
+        least: f64,
+        /// Most spacing.
+        most: f64,
+    },
+    /// The samples have different spacings.
+    #[error(
+        "strokes of sample `{name}` are {spacing:.1} texels apart, those of `{first}` {wanted:.1}"
+    )]
+    #[hint("scale the samples to one spacing")]
+    UnlikeSpacings {
+        /// Name of the sample.
+        name: String,
+        /// Its spacing in texels.
+        spacing: f64,
+        /// Name of the first sample.
+        first: String,
+        /// Its spacing in texels.
+        wanted: f64,
+    },
+    /// No patch lies wholly in the sample.
+    #[error(
+        "sample `{name}` of {width} x {height} texels has no room for a patch of {patch} x {patch}"
+    )]
+    #[hint("mark a passage at least four times as wide and high as its strokes are apart")]
+    TooSmall {
+        /// Name of the sample.
+        name: String,
+        /// Its width in texels.
+        width: usize,
+        /// Its height in texels.
+        height: usize,
+        /// Side of a patch in texels.
+        patch: usize,
+    },
+    /// A sample is of one colour, without any relief.
+    #[error("sample `{name}` is of one colour: it has no strokes")]
+    #[hint("mark a passage whose strokes show")]
+    Flat {
+        /// Name of the sample.
+        name: String,
+    },
+}
+
+/// Patches of one size in equal distances on a torus, overlapping by a third or more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PatchGrid {
+    /// Width and height of the map in texels.
+    pub(crate) size: usize,
+    /// Width and height of a patch in texels.
+    pub(crate) patch: usize,
+    /// Number of patches in a row and in a column, at least 3.
+    pub(crate) count: usize,
+}
+
+impl PatchGrid {
+    pub(crate) fn new(size: usize, patch: usize) -> Self {
+        let step = patch - patch.div_ceil(3);
+        Self { size, patch, count: size.div_ceil(step).max(3) }
+    }
+
+    /// First texel of the patches of a row or column.
+    pub(crate) fn origin(&self, index: usize) -> usize {
+        index * self.size / self.count
+    }
+
+    /// Number of texels that a patch shares with the one before it and, for the last one, with the
+    /// first one behind the border.
+    pub(crate) fn overlaps(&self, index: usize) -> [usize; 2] {
+        let end = |index: usize| self.origin(index) + self.patch;
+        let before = if index > 0 { end(index - 1).saturating_sub(self.origin(index)) } else { 0 };
+        let last = index + 1 == self.count;
+        let after = if last { end(index).saturating_sub(self.size) } else { 0 };
+        [before, after]
+    }
+
+    /// All patches in rows from the top: column and row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let count = self.count;
+        (0..count * count).map(move |index| [index % count, index / count])
+    }
+}
+
+/// Correlation of lightness from which on two samples count as nested. Samples of different
+/// strokes have less than 0.2, painted tones of the same strokes more than 0.4.
+const NESTED: f64 = 0.3;
+
+/// Whether the strokes of `other` stand where the strokes of `first` do. Both must be of one size
+/// and cover the same texels.
+pub(crate) fn is_nested(first: &Level, other: &Level) -> bool {
+    first.mask == other.mask && correlation(first, other) >= NESTED
+}
+
+/// Correlation of the smoothed L* of two samples, texel by texel.
+fn correlation(first: &Level, other: &Level) -> f64 {
+    let inside = first.mask.values();
+    fn lightness(level: &Level, at: usize) -> f64 {
+        f64::from(level.features.values()[at][1])
+    }
+    let mut sums = [0.0; 3];
+    for at in (0..inside.len()).filter(|at| inside[*at]) {
+        // Features have mean 0.
+        let a = lightness(first, at);
+        let b = lightness(other, at);
+        sums[0] += a * a;
+        sums[1] += b * b;
+        sums[2] += a * b;
+    }
+    let squares = sums[0] * sums[1];
+    if squares > 0.0 { sums[2] / squares.sqrt() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::strokes;
+
+    #[test]
+    fn patches_cover_the_map_and_overlap_on_every_side() {
+        for (size, patch) in [(64, 16), (256, 20), (32, 8), (100, 33)] {
+            let grid = PatchGrid::new(size, patch);
+            let mut covered = vec![0; size];
+            for index in 0..grid.count {
+                (0..patch).for_each(|i| covered[(grid.origin(index) + i) % size] += 1);
+            }
+            assert!(covered.iter().all(|&count| count >= 1), "{size} {patch}: {covered:?}");
+            assert!(grid.overlaps(0)[0] == 0 && grid.overlaps(grid.count - 1)[1] >= patch / 3);
+            let shared = (1..grid.count).map(|index| grid.overlaps(index)[0]).min();
+            assert!(shared >= Some(patch / 3), "{size} {patch}: {shared:?}");
+        }
+    }
+
+    fn level(tone: f32, seed: u64) -> Level {
+        Level::new(&Channels::of(&strokes("a", 160, 8, tone, seed)), 8.0, Features::default())
+    }
+
+    #[test]
+    fn tones_of_the_same_strokes_are_nested_and_others_are_not() {
+        let first = level(0.1, 1);
+        assert!(is_nested(&first, &level(0.4, 1)));
+        for seed in 2..8 {
+            let found = correlation(&first, &level(0.4, seed));
+            assert!(found.abs() < 0.2, "seed {seed}: {found}");
+        }
+    }
+
+    #[test]
+    fn samples_of_other_masks_are_not_nested() {
+        let first = level(0.1, 1);
+        let mut other = level(0.4, 1);
+        other.mask[(3, 3)] = false;
+        assert!(!is_nested(&first, &other));
+    }
 }

@@ -1,11 +1,14 @@
-//! Colour, paint and height of texels as the channels of a part.
+//! Colour, paint and height of texels as the channels of a part, and digests that show whether a
+//! file still holds what was written.
+
+use std::sync::Arc;
 
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::file::PigmentChannel;
-
-use super::part::PartPlanes;
-use crate::texel::{PaintOfSamples, TexelPaint};
+use paint::layer::{SLOTS, Slots};
+use pigment::library::PigmentLibrary;
+use sha2::{Digest, Sha256};
 
 /// Channels of the colour, linear sRGB.
 pub(crate) const COLOR: [&str; 3] = ["R", "G", "B"];
@@ -34,7 +37,7 @@ impl Texels<'_> {
         names
     }
 
-    /// Numbers of a channel, row by row; that of no colour, height or pigment is the vehicle.
+    /// Numbers of a channel, row by row. That of no colour, height or pigment is the vehicle.
     pub(crate) fn plane(&self, channel: &str, pigments: Option<&[PigmentChannel]>) -> Vec<f32> {
         if let Some(color) = COLOR.iter().position(|name| *name == channel) {
             return self.color.values().iter().map(|rgb| rgb[color]).collect();
@@ -87,7 +90,7 @@ impl Texels<'_> {
 
 impl PartPlanes {
     /// Checks that the numbers of colour, height and paint are possible where `inside` says so.
-    /// Colours outside the gamut of sRGB may be below 0; heights and amounts are not.
+    /// Colours outside the gamut of sRGB may be below 0. Heights and amounts are not.
     ///
     /// # Errors
     /// Channel and reason.
@@ -121,7 +124,9 @@ impl PartPlanes {
     /// Paint of the texels.
     pub(crate) fn paint(&self, pigments: &[PigmentChannel]) -> Field<TexelPaint> {
         let vehicle = self.of(VEHICLE).iter();
-        let texel = |&vehicle_mm: &f32| TexelPaint { vehicle_mm, ..TexelPaint::default() };
+        fn texel(&vehicle_mm: &f32) -> TexelPaint {
+            TexelPaint { vehicle_mm, ..TexelPaint::default() }
+        }
         let mut paint: Vec<TexelPaint> = vehicle.map(texel).collect();
         for PigmentChannel { slot, channel, .. } in pigments {
             for (texel, amount) in paint.iter_mut().zip(self.of(channel)) {
@@ -131,7 +136,7 @@ impl PartPlanes {
         self.field(paint)
     }
 
-    /// Height of the texels; `None` if the part has no channel of heights.
+    /// Height of the texels, `None` if the part has no channel of heights.
     pub(crate) fn height_mm(&self) -> Option<Field<f32>> {
         let relief = self.plan.channels.iter().any(|channel| channel == HEIGHT);
         relief.then(|| self.field(self.of(HEIGHT).to_vec()))
@@ -140,5 +145,132 @@ impl PartPlanes {
     /// A field of the size of the part.
     pub(crate) fn field<T: Clone>(&self, values: Vec<T>) -> Field<T> {
         Field::from_values(self.plan.width, self.plan.height, values)
+    }
+}
+
+/// Name, size and channels that a part must have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct PartPlan {
+    pub(crate) name: String,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// Names of the channels, sorted as OpenEXR requires.
+    pub(crate) channels: Vec<String>,
+}
+
+impl PartPlan {
+    pub(crate) fn new(name: &str, (width, height): (usize, usize), channels: &[&str]) -> Self {
+        let mut channels = channels.to_vec();
+        channels.sort_unstable();
+        let channels = channels.into_iter().map(str::to_owned).collect();
+        Self { name: name.to_owned(), width, height, channels }
+    }
+
+    /// The part with the numbers that `plane` gives for the name of each channel.
+    pub(crate) fn with(self, plane: impl Fn(&str) -> Vec<f32>) -> PartPlanes {
+        let planes = self.channels.iter().map(|channel| plane(channel)).collect();
+        PartPlanes { plan: self, planes }
+    }
+}
+
+/// A part with its numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PartPlanes {
+    pub(crate) plan: PartPlan,
+    /// Numbers of each channel, row by row.
+    pub(crate) planes: Vec<Vec<f32>>,
+}
+
+impl PartPlanes {
+    /// Numbers of a channel, none if the part has no such channel.
+    pub(crate) fn of(&self, channel: &str) -> &[f32] {
+        let place = self.plan.channels.iter().position(|name| name == channel);
+        place.map_or(&[], |place| &self.planes[place])
+    }
+
+    /// The first number of a channel that `possible` refuses, with its place: the channel and the
+    /// reason `wanted`.
+    ///
+    /// # Errors
+    /// Channel and reason, continuing a sentence that starts with the channel.
+    pub(crate) fn check(
+        &self,
+        channel: &str,
+        wanted: &str,
+        possible: impl Fn(usize, f32) -> bool,
+    ) -> Result<(), (String, String)> {
+        let numbers = self.of(channel).iter().enumerate();
+        match numbers.into_iter().find(|&(index, number)| !possible(index, *number)) {
+            None => Ok(()),
+            Some((index, found)) => {
+                let x = index % self.plan.width;
+                let y = index / self.plan.width;
+                Err((channel.to_owned(), format!("{wanted} at x {x}, y {y}: `{found}`")))
+            }
+        }
+    }
+}
+
+/// SHA-256 of the numbers of a part, in hexadecimal digits: the channels sorted by name, each row
+/// by row, four bytes a number, least first.
+pub(crate) fn of_planes(part: &PartPlanes) -> String {
+    let mut digest = Sha256::new();
+    let mut bytes = Vec::with_capacity(size_of::<f32>() * part.plan.width);
+    for row in part.planes.iter().flat_map(|plane| plane.chunks(part.plan.width)) {
+        bytes.clear();
+        bytes.extend(row.iter().flat_map(|number| number.to_le_bytes()));
+        digest.update(&bytes);
+    }
+    hexadecimal(&digest.finalize())
+}
+
+/// SHA-256 of a text, in hexadecimal digits.
+pub(crate) fn of_text(text: &str) -> String {
+    hexadecimal(&Sha256::digest(text))
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Paint in one texel, in mm of height.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TexelPaint {
+    /// Paint of each pigment, by slot of [`PaintOfSamples::slots`].
+    pub pigments_mm: [f32; SLOTS],
+    /// Transparent vehicle.
+    pub vehicle_mm: f32,
+}
+
+/// Pigments that the samples of a set, or the tiles of a map, were painted with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaintOfSamples {
+    /// Library of the pigments.
+    pub library: Arc<PigmentLibrary>,
+    /// Pigments of the samples by slot.
+    pub slots: Slots,
+}
+
+impl PaintOfSamples {
+    /// Names of the pigments, in the order of their slots.
+    #[must_use]
+    pub fn pigment_names(&self) -> Vec<String> {
+        let used = self.slots.iter().flatten();
+        used.map(|&pigment| self.library[pigment].name.clone()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digests_are_sha_256_of_the_bytes() {
+        // The example of FIPS 180-4, "abc", as text and as the bytes of a number after it.
+        let wanted = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(of_text("abc"), wanted);
+        let numbers = vec![f32::from_le_bytes(*b"abcd"), f32::from_le_bytes(*b"efgh")];
+        let part = PartPlan::new("p", (1, 2), &["v"]).with(|_| numbers.clone());
+        assert_eq!(of_planes(&part), of_text("abcdefgh"));
     }
 }

@@ -16,10 +16,10 @@ use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::surface::Model;
 
-use super::super::made_up::{SPACING, map};
 use super::super::passes::PaintedPicture;
 use super::super::settings::{ColorSource, LightWith, Offsets};
-use super::super::splat::StrokeSplat;
+use super::super::splats::StrokeSplat;
+use super::super::test_scenes::{SPACING, map};
 use super::*;
 
 /// A square of side 2 that faces +z, in many triangles.
@@ -45,7 +45,7 @@ pub(super) fn front(settings: &Settings, size: usize) -> Field<[f32; 4]> {
     let mut settings = settings.clone();
     settings.reference_px = size as f32;
     settings.strokes.width_px = width_px;
-    // One tone: that of the middle tile.
+    // One tone, the middle tile's.
     (settings.light.darkest, settings.light.lightest) = (0.5, 0.5);
     let mut painter = Painter::of_model(&mesh, &map(1), &settings).unwrap();
     painter.paint(&camera, (size, size), 0.0).unwrap().color
@@ -58,7 +58,7 @@ fn linear(picture: &Field<[f32; 4]>) -> Picture {
     Field::from_values(picture.width(), picture.height(), values.collect())
 }
 
-/// Contrast and stroke length by those of the map, co-occurrence error, and bare pixels.
+/// Contrast and stroke length relative to the map, co-occurrence error, and bare pixels.
 fn figures(settings: &Settings) -> [f64; 4] {
     let picture = front(settings, 320);
     let tile = Texture::tiled(&map(1).keys[0].tile.color);
@@ -95,8 +95,8 @@ fn the_published_way_blurs_strokes() {
 /// Width and height of the pictures of a turning model.
 pub(super) const TURNED: (usize, usize) = (320, 240);
 
-/// Root mean square change of lightness at the same point of the model over `degrees` of a turn, by
-/// that of the same picture standing still; mean of `steps` turns.
+/// Root mean square change of lightness at the same point of the model over `degrees` of a turn,
+/// relative to the same picture standing still, mean of `steps` turns.
 fn popping(mesh: &Mesh, settings: &Settings, degrees: f32, steps: usize) -> f64 {
     let mut painter = Painter::of_model(mesh, &map(3), settings).unwrap();
     popping_of(mesh, degrees, steps, |camera, _| painter.paint(camera, TURNED, 0.0).unwrap().color)
@@ -175,10 +175,10 @@ fn a_picture_has_the_same_bits_on_any_number_of_threads_and_again() {
             painter.paint(&camera, (161, 119), 0.0).unwrap()
         })
     });
-    let bits = |picture: &PaintedPicture| -> Vec<u32> {
+    fn bits(picture: &PaintedPicture) -> Vec<u32> {
         let color = picture.color.values().iter().flatten();
         color.chain(picture.height_mm.values()).map(|value| value.to_bits()).collect()
-    };
+    }
     assert!(pictures.iter().all(|picture| bits(picture) == bits(&pictures[0])));
     let covered = pictures[0].color.values().iter().filter(|pixel| pixel[3] > 0.9).count();
     assert!(covered > 161 * 119 / 5, "{covered}");
@@ -191,15 +191,20 @@ fn turns(settings: &Settings, degrees: f32) -> Vec<[StrokeSplat; 2]> {
     let cameras = Framing::default().fit_turntable(&mesh.positions, (360.0 / degrees) as usize);
     let [before, after] =
         [0, 1].map(|at| painter.splats(&cameras[at], (300, 300), 0.0).unwrap().1.concat());
-    // Splats have no name; a start in the map that no other has serves as one.
-    let key = |splat: &StrokeSplat| splat.offset.map(f32::to_bits);
+    // Splats have no name. A start in the map that no other has serves as one.
+    fn key(splat: &StrokeSplat) -> [u32; 2] {
+        splat.offset.map(f32::to_bits)
+    }
     let mut after: Vec<_> = after.iter().map(|splat| (key(splat), *splat)).collect();
     after.sort_unstable_by_key(|(key, _)| *key);
-    let find = |splat: &StrokeSplat| {
-        let at = after.binary_search_by_key(&key(splat), |(key, _)| *key).ok()?;
-        Some([*splat, after[at].1])
-    };
-    before.iter().filter(|splat| splat.weight > 0.05).filter_map(find).collect()
+    before
+        .iter()
+        .filter(|splat| splat.weight > 0.05)
+        .filter_map(|splat: &StrokeSplat| {
+            let at = after.binary_search_by_key(&key(splat), |(key, _)| *key).ok()?;
+            Some([*splat, after[at].1])
+        })
+        .collect()
 }
 
 #[test]
@@ -208,11 +213,13 @@ fn strokes_turn_little_from_frame_to_frame() {
     settings.overlap.offsets = Offsets::Random;
     let pairs = turns(&settings, 6.0);
     assert!(pairs.len() > 300, "{}", pairs.len());
-    let turn = |[a, b]: &[StrokeSplat; 2]| {
-        let by = (a.turn() - b.turn()).rem_euclid(std::f32::consts::PI);
-        by.min(std::f32::consts::PI - by).to_degrees()
-    };
-    let mut turns: Vec<f32> = pairs.iter().map(turn).collect();
+    let mut turns: Vec<f32> = pairs
+        .iter()
+        .map(|[a, b]: &[StrokeSplat; 2]| {
+            let by = (a.turn() - b.turn()).rem_euclid(std::f32::consts::PI);
+            by.min(std::f32::consts::PI - by).to_degrees()
+        })
+        .collect();
     turns.sort_by(f32::total_cmp);
     let most = turns[turns.len() * 99 / 100];
     assert!(most < 12.0, "99 of 100 below {most} degrees");
@@ -224,10 +231,10 @@ fn faces_of_a_closed_model_that_turn_away_have_no_strokes() {
     let camera = Framing::default().fit(&closed.positions);
     let mut open = closed.clone();
     open.triangles.pop();
-    let count = |mesh: &Mesh, camera: &Camera| {
+    fn count(mesh: &Mesh, camera: &Camera) -> f32 {
         let mut painter = Painter::of_model(mesh, &map(1), &Settings::default()).unwrap();
         painter.splats(camera, (300, 300), 0.0).unwrap().1.concat().len() as f32
-    };
+    }
     let front = count(&closed, &camera);
     let both = count(&open, &camera);
     assert!((0.35..0.6).contains(&(front / both)), "{front} of {both}");
@@ -277,10 +284,10 @@ fn a_loop_of_flow_closes_to_the_bit_and_goes_on_evenly() {
     };
     let frames = [0, 1, 47, 48].map(&mut frame);
     assert_eq!(frames[0], frames[3]);
-    let change = |a: &Field<[f32; 4]>, b: &Field<[f32; 4]>| {
+    fn change(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> f64 {
         let pairs = a.values().iter().zip(b.values());
         pairs.map(|(a, b)| f64::from(a[1] - b[1]).powi(2)).sum::<f64>().sqrt()
-    };
+    }
     let [first, last] = [change(&frames[0], &frames[1]), change(&frames[2], &frames[3])];
     assert!(first > 0.1, "strokes move: {first}");
     assert!((last / first - 1.0).abs() < 0.02, "{first} {last}");
@@ -290,10 +297,10 @@ fn a_loop_of_flow_closes_to_the_bit_and_goes_on_evenly() {
 fn bad_input_is_refused_and_strange_input_painted() {
     let map = map(1);
     let painter = |mesh: &Mesh| Painter::of_model(mesh, &map, &Settings::default());
-    let hint = |error: PainterError| {
+    fn hint(error: PainterError) -> String {
         assert!(error.hint().is_some(), "{error}");
         error.to_string()
-    };
+    }
     assert_eq!(hint(painter(&Mesh::default()).unwrap_err()), "the mesh has no triangle");
     let mut line = Mesh::sphere(100);
     line.positions.iter_mut().for_each(|place| *place = [place[0], 0.0, 0.0]);
@@ -332,7 +339,7 @@ fn strokes_change_no_more_than_the_light_that_turns() {
     let map = map(3);
     let projection = Projection::new(&camera, size.0, size.1);
     let range = map.keys[2].tone - map.keys[0].tone;
-    let lit = |azimuth_deg: f32| {
+    let [(before, shade_before), (after, shade_after)] = [315.0, 321.0].map(|azimuth_deg: f32| {
         let mut settings = lit_with_the_model();
         settings.light.azimuth_deg = azimuth_deg;
         let light = DistantLight::with_camera(azimuth_deg, settings.light.elevation_deg);
@@ -340,15 +347,13 @@ fn strokes_change_no_more_than_the_light_that_turns() {
         let mut painter = Painter::of_model(&mesh, &map, &settings).unwrap();
         let (depth, _) = painter.splats(&camera, size, 0.0).unwrap();
         let lab = lab_from_linear(&linear(&painter.paint(&camera, size, 0.0).unwrap().color));
-        let shade = move |at: (usize, usize)| {
+        (lab, move |at: (usize, usize)| {
             let normal = projection.unproject(at, depth[at]).normalize();
             let wrap = settings.light.wrap;
             let seen = (depth[at] < 1.0).then_some(normal)?;
             Some(f64::from(((seen.dot(light) + wrap) / (1.0 + wrap)).clamp(0.0, 1.0)) * range)
-        };
-        (lab, shade)
-    };
-    let [(before, shade_before), (after, shade_after)] = [315.0, 321.0].map(lit);
+        })
+    });
     let mut strokes = 0.0;
     let mut shades = 0.0;
     for at in (0..size.0 * size.1).map(|index| (index % size.0, index / size.0)) {
@@ -371,13 +376,15 @@ fn outlines_are_dark_lines_of_even_width_that_come_in_smoothly() {
         settings.silhouette.width_px = width_px;
         let mut painter = Painter::of_model(&mesh, &map(2), &settings).unwrap();
         let picture = painter.paint(&camera, (500, 500), 0.0).unwrap().color;
-        let is_dark = |pixel: &[f32; 4]| pixel[3] > 0.9 && pixel[1] < 0.35;
+        fn is_dark(pixel: &[f32; 4]) -> bool {
+            pixel[3] > 0.9 && pixel[1] < 0.35
+        }
         let middle = picture.part(Rect { x: 150, y: 150, width: 200, height: 200 });
         let inside = middle.values().iter().filter(|pixel| is_dark(pixel)).count();
         (picture.values().iter().filter(|pixel| is_dark(pixel)).count() - inside, inside)
     };
     let [(none, _), (thin, inside), (wide, _)] = [0.0, 10.0, 20.0].map(&mut dark);
-    // The outline has a circumference of 1445 px; lines are 5 and 10 px wide in this picture.
+    // The outline has a circumference of 1445 px. Lines are 5 and 10 px wide in this picture.
     let [thin, wide] = [thin, wide].map(|count| (count - none) as f32 / 1445.0);
     assert!((3.0..8.0).contains(&thin), "{thin} px for 5");
     assert!((6.0..16.0).contains(&wide) && wide > 1.6 * thin, "{wide} px for 10, {thin} for 5");

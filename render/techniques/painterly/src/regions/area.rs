@@ -5,8 +5,7 @@ use graphics::field::Field;
 use graphics::mesh::Mesh;
 
 use super::super::settings::Settings;
-use super::error::RegionsError;
-use super::region::{Region, RegionArea, Regions};
+use super::{Region, RegionArea, Regions, RegionsError};
 
 /// Pixels along the longer side within which regions of a picture are told apart.
 const MOST_PX: f32 = 2048.0;
@@ -16,7 +15,7 @@ const MOST_PX: f32 = 2048.0;
 pub(crate) struct Style {
     /// Index of the map.
     pub(crate) map: usize,
-    /// Size of strokes by that of the settings.
+    /// Size of strokes relative to the settings.
     pub(crate) size: f32,
     /// Lengths of the map by which strokes move in a loop.
     pub(crate) periods: u32,
@@ -28,10 +27,10 @@ pub(crate) struct Style {
     pub(crate) tones: [f32; 2],
 }
 
-/// The regions of a subject; 0 is what no region covers.
+/// The regions of a subject, 0 is what no region covers.
 #[derive(Debug, Clone)]
 pub(crate) struct RegionMap {
-    /// One more than the list of regions: that of everything else first.
+    /// One more than the list of regions: everything else comes first.
     pub(crate) styles: Vec<Style>,
     /// Region of each material.
     of_material: Vec<u16>,
@@ -40,11 +39,11 @@ pub(crate) struct RegionMap {
 }
 
 impl RegionMap {
-    /// Regions of a model. `maps` are the names of maps, the first that of everything else.
+    /// Regions of a model. `maps` are the names of maps, the first is for everything else.
     ///
     /// # Errors
-    /// [`RegionsError`] for maps and materials that are not there, and for areas, angles and centres
-    /// of pictures.
+    /// [`RegionsError`] for maps and materials that are not there, and for areas, angles and
+    /// centres of pictures.
     pub(crate) fn of_mesh(
         regions: &Regions,
         mesh: &Mesh,
@@ -133,7 +132,7 @@ impl RegionMap {
         }
     }
 
-    /// Least and greatest size of strokes by that of the settings.
+    /// Least and greatest size of strokes relative to the settings.
     pub(crate) fn sizes(&self) -> [f32; 2] {
         let sizes = self.styles.iter().map(|style| style.size);
         sizes.fold([f32::INFINITY, 0.0], |[least, most], size| [least.min(size), most.max(size)])

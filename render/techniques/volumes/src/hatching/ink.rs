@@ -1,8 +1,16 @@
 //! The ink that hatching puts on a point; the twin in WGSL is `ink.wgsl`.
+//!
+//! Hatching in the memory of whatever draws it.
 
-use super::coordinates::Patch;
-use super::slices::SLICES;
+use glam::Vec3;
+use graphics::compute::{Compute, Image};
+use graphics::field::Field;
+use graphics::gpu::DeviceError;
+use graphics::surface::PackedMesh;
+
+use super::coordinates::{Patch, has_useful_coordinates};
 use super::strokes::{SIDE, WIDTH_TEXELS};
+use super::threshold::{SLICES, ThresholdTexture};
 
 /// Tone below which strokes across are laid over those along: the two darkest of six tones.
 pub const DIRECTIONS_MEET: f32 = 0.4;
@@ -124,6 +132,35 @@ impl<'a> Inking<'a> {
 fn floor(value: f32) -> i32 {
     let whole = value as i32;
     whole.wrapping_sub(i32::from(whole as f32 > value))
+}
+
+/// Strokes in the memory of a [`Compute`], and how they lie on one model. Made once for a model.
+#[derive(Debug, Clone)]
+pub struct Hatching {
+    pub(crate) quads: Image<u32>,
+    pub(crate) mesh_is_useful: bool,
+    /// Lowest and highest corner of the model.
+    pub(crate) bounds: [Vec3; 2],
+}
+
+impl Hatching {
+    /// Copies the strokes of `texture` into the memory of `compute`, for `mesh`.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn new(
+        compute: &mut Compute,
+        texture: &ThresholdTexture,
+        mesh: &PackedMesh,
+    ) -> Result<Self, DeviceError> {
+        let quads = texture.quads().to_vec();
+        let quads = Field::from_values(SIDE, quads.len() / SIDE, quads);
+        Ok(Self {
+            quads: compute.upload(&quads)?,
+            mesh_is_useful: has_useful_coordinates(mesh),
+            bounds: mesh.bounds,
+        })
+    }
 }
 
 #[cfg(test)]

@@ -7,21 +7,14 @@
 //! at once.
 
 mod strokes;
-mod coverage;
-mod slices;
 mod threshold;
-mod look;
 mod coordinates;
 mod ink;
-mod uploaded;
 
-pub use coordinates::has_useful_coordinates;
-pub use ink::{DIRECTIONS_MEET, crossed_tones};
-pub use look::{Coordinates, HatchingLook};
-pub use slices::SLICES;
+pub use coordinates::{Coordinates, HatchingLook, has_useful_coordinates};
+pub use ink::{DIRECTIONS_MEET, Hatching, crossed_tones};
 pub use strokes::SIDE;
-pub use threshold::ThresholdTexture;
-pub use uploaded::Hatching;
+pub use threshold::{SLICES, ThresholdTexture};
 
 pub(crate) use coordinates::Placing;
 pub(crate) use ink::Inking;

@@ -5,11 +5,9 @@ use graphics::gpu::{Kernel, Storage, layout};
 
 use super::acting::{Acting, Conditions};
 use super::forces::damping;
-use super::microstructure::RestingRadii;
-use super::star::LEAST_SHARE;
+use super::star::{LEAST_SHARE, RestingRadii};
 use super::surface_lattice::{BOXES, SurfaceLattice};
-use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
-use crate::volume::Volume;
+use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 
 /// The parameters of a step.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -6,7 +6,7 @@ use glam::Vec3;
 use graphics::gpu::Device;
 
 use super::*;
-use crate::test_device::device;
+use crate::test_volumes::device;
 use crate::volume::Volume;
 
 const STEP: f32 = 1.0 / 120.0;

@@ -9,21 +9,13 @@
 //! The kinds of forces are those of ten Bosch (2005): pressure, elastic, friction, and those of the
 //! surroundings; cohesion and the guard are ours. All is f32 with + - * / and square roots in a
 //! fixed order, so that places are the same bytes on every machine and number of threads.
-
-mod error;
 mod settings;
-mod growth;
-mod kick;
-mod microstructure;
 mod forces;
-mod keep_in;
-mod push;
 mod surface_lattice;
 mod surroundings;
 mod star;
 mod acting;
 mod step;
-mod advance;
 mod device_form;
 mod on_device;
 
@@ -31,19 +23,13 @@ mod on_device;
 mod acceptance;
 
 #[cfg(test)]
-mod extremes;
-
-#[cfg(test)]
 mod device_tests;
 
-pub use advance::advance;
-pub use error::MotionError;
-pub use keep_in::KeepIn;
-pub use kick::kick;
-pub use microstructure::Microstructure;
+pub use acting::advance;
+pub use forces::{KeepIn, Push, kick};
 pub use on_device::DeviceMotion;
-pub use push::Push;
-pub use settings::MotionSettings;
+pub use settings::{MotionError, MotionSettings};
+pub use star::Microstructure;
 pub use surface_lattice::SurfaceLattice;
 pub use surroundings::Surroundings;
 

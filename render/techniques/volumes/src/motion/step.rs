@@ -3,13 +3,9 @@
 use glam::Vec3;
 
 use super::acting::{Acting, Conditions, FARTHEST, NEAREST};
-use super::forces::{cohesion, damping, elastic, pressure, surface_pull, velocity};
-use super::keep_in::KeepIn;
-use super::microstructure::RestingRadii;
-use super::push::Push;
-use super::star::{Corner, is_star, mend};
-use crate::sphere_mesh::SphereMesh;
-use crate::volume::{Particles, Volume};
+use super::forces::{KeepIn, Push, cohesion, damping, elastic, pressure, surface_pull, velocity};
+use super::star::{Corner, RestingRadii, is_star, mend};
+use crate::volume::{Particles, SphereMesh, Volume};
 
 /// Memory for the steps of volumes, one after another.
 #[derive(Debug, Default)]

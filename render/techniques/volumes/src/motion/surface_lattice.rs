@@ -5,8 +5,7 @@ use std::ops::Range;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::error::MotionError;
-use super::settings::in_range;
+use super::settings::{MotionError, in_range};
 
 /// Boxes along each side of a cell.
 pub(super) const BOXES: usize = 4;

@@ -4,11 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::error::MotionError;
-use super::keep_in::KeepIn;
-use super::microstructure::Microstructure;
-use super::push::Push;
-use super::settings::{MotionSettings, in_range};
+use super::forces::{KeepIn, Push};
+use super::settings::{MotionError, MotionSettings, in_range};
+use super::star::Microstructure;
 use super::surface_lattice::SurfaceLattice;
 
 /// The surroundings of all volumes at one time.

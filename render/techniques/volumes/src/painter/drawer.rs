@@ -1,4 +1,8 @@
 //! The scene before a camera and the volumes that hold it, before a picture is composed.
+//!
+//! Values of samples averaged to pixels.
+//!
+//! The parts of a painting of a scene with its volumes.
 
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
@@ -7,17 +11,12 @@ use graphics::mesh::Mesh;
 use graphics::surface::{Fragment, NO_TRIANGLE, PackedMesh};
 use rayon::prelude::*;
 
-use super::averaged::averaged;
 use super::error::PaintingError;
 use super::films::Films;
-use super::in_sight::InSight;
-use super::loaded_scene::LoadedScene;
-use super::looks::{self, RegionLook};
-use super::parts::Parts;
-use super::region_counts::{RegionSurfaces, Volumes};
+use super::in_sight::{self, InSight, LoadedScene, RegionLook, RegionSurfaces, Volumes};
 use crate::drawing::{DrawingLook, Inside, Region, TintTable, reveal, shade, shade_apart};
 use crate::hatching::ThresholdTexture;
-use crate::pigments::Facets;
+use crate::pigments::{Drawing, Facets, FilmHeights};
 use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
@@ -65,7 +64,7 @@ impl Drawer {
         let texture = ThresholdTexture::new(u64::from(settings.seed));
         let regions: Result<Vec<_>, _> = styles.iter().map(RegionLook::of).collect();
         let regions = regions?;
-        let look = looks::drawing_look(settings);
+        let look = in_sight::drawing_look(settings);
         look.check()?;
         Ok(Self {
             scene: LoadedScene::new(Compute::cpu(), &packed, &facets, &texture)?,
@@ -93,7 +92,7 @@ impl Drawer {
 
     /// Draws with other settings of light, grey, hatching, paper and gate.
     pub(super) fn set(&mut self, settings: &Settings) -> Result<(), PaintingError> {
-        let look = looks::drawing_look(settings);
+        let look = in_sight::drawing_look(settings);
         look.check()?;
         (self.look, self.settings) = (look, settings.clone());
         Ok(())
@@ -288,6 +287,81 @@ fn each(field: &mut Field<f32>, change: impl Fn(&mut f32, usize) + Sync) {
     samples.for_each(|(index, sample)| change(sample, index));
 }
 
+/// A value of which a pixel has the mean over its samples.
+pub(super) trait Averaged: Copy + Send + Sync {
+    /// The mean of `count` values.
+    fn mean(values: impl Iterator<Item = Self>, count: usize) -> Self;
+}
+
+impl<const N: usize> Averaged for [f32; N] {
+    fn mean(values: impl Iterator<Item = Self>, count: usize) -> Self {
+        let mut sum = [0.0; N];
+        for value in values {
+            sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+        }
+        sum.map(|sum| sum / count as f32)
+    }
+}
+
+impl Averaged for f32 {
+    fn mean(values: impl Iterator<Item = Self>, count: usize) -> Self {
+        values.sum::<Self>() / count as Self
+    }
+}
+
+impl Averaged for FilmHeights {
+    fn mean(values: impl Iterator<Item = Self>, count: usize) -> Self {
+        let mut sum = [0_i64; 9];
+        for value in values {
+            sum.iter_mut().zip(value.0).for_each(|(sum, value)| *sum += i64::from(value));
+        }
+        Self(sum.map(|sum| (sum / count as i64) as i32))
+    }
+}
+
+/// The mean over `samples` x `samples` values, for a field whose sides are multiples of them.
+pub(super) fn averaged<T: Averaged>(field: Field<T>, samples: usize) -> Field<T> {
+    if samples == 1 {
+        return field;
+    }
+    let width = field.width() / samples;
+    let height = field.height() / samples;
+    let values = (0..width * height)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|index: usize| {
+            let x = index % width * samples;
+            let y = index / width * samples;
+            let rows = (0..samples).flat_map(|line| field.row(y + line, x, samples));
+            T::mean(rows.copied(), samples * samples)
+        })
+        .collect();
+    Field::from_values(width, height, values)
+}
+
+/// A painting's parts, one value for each pixel.
+pub(super) struct Parts {
+    /// Colours lit and textured but not hatched, each with its grey.
+    pub(super) color: Field<[f32; 4]>,
+    pub(super) cover: Field<f32>,
+    pub(super) ink: Field<f32>,
+    /// Share of the scene's own colours, if any region shows them.
+    pub(super) tint: Option<Field<f32>>,
+    pub(super) heights: Field<FilmHeights>,
+}
+
+impl Parts {
+    pub(super) fn drawing(&self) -> Drawing<'_> {
+        Drawing {
+            color: &self.color,
+            cover: Some(&self.cover),
+            ink: Some(&self.ink),
+            tint: self.tint.as_ref(),
+            films: Some(&self.heights),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -299,5 +373,15 @@ mod tests {
         lay_tint(&mut tint, &Field::from_values(3, 1, vec![0, 1, 1]), &half);
         lay_tint(&mut tint, &Field::from_values(3, 1, vec![0, 1, 2]), &half);
         assert_eq!(tint.values(), [0.0, 0.75, 1.0]);
+    }
+
+    #[test]
+    fn a_pixel_is_the_mean_of_its_samples() {
+        let field = Field::from_values(4, 2, vec![0.0, 2.0, 1.0, 1.0, 4.0, 2.0, 1.0, 1.0]);
+        assert_eq!(averaged(field.clone(), 2).values(), [2.0, 1.0]);
+        assert_eq!(averaged(field.clone(), 1), field);
+        let heights = [3, 5, 7, 9].map(|height| FilmHeights([height; 9]));
+        let field = Field::from_values(2, 2, heights.to_vec());
+        assert_eq!(averaged(field, 2).values(), [FilmHeights([6; 9])]);
     }
 }

@@ -11,8 +11,7 @@ use paint::ground::GroundSpec;
 use pigment::PigmentLibrary;
 
 use super::error::PaintingError;
-use super::in_sight::InSight;
-use super::looks::{self, RegionLook};
+use super::in_sight::{self, InSight, RegionLook};
 use crate::pigments::{
     FilmCounter, FilmHeights, FilmKind, FilmMaterial, FilmPainter, FilmPainterSettings, FilmScale,
     FilmView,
@@ -60,7 +59,7 @@ impl Films {
         let material = FilmMaterial::new(library, ground, lighting.clone())?;
         let own = FilmPainterSettings {
             under: settings.drawing.under,
-            inside: looks::inside(regions),
+            inside: in_sight::inside(regions),
             neutral: settings.drawing.neutral,
             pencil: settings.hatching.pencil,
             cell_mm: CELL_MM,
@@ -80,7 +79,7 @@ impl Films {
         (scene, visible, in_sight, camera): (&PackedMesh, &VisibilityBuffer, &InSight, &Camera),
     ) -> Field<FilmHeights> {
         let surface = (&world.grid().samples).into();
-        let profile = looks::profile(settings);
+        let profile = in_sight::profile(settings);
         let scale = FilmScale {
             quantum_mm3: world.quantum_mm3(),
             unit_mm: world.unit_mm(),

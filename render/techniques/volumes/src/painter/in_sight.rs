@@ -1,11 +1,30 @@
 //! Which volumes may hold something that a picture shows.
+//!
+//! A scene in the memory of what draws it.
+//!
+//! Settings of a file as looks of a drawing.
+//!
+//! Volumes and their shells that hold each visible point, region by region.
 
 use glam::{Mat4, Vec3};
 use graphics::camera::Camera;
-use graphics::compute::Image;
-use graphics::surface::{Fragment, NO_TRIANGLE, VisibilityBuffer};
+use graphics::compute::{Compute, Image};
+use graphics::distant_light::DistantLight;
+use graphics::field::Field;
+use graphics::gpu::{Device, DeviceError};
+use graphics::surface::{
+    Fragment, Gates, InsideCounter, Model, NO_TRIANGLE, PackedMesh, VisibilityBuffer,
+};
+use graphics::tones::ToneRamp;
 use rayon::prelude::*;
+use spectra::color::Rgb;
 
+use crate::drawing::{DrawingLook, ShellError, Shells};
+use crate::hatching::{Coordinates, Hatching, HatchingLook, ThresholdTexture};
+use crate::pigments::{Facets, FilmProfile, InsidePaint};
+use crate::script::RegionStyle;
+use crate::settings::{DrawingTable, LightWith, Settings, StrokesAlong};
+use crate::surfaces::VolumeSurfaces;
 use crate::volume::Volume;
 
 /// Sides of a tile in samples.
@@ -112,14 +131,223 @@ fn tiles(visible: &VisibilityBuffer) -> Vec<[f32; 2]> {
     tiles.collect()
 }
 
+/// A scene in the memory of a [`Compute`], ready for pictures.
+#[derive(Debug)]
+pub(super) struct LoadedScene {
+    pub(super) compute: Compute,
+    pub(super) model: Model,
+    pub(super) hatching: Hatching,
+    /// Normals of the triangles, and the body of each.
+    pub(super) normals: Image<[f32; 4]>,
+    bodies: Vec<u32>,
+    pub(super) counter: InsideCounter,
+    /// Whether it counts volumes with gates: only a device whose fragments can write to buffers
+    /// does, and the processor.
+    pub(super) gates: bool,
+}
+
+impl LoadedScene {
+    pub(super) fn new(
+        mut compute: Compute,
+        packed: &PackedMesh,
+        facets: &Facets,
+        texture: &ThresholdTexture,
+    ) -> Result<Self, DeviceError> {
+        Ok(Self {
+            model: Model::new(&mut compute, packed.clone())?,
+            hatching: Hatching::new(&mut compute, texture, packed)?,
+            normals: compute.upload(&gated(facets, &[]))?,
+            bodies: Vec::new(),
+            counter: InsideCounter::default(),
+            gates: compute.device().is_none_or(Device::scatters),
+            compute,
+        })
+    }
+
+    /// Tells the bodies of the triangles, 0 for those that volumes of any body may hold.
+    pub(super) fn tell_bodies(
+        &mut self,
+        facets: &Facets,
+        bodies: &[u32],
+    ) -> Result<(), DeviceError> {
+        if self.bodies != bodies {
+            self.normals = self.compute.upload(&gated(facets, bodies))?;
+            self.bodies = bodies.to_vec();
+        }
+        Ok(())
+    }
+
+    /// Whether it is in the processor's memory.
+    pub(super) fn is_host(&self) -> bool {
+        matches!(self.compute, Compute::Cpu)
+    }
+}
+
+/// The normal and the body of each triangle, for gates.
+fn gated(facets: &Facets, bodies: &[u32]) -> Field<[f32; 4]> {
+    let bodies = bodies.iter().copied().chain(std::iter::repeat(0));
+    let own = facets.normals().iter().zip(bodies);
+    let own: Vec<_> = own.map(|(normal, body)| normal.extend(body as f32).to_array()).collect();
+    Field::from_values(own.len(), 1, own)
+}
+
+/// How a region shows what its volumes hold.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RegionLook {
+    pub(super) name: String,
+    pub(super) inside: InsidePaint,
+    pub(super) shells: Shells,
+    /// Colour that the drawing is multiplied by inside, encoded sRGB.
+    pub(super) stain: [f32; 3],
+}
+
+impl RegionLook {
+    pub(super) fn of(style: &RegionStyle) -> Result<Self, ShellError> {
+        Ok(Self {
+            name: style.name.clone(),
+            inside: style.inside,
+            shells: Shells::new(style.shells.clone(), style.tints.clone())?,
+            stain: encoded(&style.stain),
+        })
+    }
+}
+
+/// How surfaces are lit, made grey and hatched.
+pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
+    let light = &settings.light;
+    let hatching = &settings.hatching;
+    let with_camera = DistantLight::with_camera(light.azimuth_deg, light.elevation_deg);
+    let direction = match (light.with, with_camera) {
+        (LightWith::Model, DistantLight::WithCamera(towards)) => DistantLight::WithModel(towards),
+        (_, direction) => direction,
+    };
+    DrawingLook {
+        light: direction,
+        tones: ToneRamp::steps(light.levels as usize, light.softness),
+        lit: light.lit,
+        shade: light.shade,
+        pale: settings.grey.pale,
+        weights: settings.grey.weights,
+        hatching: HatchingLook {
+            coordinates: match hatching.along {
+                StrokesAlong::Axes => Some(Coordinates::ThreePlanes),
+                StrokesAlong::Texture => None,
+            },
+            inside: hatching.inside,
+            outside: hatching.outside,
+            pencil: hatching.pencil,
+            width_px: hatching.width_px,
+            softness: hatching.softness,
+            darkest: hatching.darkest,
+            angle_deg: hatching.angle_deg,
+        },
+        samples: settings.picture.samples as usize,
+    }
+}
+
+/// Colour of the paper, encoded sRGB.
+pub(super) fn paper(settings: &Settings) -> [f32; 3] {
+    encoded(&settings.picture.paper)
+}
+
+/// A colour written `#rrggbb`; white if it is none.
+fn encoded(text: &str) -> [f32; 3] {
+    Rgb::from_hex(text).unwrap_or(Rgb([1.0; 3])).0.map(|value| value as f32)
+}
+
+/// How films stand over their rims.
+pub(super) fn profile(settings: &Settings) -> FilmProfile {
+    let DrawingTable { rim, edge, gate, .. } = settings.drawing;
+    FilmProfile { rim, edge, gate }
+}
+
+/// The insides of the volumes of all regions together.
+pub(super) fn inside(regions: &[RegionLook]) -> InsidePaint {
+    let any = |wanted: fn(InsidePaint) -> bool| regions.iter().any(|own| wanted(own.inside));
+    match (any(InsidePaint::has_own_colors), any(InsidePaint::has_films)) {
+        (true, false) => InsidePaint::OwnColors,
+        (false, _) => InsidePaint::Glaze,
+        (true, true) => InsidePaint::Both,
+    }
+}
+
+/// The gate of a surface that holds what faces any way, of any body.
+const OPEN: [f32; 8] = [0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 0.0];
+
+/// All volumes at one time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Volumes<'a> {
+    pub(super) volumes: &'a [Volume],
+    /// Mean normal of each volume's cell; zero for a single volume.
+    pub(super) facing: &'a [Vec3],
+}
+
+/// The surfaces of a region: each volume with all its shells.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RegionSurfaces {
+    surfaces: VolumeSurfaces,
+    /// Of each surface what it faces, the least cosine, and its body.
+    gates: Vec<[f32; 8]>,
+}
+
+impl RegionSurfaces {
+    /// Replaces the surfaces by those of region `number` that may hold what is seen. Volumes of the
+    /// grid hold only what is of the body of their cell and faces as it does, by a cosine of `gate`
+    /// at least.
+    pub(super) fn update(
+        &mut self,
+        all: Volumes<'_>,
+        (number, look): (usize, &RegionLook),
+        gate: f32,
+        in_sight: &InSight,
+    ) {
+        self.surfaces.clear();
+        self.gates.clear();
+        for (volume, &facing) in all.volumes.iter().zip(all.facing) {
+            if usize::from(volume.region) != number || !in_sight.may_hold(volume) {
+                continue;
+            }
+            let mut own = OPEN;
+            if facing != Vec3::ZERO {
+                own[..4].copy_from_slice(&facing.extend(gate).to_array());
+            }
+            own[4] = volume.body as f32;
+            for &scale in look.shells.scales() {
+                self.surfaces.add(volume, scale, self.gates.len() as u32);
+                self.gates.push(own);
+            }
+        }
+    }
+
+    /// Whether a surface has a gate.
+    pub(super) fn gated(&self) -> bool {
+        self.gates.iter().any(|gate| *gate != OPEN)
+    }
+
+    /// The count of each sample, by a scene that counts with gates if a surface has one.
+    pub(super) fn counts(
+        &self,
+        scene: &mut LoadedScene,
+        visible: &Image<Fragment>,
+        camera: &Camera,
+    ) -> Result<Image<i32>, DeviceError> {
+        let closed = self.surfaces.closed();
+        let LoadedScene { compute, model, normals, counter, .. } = scene;
+        if !self.gated() {
+            return counter.counts(compute, (model, visible), camera, closed);
+        }
+        let gates = Gates { surfaces: &self.gates, normals };
+        counter.gated(compute, visible, camera, (closed, gates))
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use graphics::field::Field;
-    use graphics::surface::{Count, Crossings, visible};
-
     use super::*;
     use crate::surfaces::VolumeSurfaces;
     use crate::test_volumes::{bumpy, camera, plane};
+    use graphics::field::Field;
+    use graphics::surface::{Count, Crossings, visible};
 
     fn count(volume: &Volume, camera: &Camera, seen: &VisibilityBuffer) -> usize {
         let own = VolumeSurfaces::of(std::slice::from_ref(volume));

@@ -6,10 +6,9 @@ use graphics::compute::Image;
 use graphics::field::Field;
 use graphics::surface::{Fragment, NO_TRIANGLE, SurfacePoint, VisibilityBuffer};
 
-use super::averaged::averaged;
-use super::drawer::Drawer;
+use super::drawer::{Drawer, averaged};
 use super::error::PaintingError;
-use super::looks;
+use super::in_sight;
 use crate::drawing::{TintTable, shade_apart};
 use crate::pigments::SeenPlaces;
 
@@ -29,7 +28,7 @@ impl Drawer {
 
     /// Colour of the paper, encoded sRGB.
     pub(super) fn paper(&self) -> [f32; 3] {
-        looks::paper(&self.settings)
+        in_sight::paper(&self.settings)
     }
 
     /// Samples along each side of a pixel.

@@ -1,15 +1,26 @@
 //! The steps to a picture, one by one.
+//!
+//! Pictures of the result, or of one of its parts.
+//!
+//! The parts of a picture for compositing, in one OpenEXR file.
 
+use std::str::FromStr;
+
+use documents::hint::{Explain, Fault, Hint};
+use documents::similar_names;
 use graphics::camera::Camera;
+use graphics::export::{ExrPart, exr_parts};
 use graphics::field::Field;
 use graphics::surface::{NO_TRIANGLE, SurfacePoint};
+use paint::amount::mm_from_quanta;
 
-use super::averaged::averaged;
-use super::drawer::Drawer;
+use super::drawer::{Drawer, averaged};
 use super::error::PaintingError;
-use super::shown::Show;
+use super::films::CELL_MM;
 use super::volume_painter::VolumePainter;
-use crate::drawing::{DrawingLook, grey_of, shade_apart};
+use crate::drawing::{DrawingLook, Inside, Region, TintTable, grey_of, shade_apart};
+use crate::pigments::Glass;
+use crate::surfaces::REGIONS;
 use crate::world::World;
 
 /// One step to a picture.
@@ -113,4 +124,209 @@ fn greys(field: &Field<f32>) -> Field<[f32; 4]> {
 /// A name whose other characters than letters and digits are dashes.
 fn plain(name: &str) -> String {
     name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '-' }).collect()
+}
+
+/// The subject of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Show {
+    /// The result.
+    #[default]
+    Final,
+    /// The volumes themselves, as coloured glass over the grey drawing.
+    Volumes,
+    /// White where volumes bring colour, black elsewhere.
+    Mask,
+    /// The grey drawing without volumes.
+    Grey,
+    /// The scene in colour, lit and hatched.
+    Color,
+    /// The pencil strokes alone.
+    Hatching,
+}
+
+/// There is nothing of this name to show.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("pictures do not show `{name}`")]
+pub struct ShowError {
+    /// Name that was asked for.
+    pub name: String,
+}
+
+impl Show {
+    /// All that pictures can show.
+    pub const ALL: [Self; 6] =
+        [Self::Final, Self::Volumes, Self::Mask, Self::Grey, Self::Color, Self::Hatching];
+
+    /// The name as users write it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Final => "final",
+            Self::Volumes => "volumes",
+            Self::Mask => "mask",
+            Self::Grey => "grey",
+            Self::Color => "colour",
+            Self::Hatching => "hatching",
+        }
+    }
+}
+
+impl FromStr for Show {
+    type Err = ShowError;
+
+    fn from_str(name: &str) -> Result<Self, ShowError> {
+        let found = Self::ALL.into_iter().find(|show| show.name() == name);
+        found.ok_or_else(|| ShowError { name: name.to_owned() })
+    }
+}
+
+impl Explain for ShowError {
+    fn hint(&self) -> Option<Hint> {
+        let names = Show::ALL.map(Show::name);
+        let similar = similar_names(&self.name, names);
+        Some(Hint::verbatim(match similar.is_empty() {
+            true => format!("they show {}", names.join(", ")),
+            false => format!("did you mean {}?", similar.join(" or ")),
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Setting
+    }
+}
+
+impl VolumePainter {
+    /// A picture of the scene that shows `show`, like [`Self::paint`].
+    ///
+    /// # Errors
+    /// Those of [`Self::paint`].
+    pub fn shown(
+        &mut self,
+        world: &World,
+        camera: &Camera,
+        size: (usize, usize),
+        show: Show,
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        if show == Show::Final {
+            return self.paint(world, camera, size);
+        }
+        let drawer = &mut self.drawer;
+        let paper = drawer.paper();
+        match show {
+            Show::Final | Show::Grey => {
+                let sight = drawer.sight(world, camera, size)?;
+                drawer.revealed(&sight, &[], Some(paper))
+            }
+            Show::Color => {
+                let sight = drawer.sight(world, camera, size)?;
+                let everywhere = Region {
+                    counts: drawer.uploaded(&Field::filled(
+                        sight.visible.width(),
+                        sight.visible.height(),
+                        1,
+                    ))?,
+                    table: TintTable::hard(),
+                    inside: Inside::OwnColors,
+                    stain: Region::UNSTAINED,
+                };
+                drawer.revealed(&sight, &[everywhere], Some(paper))
+            }
+            Show::Mask => {
+                let mut sight = drawer.sight(world, camera, size)?;
+                let regions = drawer.regions_of(&sight);
+                let (width, height) = sight.visible.size();
+                // Black becomes white by the tint.
+                sight.shaded =
+                    drawer.uploaded(&Field::filled(width, height, [1.0, 1.0, 1.0, 0.0]))?;
+                drawer.revealed(&sight, &regions, Some([0.0; 3]))
+            }
+            Show::Hatching => drawer.strokes(camera, size),
+            Show::Volumes => {
+                let sight = drawer.sight(world, camera, size)?;
+                let scene = drawer.revealed(&sight, &[], Some(paper))?;
+                let (visible, places) = drawer.places(camera, size)?;
+                let volumes = world.volumes();
+                let colors: Vec<[f32; 3]> = volumes
+                    .iter()
+                    .map(|volume: &crate::volume::Volume| {
+                        REGIONS[usize::from(volume.region) % REGIONS.len()]
+                    })
+                    .collect();
+                let glass = Glass::default();
+                Ok(glass.picture(&scene, (volumes, &colors), camera, &visible, &places))
+            }
+        }
+    }
+}
+
+impl VolumePainter {
+    /// An OpenEXR file of several parts of 32-bit floats, one value for each pixel of `pixel_mm`:
+    /// `colour` (encoded sRGB, hatched) and `grey` of the drawing, `count.NAME` and `tint.NAME` of
+    /// each region, `ink`, `place` and `normal` in the unit of the scene (0 where nothing is seen),
+    /// and with pigments `heights` of the volumes' films in mm by pigment. Made on the processor.
+    ///
+    /// # Errors
+    /// Those of [`Self::paint`]; [`PaintingError::Export`].
+    pub fn passes(
+        &mut self,
+        world: &World,
+        camera: &Camera,
+        size: (usize, usize),
+        pixel_mm: f64,
+    ) -> Result<Vec<u8>, PaintingError> {
+        let Self { drawer, films } = self;
+        let samples = drawer.samples_a_pixel();
+        let sight = drawer.sight(world, camera, size)?;
+        let shaded = averaged(drawer.downloaded(&sight.shaded)?, samples);
+        let mut parts: Vec<ExrPart> = vec![
+            ("colour".to_owned(), channels(&shaded, ["R", "G", "B"])),
+            ("grey".to_owned(), vec![("Y".to_owned(), channel(&shaded, 3))]),
+        ];
+        for (index, counts) in sight.counts.iter().enumerate() {
+            let name = drawer.region_name(index);
+            let table = drawer.tints(index);
+            let count = drawer.of_counts(counts, |count| count as f32)?.values().to_vec();
+            let tint = drawer.of_counts(counts, |count| table.tint(count))?.values().to_vec();
+            parts.push((format!("count.{name}"), vec![("N".to_owned(), count)]));
+            parts.push((format!("tint.{name}"), vec![("A".to_owned(), tint)]));
+        }
+        let ink = averaged(drawer.ink(camera, size)?, samples);
+        parts.push(("ink".to_owned(), vec![("A".to_owned(), ink.values().to_vec())]));
+        let [places, normals] = drawer.surfaces_seen(camera, size)?;
+        for (name, field) in [("place", places), ("normal", normals)] {
+            parts.push((name.to_owned(), channels(&averaged(field, samples), ["X", "Y", "Z"])));
+        }
+        if let Some(films) = films {
+            let parts_of = drawer.parts(films, world, camera, size)?;
+            let library = &films.painter.material().library;
+            let mut heights = Vec::new();
+            for (slot, id) in films.painter.slots().iter().enumerate() {
+                let Some(id) = id else { continue };
+                let values = parts_of
+                    .heights
+                    .values()
+                    .iter()
+                    .map(|quanta: &crate::pigments::FilmHeights| {
+                        mm_from_quanta(quanta.0[slot].max(0) as u32, CELL_MM) as f32
+                    })
+                    .collect();
+                heights.push((library[*id].name.clone(), values));
+            }
+            parts.push(("heights".to_owned(), heights));
+        }
+        Ok(exr_parts(size, pixel_mm, parts)?)
+    }
+}
+
+/// The first channels of a field by name.
+fn channels<const N: usize, const M: usize>(
+    field: &Field<[f32; N]>,
+    names: [&str; M],
+) -> Vec<(String, Vec<f32>)> {
+    let named = names.iter().enumerate();
+    named.map(|(index, name)| ((*name).to_owned(), channel(field, index))).collect()
+}
+
+fn channel<const N: usize>(field: &Field<[f32; N]>, index: usize) -> Vec<f32> {
+    field.values().iter().map(|value| value[index]).collect()
 }

@@ -10,7 +10,7 @@ use paint::document::Document;
 use super::drawer::Drawer;
 use super::error::PaintingError;
 use super::films::{Films, VolumePigments};
-use super::looks;
+use super::in_sight;
 use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
@@ -105,7 +105,7 @@ impl VolumePainter {
         }
         let sight = drawer.sight(world, camera, size)?;
         let regions = drawer.regions_of(&sight);
-        let paper = looks::paper(&drawer.settings);
+        let paper = in_sight::paper(&drawer.settings);
         drawer.revealed(&sight, &regions, Some(paper))
     }
 

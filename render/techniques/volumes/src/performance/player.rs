@@ -1,11 +1,17 @@
 //! The events of a script, done to a world in their steps.
+//!
+//! Places picked in a picture.
+//!
+//! Performances as files, from which they go on to the same bytes.
 
 use glam::Vec3;
+use graphics::camera::Camera;
 use graphics::mesh::Mesh;
+use graphics::surface::{NO_TRIANGLE, VisibilityBuffer, position_at, visible};
 
 use super::error::PerformanceError;
-use super::picked::FirstView;
 use crate::motion::{KeepIn, MotionError, Push};
+use crate::saved::{Kind, Reader, SavedError, Stored, identity, opened, sealed};
 use crate::script::{
     self, Action, Ball, Dry, Event, KeepTable, Place, Quantity, Script, seconds_of,
 };
@@ -330,5 +336,90 @@ fn region(keep: &KeepTable) -> KeepIn {
             let [point, normal] = above.map_or([[0.0; 3], [0.0, 1.0, 0.0]], |pair| pair.0);
             KeepIn::Above { point: narrow(point), normal: narrow(normal).normalize_or_zero() }
         }
+    }
+}
+
+/// The first picture of a scene, in which a script picks places.
+#[derive(Debug, Clone)]
+pub struct FirstView {
+    seen: VisibilityBuffer,
+}
+
+impl FirstView {
+    /// The view of `scene` by `camera` in a picture of this size.
+    ///
+    /// # Panics
+    /// If a triangle has a corner that the mesh does not have.
+    #[must_use]
+    pub fn new(scene: &Mesh, camera: &Camera, (width, height): (usize, usize)) -> Self {
+        Self { seen: visible(scene, camera, width, height) }
+    }
+
+    /// The place on `scene` at a share of the picture's width, from the left, and of its height,
+    /// from the top; none where the picture shows no surface.
+    #[must_use]
+    pub fn place(&self, scene: &Mesh, share: [f64; 2]) -> Option<Vec3> {
+        place_seen(scene, &self.seen, share)
+    }
+}
+
+/// The place on `scene` that `seen`, a picture of it, shows at a share of its width and height;
+/// none where it shows no surface, and outside of it.
+#[must_use]
+pub fn place_seen(scene: &Mesh, seen: &VisibilityBuffer, share: [f64; 2]) -> Option<Vec3> {
+    let width = seen.width();
+    let height = seen.height();
+    if !share.iter().all(|share| (0.0..=1.0).contains(share)) || width * height == 0 {
+        return None;
+    }
+    let at = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+    let fragment = seen[(at(share[0], width), at(share[1], height))];
+    (fragment.triangle != NO_TRIANGLE).then(|| position_at(scene, fragment))
+}
+
+/// Files with a performance.
+const PERFORMANCE: Kind =
+    Kind { format: b"impasto-played\0\0", version: 1, name: "moment of a script" };
+
+impl Performance {
+    /// The present moment as the bytes of a file: the world, and which events are over. `wish` are
+    /// words for what it belongs to, such as a digest of scene and settings;
+    /// [`Performance::resumed`] wants the same.
+    #[must_use]
+    pub fn saved(&self, wish: &str) -> Vec<u8> {
+        let mut state = Vec::new();
+        (self.next as u64).store(&mut state);
+        self.singles.store(&mut state);
+        self.world.store_state(&mut state);
+        sealed(PERFORMANCE, &self.identity(wish), &state)
+    }
+
+    /// The moment that [`Performance::saved`] gave as `file`, of this performance, which plays the
+    /// same script on the same scene. It goes on to the same bytes.
+    ///
+    /// # Errors
+    /// [`SavedError`] if the file holds no such moment or one of another version, is damaged, or
+    /// was saved over another scene, with other settings or events, or under another wish.
+    pub fn resumed(&self, file: &[u8], wish: &str) -> Result<Self, SavedError> {
+        let state = opened(PERFORMANCE, &self.identity(wish), file)?;
+        let mut reader = Reader::new(state);
+        let moment = self.with_state(&mut reader).filter(|_| reader.is_empty());
+        moment.ok_or(SavedError::Damaged)
+    }
+
+    fn with_state(&self, from: &mut Reader<'_>) -> Option<Self> {
+        let next = usize::try_from(u64::read(from)?).ok()?;
+        let singles = Vec::<Option<u64>>::read(from)?;
+        if next > self.events.len() || singles.len() != self.singles.len() {
+            return None;
+        }
+        let world = self.world.with_state(from)?;
+        Some(Self { world, next, singles, ..self.clone() })
+    }
+
+    /// The digest of all that decides how it goes on, but for its state.
+    fn identity(&self, wish: &str) -> [u8; 32] {
+        let done = format!("{:?} {:?} {:?}", self.script, self.events, self.picked);
+        identity([wish, &self.world.print(), &done])
     }
 }

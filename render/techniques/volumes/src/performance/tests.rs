@@ -10,7 +10,7 @@ use super::*;
 use crate::containing::Inside;
 use crate::saved::SavedError;
 use crate::script::Script;
-use crate::test_device::device;
+use crate::test_volumes::device;
 use crate::world::StepDevice;
 
 const SIZE: (usize, usize) = (75, 57);

@@ -1,14 +1,19 @@
 //! The grey drawing as a film of black and white paint, as painters lay it under colour.
+//!
+//! The colours of the scene as films of a palette's mixtures.
+//!
+//! Hatching as a film of black paint, thicker where there is more ink.
 
+use graphics::field::Field;
+use graphics::picture::Picture;
 use paint::amount::quanta_from_mm;
 use paint::document::Slots;
 use paint::layer::SLOTS;
-use paint::separation::{PaintFilm, Separation, SeparationSettings};
+use paint::separation::{PaintFilm, Separation, SeparationSettings, choose_palette};
 use pigment::PigmentId;
 use rayon::prelude::*;
 
-use super::materials::{FilmMaterial, FilmPaintError};
-use super::tones::{Tones, within_one};
+use super::materials::{FilmMaterial, FilmPaintError, Tones, linear, within_one};
 
 /// Greys that differ; neighbours differ by a quarter of a step of an 8-bit picture.
 const LEVELS: usize = 1024;
@@ -90,4 +95,126 @@ impl Grisaille {
 #[inline]
 pub(super) fn level(grey: f32) -> usize {
     (within_one(grey) * (LEVELS - 1) as f32 + 0.5) as usize
+}
+
+/// Films for all colours of a scene.
+#[derive(Debug, Clone)]
+pub struct OwnColors {
+    slots: Slots,
+    separation: Separation,
+    tones: Tones,
+}
+
+impl OwnColors {
+    /// Finds the mixtures of the pigments `slots` for all colours, over the ground and under the
+    /// light of `material`. Takes seconds.
+    ///
+    /// # Errors
+    /// [`FilmPaintError`] for an empty palette or heights out of range.
+    ///
+    /// # Panics
+    /// If a slot refers to a pigment that the library lacks.
+    pub fn new(
+        material: &FilmMaterial,
+        slots: Slots,
+        films: &SeparationSettings,
+    ) -> Result<Self, FilmPaintError> {
+        let separation = Separation::new(material.film(&slots), films)?;
+        let tones = Tones::between(separation.black(), 1.0);
+        Ok(Self { slots, separation, tones })
+    }
+
+    /// Up to eight pigments that come nearest to the encoded colours of a picture, which are counted
+    /// where their fourth value is above 0. Takes seconds.
+    ///
+    /// # Errors
+    /// [`FilmPaintError`] if the library has no pigment to use.
+    pub fn palette(
+        material: &FilmMaterial,
+        color: &Field<[f32; 4]>,
+        films: &SeparationSettings,
+    ) -> Result<Slots, FilmPaintError> {
+        let tones = Tones::between(material.library.saunderson.floor() as f32, 1.0);
+        let covered = color.values().iter().filter(|color| color[3] > 0.0);
+        let target = |[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|value| tones.target(value));
+        let colors: Vec<_> = covered.map(target).collect();
+        let colors = Picture::from_values(colors.len(), 1, colors);
+        let film = |materials: paint::separation::FilmMaterials<'_>| {
+            PaintFilm::at_nodes(materials, &material.light().quadrature)
+        };
+        let none = Slots::default();
+        Ok(choose_palette(&colors, material.materials(&none), film, films)?.slots)
+    }
+
+    /// Pigments of the mixtures by slot.
+    #[must_use]
+    pub fn slots(&self) -> &Slots {
+        &self.slots
+    }
+
+    /// Heights in mm by slot for an encoded colour.
+    #[must_use]
+    pub fn heights_mm(&self, color: [f32; 3]) -> [f32; SLOTS] {
+        self.separation.heights_mm(color.map(|value| self.tones.target(value)))
+    }
+}
+
+/// Steps of ink that differ.
+const STEPS: usize = 256;
+
+/// Highest film of ink in mm.
+const MOST_MM: f64 = 0.05;
+
+/// Halvings of the range in which the height of a film is sought.
+const HALVINGS: usize = 40;
+
+/// Films of black paint for all amounts of ink.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pencil {
+    heights_mm: Vec<f64>,
+}
+
+impl Pencil {
+    /// Finds the films that darken the bare ground as a pencil of the encoded `grey` would: full ink
+    /// to that grey, half of it half-way there. The black is that of `grisaille`. A film is at most
+    /// 0.05 mm high, which almost hides.
+    #[must_use]
+    pub fn new(grisaille: &Grisaille, grey: f32) -> Self {
+        let luminance = |mm: f64| {
+            let mut heights = [0.0; SLOTS];
+            heights[1] = mm as f32;
+            let [r, g, b] = grisaille.film().rgb(&heights);
+            // Weights of luminance of sRGB (IEC 61966-2-1).
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let bare = luminance(0.0);
+        let height = |step: usize| {
+            let left = 1.0 - step as f32 / (STEPS - 1) as f32 * (1.0 - grey);
+            let wanted = bare * linear(left);
+            let mut range = [0.0, MOST_MM];
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (range[0] + range[1]);
+                range[usize::from(luminance(middle) < wanted)] = middle;
+            }
+            if step == 0 { 0.0 } else { range[1] }
+        };
+        Self { heights_mm: (0..STEPS).map(height).collect() }
+    }
+
+    /// Height in mm of the film for an amount of ink, 0..1.
+    #[must_use]
+    pub fn height_mm(&self, ink: f32) -> f64 {
+        self.heights_mm[step(ink)]
+    }
+
+    /// Films of all steps in quanta, for cells `cell_mm` wide.
+    pub(super) fn quanta(&self, cell_mm: f64) -> Vec<u32> {
+        self.heights_mm.iter().map(|&mm| quanta_from_mm(mm, cell_mm)).collect()
+    }
+}
+
+/// Index of the step nearest to an amount of ink; what is no number counts as 0.
+#[inline]
+pub(super) fn step(ink: f32) -> usize {
+    (within_one(ink) * (STEPS - 1) as f32 + 0.5) as usize
 }

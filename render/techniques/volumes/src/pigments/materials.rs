@@ -1,5 +1,9 @@
 //! Materials of films: a library, the ground under them, and the light that colours are matched
 //! under.
+//!
+//! A third paint that takes the cast out of greys of white and black.
+//!
+//! Encoded values as linear ones within the reach of paint.
 
 use std::sync::Arc;
 
@@ -10,6 +14,7 @@ use paint::light::{Light, PaintLightError};
 use paint::separation::{FilmMaterials, PaintFilm, SeparationError};
 use pigment::palette::{Cards, Palette, PaletteError};
 use pigment::{PigmentId, PigmentLibrary};
+use spectra::color::Rgb;
 
 /// Pigments, ground and light of a painting of volumes.
 #[derive(Debug, Clone)]
@@ -126,5 +131,105 @@ impl Explain for FilmPaintError {
 
     fn fault(&self) -> Fault {
         self.cause().map_or(Fault::Setting, Explain::fault)
+    }
+}
+
+/// CIELAB lightness of the grey that the paint is chosen for.
+const MIDDLE: f64 = 50.0;
+
+/// Height of its film in mm.
+const GREY_MM: f64 = 0.3;
+
+/// Parts of the paint that are tried for one of black.
+const PARTS: [f64; 5] = [0.05, 0.1, 0.2, 0.4, 0.8];
+
+/// Halvings of the range in which the part of black is sought.
+const HALVINGS: usize = 20;
+
+/// The paint of the library that makes a middle grey of white and black most neutral, such as an
+/// earth against a blue cast; none if no paint improves it.
+///
+/// # Panics
+/// If the library lacks `white` or `black`.
+#[must_use]
+pub fn toner(material: &FilmMaterial, [white, black]: [PigmentId; 2]) -> Option<PigmentId> {
+    let chroma = |third: Option<PigmentId>, parts: f64| {
+        let mut slots = Slots::default();
+        (slots[0], slots[1], slots[2]) = (Some(white), Some(black), third);
+        let film = material.film(&slots);
+        let lab = |dark: f64| {
+            let third = dark * parts;
+            let whole = (1.0 + dark + third) / GREY_MM;
+            film.lab(&[1.0, dark, third, 0.0, 0.0, 0.0, 0.0, 0.0].map(|part| part / whole))
+        };
+        let mut range = [0.0, 1.0];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (range[0] + range[1]);
+            range[usize::from(lab(middle).lightness < MIDDLE)] = middle;
+        }
+        let found = lab(range[0]);
+        found.a.hypot(found.b)
+    };
+    let library = &material.library;
+    let others = library.ids().filter(|id| library[*id].identified && ![white, black].contains(id));
+    let tried = others.flat_map(|id| PARTS.map(|parts| (chroma(Some(id), parts), id)));
+    let best = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 < chroma(None, 0.0)).then_some(best.1)
+}
+
+/// Steps of the table that decodes encoded values.
+const STEPS: usize = 4096;
+
+/// The linear values that are painted for encoded ones: from the darkest tone that paint reaches to
+/// the lightest, so that differences in shadows and lights survive.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tones {
+    black: f32,
+    white: f32,
+    /// Linear values of encoded ones in even steps.
+    linear: Vec<f32>,
+}
+
+impl Tones {
+    /// Tones from the linear values `black` to `white`.
+    pub(super) fn between(black: f32, white: f32) -> Self {
+        let linear = |step: usize| linear(step.min(STEPS) as f32 / STEPS as f32);
+        Self { black, white, linear: (0..=STEPS + 1).map(linear).collect() }
+    }
+
+    /// The linear value that is painted for an encoded one; what is no number counts as 0.
+    pub(super) fn target(&self, encoded: f32) -> f32 {
+        let place = within_one(encoded) * STEPS as f32;
+        let step = place as usize;
+        let rest = place.fract();
+        let linear = self.linear[step] + rest * (self.linear[step + 1] - self.linear[step]);
+        self.black + (self.white - self.black) * linear
+    }
+}
+
+/// The nearest value from 0 to 1; what is no number counts as 0.
+#[inline]
+pub(super) fn within_one(value: f32) -> f32 {
+    if value > 0.0 { value.min(1.0) } else { 0.0 }
+}
+
+/// Linear value of an encoded one.
+pub(super) fn linear(encoded: f32) -> f32 {
+    Rgb([f64::from(encoded); 3]).linear().0[0] as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tones_are_those_of_srgb_between_black_and_white() {
+        let tones = Tones::between(0.03, 0.9);
+        assert_eq!(tones.target(0.0), 0.03);
+        assert_eq!(tones.target(-2.0), 0.03);
+        assert_eq!(tones.target(f32::NAN), 0.03);
+        assert!((tones.target(1.0) - 0.9).abs() < 1e-6 && (tones.target(7.0) - 0.9).abs() < 1e-6);
+        // 0.5 encoded is 0.2140 linear (IEC 61966-2-1).
+        assert!((tones.target(0.5) - (0.03 + 0.87 * 0.214_04)).abs() < 1e-5);
     }
 }

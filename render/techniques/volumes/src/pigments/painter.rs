@@ -10,12 +10,8 @@ use rayon::prelude::*;
 
 use super::drawing::{Drawing, InsidePaint, UnderPainting};
 use super::film::FilmHeights;
-use super::grisaille::{Grisaille, level};
-use super::materials::{FilmMaterial, FilmPaintError};
-use super::own_colors::OwnColors;
-use super::pencil::{Pencil, step};
-use super::toner::toner;
-use super::tones::within_one;
+use super::grisaille::{Grisaille, OwnColors, Pencil, level, step};
+use super::materials::{FilmMaterial, FilmPaintError, toner, within_one};
 
 /// How a scene and its volumes become layers of paint.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,9 +3,7 @@
 use graphics::camera::{CameraPath, Framing, Keyframe};
 use serde::{Deserialize, Serialize};
 
-use super::limits::MOST_FRAMES;
-use super::ranges::check_range;
-use super::rows::Row;
+use super::rows::{MOST_FRAMES, Row, check_range};
 use crate::toml_text::{Checked, Fault, KeyPath};
 
 /// Most keyframes of a path.

@@ -1,14 +1,28 @@
 //! Checks of a whole script, and its settings and regions put together.
+//!
+//! Checks of what is done: pours, volumes, pushes, walls, lifts, splits and dryings.
+//!
+//! Regions of a script: names, and how their volumes show what they hold.
 
+use std::collections::BTreeMap;
+
+use documents::{counted, similar_names};
 use paint::layer::SLOTS;
+use spectra::color::Rgb;
 use toml::{Table, Value};
 
 use super::file::Script;
-use super::limits::{MOST_EVENTS, MOST_POINTS, check_count, check_particles};
-use super::ranges::{check_name, check_positive, check_time};
+use super::rows::{
+    Ball, MOST_EVENTS, MOST_LENGTH, MOST_POINTS, Pair, Row, check_count, check_direction,
+    check_name, check_particles, check_place, check_positive, check_range, check_time,
+};
+use super::tables::{
+    DryTable, KeepTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
+};
 use crate::drawing::MOST_REGIONS;
-use crate::settings::{Preset, Settings};
+use crate::settings::{Inside, Preset, Settings, check_shells, even_tints};
 use crate::toml_text::{Checked, Fault, KeyPath};
+use crate::volume::MOST_DETAIL;
 use crate::world::MOST_VOLUMES;
 
 impl Script {
@@ -102,6 +116,328 @@ impl Script {
             let hint = format!("leave out every other point: {MOST_POINTS} fit");
             let wanted = format!("at most {MOST_POINTS} points in all paths");
             return Err(Fault::new(&KeyPath::of("pour"), wanted, points, hint));
+        }
+        Ok(())
+    }
+}
+
+/// Largest amount in mm3, and a second.
+const MOST_MM3: f64 = 1e9;
+
+/// Largest acceleration of a push in cells a square second.
+const MOST_STRENGTH: f64 = 1e6;
+
+impl Script {
+    /// Checks every table that does something, one by one.
+    pub(super) fn check_tables(&self) -> Checked {
+        let each = |name: &str, index: usize| KeyPath::of(name).index(index);
+        for (index, keep) in self.keeps.iter().enumerate() {
+            check_keep(&each("keep", index), keep)?;
+        }
+        for (index, volume) in self.volumes.iter().enumerate() {
+            self.check_volume(&each("volume", index), volume)?;
+        }
+        for (index, pour) in self.pours.iter().enumerate() {
+            self.check_pour(&each("pour", index), pour)?;
+        }
+        for (index, push) in self.pushes.iter().enumerate() {
+            check_push(&each("push", index), push)?;
+        }
+        for (index, lift) in self.lifts.iter().enumerate() {
+            check_lift(&each("lift", index), lift)?;
+        }
+        for (index, split) in self.splits.iter().enumerate() {
+            self.check_split(&each("split", index), split)?;
+        }
+        for (index, dry) in self.dries.iter().enumerate() {
+            check_dry(&each("dry", index), dry)?;
+        }
+        Ok(())
+    }
+
+    fn check_volume(&self, key: &KeyPath, volume: &VolumeTable) -> Checked {
+        check_place(&key.key("centre"), volume.center.0)?;
+        check_positive(&key.key("radius"), volume.radius, MOST_LENGTH)?;
+        if volume.detail > MOST_DETAIL {
+            let wanted = format!("0 to {MOST_DETAIL}");
+            return Err(Fault::new(&key.key("detail"), wanted, volume.detail, "3 is usual"));
+        }
+        check_time(&key.key("from_s"), volume.from_s)?;
+        self.check_region_name(key, volume.region.as_deref())?;
+        self.check_recipe(key, &volume.recipe)
+    }
+
+    fn check_pour(&self, key: &KeyPath, pour: &PourTable) -> Checked {
+        check_source(key, pour.at, pour.picked, &pour.path)?;
+        check_span(key, [pour.from_s, pour.for_s])?;
+        check_quantity(key, pour.amount_mm3, pour.rate_mm3_s, pour.for_s)?;
+        self.check_region_name(key, pour.region.as_deref())?;
+        self.check_recipe(key, &pour.recipe)
+    }
+
+    fn check_recipe(&self, table: &KeyPath, recipe: &BTreeMap<String, f64>) -> Checked {
+        let key = table.key("recipe");
+        let letters: Vec<&str> = self.palette.keys().map(String::as_str).collect();
+        let example = || format!("recipe = {{ {} = 1 }}", letters.first().unwrap_or(&"B"));
+        for (letter, &part) in recipe {
+            if !self.palette.contains_key(letter) {
+                let hint = match letters.is_empty() {
+                    true => format!("add [palette] with {letter} = \"...\", or leave recipe out"),
+                    false => format!("[palette] has {}", letters.join(", ")),
+                };
+                return Err(Fault::new(&key.key(letter), "a letter of [palette]", letter, hint));
+            }
+            check_range(&key.key(letter), part, [0.0, 1e6])?;
+        }
+        if recipe.is_empty() && !letters.is_empty() {
+            let wanted = "letters of [palette] with their parts";
+            return Err(Fault::new(&key, wanted, "nothing", example()));
+        }
+        if !recipe.is_empty() && recipe.values().sum::<f64>() <= 0.0 {
+            return Err(Fault::new(&key, "a part above 0", "only 0", example()));
+        }
+        Ok(())
+    }
+
+    fn check_split(&self, key: &KeyPath, split: &SplitTable) -> Checked {
+        check_time(&key.key("at_s"), split.at_s)?;
+        let count = self.volumes.len();
+        let fits = |number: u32| (1..=count).contains(&(number as usize));
+        match split.volume {
+            Some(number) if !fits(number) => {
+                let hint = match count {
+                    0 => "add a [[volume]]".to_owned(),
+                    _ => "volumes count from 1 in the order of the script".to_owned(),
+                };
+                let wanted = format!("the number of one of {}", counted(count, "volume"));
+                Err(Fault::new(&key.key("volume"), wanted, number, hint))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn check_push(key: &KeyPath, push: &PushTable) -> Checked {
+    check_place(&key.key("at"), push.at.0)?;
+    check_direction(&key.key("towards"), push.towards.0)?;
+    check_positive(&key.key("radius"), push.radius, MOST_LENGTH)?;
+    check_range(&key.key("strength"), push.strength, [0.0, MOST_STRENGTH])?;
+    check_span(key, [push.from_s, push.for_s])?;
+    check_positive(&key.key("for_s"), push.for_s, super::rows::MOST_SECONDS)
+}
+
+fn check_lift(key: &KeyPath, lift: &LiftTable) -> Checked {
+    check_source(key, lift.at, lift.picked, &lift.path)?;
+    check_positive(&key.key("radius"), lift.radius, MOST_LENGTH)?;
+    check_span(key, [lift.from_s, lift.for_s])?;
+    check_range(&key.key("rate"), lift.rate, [0.0, 120.0])
+}
+
+fn check_dry(key: &KeyPath, dry: &DryTable) -> Checked {
+    check_time(&key.key("at_s"), dry.at_s)?;
+    match (dry.at, dry.radius) {
+        (None, None) => Ok(()),
+        (Some(Row(at)), Some(radius)) => {
+            check_place(&key.key("at"), at)?;
+            check_positive(&key.key("radius"), radius, MOST_LENGTH)
+        }
+        (at, _) => {
+            let (own, other) = if at.is_some() { ("at", "radius") } else { ("radius", "at") };
+            let hint = format!("add {other}, or leave {own} out: then all paint dries");
+            Err(Fault::new(&key.key(own), format!("{other} beside it"), "none", hint))
+        }
+    }
+}
+
+fn check_keep(key: &KeyPath, keep: &KeepTable) -> Checked {
+    match (keep.cuboid, keep.sphere, keep.above) {
+        (Some(Pair([low, high])), None, None) => {
+            let key = key.key("box");
+            for (corner, place) in [low, high].into_iter().enumerate() {
+                check_place(&key.index(corner), place)?;
+            }
+            if (0..3).any(|axis| low[axis] >= high[axis]) {
+                let wanted = "a lower corner that is below the upper one on every axis";
+                let hint = "[[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]] is a box around the origin";
+                return Err(Fault::new(&key, wanted, format!("{low:?}, {high:?}"), hint));
+            }
+            Ok(())
+        }
+        (None, Some(Ball { center, radius }), None) => {
+            check_place(&key.key("sphere").index(0), center)?;
+            check_positive(&key.key("sphere").index(1), radius, MOST_LENGTH)
+        }
+        (None, None, Some(Pair([point, normal]))) => {
+            check_place(&key.key("above").index(0), point)?;
+            check_direction(&key.key("above").index(1), normal)
+        }
+        given => {
+            let keys =
+                [given.0.map(|_| "box"), given.1.map(|_| "sphere"), given.2.map(|_| "above")];
+            one_of(key, "box, sphere and above", &keys)
+        }
+    }
+}
+
+/// The fault of a table that needs exactly one of `names`, and has `keys`.
+fn one_of(table: &KeyPath, names: &str, keys: &[Option<&str>]) -> Checked {
+    let given: Vec<&str> = keys.iter().flatten().copied().collect();
+    let (key, found, hint) = match given[..] {
+        [_, second, ..] => (table.key(second), given.join(" and "), format!("leave {second} out")),
+        _ => (table.clone(), "none".to_owned(), "add one of them".to_owned()),
+    };
+    Err(Fault::new(&key, format!("exactly one of {names}"), found, hint))
+}
+
+fn check_source(
+    key: &KeyPath,
+    at: Option<Row<3>>,
+    picked: Option<Row<2>>,
+    path: &[Row<4>],
+) -> Checked {
+    // A path may repeat its first place as `at`.
+    let repeated = path.first().is_some_and(|&Row([_, x, y, z])| at == Some(Row([x, y, z])));
+    let at = at.filter(|_| !repeated);
+    let keys =
+        [at.map(|_| "at"), picked.map(|_| "picked"), Some("path").filter(|_| !path.is_empty())];
+    if keys.iter().flatten().count() != 1 {
+        return one_of(key, "at, picked and path", &keys);
+    }
+    if let Some(Row(at)) = at {
+        check_place(&key.key("at"), at)?;
+    }
+    for (axis, share) in picked.iter().flat_map(|row| row.0).enumerate() {
+        check_range(&key.key("picked").index(axis), share, [0.0, 1.0])?;
+    }
+    let mut before = -1.0;
+    for (index, &Row([seconds, x, y, z])) in path.iter().enumerate() {
+        let key = key.key("path").index(index);
+        check_time(&key.index(0), seconds)?;
+        if seconds <= before {
+            let hint = "order the points by their seconds";
+            return Err(Fault::new(&key, format!("a time after {before} s"), seconds, hint));
+        }
+        before = seconds;
+        check_place(&key, [x, y, z])?;
+    }
+    Ok(())
+}
+
+fn check_span(key: &KeyPath, [from, duration]: [f64; 2]) -> Checked {
+    check_time(&key.key("from_s"), from)?;
+    check_time(&key.key("for_s"), duration)
+}
+
+fn check_quantity(key: &KeyPath, amount: Option<f64>, rate: Option<f64>, duration: f64) -> Checked {
+    match (amount, rate) {
+        (Some(amount), None) => check_positive(&key.key("amount_mm3"), amount, MOST_MM3),
+        (None, Some(rate)) => {
+            check_positive(&key.key("rate_mm3_s"), rate, MOST_MM3)?;
+            if duration > 0.0 {
+                return Ok(());
+            }
+            let hint = "add for_s = 1.0, or give amount_mm3 instead of the rate";
+            Err(Fault::new(&key.key("for_s"), "a duration above 0 beside a rate", duration, hint))
+        }
+        (amount, rate) => one_of(
+            key,
+            "amount_mm3 and rate_mm3_s",
+            &[amount.map(|_| "amount_mm3"), rate.map(|_| "rate_mm3_s")],
+        ),
+    }
+}
+
+/// How the volumes of a region show what they hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RegionStyle {
+    /// Its name; empty for the only region of a script that lists none.
+    pub name: String,
+    /// Appearance of the scene inside of its volumes.
+    pub inside: Inside,
+    /// Sizes of the shells, falling from 1.
+    pub shells: Vec<f32>,
+    /// Share of colour by the number of shells, one more than there are shells.
+    pub tints: Vec<f32>,
+    /// Colour that the drawing is multiplied by inside, below the share of colour: `#rrggbb`, white
+    /// for a drawing that stays grey.
+    pub stain: String,
+}
+
+impl Script {
+    /// The regions in order, at least one. `settings` give what a region leaves out.
+    #[must_use]
+    pub fn region_styles(&self, settings: &Settings) -> Vec<RegionStyle> {
+        let unnamed = [RegionTable::default()];
+        let regions = if self.regions.is_empty() { &unnamed } else { &self.regions[..] };
+        let narrow = |list: &[f64]| list.iter().map(|&value| value as f32).collect::<Vec<_>>();
+        let style = |region: &RegionTable| {
+            let drawing = &settings.drawing;
+            let shells = region.shells.as_deref().map_or(drawing.shells.clone(), narrow);
+            let tints = match (&region.tint, &region.shells) {
+                (Some(tint), _) => narrow(tint),
+                (None, Some(_)) => Vec::new(),
+                (None, None) => drawing.tint.clone(),
+            };
+            let even = || narrow(&even_tints(shells.len()));
+            let tints = if tints.is_empty() { even() } else { tints };
+            let inside = region.inside.unwrap_or(drawing.inside);
+            let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
+            RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
+        };
+        regions.iter().map(style).collect()
+    }
+
+    /// Index of the region with this name; the first without a name.
+    pub(super) fn region_index(&self, name: Option<&str>) -> Option<usize> {
+        match name {
+            None => Some(0),
+            Some(name) => self.regions.iter().position(|region| region.name == name),
+        }
+    }
+
+    pub(super) fn check_region_name(&self, table: &KeyPath, name: Option<&str>) -> Checked {
+        if self.region_index(name).is_some() {
+            return Ok(());
+        }
+        let name = name.unwrap_or_default();
+        let names: Vec<&str> = self.regions.iter().map(|region| region.name.as_str()).collect();
+        let similar = similar_names(name, names.iter().copied());
+        let hint = match (similar.is_empty(), names.is_empty()) {
+            (false, _) => format!("did you mean {}?", similar.join(" or ")),
+            (true, false) => format!("regions are {}", documents::name_list(&names, 8, ", ")),
+            (true, true) => format!("add [[region]] with name = \"{}\"", name.escape_debug()),
+        };
+        Err(Fault::new(&table.key("region"), "the name of a [[region]]", name, hint))
+    }
+
+    pub(super) fn check_regions(&self, settings: &Settings) -> Checked {
+        let plain = |list: &[f32]| list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>();
+        let shells = plain(&settings.drawing.shells);
+        let tints = plain(&settings.drawing.tint);
+        for (index, region) in self.regions.iter().enumerate() {
+            let table = KeyPath::of("region").index(index);
+            check_name(&table.key("name"), &region.name)?;
+            if self.region_index(Some(&region.name)) != Some(index) {
+                let hint = "give each region its own name";
+                let wanted = "a name that no other region has";
+                return Err(Fault::new(&table.key("name"), wanted, &region.name, hint));
+            }
+            let tint = match (&region.tint, &region.shells) {
+                (Some(tint), _) => &tint[..],
+                (None, Some(_)) => &[],
+                (None, None) => &tints,
+            };
+            if let Some(stain) = region.stain.as_ref().filter(|own| Rgb::from_hex(own).is_none()) {
+                let key = table.key("stain");
+                let hint = "#ffffff leaves the drawing grey";
+                return Err(Fault::new(
+                    &key,
+                    "a colour written #rrggbb",
+                    stain.escape_debug(),
+                    hint,
+                ));
+            }
+            check_shells(&table, region.shells.as_deref().unwrap_or(&shells), tint)?;
         }
         Ok(())
     }

@@ -1,16 +1,33 @@
 //! A script as it stands in its file.
+//!
+//! The pigments of a script.
+//!
+//! The subject of a script.
+//!
+//! The library of a script, the ground under its pigments, and the light on them.
 
 use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
 
-use paint::ground::GroundSpec;
+use documents::hint::Explain;
+use documents::similar_names;
+use graphics::mesh::SampleModel;
+use paint::document::Slots;
+use paint::ground::{GroundKind, GroundRelief, GroundSpec, Primer};
+use paint::layer::SLOTS;
+use pigment::PigmentLibrary;
+use pigment::library::LibraryError;
 use serde::{Deserialize, Serialize};
+use spectra::{Illuminant, light_from_text};
 use toml::Table;
 
+use super::action::Recipe;
 use super::camera::CameraTable;
 use super::tables::{
     DryTable, KeepTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
 };
 use crate::settings::Preset;
+use crate::toml_text::{Checked, Fault, KeyPath};
 
 /// A script: the subject, its settings, and what is done to it in time. The key of each value in a
 /// file is its name here; `center` is written `centre`.
@@ -152,5 +169,250 @@ impl TryFrom<u64> for FormatVersion {
             Self::NUMBER => Ok(Self),
             _ => Err(format!("version takes {}, found `{version}`", Self::NUMBER)),
         }
+    }
+}
+
+impl Script {
+    /// The pigments of the palette in `library`, by slots in the order of their letters.
+    ///
+    /// # Errors
+    /// [`Fault`] of the letter whose pigment the library does not have, or has twice, and of one
+    /// that means the same pigment as another. [`super::ScriptError::located`] adds its line.
+    pub fn slots(&self, library: &PigmentLibrary) -> Result<Slots, Box<Fault>> {
+        let mut slots = Slots::default();
+        for (slot, (letter, name)) in self.palette.iter().enumerate() {
+            let key = KeyPath::of("palette").key(letter);
+            if slot == SLOTS {
+                let wanted = format!("at most {SLOTS} pigments");
+                return Err(Fault::new(&key, wanted, self.palette.len(), "leave this one out"));
+            }
+            let found = library.find(name).map_err(|error| {
+                let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
+                let similar = similar_names(name, known);
+                let hint = match similar.is_empty() {
+                    true => error.hint().map_or_else(|| error.to_string(), |hint| hint.to_string()),
+                    false => format!("did you mean {}?", similar.join(" or ")),
+                };
+                Fault::new(&key, "a pigment of the library", name, hint)
+            })?;
+            if slots.contains(&Some(found)) {
+                let hint = "leave one of the two out";
+                return Err(Fault::new(&key, "a pigment that no other letter has", name, hint));
+            }
+            slots[slot] = Some(found);
+        }
+        Ok(slots)
+    }
+
+    /// Shares of the slots in a recipe of this script: sum 1, or all 0 for a recipe without
+    /// pigments.
+    #[must_use]
+    pub fn shares(&self, recipe: &Recipe) -> [f64; SLOTS] {
+        let total: f64 = recipe.values().sum();
+        let mut shares = [0.0; SLOTS];
+        for (share, letter) in shares.iter_mut().zip(self.palette.keys()) {
+            let part = recipe.get(letter).copied().unwrap_or(0.0);
+            *share = if total > 0.0 { part / total } else { 0.0 };
+        }
+        shares
+    }
+}
+
+/// Longest path in bytes.
+const LONGEST: usize = 1024;
+
+/// The model or photograph that a script paints.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Subject {
+    /// A model that is made, written `shape:NAME`.
+    Shape(SampleModel),
+    /// A file with a model or a photograph.
+    File(PathBuf),
+}
+
+impl Script {
+    /// The subject; a path starts from `folder`, the folder of the script.
+    ///
+    /// # Errors
+    /// [`Fault`] of `subject` for an unknown shape, another script, and for a path that is empty or has control
+    /// characters.
+    pub fn subject_in(&self, folder: &Path) -> Result<Subject, Box<Fault>> {
+        self.check_subject()?;
+        match self.subject.strip_prefix("shape:").and_then(SampleModel::from_name) {
+            Some(shape) => Ok(Subject::Shape(shape)),
+            None => Ok(Subject::File(folder.join(&self.subject))),
+        }
+    }
+
+    pub(super) fn check_subject(&self) -> Checked {
+        let key = KeyPath::of("subject");
+        if let Some(name) = self.subject.strip_prefix("shape:") {
+            if SampleModel::from_name(name).is_some() {
+                return Ok(());
+            }
+            let names = SampleModel::ALL.map(SampleModel::name);
+            let similar = similar_names(name, names);
+            let hint = match similar.is_empty() {
+                true => format!("shapes are {}", names.join(", ")),
+                false => format!("did you mean shape:{}?", similar.join(" or shape:")),
+            };
+            return Err(Fault::new(&key, "the name of a shape after `shape:`", name, hint));
+        }
+        let ending = Path::new(&self.subject).extension();
+        if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+            let hint = "name the model or photograph that the other script paints";
+            return Err(Fault::new(&key, "a model or a photograph", &self.subject, hint));
+        }
+        let fits =
+            (1..=LONGEST).contains(&self.subject.len()) && !self.subject.contains(char::is_control);
+        match fits {
+            true => Ok(()),
+            false => Err(Fault::new(
+                &key,
+                format!("a path of 1 to {LONGEST} bytes without control characters"),
+                self.subject.escape_debug(),
+                "subject = \"shape:still-life\" is a model that is always there",
+            )),
+        }
+    }
+
+    /// Checks that all paths lead to files in the script's folder or below it.
+    pub(super) fn check_files_beside(&self) -> Checked {
+        if !self.subject.starts_with("shape:") {
+            check_beside("subject", &self.subject)?;
+        }
+        for (key, path) in [("library", &self.library), ("lamp", &self.lamp)] {
+            path.as_deref().map_or(Ok(()), |path| check_beside(key, path))?;
+        }
+        Ok(())
+    }
+}
+
+fn check_beside(key: &str, path: &str) -> Checked {
+    let mut parts = Path::new(path).components();
+    // Colons and backslashes lead elsewhere on Windows.
+    let below =
+        parts.all(|part| matches!(part, Component::Normal(_))) && !path.contains(['\\', ':']);
+    match below {
+        true => Ok(()),
+        false => Err(Fault::new(
+            &KeyPath::of(key),
+            "a path below the script's folder",
+            path,
+            "put the file beside the script",
+        )),
+    }
+}
+
+/// Longest path of a library or a lamp, in bytes.
+const MATERIALS_LONGEST: usize = 1024;
+
+/// Width of the cells of a ground that is made to try it, in mm.
+const TRIED_MM: f64 = 0.2;
+
+/// Whether a text is a light by its name: an illuminant or a temperature. [`light_from_text`] reads
+/// files of lamps as well, which a script names by another key.
+#[must_use]
+pub fn is_light(text: &str) -> bool {
+    let kelvin = text.strip_suffix(['K', 'k']).map(|number| {
+        let number = number.strip_prefix(['D', 'd']).unwrap_or(number);
+        number.parse::<f64>().is_ok()
+    });
+    (Illuminant::named(text).is_ok() || kelvin == Some(true)) && light_from_text(text).is_ok()
+}
+
+impl Script {
+    /// The library that the script names; none if it names none. A path starts from `folder`, the
+    /// folder of the script.
+    ///
+    /// # Errors
+    /// [`LibraryError`] if its file is missing, or is no library.
+    pub fn open_library(&self, folder: &Path) -> Result<Option<PigmentLibrary>, LibraryError> {
+        match self.library_file(folder) {
+            Some(file) => PigmentLibrary::open(file).map(Some),
+            None => Ok(self.library.as_ref().map(|_| PigmentLibrary::van_gogh_oils())),
+        }
+    }
+
+    /// The file of the library that the script names; none if it names none, or the oils that ship.
+    #[must_use]
+    pub fn library_file(&self, folder: &Path) -> Option<PathBuf> {
+        let name = self.library.as_ref()?;
+        (*name != PigmentLibrary::van_gogh_oils().title).then(|| folder.join(name))
+    }
+
+    /// The light on pigments as [`light_from_text`] takes it; none for D65. The file of a lamp starts
+    /// from `folder`, the folder of the script.
+    #[must_use]
+    pub fn light(&self, folder: &Path) -> Option<String> {
+        let lamp = self.lamp.as_ref().map(|lamp| folder.join(lamp).to_string_lossy().into_owned());
+        lamp.or_else(|| self.illuminant.clone())
+    }
+
+    /// The ground under pigments of `library`.
+    ///
+    /// # Errors
+    /// [`Fault`] of a ground that cannot be made, such as one of a colour that is none.
+    /// [`super::ScriptError::located`] adds its line.
+    pub fn ground_under(&self, library: &PigmentLibrary) -> Result<GroundSpec, Box<Fault>> {
+        let Some(ground) = &self.ground else { return Ok(GroundKind::Panel.spec(1)) };
+        match ground.build(1, 1, TRIED_MM, library) {
+            Ok(_) => Ok(ground.clone()),
+            Err(error) => {
+                let hint = error.hint().map_or_else(
+                    || "leave it out for a white panel".to_owned(),
+                    |hint| hint.to_string(),
+                );
+                let wanted = "a ground that can be made";
+                Err(Fault::new(&KeyPath::of("ground"), wanted, error, hint))
+            }
+        }
+    }
+
+    /// Checks the names of library and light, and the ground.
+    pub(super) fn check_materials(&self) -> Checked {
+        let light = self.illuminant.as_deref();
+        let fits = |path: &str| {
+            (1..=MATERIALS_LONGEST).contains(&path.len()) && !path.contains(char::is_control)
+        };
+        for (key, path, hint) in [
+            ("library", &self.library, "name the file of a pigment library, or leave it out"),
+            ("lamp", &self.lamp, "name the file of a lamp's spectrum, or leave it out"),
+        ] {
+            if let Some(path) = path.as_deref().filter(|path| !fits(path)) {
+                let wanted = format!("a path of 1 to {LONGEST} bytes without control characters");
+                return Err(Fault::new(&KeyPath::of(key), wanted, path.escape_debug(), hint));
+            }
+        }
+        if let (Some(lamp), Some(_)) = (&self.lamp, light) {
+            let hint = "leave illuminant or lamp out";
+            return Err(Fault::new(&KeyPath::of("lamp"), "a light given once", lamp, hint));
+        }
+        let relief = self.ground.as_ref().map(|ground| &ground.relief);
+        let other = match relief {
+            Some(GroundRelief::Wood(_)) => Some("wood"),
+            Some(GroundRelief::Image(_)) => Some("image"),
+            _ => None,
+        };
+        let table = KeyPath::of("ground");
+        if let Some(other) = other {
+            let hint = "kind = \"panel\" is nearly flat";
+            return Err(Fault::new(&table.key("kind"), "linen, paper or panel", other, hint));
+        }
+        let reflectance = self.ground.as_ref().and_then(|ground| ground.reflectance.as_ref());
+        match reflectance {
+            Some(Primer::Grey(own)) if !(0.0..=1.0).contains(own) => {
+                let hint = "leave it out for the white of the library";
+                return Err(Fault::new(&table.key("reflectance"), "0 to 1", own, hint));
+            }
+            _ => {}
+        }
+        if let Some(light) = light.filter(|light| !is_light(light)) {
+            let wanted = "the name of an illuminant, or a temperature";
+            let hint = "D65, A, FL11, LED-B3 and 5600K are lights";
+            let key = KeyPath::of("illuminant");
+            return Err(Fault::new(&key, wanted, light.escape_debug(), hint));
+        }
+        Ok(())
     }
 }

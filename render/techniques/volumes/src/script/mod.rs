@@ -86,54 +86,32 @@
 //! Scripts are untrusted: unknown keys, numbers out of range and files that are too long are
 //! refused with line and key, and the subject lies beside the script. Written figures have six
 //! digits, times four decimals.
-
-mod limits;
 mod rows;
 mod tables;
-mod ranges;
 mod camera;
 mod file;
-mod rounded;
-mod subject;
-mod materials;
-mod regions;
-mod check_tables;
 mod check;
-mod changed;
-mod error;
 mod text;
 mod action;
-mod pigments;
 mod events;
 mod record;
 
 #[cfg(test)]
-mod samples;
-
-#[cfg(test)]
 mod tests;
-
-#[cfg(test)]
-mod fault_tests;
-
-#[cfg(test)]
-mod fuzz_tests;
 
 pub use action::{
     Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split,
 };
 pub use camera::{CameraTable, KeyframeTable, ScriptCamera};
-pub use error::ScriptError;
+pub use check::RegionStyle;
 pub use events::{Event, seconds_of, steps_of};
-pub use file::Script;
-pub use limits::{
-    MOST_EVENTS, MOST_FRAMES, MOST_SECONDS, cells_too_small, frames_fit, samples_too_many,
-};
-pub use materials::is_light;
+pub use file::{Script, Subject, is_light};
 pub use record::Recorder;
-pub use regions::RegionStyle;
-pub use rows::{Ball, Pair, Row};
-pub use subject::Subject;
+pub use rows::{
+    Ball, MOST_EVENTS, MOST_FRAMES, MOST_SECONDS, Pair, Row, cells_too_small, frames_fit,
+    samples_too_many,
+};
 pub use tables::{
     DryTable, KeepTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
 };
+pub use text::ScriptError;

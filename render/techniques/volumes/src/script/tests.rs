@@ -1,12 +1,22 @@
 //! Scripts: reading, writing, events, recording, pigments, limits.
+//!
+//! Scripts for tests.
+//!
+//! Every fault of a script once, with its place and its way out.
+//!
+//! Random changes of scripts: nothing panics, and every fault has a place and a way out.
 
 use std::path::Path;
 
+use documents::hint::Explain;
 use paint::ground::{GroundKind, GroundSpec, Primer};
 use pigment::PigmentLibrary;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
-use super::samples::{DESCRIBED, SHORT, WHOLE};
-use super::*;
+use super::{MOST_EVENTS, Script, *};
+use crate::drawing::MOST_REGIONS;
 use crate::settings::{Inside, Preset, Settings};
 
 fn script(text: &str) -> Script {
@@ -198,7 +208,7 @@ fn pigments_are_found_by_their_letters() {
         let fault = script(&text).slots(&library).unwrap_err();
         let error = ScriptError::located("s.toml", &text, fault);
         assert_eq!(error.to_string(), format!("s.toml, line 7: palette.Y takes {wanted}"));
-        let told = documents::hint::Explain::hint(&error).unwrap().to_string();
+        let told = Explain::hint(&error).unwrap().to_string();
         assert!(told.starts_with(hint), "{told}");
     }
 }
@@ -271,4 +281,486 @@ fn the_camera_is_that_of_the_verbs_or_a_path() {
     let turning = script(&format!("{SHORT}[camera]\nturntable = 48"));
     let written = script(&turning.to_text().unwrap());
     assert_eq!(written.camera.unwrap().turntable, Some(48));
+}
+
+/// A script with every table and nearly every key.
+pub(super) const WHOLE: &str = r##"format = "paint-volumes"
+version = 1
+title = "A jug wakes up"
+subject = "shape:still-life"
+unit_mm = 100.0
+seconds = 6.0
+preset = "washed"
+library = "oils/mine.pigments.json"
+illuminant = "5600K"
+
+[palette]
+B = "Ultramarine"
+Y = "Chrome Yellow"
+
+[ground]
+kind = "linen"
+seed = 3
+threads_per_cm = 12.5
+relief_mm = 0.1
+
+[ground.reflectance.spectrum]
+values = [0.7, 0.8, 0.85]
+
+[ground.reflectance.spectrum.grid]
+start_nm = 400.0
+step_nm = 150.0
+count = 3
+
+[grid]
+cell = 0.083
+
+[settings.motion]
+kick = 0.5
+
+[settings.drawing]
+tint = []
+
+[camera]
+closed = true
+
+[[camera.keyframe]]
+eye = [4.0, 2.0, 6.0]
+target = [0.0, 1.0, 0.0]
+
+[[camera.keyframe]]
+eye = [6.0, 3.0, 2.0]
+target = [0.0, 1.0, 0.0]
+up = [0.0, 1.0, 0.0]
+field_of_view_deg = 30.0
+
+[[region]]
+name = "sky"
+
+[[region]]
+name = "glow"
+inside = "own-colours"
+shells = [1.0, 0.93, 0.86]
+tint = [0.0, 0.35, 0.7, 1.0]
+stain = "#e8d8b8"
+
+[[keep]]
+box = [[-1.0, -1.0, -1.0], [1.0, 2.0, 1.0]]
+
+[[keep]]
+sphere = [[0.0, 0.5, 0.0], 2.0]
+
+[[keep]]
+above = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+
+[[volume]]
+centre = [0.1, 0.6, 0.3]
+radius = 0.2
+detail = 4
+recipe = { B = 1.0 }
+
+[[pour]]
+path = [[0.0, 0.1, 0.6, 0.3], [2.0, 0.5, 0.6, 0.2]]
+from_s = 0.5
+for_s = 2.0
+rate_mm3_s = 40.0
+region = "glow"
+recipe = { B = 2.0, Y = 1.0 }
+
+[[pour]]
+picked = [0.42, 0.55]
+from_s = 0.25
+amount_mm3 = 5.0
+recipe = { Y = 1.0 }
+
+[[push]]
+at = [0.1, 0.6, 0.3]
+towards = [1.0, 0.0, 0.0]
+radius = 0.2
+strength = 10.0
+from_s = 3.0
+for_s = 0.5
+
+[[lift]]
+at = [0.1, 0.6, 0.3]
+radius = 0.1
+from_s = 4.0
+for_s = 0.5
+rate = 0.75
+
+[[split]]
+at_s = 4.5
+volume = 1
+
+[[dry]]
+at_s = 5.0
+
+[[dry]]
+at_s = 5.5
+at = [0.1, 0.6, 0.3]
+radius = 0.25
+"##;
+
+/// The shortest script.
+pub(super) const SHORT: &str =
+    "format = \"paint-volumes\"\nversion = 1\nsubject = \"shape:sphere\"\nseconds = 1\n";
+
+/// The example of the format's description, to the letter.
+pub(super) const DESCRIBED: &str = r#"format = "paint-volumes"
+version = 1
+title = "A jug wakes up"
+subject = "shape:still-life"      # or a model, or a photograph, beside this file
+unit_mm = 100.0
+seconds = 6.0
+[palette]                         # with pigments; without it colours are the subject's own
+B = "Ultramarine"
+Y = "Chrome Yellow"
+[grid]
+cell = 0.083                      # of the longest side; 0 is single volumes only
+[[pour]]                          # `at` a place of the model
+at = [0.1, 0.6, 0.3]
+from_s = 0.5
+for_s = 2.0
+rate_mm3_s = 40.0
+recipe = { B = 2, Y = 1 }
+path = [[0.0, 0.1, 0.6, 0.3], [2.0, 0.5, 0.6, 0.2]]   # seconds, then place: a moving source
+"#;
+
+/// The error of a text and its hint.
+fn fault(text: &str) -> [String; 2] {
+    let error = Script::from_text("s.toml", text).unwrap_err();
+    [error.to_string(), error.hint().unwrap().to_string()]
+}
+
+/// Asserts that `text` has an error that begins with `wanted`, and its hint with `hint`.
+fn assert_fault(text: &str, wanted: &str, hint: &str) {
+    let [error, told] = fault(text);
+    assert!(error.starts_with(wanted), "{text}\n{error}\nnot {wanted}");
+    assert!(told.starts_with(hint), "{text}\n{error}\n{told}\nnot {hint}");
+}
+
+#[test]
+fn faults_of_the_header() {
+    for (from, to, wanted, hint) in [
+        (
+            "paint-volumes",
+            "strokes",
+            "s.toml, line 1: format takes \"paint-volumes\", found `\"strokes\"`",
+            "a script begins",
+        ),
+        (
+            "format = \"paint-volumes\"",
+            "",
+            "s.toml, line 1: format takes \"paint-volumes\", found `nothing`",
+            "a script begins",
+        ),
+        (
+            "version = 1",
+            "version = 2\nnew = 1",
+            "s.toml, line 2: version takes 1 to 1, found `2`",
+            "a newer impasto",
+        ),
+        (
+            "version = 1",
+            "version = \"1\"",
+            "s.toml, line 2: version takes 1 to 1, found `\"1\"`",
+            "a newer impasto",
+        ),
+        ("version = 1", "", "s.toml, line 1: the key `version` is missing", "add a line `version`"),
+        (
+            "subject = \"shape:sphere\"",
+            "",
+            "s.toml, line 1: the key `subject` is missing",
+            "add a line `subject`",
+        ),
+        (
+            "shape:sphere",
+            "shape:spere",
+            "s.toml, line 3: subject takes the name of a shape after `shape:`, found `spere`",
+            "did you mean shape:sphere?",
+        ),
+        (
+            "shape:sphere",
+            "shape:cow",
+            "s.toml, line 3: subject takes the name of a shape",
+            "shapes are still-life, village",
+        ),
+        (
+            "shape:sphere",
+            "other.toml",
+            "s.toml, line 3: subject takes a model or a photograph, found `other.toml`",
+            "name the model or photograph that the other script paints",
+        ),
+        (
+            "shape:sphere",
+            "",
+            "s.toml, line 3: subject takes a path of 1 to 1024 bytes",
+            "subject = ",
+        ),
+        (
+            "shape:sphere",
+            "/etc/jug.glb",
+            "s.toml, line 3: subject takes a path below the script's folder, found `/etc/jug.glb`",
+            "put the file beside",
+        ),
+        (
+            "shape:sphere",
+            "../jug.glb",
+            "s.toml, line 3: subject takes a path below the script's folder",
+            "put the file beside",
+        ),
+        (
+            "shape:sphere",
+            "a/../../jug.glb",
+            "s.toml, line 3: subject takes a path below",
+            "put the file beside",
+        ),
+        (
+            "shape:sphere",
+            "C:jug.glb",
+            "s.toml, line 3: subject takes a path below",
+            "put the file beside",
+        ),
+        (
+            "shape:sphere",
+            "a\\\\jug.glb",
+            "s.toml, line 3: subject takes a path below",
+            "put the file beside",
+        ),
+        (
+            "seconds = 1",
+            "seconds = -1",
+            "s.toml, line 4: seconds takes 0 to 3600, found `-1`",
+            "the least is 0",
+        ),
+        (
+            "seconds = 1",
+            "seconds = 4000",
+            "s.toml, line 4: seconds takes 0 to 3600, found `4000`",
+            "the most is 3600",
+        ),
+        (
+            "seconds = 1",
+            "seconds = nan",
+            "s.toml, line 4: seconds takes 0 to 3600, found `NaN`",
+            "write a number",
+        ),
+        (
+            "seconds = 1",
+            "seconds = \"one\"",
+            "s.toml, line 4: seconds: invalid type: text \"one\", expected a number",
+            "write a value",
+        ),
+        (
+            "seconds = 1",
+            "second = 1",
+            "s.toml, line 4: second: unknown key `second`",
+            "did you mean seconds?",
+        ),
+        (
+            "seconds = 1",
+            "seconds = 1\nseconds = 2",
+            "s.toml, line 5: duplicate key",
+            "a line of TOML",
+        ),
+        ("seconds = 1", "seconds = ", "s.toml, line 4: ", "a line of TOML"),
+        (
+            "seconds = 1",
+            "seconds = 1\nunit_mm = 0",
+            "s.toml, line 5: unit_mm takes a number above 0, up to 1000000, found `0`",
+            "write a number above 0",
+        ),
+        (
+            "seconds = 1",
+            "seconds = 1\npreset = \"washd\"",
+            "s.toml, line 5: preset: unknown word `washd`",
+            "did you mean washed?",
+        ),
+    ] {
+        assert!(SHORT.contains(from), "{from}");
+        assert_fault(&SHORT.replace(from, to), wanted, hint);
+    }
+}
+
+/// Every case of `faults.txt`: lines after the shortest script, then the error after `! ` and the
+/// hint after `? `, as far as they are compared.
+#[test]
+fn every_fault_names_its_place_and_the_way_out() {
+    let cases: Vec<&str> = include_str!("faults.txt").split("\n\n").collect();
+    assert!(cases.len() > 60, "{}", cases.len());
+    for case in cases {
+        let (text, rest) = case.split_once("\n! ").unwrap();
+        let (wanted, hint) = rest.split_once("\n? ").unwrap();
+        assert_fault(&format!("{SHORT}{text}"), &format!("s.toml, {wanted}"), hint.trim_end());
+    }
+}
+
+#[test]
+fn limits_say_what_fits() {
+    let many = |text: &str, count: usize| format!("{SHORT}{}", text.repeat(count));
+    let volume = "[[volume]]\ncentre = [0, 0, 0]\nradius = 1\ndetail = 1\n";
+    let regions: String =
+        (0..=MOST_REGIONS).map(|index| format!("[[region]]\nname = \"r{index}\"\n")).collect();
+    for (text, wanted, hint) in [
+        (
+            many(volume, 4097),
+            "s.toml, line 16389: [[volume]] 4097 takes at most 4096 tables, found `4097`",
+            "the first 4096 fit",
+        ),
+        (
+            many(&volume.replace("= 1\n", "= 5\n"), 200),
+            "s.toml, line 788: [[volume]] 196, detail takes at most 2000000 particles in all volumes, found `5: 2007432 so far`",
+            "detail = 4 fits for all 200",
+        ),
+        (
+            many("[[dry]]\nat_s = 1\n", MOST_EVENTS + 1),
+            "s.toml, line 20005: [[dry]] 10001 takes at most 10000 tables",
+            "the first 10000 fit",
+        ),
+        (
+            format!("{SHORT}{regions}"),
+            "s.toml, line 133: [[region]] 65 takes at most 64 tables, found `65`",
+            "the first 64 fit",
+        ),
+        (format!("{SHORT}#{}", "x".repeat(16 << 20)), "s.toml: it has 16777", "divide it"),
+    ] {
+        let [error, told] = fault(&text);
+        assert!(error.starts_with(wanted), "{error}\nnot {wanted}");
+        assert!(told.starts_with(hint), "{told}\nnot {hint}");
+    }
+    assert!(Script::from_text("s.toml", &many(volume, 4096)).is_ok());
+}
+
+#[test]
+fn files_that_are_missing_or_no_text_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("none.toml");
+    let error = Script::open(&missing).unwrap_err().to_string();
+    assert!(error.contains("none.toml"), "{error}");
+    let bytes = folder.path().join("bytes.toml");
+    std::fs::write(&bytes, b"a = 1\nb = \"\xff\"").unwrap();
+    let error = Script::open(&bytes).unwrap_err().to_string();
+    assert!(
+        error.ends_with("bytes.toml, line 2: this is no UTF-8 text, found byte `0xff`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_script_in_memory_is_checked_before_it_is_written() {
+    let mut own = Script::from_text("s.toml", WHOLE).unwrap();
+    own.pushes[0].strength = f64::INFINITY;
+    let error = own.to_text().unwrap_err();
+    assert_eq!(error.to_string(), "[[push]] 1, strength takes 0 to 1000000, found `inf`");
+}
+
+/// Pieces that are put into texts.
+const PIECES: [&str; 32] = [
+    "=",
+    "[",
+    "]",
+    "[[",
+    "]]",
+    "{",
+    "}",
+    "\"",
+    "'''",
+    "\"\"\"",
+    "#",
+    "\n",
+    ".",
+    ",",
+    "-",
+    "nan",
+    "inf",
+    "1e400",
+    "-0.0",
+    "0x7f",
+    "99999999999999999999",
+    "1979-05-27T07:32:00Z",
+    "true",
+    "\u{e9}",
+    "\u{feff}",
+    "\0",
+    "\r",
+    "pour",
+    "[[pour]]",
+    "settings",
+    "9e8",
+    " = 1\n",
+];
+
+/// One of the sample scripts with one to eight random changes.
+fn changed(random: &mut ChaCha8Rng) -> String {
+    let text = [WHOLE, SHORT, DESCRIBED][random.random_range(0..3)];
+    let mut letters: Vec<char> = text.chars().collect();
+    for _ in 0..random.random_range(1..=8) {
+        let at = random.random_range(0..=letters.len());
+        let to = (at + random.random_range(0..12)).min(letters.len());
+        match random.random_range(0..5) {
+            0 => {
+                letters.drain(at..to);
+            }
+            1 => {
+                let piece = PIECES[random.random_range(0..PIECES.len())];
+                letters.splice(at..at, piece.chars());
+            }
+            2 => {
+                let copy: Vec<char> = letters[at..to].to_vec();
+                let there = random.random_range(0..=letters.len());
+                letters.splice(there..there, copy);
+            }
+            3 if at < letters.len() => {
+                letters[at] = char::from(random.random_range(32..127_u8));
+            }
+            _ => {
+                // A digit changes, so that values leave their ranges.
+                let digits: Vec<usize> =
+                    (0..letters.len()).filter(|&at| letters[at].is_ascii_digit()).collect();
+                if let Some(&at) = digits.get(random.random_range(0..digits.len().max(1))) {
+                    let number = PIECES[random.random_range(15..21)];
+                    letters.splice(at..=at, number.chars());
+                }
+            }
+        }
+    }
+    letters.into_iter().collect()
+}
+
+/// Reads `count` changed scripts; returns how many were good.
+fn read(seed: u64, count: usize) -> usize {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let good = (0..count).filter(|_| {
+        let text = changed(&mut random);
+        match Script::from_text("s.toml", &text) {
+            Ok(script) => {
+                let written = script.to_text().unwrap();
+                let again = Script::from_text("s.toml", &written).unwrap();
+                assert_eq!(again, script.rounded(), "{text}");
+                assert!(script.events().windows(2).all(|pair| pair[0].start <= pair[1].start));
+                true
+            }
+            Err(error) => {
+                let told = error.to_string();
+                assert!(told.starts_with("s.toml, line ") && told.len() < 4000, "{text}\n{told}");
+                assert!(error.hint().is_some(), "{text}\n{told}");
+                false
+            }
+        }
+    });
+    good.count()
+}
+
+#[test]
+fn changed_scripts_are_read_or_refused() {
+    let good = read(1, 2000);
+    assert!((20..1900).contains(&good), "{good} of 2000 were good");
+}
+
+#[test]
+#[ignore = "reads a million scripts, which takes minutes"]
+fn a_million_changed_scripts_are_read_or_refused() {
+    let good: usize = (0..1000).into_par_iter().map(|seed| read(seed + 2, 1000)).sum();
+    println!("{good} of 1,000,000 were good");
+    assert!(good > 10_000, "{good}");
 }

@@ -1,10 +1,12 @@
 //! Scripts as text.
+//!
+//! Errors of scripts.
 
 use std::path::Path;
 
+use documents::hint::{Explain, Fault as FaultKind, Hint};
 use serde::Deserialize;
 
-use super::error::ScriptError;
 use super::file::{FormatVersion, Script};
 use crate::settings::{GridTable, Settings};
 use crate::toml_text::{Fault, KeyPath, Source, TextError, read_text};
@@ -108,5 +110,60 @@ fn check_format(name: &str, source: &Source<'_>) -> Result<(), ScriptError> {
             newest,
         }),
         _ => Ok(()),
+    }
+}
+
+/// Reasons why a script cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum ScriptError {
+    /// The file cannot be read, is not TOML, or has a wrong key or value.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The file is TOML of another format.
+    #[error("{file}, line {line}: format takes \"paint-volumes\", found `{found}`")]
+    Format {
+        /// Name of the file.
+        file: String,
+        /// Line of the key `format`, or the first.
+        line: usize,
+        /// Value of the key, or `nothing`.
+        found: String,
+    },
+    /// The script has a version that this program does not know.
+    #[error("{file}, line {line}: version takes 1 to {newest}, found `{found}`")]
+    Version {
+        /// Name of the file.
+        file: String,
+        /// Line of the key `version`.
+        line: usize,
+        /// Value of the key.
+        found: String,
+        /// Newest version that can be read.
+        newest: u64,
+    },
+}
+
+impl From<Box<Fault>> for ScriptError {
+    fn from(fault: Box<Fault>) -> Self {
+        Self::Text(fault.into())
+    }
+}
+
+impl Explain for ScriptError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Text(error) => error.hint(),
+            Self::Format { .. } => Some(Hint::verbatim(
+                "a script begins with format = \"paint-volumes\" and version = 1",
+            )),
+            Self::Version { .. } => Some(Hint::verbatim("a newer impasto may read it")),
+        }
+    }
+
+    fn fault(&self) -> FaultKind {
+        match self {
+            Self::Text(error) => error.fault(),
+            Self::Format { .. } | Self::Version { .. } => FaultKind::Input,
+        }
     }
 }

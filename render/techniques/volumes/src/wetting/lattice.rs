@@ -1,8 +1,12 @@
 //! Cubes of one size that fill space, and their numbers.
+//!
+//! Why a surface cannot be wetted.
+//!
+//! Which cells of a lattice a triangle enters.
 
-use glam::Vec3;
-
-use super::fault::WettingError;
+use documents::hint::{Explain, Fault, Hint};
+use glam::{DVec3, Vec3};
+use graphics::mesh::MeshFault;
 
 /// Where the middle of the model lies in its cell, along each axis. Neither 0 nor 1/2, nor their
 /// sums with round shares of a cell: faces of simple models then lie inside of cells, not on the
@@ -78,9 +82,150 @@ pub(super) fn rounded_up(value: f32) -> f32 {
     format!("{:.2e}", digits * unit).parse().unwrap_or(value as f32)
 }
 
+/// Greatest number of cells of a grid.
+pub const MOST_CELLS: usize = 1 << 20;
+
+/// A surface or a size of cells for which there is no grid.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WettingError {
+    /// The mesh is damaged.
+    #[error(transparent)]
+    Mesh(#[from] MeshFault),
+    /// No triangle has an area, or the model is too large for its areas to be numbers.
+    #[error("the model has {triangles} triangles, but no area that paint could lie on")]
+    NoArea {
+        /// Number of triangles.
+        triangles: usize,
+    },
+    /// The cells have no size.
+    #[error("cells of the grid are `{found}` wide")]
+    CellSize {
+        /// Width of a cell, in the unit of the scene.
+        found: f32,
+    },
+    /// The grid would have too many cells.
+    #[error("cells of {cell} are too small for this model: the grid has at most {MOST_CELLS}")]
+    TooManyCells {
+        /// Width of a cell, in the unit of the scene.
+        cell: f32,
+        /// Width of cells that are few enough, in the unit of the scene.
+        fits: f32,
+    },
+    /// A cell would have no samples, or all cells together too many.
+    #[error("cells of the grid have `{found}` samples each")]
+    TooManySamples {
+        /// Samples in a cell.
+        found: usize,
+        /// Samples in a cell that are few enough for this model.
+        fits: usize,
+    },
+    /// The rate or the slope of spilling is out of its range.
+    #[error("paint cannot spill at {what} `{found}`")]
+    Spilling {
+        /// Name of the setting.
+        what: &'static str,
+        /// Its value.
+        found: f32,
+    },
+}
+
+impl Explain for WettingError {
+    fn hint(&self) -> Option<Hint> {
+        Some(match self {
+            Self::Mesh(fault) => return fault.hint(),
+            Self::NoArea { .. } => Hint::new("export the model with its faces, at its real size"),
+            Self::CellSize { .. } => Hint::verbatim("grid.cell is a share above 0"),
+            Self::TooManyCells { fits, .. } => Hint::verbatim(format!("cells of {fits} would fit")),
+            Self::TooManySamples { fits, .. } => {
+                Hint::verbatim(format!("grid.samples is 1 to {fits}"))
+            }
+            Self::Spilling { what, .. } if *what == "rate" => {
+                Hint::verbatim("grid.rate is 0 to 0.067")
+            }
+            Self::Spilling { .. } => Hint::verbatim("grid.slope is 0 to 1000"),
+        })
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Mesh(_) | Self::NoArea { .. } => Fault::Input,
+            _ => Fault::Setting,
+        }
+    }
+}
+
+/// Distance from a wall between cells, as a share of a cell, within which an edge touches both.
+const TOUCH: f64 = 1e-4;
+
+/// The cells that the triangle between three places (in widths of a cell from the origin of the
+/// lattice) enters, in a fixed order. A triangle that lies on a wall enters the cell above.
+pub(super) fn entered(corners: [DVec3; 3], found: &mut Vec<[i32; 3]>) {
+    let [a, b, c] = corners;
+    let cell = |at: DVec3| at.floor().to_array().map(|value| value as i32);
+    let low = cell(a.min(b).min(c));
+    let high = cell(a.max(b).max(c));
+    if low == high {
+        found.push(low);
+    } else {
+        within(&corners, low, high.map(|value| value + 1), found);
+    }
+}
+
+/// Searches the cells from `low` up to and without `high`, halving the longest side.
+fn within(corners: &[DVec3; 3], low: [i32; 3], high: [i32; 3], found: &mut Vec<[i32; 3]>) {
+    let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+    let axis = (0..3).fold(0, |most, axis| if size[axis] > size[most] { axis } else { most });
+    let [from, to] = [low, high].map(|at| DVec3::from(at.map(f64::from)));
+    if size[axis] == 1 {
+        // The lower walls belong to the cell; a little more, as places near them are rounded.
+        let rounding = DVec3::splat(1e-9);
+        if meets(corners, from - rounding, to - DVec3::splat(TOUCH)) {
+            found.push(low);
+        }
+    } else if meets(corners, from, to) {
+        let middle = low[axis] + size[axis] / 2;
+        let mut end = high;
+        let mut start = low;
+        (end[axis], start[axis]) = (middle, middle);
+        within(corners, low, end, found);
+        within(corners, start, high, found);
+    }
+}
+
+/// Whether the line between two places (in widths of a cell) touches a cell.
+pub(super) fn touches([a, b]: [DVec3; 2], cell: [i32; 3]) -> bool {
+    let low = DVec3::from(cell.map(f64::from));
+    let margin = DVec3::splat(TOUCH);
+    meets(&[a, b, b], low - margin, low + DVec3::ONE + margin)
+}
+
+/// A place in widths of a cell from the origin of the lattice.
+pub(super) fn in_cells(lattice: &Lattice, place: [f32; 3]) -> DVec3 {
+    (Vec3::from(place) - lattice.origin).as_dvec3() / f64::from(lattice.cell)
+}
+
+/// Whether a triangle meets a box: no axis separates them (Akenine-Moller, "Fast 3D triangle-box
+/// overlap testing", 2001).
+fn meets(corners: &[DVec3; 3], low: DVec3, high: DVec3) -> bool {
+    const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
+    let center = (low + high) / 2.0;
+    let half = (high - low) / 2.0;
+    let at = corners.map(|corner| corner - center);
+    let edges = [at[1] - at[0], at[2] - at[1], at[0] - at[2]];
+    let apart = |axis: DVec3| {
+        let [a, b, c] = at.map(|place| place.dot(axis));
+        let reach = half.dot(axis.abs());
+        a.min(b).min(c) > reach || a.max(b).max(c) < -reach
+    };
+    let crossed = edges.iter().flat_map(|edge| AXES.map(|axis| axis.cross(*edge)));
+    !AXES.into_iter().any(apart) && !apart(edges[0].cross(edges[1])) && !{ crossed }.any(apart)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     #[test]
     fn keys_give_their_cells_back() {
@@ -109,5 +254,44 @@ mod tests {
         };
         assert!(Lattice::around(bounds, fits).is_ok());
         assert_eq!(rounded_up(0.123_41), 0.124);
+    }
+
+    #[test]
+    fn the_cells_of_every_point_of_a_triangle_are_entered_and_no_others() {
+        let random = &mut ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..50 {
+            let corners = [(); 3].map(|()| {
+                let mut value = || random.random_range(-3.0..3.0);
+                DVec3::new(value(), value(), value())
+            });
+            let mut found = Vec::new();
+            entered(corners, &mut found);
+            let mut hit: Vec<[i32; 3]> = Vec::new();
+            for i in 0..=300 {
+                for j in 0..=300 - i {
+                    let [u, v] = [i, j].map(|share| f64::from(share) / 300.0);
+                    let at =
+                        corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v;
+                    hit.push(at.floor().to_array().map(|value| value as i32));
+                }
+            }
+            hit.sort_unstable();
+            hit.dedup();
+            found.sort_unstable();
+            assert!(hit.iter().all(|cell| found.binary_search(cell).is_ok()));
+            // Cells of which the triangle has less than a corner between two points.
+            let missed = found.len() - hit.len();
+            assert!(missed <= found.len() / 12 + 1, "{missed} of {}", found.len());
+        }
+    }
+
+    #[test]
+    fn a_triangle_on_a_wall_is_in_the_cells_above() {
+        let corners = [[0.5, 2.0, 0.5], [3.5, 2.0, 0.5], [0.5, 2.0, 0.9]].map(DVec3::from);
+        let mut found = Vec::new();
+        entered(corners, &mut found);
+        assert_eq!(found, [0, 1, 2, 3].map(|x| [x, 2, 0]));
+        let edge = [corners[0], corners[1]];
+        assert!(touches(edge, [1, 1, 0]) && touches(edge, [1, 2, 0]) && !touches(edge, [1, 3, 0]));
     }
 }

@@ -2,27 +2,18 @@
 //! which of them are joined by surface, and paint that spills from one to the next.
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
-
-mod fault;
 mod lattice;
 mod samples;
-mod cells;
-mod entering;
 mod pieces;
-mod bodies;
 mod graph;
-mod reach;
 mod spill;
 mod grid;
 mod spill_on_device;
 
-pub use bodies::Bodies;
-pub use cells::{Cells, MOST_FILMS, QUANTA_PER_FACE};
-pub use fault::{MOST_CELLS, WettingError};
 pub use graph::Graph;
-pub use grid::Grid;
-pub use lattice::Lattice;
-pub use reach::Reach;
+pub use grid::{Cells, Grid, MOST_FILMS, QUANTA_PER_FACE, Reach};
+pub use lattice::{Lattice, MOST_CELLS, WettingError};
+pub use pieces::Bodies;
 pub use samples::{SAMPLES_PER_CELL, SurfaceSamples};
 pub use spill::{Birth, FASTEST_RATE, Spilling};
 pub use spill_on_device::DeviceSpilling;
@@ -31,6 +22,3 @@ pub(crate) use spill_on_device::SPILL;
 
 #[cfg(test)]
 mod tests;
-
-#[cfg(test)]
-mod joining_tests;

@@ -1,13 +1,13 @@
 //! The pieces of surface in each cell: what is connected within the cell, so that a cell does not
 //! mix bodies that only come near each other.
+//!
+//! Bodies: which parts of a model are one surface for paint.
 
 use glam::{DVec3, Vec3};
 use graphics::mesh::Mesh;
 use rayon::prelude::*;
 
-use super::entering::{entered, in_cells, touches};
-use super::fault::WettingError;
-use super::lattice::{Lattice, rounded_up};
+use super::lattice::{Lattice, WettingError, entered, in_cells, rounded_up, touches};
 use super::samples::SurfaceSamples;
 
 /// Greatest number of cells entered by all triangles together.
@@ -339,4 +339,40 @@ fn distance(place: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
         place.distance(from + along * share.clamp(0.0, 1.0))
     };
     to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+}
+
+/// The bodies of a model, numbered from 1: surface that is connected or touches. 0 is any body:
+/// the number of parts too small to take paint.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Bodies {
+    /// The body of each cell.
+    pub of_cells: Vec<u32>,
+    /// The body of each triangle of the mesh.
+    pub of_triangles: Vec<u32>,
+}
+
+impl Bodies {
+    /// The bodies that `pieces` are joined to; the piece of each cell is in `of_cells`.
+    pub(super) fn of(pieces: &Pieces, of_cells: &[u32]) -> Self {
+        let mut roots: Vec<u32> = (0..pieces.keys.len() as u32).collect();
+        for &(one, other) in &pieces.pairs {
+            unite(&mut roots, one, other);
+        }
+        let mut numbers = vec![0; roots.len()];
+        let mut count = 0;
+        for &piece in of_cells {
+            let number = &mut numbers[root_of(&roots, piece) as usize];
+            if *number == 0 {
+                count += 1;
+                *number = count;
+            }
+        }
+        let body = |piece: u32| numbers[root_of(&roots, piece) as usize];
+        let of_triangle =
+            |triangle| pieces.of_triangle(triangle).first().map_or(0, |&piece| body(piece));
+        Self {
+            of_cells: of_cells.iter().map(|&piece| body(piece)).collect(),
+            of_triangles: (0..pieces.triangles()).map(of_triangle).collect(),
+        }
+    }
 }

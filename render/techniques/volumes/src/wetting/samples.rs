@@ -5,8 +5,7 @@ use graphics::mesh::Mesh;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::fault::{MOST_CELLS, WettingError};
-use super::lattice::{Lattice, rounded_up};
+use super::lattice::{Lattice, MOST_CELLS, WettingError, rounded_up};
 
 /// Usual number of samples of a flat piece of surface as large as a face of a cell.
 pub const SAMPLES_PER_CELL: usize = 64;
@@ -244,7 +243,7 @@ mod tests {
     use graphics::mesh::SampleModel;
 
     use super::*;
-    use crate::test_surfaces::{bare, sheet};
+    use crate::test_volumes::{bare, sheet};
 
     #[test]
     fn areas_add_up_to_that_of_the_surface() {

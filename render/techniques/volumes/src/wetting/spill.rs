@@ -4,9 +4,9 @@ use paint::amount::{ratio_of_65536, share_of_65536};
 use paint::layer::Cell;
 use rayon::prelude::*;
 
-use super::cells::{Cells, MOST_FILMS, room};
-use super::fault::WettingError;
 use super::graph::Graph;
+use super::grid::{Cells, MOST_FILMS, room};
+use super::lattice::WettingError;
 
 /// Greatest rate for which a step is stable: the shares of 6 neighbours across faces, 12 across
 /// edges and 8 across corners then sum to less than 1.

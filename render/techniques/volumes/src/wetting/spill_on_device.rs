@@ -166,8 +166,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::test_device::device;
-    use crate::test_surfaces::{joined, sheet};
+    use crate::test_volumes::{device, joined, sheet};
 
     fn opened() -> Option<Device> {
         device()?.into_device()

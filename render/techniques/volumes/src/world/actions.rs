@@ -2,10 +2,8 @@
 
 use glam::Vec3;
 
-use super::error::{WorldError, in_range};
-use super::recipe::{Measured, Recipe};
-use super::settings::STEPS_PER_SECOND;
-use super::track::Track;
+use super::recipe::{Measured, Recipe, Track};
+use super::settings::{STEPS_PER_SECOND, WorldError, in_range};
 
 /// Paint that flows from a tube.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +48,7 @@ pub struct Single {
     pub center: Vec3,
     /// Its radius, above 0, in the unit of the scene.
     pub radius: f32,
-    /// Level of detail of its mesh, 0 to [`crate::sphere_mesh::MOST_DETAIL`].
+    /// Level of detail of its mesh, 0 to [`crate::volume::MOST_DETAIL`].
     pub detail: u8,
     /// Its paint, as much as makes a film on all surface within its radius; none for a volume that
     /// only shows the colours of the scene.

@@ -1,12 +1,22 @@
 //! Worlds stepped on a device against the same worlds on the processor.
+//!
+//! The outline of paint on a level sheet in its first seconds.
+//!
+//! 100,000 random actions on one world: no quantum is lost or made, with a grid and without.
 
 use glam::Vec3;
 use graphics::compute::Compute;
+use graphics::mesh::Mesh;
+use paint::layer::SLOTS;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
-use super::tests::{flat, is_exact, single};
+use super::settings::STEPS_PER_SECOND;
+use super::tests::{flat, is_exact, level, run, single};
 use super::*;
-use crate::motion::{KeepIn, Push};
-use crate::test_device::device;
+use crate::containing::Inside;
+use crate::motion::{KeepIn, MotionSettings, Push};
+use crate::test_volumes::device;
 use crate::volume::Volume;
 
 /// A world in which paint spills, a single volume is pushed, and a wall keeps both in.
@@ -89,7 +99,7 @@ fn a_lost_device_is_an_error_and_no_paint_is_lost() {
     for _ in 0..90 {
         world.step_on(&mut device).unwrap();
     }
-    let Some(closed) = crate::test_device::device().and_then(Compute::into_device) else { return };
+    let Some(closed) = crate::test_volumes::device().and_then(Compute::into_device) else { return };
     closed.close();
     let mut closed = StepDevice::new(Compute::gpu(closed)).above(0);
     let error = world.step_on(&mut closed).unwrap_err();
@@ -99,4 +109,263 @@ fn a_lost_device_is_an_error_and_no_paint_is_lost() {
     // It goes on elsewhere.
     world.step().unwrap();
     assert!(is_exact(&world));
+}
+
+/// Places along each side of the sheet at which it is looked at.
+const SIDE: usize = 240;
+
+/// The wet part of the sheet at a moment.
+struct Outline {
+    /// Share of the wet area that is not joined to where paint is poured.
+    apart: f64,
+    /// Distances of the nearest dry and the farthest wet place from where paint is poured, over
+    /// the radius of a circle of the same area.
+    rim: [f64; 2],
+    /// Wet area by the area that its paint covers as a film.
+    area: f64,
+}
+
+fn outline(world: &World, from: Vec3) -> Outline {
+    let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
+    let width = 12.0 / SIDE as f32;
+    let place = |at: usize| {
+        let along = |index: usize| (index as f32 + 0.5) * width - 6.0;
+        Vec3::new(along(at % SIDE), 0.0, along(at / SIDE))
+    };
+    let places = 0..SIDE * SIDE;
+    let wet: Vec<bool> =
+        places.clone().map(|at| insides.iter().any(|inside| inside.holds(place(at)))).collect();
+    let area = wet.iter().filter(|wet| **wet).count();
+    // Flooded from the wet place nearest to the source.
+    let distance = |at: &usize| place(*at).distance(from);
+    let nearest = |is_wet: bool| {
+        let all = places.clone().filter(|at| wet[*at] == is_wet);
+        all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+    };
+    let mut joined = vec![false; wet.len()];
+    let mut waiting = vec![nearest(true)];
+    joined[waiting[0]] = true;
+    while let Some(at) = waiting.pop() {
+        for next in [at.wrapping_sub(1), at + 1, at.wrapping_sub(SIDE), at + SIDE] {
+            if wet.get(next) == Some(&true) && !std::mem::replace(&mut joined[next], true) {
+                waiting.push(next);
+            }
+        }
+    }
+    let held = joined.iter().filter(|joined| **joined).count();
+    let farthest = places.clone().filter(|at| wet[*at]).map(|at| distance(&at)).fold(0.0, f32::max);
+    let equal = f64::from(width) * (area as f64 / std::f64::consts::PI).sqrt();
+    let rim = [distance(&nearest(false)), farthest].map(|at| f64::from(at) / equal);
+    let on_scene: u64 = world.tally().on_scene.iter().sum();
+    let covered = on_scene as f64 * world.quantum_mm3() / 0.02;
+    let wet_mm2 = area as f64 * f64::from(width * width);
+    Outline { apart: 1.0 - held as f64 / area as f64, rim, area: wet_mm2 / covered }
+}
+
+#[test]
+fn paint_soaks_outward_from_where_it_is_poured() {
+    // Near the middle of a cell, near an edge and near a corner.
+    for (x, z) in [(0.1, 0.2), (0.37, -0.13), (0.6, 0.6)] {
+        // Cells filled in a second.
+        for rate in [1.0, 4.0, 16.0] {
+            let mut world = flat();
+            let from = Vec3::new(x, 0.0, z);
+            world.pour(Pour::at(from, 0.02 * rate, 3.0, Recipe::of_slot(0))).unwrap();
+            for seconds in [0.2, 0.5, 1.0, 2.0, 4.0] {
+                let steps = seconds * f64::from(STEPS_PER_SECOND) - world.steps() as f64;
+                run(&mut world, steps as usize);
+                let Outline { apart, rim: [dry, wet], .. } = outline(&world, from);
+                let place = format!("{x} {z}, {rate} cells/s, {seconds} s: {apart} {dry} {wet}");
+                assert!(apart < 1e-3, "{place}");
+                // A single cell fills as a disk about its middle.
+                let round = match (x < 0.3, rate > 4.0) {
+                    (true, _) => 0.72..1.28,
+                    (false, true) => 0.65..1.35,
+                    _ => continue,
+                };
+                let is_round = round.contains(&dry) && round.contains(&wet);
+                assert!(is_round || seconds < 0.5, "{place}");
+            }
+        }
+    }
+}
+
+#[test]
+fn smooth_paint_spreads_as_a_disc_whose_area_is_that_of_the_paint() {
+    let motion = MotionSettings { microstructure: 0.0, kick: 0.0, ..MotionSettings::default() };
+    let cell = 1.0 / 40.0;
+    let settings = WorldSettings { unit_mm: Some(1.0), cell, motion, ..WorldSettings::default() };
+    let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
+    let mut before = 0.0;
+    // A rim is made of whole cells, so it is the rounder the more cells it is away.
+    for (cells, round) in [(7.0, 0.9..1.1), (15.0, 0.92..1.06)] {
+        let covered = std::f64::consts::PI * cells * cells * 0.3 * 0.3;
+        let pour = Pour::at(Vec3::ZERO, 0.02 * (covered - before), 1.0, Recipe::of_slot(0));
+        world.pour(pour).unwrap();
+        before = covered;
+        run(&mut world, 1200);
+        let Outline { apart, rim: [dry, wet], area } = outline(&world, Vec3::ZERO);
+        let found = format!("{cells} cells: {apart} {dry} {wet} {area}");
+        assert!(apart == 0.0 && round.contains(&dry) && round.contains(&wet), "{found}");
+        assert!((0.97..1.03).contains(&area), "{found}");
+    }
+}
+
+/// Actions in all.
+const ACTIONS: usize = 100_000;
+
+/// A world over a sphere of radius 1 at which things are done at random.
+struct Played {
+    world: World,
+    random: ChaCha8Rng,
+    /// What all tubes were to give, in quanta.
+    asked: u64,
+}
+
+impl Played {
+    fn new(settings: &WorldSettings) -> Self {
+        let world = World::of(&Mesh::sphere(500), settings).unwrap();
+        Self { world, random: ChaCha8Rng::seed_from_u64(3), asked: 0 }
+    }
+
+    fn place(&mut self) -> Vec3 {
+        let [x, y, z] = [(); 3].map(|()| self.random.random_range(-1.0..1.0_f32));
+        Vec3::new(x, y, z).normalize_or(Vec3::Y)
+    }
+
+    /// Seconds of a few whole steps.
+    fn time(&mut self) -> f64 {
+        f64::from(self.random.random_range(1..12)) / f64::from(STEPS_PER_SECOND)
+    }
+
+    fn pour(&mut self, fastest: f64) {
+        let place = self.place();
+        let for_s = self.time();
+        let parts = [(); SLOTS + 1].map(|()| self.random.random_range(0.0..1.0_f64));
+        let rate = self.random.random_range(0.0..fastest);
+        let recipe = Recipe::of_parts(parts).unwrap();
+        self.world.pour(Pour::at(place, rate, for_s, recipe)).unwrap();
+        self.asked += (rate * for_s / self.world.quantum_mm3()).round() as u64;
+    }
+
+    fn lift(&mut self) {
+        let place = self.place();
+        let for_s = self.time();
+        let radius = self.random.random_range(0.05..0.8);
+        let rate = self.random.random_range(0.0..120.0);
+        self.world.lift(Lift { track: Track::at(place), radius, rate, for_s }).unwrap();
+    }
+
+    /// Adds a volume of paint of its own.
+    fn add(&mut self) -> usize {
+        let place = self.place();
+        let radius = self.random.random_range(0.05..0.6);
+        let poured = |world: &World| world.tally().poured.iter().sum::<u64>();
+        let before = poured(&self.world);
+        let own = Single { detail: 1, ..single(place, radius) };
+        let index = self.world.add_volume(&own).unwrap();
+        self.asked += poured(&self.world) - before;
+        index
+    }
+
+    /// Moves paint, and volumes at once to where they would grow.
+    fn go_on(&mut self, action: usize) {
+        if action.is_multiple_of(100) {
+            return self.world.step().unwrap();
+        }
+        self.world.move_paint(None).unwrap();
+        for volume in self.world.volumes.iter_mut().filter(|volume| !volume.dry) {
+            volume.radius = volume.target_radius.max(0.001);
+        }
+    }
+
+    fn check(&self, action: usize) {
+        let world = &self.world;
+        assert!(is_exact(world), "{action}");
+        for volume in world.volumes() {
+            let capacity = |cell| u64::from(world.grid.cells.capacities[cell as usize]);
+            let most = volume.cell.map_or(1 << 30, |cell| (16 * capacity(cell)).min(1 << 30));
+            assert!(u64::from(volume.paint.volume()) <= most, "{action}: {volume:?}");
+        }
+    }
+
+    /// Lets all tubes run out, and compares what they gave with what they were to give.
+    fn finish(mut self) -> Tally {
+        (0..20).for_each(|_| self.world.move_paint(None).unwrap());
+        self.check(ACTIONS);
+        let tally = self.world.tally();
+        let out: u64 = tally.poured.iter().chain(&tally.in_tube).sum();
+        assert_eq!(out, self.asked);
+        tally
+    }
+}
+
+#[test]
+fn random_actions_on_a_grid_keep_every_quantum() {
+    let settings = WorldSettings {
+        cell: 0.3,
+        slope: 0.5,
+        rate: 0.06,
+        samples: 16,
+        ..WorldSettings::default()
+    };
+    let mut played = Played::new(&settings);
+    let mut split = 0;
+    let mut most = 0;
+    for action in 0..ACTIONS {
+        match played.random.random_range(0..5000) {
+            0..1500 => played.pour(3e4),
+            1500..2000 => played.lift(),
+            // Dry volumes stay for good.
+            2000 => played.world.dry(),
+            2001..2006 => {
+                let index = played.add();
+                // Too small a volume may hold no sample.
+                split += usize::from(played.world.split(index).is_ok());
+            }
+            2006 => {
+                let place = played.place();
+                let radius = played.random.random_range(0.05..0.8);
+                played.world.dry_within(place, radius).unwrap();
+            }
+            _ => played.go_on(action),
+        }
+        most = most.max(played.world.volumes().len());
+        if action % 100 == 0 {
+            played.check(action);
+        }
+    }
+    let tally = played.finish();
+    assert!(split > 50 && most > 500, "{split} split, {most} volumes");
+    assert!(tally.poured.iter().chain(&tally.lifted).all(|amount| *amount > 0));
+    assert!(tally.in_tube.iter().all(|amount| *amount > 0), "no cell was full");
+}
+
+#[test]
+fn random_actions_on_single_volumes_keep_every_quantum() {
+    let settings = WorldSettings { cell: 0.0, samples: 4, ..WorldSettings::default() };
+    let mut played = Played::new(&settings);
+    let mut shrunk = 0;
+    for action in 0..ACTIONS {
+        match played.random.random_range(0..5000) {
+            0..1500 => played.pour(3e5),
+            1500..1650 => played.lift(),
+            1650..1700 if !played.world.volumes().is_empty() => {
+                let index = played.random.random_range(0..played.world.volumes().len());
+                let share = played.random.random_range(0.0..1.2_f32).min(1.0);
+                shrunk += usize::from(played.world.shrink(index, share).is_ok());
+            }
+            1700 => played.world.dry(),
+            1701..1706 => {
+                played.add();
+            }
+            _ => played.go_on(action),
+        }
+        if action % 100 == 0 {
+            played.check(action);
+        }
+    }
+    let tally = played.finish();
+    assert!(shrunk > 50, "{shrunk}");
+    assert!(tally.poured.iter().chain(&tally.lifted).all(|amount| *amount > 0));
 }

@@ -1,12 +1,18 @@
 //! Worlds as files, from which they go on to the same bytes.
+//!
+//! Regions that volumes stay in.
+
+use std::sync::Arc;
+
+use glam::Vec3;
 
 use super::actions::{Lift, Pour, Source, Timed};
-use super::settings::{MOST_PARTICLES, MOST_VOLUMES};
+use super::settings::{MOST_PARTICLES, MOST_VOLUMES, WorldError, WorldSettings};
 use super::state::World;
-use crate::motion::Push;
+use crate::motion::{KeepIn, Push};
 use crate::saved::{Kind, Reader, SavedError, Stored, identity, opened, sealed, stored};
-use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
-use crate::volume::{Particles, Volume};
+use crate::volume::{MOST_DETAIL, Particles, SphereMesh, Volume};
+use crate::wetting::Spilling;
 
 /// Files with a world.
 const WORLD: Kind = Kind { format: b"impasto-world\0\0\0", version: 1, name: "world" };
@@ -145,5 +151,42 @@ impl World {
                 && volume.cell.is_none_or(|cell| (cell as usize) < cells)
         });
         whole && volumes.len() <= MOST_VOLUMES && particles <= MOST_PARTICLES
+    }
+}
+
+impl World {
+    /// Keeps all volumes inside of a region from now on. No paint spills to surface outside of it;
+    /// paint that is there already stays, in volumes that shrink to dots.
+    ///
+    /// # Errors
+    /// If a number of the region is out of its range.
+    pub fn keep(&mut self, region: KeepIn) -> Result<(), WorldError> {
+        let mut kept = self.surroundings.clone();
+        kept.regions.push(region);
+        kept.check()?;
+        let regions = &kept.regions;
+        let inside = |at: Vec3| regions.iter().all(|region| region.way_back(at, 0.0) == Vec3::ZERO);
+        let grid = self.whole.within(inside);
+        let WorldSettings { rate, slope, .. } = self.settings;
+        self.spilling = Spilling::new(&grid.cells, self.scale.cell, rate, slope)?;
+        for volume in self.volumes.iter_mut().filter(|volume| !volume.dry) {
+            let cell = volume.cell.map_or(0, |cell| cell as usize);
+            let wettable = volume.cell.is_some() && grid.cells.capacities[cell] > 0;
+            if wettable && !inside(volume.target_center) {
+                volume.target_center = grid.cells.centers[cell];
+            }
+            if wettable && !inside(volume.center) {
+                volume.center = volume.target_center;
+            }
+        }
+        self.grid = Arc::new(grid);
+        self.surroundings = kept;
+        self.settled = false;
+        for index in 0..self.volumes.len() {
+            if self.volumes[index].cell.is_some() && !self.volumes[index].dry {
+                self.set_paint(index, self.volumes[index].paint);
+            }
+        }
+        Ok(())
     }
 }

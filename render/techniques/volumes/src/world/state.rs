@@ -1,4 +1,6 @@
 //! A world: its surface, its volumes and what is being done to them.
+//!
+//! Where all paint is.
 
 use std::sync::Arc;
 
@@ -7,13 +9,12 @@ use graphics::mesh::Mesh;
 use paint::layer::{Cell, SLOTS};
 
 use super::actions::{Lift, Source, Timed};
-use super::error::WorldError;
 use super::recipe::amounts_of;
-use super::settings::{MOST_PARTICLES, MOST_VOLUMES, STEPS_PER_SECOND, Scale, WorldSettings};
-use super::tally::{Tally, add};
+use super::settings::{
+    MOST_PARTICLES, MOST_VOLUMES, STEPS_PER_SECOND, Scale, WorldError, WorldSettings,
+};
 use crate::motion::{MotionError, Push, SurfaceLattice, Surroundings, kick};
-use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
-use crate::volume::Volume;
+use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 use crate::wetting::{Grid, Spilling};
 
 /// In `of_cell`, no volume.
@@ -226,8 +227,8 @@ impl World {
         detail: u8,
     ) -> Result<usize, WorldError> {
         let number = f64::from(radius);
-        super::error::in_range("radius", number, [1e-15, 1e15], "above 0")?;
-        super::error::in_range("detail", detail.into(), [0.0, MOST_DETAIL.into()], "0 to 5")?;
+        super::settings::in_range("radius", number, [1e-15, 1e15], "above 0")?;
+        super::settings::in_range("detail", detail.into(), [0.0, MOST_DETAIL.into()], "0 to 5")?;
         if !center.is_finite() {
             let index = self.volumes.len();
             let value = center.element_sum();
@@ -253,5 +254,26 @@ impl World {
             return Err(WorldError::Full { what: "particles", most: MOST_PARTICLES });
         }
         Ok(())
+    }
+}
+
+/// Amounts of paint in quanta, of eight slots and at last of vehicle. At every time `poured` is
+/// the sum of `on_scene` and `lifted`, to the quantum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Paint that has come out of tubes, or with single volumes.
+    pub poured: [u64; SLOTS + 1],
+    /// Paint of all volumes, dry or not.
+    pub on_scene: [u64; SLOTS + 1],
+    /// Paint in sponges.
+    pub lifted: [u64; SLOTS + 1],
+    /// Paint that stayed in the tube, as there was no room for it.
+    pub in_tube: [u64; SLOTS + 1],
+}
+
+/// Adds amounts.
+pub(super) fn add(sums: &mut [u64; SLOTS + 1], amounts: [u64; SLOTS + 1]) {
+    for (sum, amount) in sums.iter_mut().zip(amounts) {
+        *sum += amount;
     }
 }

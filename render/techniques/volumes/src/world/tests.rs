@@ -1,4 +1,12 @@
 //! Worlds over surfaces of known form.
+//!
+//! What lifting and pushing leave as it is.
+//!
+//! Paint that dries within a reach.
+//!
+//! Worlds without room for more volumes, and worlds at rest.
+//!
+//! Worlds saved and resumed.
 
 use glam::Vec3;
 use graphics::mesh::{Mesh, SampleModel};
@@ -6,8 +14,10 @@ use graphics::mesh::{Mesh, SampleModel};
 use super::*;
 use crate::containing::Inside;
 use crate::motion::{KeepIn, MotionSettings, Push};
-use crate::test_surfaces::{joined, sheet};
-use crate::volume::Volume;
+use crate::saved::SavedError;
+use crate::surfaces::VolumeSurfaces;
+use crate::test_volumes::{joined, sheet};
+use crate::volume::{Particles, Volume};
 use crate::wetting::{SAMPLES_PER_CELL, SurfaceSamples};
 
 pub(super) fn level(side: f32, height: f32) -> Mesh {
@@ -353,4 +363,309 @@ fn worlds_and_volumes_out_of_range_are_refused() {
     let full = world.add_volume(&good);
     assert_eq!(full, Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES }));
     assert_eq!(world.tally(), Tally::default());
+}
+
+#[test]
+fn a_sponge_takes_the_paint_below_it() {
+    let mut world = flat();
+    world.pour(Pour::at(Vec3::ZERO, 0.6, 1.0, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 400);
+    let amounts = |world: &World| -> Vec<u32> {
+        world.volumes().iter().map(|volume| volume.paint.volume()).collect()
+    };
+    let before = amounts(&world);
+    // All that lies below, in one step.
+    let middle = Vec3::new(0.2, 0.0, 0.1);
+    let radius = 1.3;
+    let lift = Lift { track: Track::at(middle), radius, rate: 120.0, for_s: 1.0 / 120.0 };
+    world.lift(lift).unwrap();
+    world.take_up();
+    assert!(is_exact(&world));
+    for (volume, before) in world.volumes().iter().zip(&before) {
+        let far = volume.center.distance(middle) > radius + volume.radius;
+        assert!(!far || volume.paint.volume() == *before, "{}", volume.center);
+    }
+    // Films of 0.02 mm over a disk.
+    let lifted = world.tally().lifted[0] as f64 * world.quantum_mm3();
+    let disk = std::f64::consts::PI * f64::from(radius * radius) * 0.02;
+    assert!((lifted / disk - 1.0).abs() < 0.15, "{lifted} of {disk}");
+}
+
+#[test]
+fn a_push_ends_and_its_volume_returns() {
+    // Pulled to the surface, particles may come to rest at other samples.
+    let motion = MotionSettings { surface_pull: 0.0, ..MotionSettings::default() };
+    let settings = WorldSettings { motion, ..*flat().settings() };
+    let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
+    world.add_volume(&single(Vec3::ZERO, 1.5)).unwrap();
+    run(&mut world, 1200);
+    let before: Vec<[f32; 3]> = world.volumes()[0].vertices().collect();
+    let farthest = |world: &World| {
+        let places = world.volumes()[0].vertices().zip(&before);
+        let apart = places.map(|(now, before)| Vec3::from(now).distance(Vec3::from(*before)));
+        apart.fold(0.0, f32::max)
+    };
+    let push = Push { center: Vec3::ZERO, direction: Vec3::X, radius: 3.0, strength: 60.0 };
+    world.push(push, 0.1).unwrap();
+    run(&mut world, 12);
+    assert!(farthest(&world) > 0.05, "{}", farthest(&world));
+    run(&mut world, 1200);
+    assert!(farthest(&world) < 1e-3, "{}", farthest(&world));
+}
+
+/// A flat world with 1 mm3 of paint in the middle that has spread.
+fn spread() -> World {
+    let mut world = flat();
+    world.pour(Pour::at(Vec3::ZERO, 2.0, 0.5, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 360);
+    assert!(world.volumes().len() > 30, "{}", world.volumes().len());
+    world
+}
+
+/// The volumes that are dry, or those that are wet.
+fn with(world: &World, dry: bool) -> Vec<Volume> {
+    world.volumes().iter().filter(|volume| volume.dry == dry).cloned().collect()
+}
+
+#[test]
+fn paint_dries_below_the_dryer_and_flows_on_beside_it() {
+    let mut world = spread();
+    let place = Vec3::new(1.0, 0.0, 0.0);
+    let radius = 1.6;
+    let dried = world.dry_within(place, radius).unwrap();
+    let dry = with(&world, true);
+    assert_eq!(dry.len(), dried);
+    // Cells of 1 mm: 12 have their middle below, and paint in others may lie near.
+    assert!((8..=16).contains(&dried), "{dried}");
+    for volume in &dry {
+        assert!(volume.center.distance(place) < radius + 0.5, "{:?}", volume.center);
+    }
+    for volume in with(&world, false) {
+        assert!(volume.center.distance(place) > radius - 0.5, "{:?}", volume.center);
+    }
+    assert_eq!(world.dry_within(place, radius), Ok(0), "they are dry already");
+    let wet: Vec<u64> = with(&world, false).iter().map(|volume| volume.seed).collect();
+    world.pour(Pour::at(place, 1.0, 1.0, Recipe::of_slot(1))).unwrap();
+    run(&mut world, 240);
+    assert_eq!(with(&world, true), dry, "shape and paint stay");
+    let new = with(&world, false).into_iter().filter(|volume| !wet.contains(&volume.seed));
+    let over = new.filter(|volume| volume.center.distance(place) < radius).count();
+    assert!(over > 4, "new paint lies over the dry one: {over} volumes");
+    assert!(is_exact(&world));
+}
+
+#[test]
+fn a_small_dryer_dries_the_volume_that_it_touches_and_a_large_one_all() {
+    let mut world = spread();
+    let touched = world.volumes().iter().max_by_key(|volume| volume.paint.volume()).unwrap();
+    let seed = touched.seed;
+    let place = touched.center;
+    assert!(world.dry_within(place, 1e-3).unwrap() >= 1);
+    assert!(with(&world, true).iter().any(|volume| volume.seed == seed));
+    assert_eq!(world.dry_within(Vec3::new(0.0, 9.0, 0.0), 1.0), Ok(0), "above the surface");
+    let wet = with(&world, false).len();
+    assert_eq!(world.dry_within(Vec3::ZERO, 100.0), Ok(wet));
+    let mut all = spread();
+    all.dry_within(Vec3::ZERO, 100.0).unwrap();
+    let mut dried = spread();
+    dried.dry();
+    run(&mut all, 30);
+    run(&mut dried, 30);
+    assert_eq!(all.volumes(), dried.volumes());
+}
+
+#[test]
+fn single_volumes_dry_below_the_dryer() {
+    let mut world = flat();
+    for x in [-4.0, 4.0] {
+        world.add_volume(&single(Vec3::new(x, 0.0, 0.0), 1.0)).unwrap();
+    }
+    run(&mut world, 10);
+    assert_eq!(world.dry_within(Vec3::new(4.0, 0.0, 0.0), 1.5), Ok(1));
+    let dry: Vec<bool> = world.volumes().iter().map(|volume| volume.dry).collect();
+    assert_eq!(dry, [false, true]);
+}
+
+#[test]
+fn dryers_out_of_range_are_refused() {
+    let mut world = flat();
+    for (place, radius) in [
+        (Vec3::ZERO, 0.0),
+        (Vec3::ZERO, f32::NAN),
+        (Vec3::ZERO, f32::INFINITY),
+        (Vec3::new(f32::NAN, 0.0, 0.0), 1.0),
+    ] {
+        let refused = world.dry_within(place, radius);
+        assert!(matches!(refused, Err(WorldError::Number { .. })), "{place} {radius}");
+    }
+}
+
+#[test]
+fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
+    let mut world = flat();
+    let dot = Single { recipe: None, detail: 0, ..single(Vec3::splat(9.0), 0.1) };
+    for _ in 0..MOST_VOLUMES - 3 {
+        world.add_volume(&dot).unwrap();
+    }
+    world.pour(Pour::at(Vec3::ZERO, 1.0, 1.0, Recipe::of_slot(0))).unwrap();
+    let far = Vec3::new(4.0, 0.0, 4.0);
+    for _ in 0..60 {
+        world.move_paint(None).unwrap();
+    }
+    world.add_volume(&dot).unwrap();
+    world.add_volume(&dot).unwrap();
+    world.pour(Pour::at(far, 1.0, 0.5, Recipe::of_slot(1))).unwrap();
+    for _ in 0..60 {
+        world.move_paint(None).unwrap();
+    }
+    assert_eq!(world.volumes().len(), MOST_VOLUMES);
+    assert!(is_exact(&world));
+    let tally = world.tally();
+    assert_eq!(tally.in_tube[1], (0.5 / world.quantum_mm3()).round() as u64);
+    assert!(tally.on_scene[0] > 0 && tally.on_scene[1] == 0);
+}
+
+#[test]
+fn volumes_on_a_surface_come_to_rest() {
+    let mut world =
+        World::of(&SampleModel::StillLife.mesh(3000), &WorldSettings::default()).unwrap();
+    for cell in (0..world.grid().cells.len()).step_by(7) {
+        let samples = &world.grid().samples;
+        let place = samples.places[samples.of_cell(cell).start];
+        world.pour(Pour::at(place, 4.0, 1.0, Recipe::of_slot(cell % 3))).unwrap();
+    }
+    run(&mut world, 1200);
+    let moving = world.volumes.iter().filter(|volume| volume.rests_under == 0).count();
+    assert!(world.volumes.len() > 100 && moving == 0, "{moving} of {}", world.volumes.len());
+    let rested = world.volumes.clone();
+    run(&mut world, 10);
+    assert_eq!(world.volumes, rested);
+}
+
+#[test]
+fn particles_and_samples_take_no_more_memory_than_they_may() {
+    use std::mem::size_of_val;
+    let mut world =
+        World::of(&SampleModel::StillLife.mesh(3000), &WorldSettings::default()).unwrap();
+    let place = world.grid().samples.places[100];
+    world.pour(Pour::at(place, 60.0, 0.5, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 120);
+    let mut bytes = 0;
+    let mut particles = 0;
+    for volume in world.volumes() {
+        let Particles { places, velocities, samples } = &volume.particles;
+        let along: usize =
+            places.iter().chain(velocities).map(|along| size_of_val(&along[..])).sum();
+        bytes += size_of_val(volume) + along + size_of_val(&samples[..]);
+        particles += samples.len();
+    }
+    // Drawn with four shells, each with faces of its own.
+    let drawn = VolumeSurfaces::of(world.volumes());
+    bytes += 4 * (size_of_val(&drawn.vertices[..]) + size_of_val(&drawn.triangles[..]));
+    assert!(particles > 500 && bytes <= 400 * particles, "{} a particle", bytes / particles);
+    let SurfaceSamples { places, normals, areas, triangles, cells, starts, bodies, .. } =
+        &world.grid().samples;
+    let vectors = size_of_val(&places[..]) + size_of_val(&normals[..]);
+    let numbers = [triangles, cells, starts, bodies].map(|own| size_of_val(&own[..]));
+    let bytes = vectors + size_of_val(&areas[..]) + numbers.iter().sum::<usize>();
+    assert!(bytes <= 64 * places.len(), "{} a sample", bytes / places.len());
+}
+
+const WISH: &str = "a test";
+
+/// A world in which paint flows along a track, is lifted, pushed and kept in, beside a single
+/// volume and dry ones.
+fn busy() -> World {
+    let mut world = flat();
+    world.keep(KeepIn::Above { point: Vec3::X * -4.0, normal: Vec3::X }).unwrap();
+    let recipe = Recipe::of_parts([3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]).unwrap();
+    world.pour(Pour::at(Vec3::new(2.2, 0.0, 0.1), 0.9, 0.2, recipe)).unwrap();
+    run(&mut world, 30);
+    world.dry();
+    let track = Track::along(vec![(0.0, Vec3::ZERO), (0.7, Vec3::new(3.0, 0.0, 2.0))]).unwrap();
+    world.pour(Pour { track, rate_mm3_s: 0.7, for_s: 0.8, recipe, region: 2 }).unwrap();
+    world.pour(Pour::at(Vec3::Z, 0.1, f64::INFINITY, recipe)).unwrap();
+    world.add_volume(&single(Vec3::new(-2.0, 0.0, -2.0), 1.0)).unwrap();
+    let lift = Lift { track: Track::at(Vec3::ZERO), radius: 1.0, rate: 2.0, for_s: 0.4 };
+    world.lift(lift).unwrap();
+    let push = Push { center: Vec3::ZERO, direction: Vec3::X, radius: 3.0, strength: 20.0 };
+    world.push(push, 0.6).unwrap();
+    world
+}
+
+#[test]
+fn a_world_that_was_saved_goes_on_to_the_same_bytes() {
+    let mut world = busy();
+    let beginning = {
+        let mut empty = flat();
+        empty.keep(KeepIn::Above { point: Vec3::X * -4.0, normal: Vec3::X }).unwrap();
+        empty
+    };
+    for steps in [0, 1, 24, 30, 45, 200] {
+        run(&mut world, steps);
+        let mut again = beginning.resumed(&world.saved(WISH), WISH).unwrap();
+        assert_eq!(again.saved(WISH), world.saved(WISH));
+        assert_eq!((again.steps(), again.seconds()), (world.steps(), world.seconds()));
+        assert_eq!(again.surroundings(), world.surroundings());
+        let mut whole = world.clone();
+        run(&mut whole, 90);
+        run(&mut again, 90);
+        assert_eq!(again.volumes(), whole.volumes(), "after {steps} steps");
+        assert_eq!(again.tally(), whole.tally());
+        // Births go on with the numbers of before.
+        assert_eq!(again.push(push(), 1.0).unwrap(), whole.push(push(), 1.0).unwrap());
+        assert!(is_exact(&again));
+    }
+    let tally = world.tally();
+    assert!(tally.lifted[0] > 0 && world.volumes().len() > 20, "{tally:?}");
+}
+
+fn push() -> Push {
+    Push { center: Vec3::ZERO, direction: Vec3::X, radius: 1.0, strength: 1.0 }
+}
+
+#[test]
+fn files_of_other_worlds_and_damaged_ones_are_refused() {
+    let mut world = flat();
+    world.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
+    run(&mut world, 3);
+    let file = world.saved(WISH);
+    assert!(flat().resumed(&file, WISH).is_ok());
+    let other = Err(SavedError::Other);
+    let found = |world: &World, wish: &str| world.resumed(&file, wish).map(|world| world.steps());
+    assert_eq!(found(&flat(), "another"), other);
+    let mut kept = flat();
+    kept.keep(KeepIn::Ball { center: Vec3::ZERO, radius: 4.0 }).unwrap();
+    assert_eq!(found(&kept, WISH), other);
+    let mesh = SampleModel::Sphere.mesh(500);
+    let settings = WorldSettings { unit_mm: Some(1.0), ..WorldSettings::default() };
+    assert_eq!(found(&World::of(&mesh, &settings).unwrap(), WISH), other);
+    let damaged = Err(SavedError::Damaged);
+    for length in [0, 1, 51, 52, file.len() / 2, file.len() - 1] {
+        let short = flat().resumed(&file[..length], WISH).map(|world| world.steps());
+        assert_eq!(short, damaged, "{length}");
+    }
+    for at in (16..file.len()).step_by(997) {
+        let mut changed = file.clone();
+        changed[at] ^= 1;
+        assert!(flat().resumed(&changed, WISH).is_err(), "byte {at}");
+    }
+}
+
+#[test]
+fn states_that_no_world_has_are_refused() {
+    let mut world = flat();
+    let at = world.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
+    let wrong: [fn(&mut Volume); 4] = [
+        |volume| volume.detail = 9,
+        |volume| volume.detail = 2,
+        |volume| volume.cell = Some(1 << 20),
+        |volume| volume.particles.samples.truncate(5),
+    ];
+    for change in wrong {
+        let mut other = world.clone();
+        change(&mut other.volumes[at]);
+        let refused = flat().resumed(&other.saved(WISH), WISH).map(|world| world.steps());
+        assert_eq!(refused, Err(SavedError::Damaged));
+    }
 }

@@ -19,18 +19,18 @@ use graphics::lanes::{greater, lesser, multiply_add};
 pub struct DensityLayer<'a> {
     /// The texture T.
     pub texture: &'a GreyImage,
-    /// Density gained where T is 1 above the pivot; 0 changes nothing.
+    /// Density gained where T is 1 above the pivot. 0 changes nothing.
     pub strength: f32,
     /// The value of T that keeps the colour.
     pub pivot: f32,
 }
 
-/// Brings `color` to the density `overall` (0 and up, 1 keeps it), then to that of each of
-/// `layers`, one after the other. `mask`, 0 to 1, scales the change of each layer. Bare
+/// Brings `color` to the density `overall` (0 and up, 1 keeps it), then applies
+/// each of `layers`, one after the other. `mask`, 0 to 1, scales the change of each layer. Bare
 /// paper and colours of density 1 keep their bits.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -92,7 +92,7 @@ fn apply_density_on_cpu(
     color
 }
 
-/// A row of pixels whose density changes by the same amount.
+/// A row of pixels that all change density by the same amount.
 struct EvenRow<'a> {
     colors: &'a mut [[f32; 4]],
     excess: f32,
@@ -109,7 +109,7 @@ impl pulp::WithSimd for EvenRow<'_> {
     }
 }
 
-/// A row of pixels whose density follows a texture.
+/// A row of pixels with the density of a texture.
 struct Row<'a> {
     colors: &'a mut [[f32; 4]],
     texture: &'a [f32],

@@ -17,18 +17,18 @@ use spectra::color::{Rgb, RgbSpace};
 /// The heights of the paper that a dry brush reaches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DryBrushReach {
-    /// Height, 0 to 1, from which on the paint is complete; 0 changes nothing.
+    /// Height, 0 to 1, from which on the paint is complete. 0 changes nothing.
     pub threshold: f32,
-    /// Range of heights below the threshold over which paint fades out; above 0.
+    /// Range of heights below the threshold over which paint fades out, above 0.
     pub softness: f32,
     /// How much the dry brush keeps to patches, 0 to 1: at 0 it is dry everywhere, at 1 only
     /// where the wash flows thinly.
     pub patches: f32,
-    /// How fast the brush becomes wet with the strength of an outline ([`super::edges`]); at 0
+    /// How fast the brush becomes wet with the strength of an outline ([`super::edges`]). At 0
     /// it passes over outlines.
     pub outline: f32,
-    /// Mean of red, green and blue, 0 to 1, up to which the brush is wet; from twice of it on
-    /// it is fully dry. 0 is no limit.
+    /// Mean of red, green and blue, 0 to 1, up to which the brush is wet. From twice
+    /// this value on it is fully dry. 0 sets no limit.
     pub darkest: f32,
 }
 
@@ -41,7 +41,7 @@ const THIN_FADE: f32 = 0.15;
 
 impl DryBrushReach {
     /// The share of the paint that stays, 0 to 1, at a `height` of the paper. A `mask` below
-    /// 1 lowers the threshold; at 0 all paint stays. `edge` is the strength of the outline.
+    /// 1 lowers the threshold. At 0 all paint stays. `edge` is the strength of the outline.
     #[inline(always)]
     fn kept(self, [r, g, b, _]: [f32; 4], height: f32, flow: f32, edge: f32, mask: f32) -> f32 {
         let thin = lesser(greater((THIN_FLOW - flow) / THIN_FADE, 0.0), 1.0);
@@ -57,12 +57,12 @@ impl DryBrushReach {
 }
 
 /// Reduces the coverage of `color` to what a dry brush leaves on paper of `heights` (0 to 1)
-/// where the wash has this `flow`. `edges` are the outlines that it keeps from; without them
-/// it passes over outlines. `mask`, 0 to 1, tells where the brush is dry; without one it is
+/// where the wash has this `flow`. `edges` are the outlines that it keeps from. Without them
+/// it passes over outlines. `mask`, 0 to 1, is where the brush is dry. Without one it is
 /// dry everywhere.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -237,7 +237,7 @@ fn lab_from_encoded(xyz_from_linear: &[[f32; 3]; 3], encoded: [f32; 3]) -> [f32;
 /// between, multiplied by `mask`.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -265,9 +265,8 @@ fn color_mask_on_cpu(
     mask: Option<&Field<f32>>,
 ) -> Field<f32> {
     let matrix = relative_xyz_from_linear();
-    let membership = |&color: &[f32; 4]| range.membership(&matrix, color);
     let pixels = color.values().par_iter().with_min_len(1024);
-    let mut values: Vec<f32> = pixels.map(membership).collect();
+    let mut values: Vec<f32> = pixels.map(|&color| range.membership(&matrix, color)).collect();
     if let Some(mask) = mask {
         values.iter_mut().zip(mask.values()).for_each(|(value, mask)| *value *= mask);
     }

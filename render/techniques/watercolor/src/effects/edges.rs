@@ -5,15 +5,14 @@
 //! `|p(x-1) - p(x+1)| + |p(y-1) - p(y+1)|` of the picture over white paper, averaged over
 //! red, green and blue. The picture may be blurred before, which widens edges. At the
 //! border between paint and bare paper even pale pigment gathers, so the gradient of the
-//! coverage replaces that of the colour where it is greater. Values are 0 to 2. Outside the
+//! coverage replaces the one of the colour where it is greater. Values are 0 to 2. Outside the
 //! picture, its outermost pixels are repeated.
 //!
 //! [`wobble`] displaces the picture by the slopes of the paper: x by the horizontal gradient of
 //! its height and y by the vertical one. Colours are interpolated linearly between pixels,
 //! weighted by coverage, so that the colour of bare paper never mixes in. Where the grain is too
 //! fine for the pixels of the picture, the paper may have a finer grid. A pixel is then the mean
-//! of one displaced sample for each of its cells, so that outlines are those of a larger picture
-//! that was reduced.
+//! of one displaced sample for each of its cells, as if a larger picture had been reduced.
 
 use graphics::compute::{ColorImage, Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use graphics::field::Field;
@@ -26,7 +25,7 @@ use rayon::prelude::*;
 /// standard deviation `width_px` (0 and up).
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If another form of [`Compute`] made the image.
@@ -45,11 +44,8 @@ pub fn edges(
 /// symmetric kernel sums to 1.
 fn half_gaussian(sigma: f32) -> Vec<f32> {
     let radius = (2.5 * sigma).ceil().max(0.0) as usize;
-    let weight = |i: usize| match i {
-        0 => 1.0,
-        _ => (-0.5 * (i as f64 / f64::from(sigma)).powi(2)).exp(),
-    };
-    let half: Vec<f64> = (0..=radius).map(weight).collect();
+    let outer = (1..=radius).map(|i| (-0.5 * (i as f64 / f64::from(sigma)).powi(2)).exp());
+    let half: Vec<f64> = std::iter::once(1.0).chain(outer).collect();
     let sum = 2.0 * half.iter().sum::<f64>() - 1.0;
     half.into_iter().map(|weight| (weight / sum) as f32).collect()
 }
@@ -74,7 +70,7 @@ pub(crate) fn edges_on_cpu(color: &Field<[f32; 4]>, width_px: f32) -> Field<f32>
     edges
 }
 
-/// Intermediate rows; the memory is reused from band to band.
+/// Intermediate rows. Their memory is reused from band to band.
 #[derive(Default)]
 struct Scratch {
     /// One row over white paper, its ends repeated.
@@ -246,12 +242,12 @@ fn edges_on_gpu(
 }
 
 /// Displaces `color` by `px_per_slope` times the slope of `heights`: the height to the right
-/// minus that to the left, and below minus above. Beyond the borders both images continue
+/// minus the height to the left, and below minus above. Beyond the borders both images continue
 /// with their outermost pixels. A `px_per_slope` of 0 changes nothing. The heights have the
 /// size of the picture, or a whole multiple of it.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -328,13 +324,12 @@ fn wobble_on_cpu(
 fn reach(heights: &Field<f32>, px_per_slope: f32) -> usize {
     let width = heights.width();
     let height = heights.height();
-    let steepest = |y: usize| {
+    let steepest = (0..height).into_par_iter().map(|y| {
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
         above.iter().zip(below).map(|(a, b)| (b - a).abs()).fold(0.0, f32::max)
-    };
-    let steepest = (0..height).into_par_iter().map(steepest).reduce(|| 0.0, f32::max);
-    (steepest * px_per_slope.abs()).ceil() as usize + 1
+    });
+    (steepest.reduce(|| 0.0, f32::max) * px_per_slope.abs()).ceil() as usize + 1
 }
 
 /// Rows of the picture before it was displaced.
@@ -351,50 +346,15 @@ struct Source<'a> {
 /// The means of the displaced samples of all cells of a finer paper.
 fn reduced(color: &Field<[f32; 4]>, heights: &Field<f32>, px_per_slope: f32) -> Field<[f32; 4]> {
     let width = color.width();
-    let height = color.height();
-    let cells = heights.width();
-    let rows = heights.height();
-    let factor = cells / width;
-    let end = (width - 1) as f32;
-    let bottom = (height - 1) as f32;
-    let per_cell = 1.0 / factor as f32;
+    let factor = heights.width() / width;
     let share = 1.0 / (factor * factor) as f32;
-    let sample = |column: usize, row: usize| -> [f32; 4] {
-        let left = column.saturating_sub(1);
-        let right = (column + 1).min(cells - 1);
-        let above = row.saturating_sub(1);
-        let below = (row + 1).min(rows - 1);
-        let across = heights[(right, row)] - heights[(left, row)];
-        let down = heights[(column, below)] - heights[(column, above)];
-        let x = (column as f32 + 0.5) * per_cell - 0.5 + px_per_slope * across;
-        let y = (row as f32 + 0.5) * per_cell - 0.5 + px_per_slope * down;
-        let x = x.clamp(0.0, end);
-        let y = y.clamp(0.0, bottom);
-        let place = [x, y];
-        let x = x as usize;
-        let y = y as usize;
-        let a = place[0] - x as f32;
-        let b = place[1] - y as f32;
-        let far_x = (x + 1).min(width - 1);
-        let far_y = (y + 1).min(height - 1);
-        let corners = [(x, y), (far_x, y), (x, far_y), (far_x, far_y)];
-        let shares = [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b];
-        let mut sum = [0.0; 4];
-        for (corner, share) in corners.into_iter().zip(shares) {
-            let [r, g, b, covered] = color[corner];
-            let weight = share * covered;
-            for (sum, value) in sum.iter_mut().zip([r, g, b, 1.0]) {
-                *sum += weight * value;
-            }
-        }
-        sum
-    };
-    let mut means = Field::filled(width, height, [0.0; 4]);
+    let mut means = Field::filled(width, color.height(), [0.0; 4]);
     means.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, out)| {
         for (x, out) in out.iter_mut().enumerate() {
             let mut sum = [0.0; 4];
             for cell in 0..factor * factor {
-                let found = sample(x * factor + cell % factor, y * factor + cell / factor);
+                let cell = (x * factor + cell % factor, y * factor + cell / factor);
+                let found = displaced_cell(color, heights, px_per_slope, cell);
                 sum.iter_mut().zip(found).for_each(|(sum, value)| *sum += value);
             }
             let by = if sum[3] > 0.0 { 1.0 / sum[3] } else { 0.0 };
@@ -403,6 +363,43 @@ fn reduced(color: &Field<[f32; 4]>, heights: &Field<f32>, px_per_slope: f32) -> 
         }
     });
     means
+}
+
+/// The colour that a cell of a finer paper is displaced from, weighted by coverage, and its coverage.
+fn displaced_cell(
+    color: &Field<[f32; 4]>,
+    heights: &Field<f32>,
+    px_per_slope: f32,
+    (column, row): (usize, usize),
+) -> [f32; 4] {
+    let width = color.width();
+    let height = color.height();
+    let per_cell = 1.0 / (heights.width() / width) as f32;
+    let left = column.saturating_sub(1);
+    let right = (column + 1).min(heights.width() - 1);
+    let above = row.saturating_sub(1);
+    let below = (row + 1).min(heights.height() - 1);
+    let across = heights[(right, row)] - heights[(left, row)];
+    let down = heights[(column, below)] - heights[(column, above)];
+    let x = (column as f32 + 0.5) * per_cell - 0.5 + px_per_slope * across;
+    let y = (row as f32 + 0.5) * per_cell - 0.5 + px_per_slope * down;
+    let place = [x.clamp(0.0, (width - 1) as f32), y.clamp(0.0, (height - 1) as f32)];
+    let [x, y] = place.map(|at| at as usize);
+    let a = place[0] - x as f32;
+    let b = place[1] - y as f32;
+    let far_x = (x + 1).min(width - 1);
+    let far_y = (y + 1).min(height - 1);
+    let corners = [(x, y), (far_x, y), (x, far_y), (far_x, far_y)];
+    let shares = [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b];
+    let mut sum = [0.0; 4];
+    for (corner, share) in corners.into_iter().zip(shares) {
+        let [r, g, b, covered] = color[corner];
+        let weight = share * covered;
+        for (sum, value) in sum.iter_mut().zip([r, g, b, 1.0]) {
+            *sum += weight * value;
+        }
+    }
+    sum
 }
 
 /// One row of the result.
@@ -416,7 +413,7 @@ struct Row<'a> {
     out: &'a mut [[f32; 4]],
 }
 
-/// Number of pixels whose source positions are computed before their colours are fetched.
+/// Number of pixels for which we find the sources before we fetch their colours.
 const BLOCK: usize = 64;
 
 impl pulp::WithSimd for Row<'_> {

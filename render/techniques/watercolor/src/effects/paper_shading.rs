@@ -1,7 +1,7 @@
-//! The last step of a watercolor: paint composited on coloured paper, whose grain shows in
+//! The last step of a watercolor: paint composited on coloured paper, with its grain in
 //! the light.
 //!
-//! Watercolor is transparent: its colour is multiplied with that of the paper. Light comes
+//! Watercolor is transparent: its colour is multiplied with the paper's. Light comes
 //! from the upper left, so slopes that face it are lighter.
 
 use rayon::prelude::*;
@@ -15,8 +15,8 @@ use graphics::gpu::{DeviceError, Kernel, Storage, layout};
 pub struct PaperShading {
     /// Encoded sRGB of the paper, 0..1.
     pub color: [f32; 3],
-    /// Light added per unit of slope to a light of 1; 0 shows no grain. The slope is the
-    /// height to the right minus that to the left, plus below minus above.
+    /// Light added per unit of slope to a light of 1. 0 shows no grain. The slope is the
+    /// height to the right minus the height to the left, plus below minus above.
     pub relief: f32,
 }
 
@@ -37,7 +37,7 @@ impl PaperShading {
 /// covered everywhere. White paper without relief keeps the bits of fully covered pixels.
 ///
 /// # Errors
-/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.

@@ -57,6 +57,17 @@ struct Bloom {
     color: [f32; 3],
 }
 
+impl Bloom {
+    /// Place in the oval of the bloom, along and across it, as shares of its length and width.
+    fn oval(&self, x: f32, y: f32) -> [f32; 2] {
+        let dx = x - self.x;
+        let dy = y - self.y;
+        let [cos, sin] = self.along;
+        let scale = [OVAL[0] * self.radius, OVAL[1] * self.radius];
+        [(cos * dx + sin * dy) / scale[0], (cos * dy - sin * dx) / scale[1]]
+    }
+}
+
 /// The change of density by back-runs, 0 to 1: 0.5 changes nothing, less is paler, more is
 /// darker. Water carries the pigment from a bloom to its rim. `wash` has the colours that water
 /// falls into, encoded sRGB with coverage: a bloom stays in a wash of about one colour, and
@@ -113,9 +124,9 @@ struct Front {
     waves: f32,
 }
 
-/// A place beside the front of a bloom.
+/// A place near the front of a bloom.
 struct AtFront {
-    /// How far it lies inside the front, as a share of the radius; below 0 outside.
+    /// How far it lies inside the front, as a share of the radius. Below 0 outside.
     inside: f32,
     /// Distance from the middle of the bloom, 1 on an even front.
     distance: f32,
@@ -133,22 +144,17 @@ impl Front {
         }
     }
 
-    /// The place (`x`, `y`) beside the front of `bloom`, unless it is too far away.
+    /// The place (`x`, `y`) near the front of `bloom`, unless it is too far away.
     fn of(&self, bloom: &Bloom, x: f32, y: f32) -> Option<AtFront> {
-        let oval = |x: f32, y: f32| {
-            let dx = x - bloom.x;
-            let dy = y - bloom.y;
-            let [cos, sin] = bloom.along;
-            let scale = [OVAL[0] * bloom.radius, OVAL[1] * bloom.radius];
-            [(cos * dx + sin * dy) / scale[0], (cos * dy - sin * dx) / scale[1]]
-        };
-        let [along, across] = oval(x, y);
+        let [along, across] = bloom.oval(x, y);
         if along * along + across * across > REACH * REACH {
             return None;
         }
-        let current =
-            |hills: &Hills| CURRENTS.1 * bloom.radius * hills.at(x * self.waves, y * self.waves);
-        let [along, across] = oval(x + current(&self.currents[0]), y + current(&self.currents[1]));
+        let [across_x, across_y] = self
+            .currents
+            .each_ref()
+            .map(|hills| CURRENTS.1 * bloom.radius * hills.at(x * self.waves, y * self.waves));
+        let [along, across] = bloom.oval(x + across_x, y + across_y);
         let distance = along.hypot(across);
         let unit = distance.max(1e-3);
         let around = |hills: &Hills, radius: f32| {
@@ -208,15 +214,45 @@ mod tests {
         BackRunSettings { seed, size_px: 200.0, share: 1.0, ..BackRunSettings::default() }
     }
 
+    /// Number of pixels that back-runs make paler.
+    fn pale(field: &Field<f32>) -> usize {
+        field.values().iter().filter(|value| **value < 0.5).count()
+    }
+
+    /// Greatest increase of density by back-runs in a wash.
+    fn darkest(color: f32) -> f32 {
+        let field = back_runs(&one_cell(color), &settings(3));
+        field.values().iter().fold(0.0, |most: f32, value| most.max(value - 0.5))
+    }
+
+    /// Distance from the middle of `bloom` in one of 96 directions at which the rim is darkest, as a
+    /// share of the radius.
+    fn front(field: &Field<f32>, bloom: &Bloom, direction: usize) -> f32 {
+        let (sin, cos) = (direction as f32 / 96.0 * std::f32::consts::TAU).sin_cos();
+        let at = |share: f32| {
+            let place =
+                [bloom.x + share * bloom.radius * cos, bloom.y + share * bloom.radius * sin];
+            let [x, y] = place.map(|at| (at.round().max(0.0) as usize).min(599));
+            field[(x, y)]
+        };
+        let shares = (40..140).map(|share| share as f32 / 100.0);
+        shares.max_by(|a, b| at(*a).total_cmp(&at(*b))).unwrap_or(0.0)
+    }
+
+    fn standard_deviation(values: &[f32]) -> f32 {
+        let mean = values.iter().sum::<f32>() / values.len() as f32;
+        let squares: f32 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        (squares / values.len() as f32).sqrt()
+    }
+
     #[test]
     fn a_bloom_is_in_one_piece() {
         let wash = one_cell(0.5);
         for seed in 0..12 {
             let Some(bloom) = bloom(&wash, &settings(seed), 200.0, [1, 1]) else { continue };
             let mut field = back_runs(&wash, &settings(seed));
-            let pale = |field: &Field<f32>| field.values().iter().filter(|v| **v < 0.5).count();
             let all = pale(&field);
-            // What can be reached from the middle is taken away.
+            // Remove all that can be reached from the middle.
             let mut next = vec![(bloom.x as usize, bloom.y as usize)];
             while let Some((x, y)) = next.pop() {
                 if field[(x, y)] < 0.5 {
@@ -234,10 +270,6 @@ mod tests {
 
     #[test]
     fn the_rim_is_fainter_in_a_dark_wash() {
-        let darkest = |color| {
-            let field = back_runs(&one_cell(color), &settings(3));
-            field.values().iter().fold(0.0, |most: f32, value| most.max(value - 0.5))
-        };
         let dark = darkest(0.1);
         let light = darkest(0.9);
         assert!(light > 0.25 && (dark / light - 0.4).abs() < 0.02, "{dark} and {light}");
@@ -252,35 +284,19 @@ mod tests {
             let settings = settings(seed);
             let Some(bloom) = bloom(&wash, &settings, 200.0, [1, 1]) else { continue };
             let field = back_runs(&wash, &settings);
-            // Distance at which the rim is darkest, as a share of the radius.
-            let front = |step: usize| {
-                let (sin, cos) = (step as f32 / 96.0 * std::f32::consts::TAU).sin_cos();
-                let at = |share: f32| {
-                    let place = |at: f32| (at.round().max(0.0) as usize).min(599);
-                    let away = share * bloom.radius;
-                    field[(place(bloom.x + away * cos), place(bloom.y + away * sin))]
-                };
-                let shares = (40..140).map(|share| share as f32 / 100.0);
-                shares.max_by(|a, b| at(*a).total_cmp(&at(*b))).unwrap_or(0.0)
-            };
-            let own: Vec<f32> = (0..96).map(front).collect();
+            let own: Vec<f32> = (0..96).map(|direction| front(&field, &bloom, direction)).collect();
             for quarter in own.chunks(24) {
                 sectors.push(quarter.iter().sum::<f32>() / 24.0);
             }
             fronts.push(own);
         }
         assert!(fronts.len() > 8, "{} blooms", fronts.len());
-        let spread = |values: &[f32]| {
-            let mean = values.iter().sum::<f32>() / values.len() as f32;
-            let squares: f32 = values.iter().map(|value| (value - mean).powi(2)).sum();
-            (squares / values.len() as f32).sqrt()
-        };
         // Neighbouring places of a front differ.
-        let steps = |own: &Vec<f32>| -> f32 {
-            own.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum::<f32>() / 95.0
-        };
-        let ragged = fronts.iter().map(steps).sum::<f32>() / fronts.len() as f32;
-        let uneven = spread(&sectors);
+        let steps = fronts
+            .iter()
+            .map(|own| own.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum::<f32>() / 95.0);
+        let ragged = steps.sum::<f32>() / fronts.len() as f32;
+        let uneven = standard_deviation(&sectors);
         assert!(ragged > 0.035, "places of fronts vary by {ragged} of the radius");
         assert!(uneven < 0.07, "quarters of fronts vary by {uneven} of the radius");
     }

@@ -26,13 +26,13 @@ pub struct Textures {
     pub dispersion: Field<f32>,
     /// Heights and measures of the paper.
     pub paper: PaperTexture,
-    /// Touch of the dry brush; without it the heights of the paper decide.
+    /// Touch of the dry brush. Without it the heights of the paper decide.
     pub touch: Option<BrushTouch>,
     /// Change of density by back-runs, 0 to 1, with 0.5 for none.
     pub back_runs: Option<Field<f32>>,
 }
 
-/// Longer side in pixels of the smallest picture whose own pixels carry the grain of paper.
+/// Longer side in pixels of the smallest picture with pixels fine enough for the grain of paper.
 const PAPER_SCALE_PX: usize = 1000;
 
 /// Most cells of finer heights along each side of a pixel.
@@ -83,7 +83,7 @@ impl Textures {
     /// Copies the textures into the memory of `compute`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub fn upload(self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
         let heights = compute.upload(&self.paper.heights)?;
         self.with_heights(heights, compute)
@@ -93,7 +93,7 @@ impl Textures {
     /// of the heights, which [`PaperImage::texture`] then lacks.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
     pub(crate) fn give(mut self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
         let heights = std::mem::replace(&mut self.paper.heights, Field::filled(0, 0, 0.0));
         let heights = compute.give(heights)?;
@@ -130,13 +130,13 @@ pub struct TextureImages {
     pub dispersion: GreyImage,
     /// Heights and measures of the paper.
     pub paper: PaperImage,
-    /// Touch of the dry brush; without it the heights of the paper decide.
+    /// Touch of the dry brush. Without it the heights of the paper decide.
     pub touch: Option<(GreyImage, Quantiles)>,
     /// Change of density by back-runs, 0 to 1, with 0.5 for none.
     pub back_runs: Option<GreyImage>,
 }
 
-/// A paper whose heights are in the memory of a [`Compute`].
+/// A paper with its heights in the memory of a [`Compute`].
 #[derive(Debug, Clone)]
 pub struct PaperImage {
     /// Heights of the paper, 0 to 1.

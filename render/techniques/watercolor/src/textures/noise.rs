@@ -12,9 +12,9 @@ use crate::settings::{DispersionSettings, FlowSettings};
 const SPREAD: f64 = 0.2;
 
 /// A sum of octaves of gradient noise (Perlin 2002), each with half the wavelength and half
-/// the amplitude of the previous one; Bousseau et al. 2006, section 3.2.
+/// the amplitude of the previous one (Bousseau et al. 2006, section 3.2).
 ///
-/// The mean is 0.5, the standard deviation 0.2; values outside 0..1 (about 1 %) are clipped.
+/// The mean is 0.5, the standard deviation 0.2. Values outside 0..1 (about 1 %) are clipped.
 /// Nearly all power lies between half a wave per widest cloud and two waves per narrowest
 /// one. The value of a pixel does not depend on the size of the field.
 #[must_use]
@@ -46,10 +46,10 @@ pub fn turbulent_flow(width: usize, height: usize, settings: &FlowSettings) -> F
 /// Standard deviation of the texture before clipping to 0..1. Chosen by eye.
 const DISPERSION_SPREAD: f64 = 0.2;
 
-/// A sum of white Gaussian noises, each blurred by a Gaussian twice as wide as that of the
-/// previous one and scaled to the same standard deviation; Bousseau et al. 2006, section 3.2.
+/// A sum of white Gaussian noises, each blurred by a Gaussian twice as wide as the one
+/// before and scaled to the same standard deviation (Bousseau et al. 2006, section 3.2).
 ///
-/// The mean is 0.5, the standard deviation 0.2; values outside 0..1 (about 1 %) are clipped.
+/// The mean is 0.5, the standard deviation 0.2. Values outside 0..1 (about 1 %) are clipped.
 /// Blur kernels end at three standard deviations. The finest blur keeps the share
 /// `exp(-2 (pi finest / n)^2)` of the amplitude of a wave of `n` px.
 #[must_use]
@@ -59,7 +59,7 @@ pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) ->
     for octave in 0..settings.scales {
         let sigma = f64::from(settings.finest_px) * 2.0_f64.powi(octave as i32);
         let half = half_gaussian(sigma);
-        // Sum of squares of the kernel in one direction; that of the 2D kernel is its square.
+        // Sum of squares of the kernel in one direction. Its square is the sum of the 2D kernel.
         let kept = half[0] * half[0] + 2.0 * half[1..].iter().map(|w| w * w).sum::<f64>();
         let weights: Vec<f32> = half.iter().map(|weight| (weight / kept.sqrt()) as f32).collect();
         let seed = settings.seed.wrapping_mul(64).wrapping_add(u64::from(octave));
@@ -126,13 +126,14 @@ const INTERVALS: usize = 1024;
 pub struct Quantiles(Vec<f32>);
 
 impl Quantiles {
-    /// The quantiles of `texture`; those of an empty one are 0.5.
+    /// The quantiles of `texture`. For an empty one they are 0.5.
     #[must_use]
     pub fn of(texture: &Field<f32>) -> Self {
         let mut sorted = texture.values().to_vec();
         sorted.par_sort_unstable_by(f32::total_cmp);
-        let at = |i: usize| sorted.get(i * sorted.len().saturating_sub(1) / INTERVALS);
-        Self((0..=INTERVALS).map(|i| at(i).copied().unwrap_or(0.5)).collect())
+        let last = sorted.len().saturating_sub(1);
+        let places = (0..=INTERVALS).map(|i| i * last / INTERVALS);
+        Self(places.map(|place| sorted.get(place).copied().unwrap_or(0.5)).collect())
     }
 
     /// The value below which this `share` (0..1) of the pixels lies, accurate to about 0.001 of

@@ -33,14 +33,14 @@ const LARGEST: usize = 16384;
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperTexture {
     /// Heights in 0..1, with a mean of 0.5. The standard deviation is 0.18 for cold-pressed
-    /// paper and for scans; for other papers it is proportional to their relief in mm. Values
+    /// paper and for scans. For other papers it is proportional to their relief in mm. Values
     /// outside 0..1 are clipped.
     pub heights: Field<f32>,
     /// Width of a pixel in mm.
     pub px_mm: f64,
     /// Height in mm of the value 1.
     unit_mm: f64,
-    /// Relief relative to that of cold-pressed paper.
+    /// Relief relative to cold-pressed paper.
     depth: f32,
     /// Root mean square length of the gradient (right minus left, below minus above).
     slope: f32,
@@ -49,7 +49,7 @@ pub struct PaperTexture {
     fine: Option<FineHeights>,
 }
 
-/// Heights of a paper on a finer grid than that of its picture.
+/// Heights of a paper on a finer grid than its picture has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FineHeights {
     /// Heights in 0..1 of [`FineHeights::factor`] times as many columns and rows.
@@ -62,7 +62,7 @@ pub struct FineHeights {
 
 impl FineHeights {
     /// The factor that scales gradients of the fine heights to a root mean square length of
-    /// `amount`; 0 if the paper is flat.
+    /// `amount`, and 0 if the paper is flat.
     #[must_use]
     pub fn per_slope(&self, amount: f32) -> f32 {
         if self.slope > 0.0 { amount / self.slope } else { 0.0 }
@@ -98,7 +98,7 @@ impl PaperTexture {
     }
 
     /// Adds heights on a grid `factor` times as fine, by which outlines are displaced
-    /// ([`super::super::wobble`]). A factor of 1 adds none. `settings` are those of this paper.
+    /// ([`super::super::wobble`]). A factor of 1 adds none. `settings` belong to this paper.
     ///
     /// # Errors
     /// [`PaperTextureError`] if the scan cannot be read or a setting is out of its range.
@@ -132,8 +132,8 @@ impl PaperTexture {
         self.quantiles.at(share)
     }
 
-    /// The factor that scales gradients of the paper to a root mean square length of `amount`;
-    /// 0 if the paper is flat.
+    /// The factor that scales gradients of the paper to a root mean square length of `amount`,
+    /// and 0 if the paper is flat.
     #[must_use]
     pub fn per_slope(&self, amount: f32) -> f32 {
         if self.slope > 0.0 { amount / self.slope } else { 0.0 }
@@ -147,20 +147,20 @@ impl PaperTexture {
     }
 
     /// The factor on the heights in mm at which Lambert's law shades this paper, in encoded
-    /// values, as much as the setting `relief` does, 0 to 10; 0 if the paper is flat. The light
+    /// values, as much as the setting `relief` does, 0 to 10. It is 0 if the paper is flat. The light
     /// stands `elevation_deg` above the paper and is diffuse to the share `ambient`, 0 to 1.
     #[must_use]
     pub fn lit_relief(&self, relief: f32, elevation_deg: f64, ambient: f64) -> f64 {
         let slant = elevation_deg.to_radians().tan();
-        // A slope is that over two pixels, in both directions at an angle of 45 degrees to the
-        // light; encoded values change by 1/2.2 of linear ones.
+        // We take a slope over two pixels, in both directions at an angle of 45 degrees to the
+        // light. Encoded values change by 1/2.2 of linear ones.
         let per_slope = 2.2 * 2.0 * std::f64::consts::SQRT_2 * slant;
         let shaded = f64::from(self.relief_per_slope(relief));
         let direct = (1.0 - ambient).max(0.05);
         (per_slope * shaded * self.px_mm / self.unit_mm / direct).clamp(0.0, 10.0)
     }
 
-    /// The heights in the integer quanta of a painting, whose cells are
+    /// The heights in the integer quanta of a painting with cells that are
     /// [`PaperTexture::px_mm`] wide.
     #[must_use]
     pub fn quanta(&self) -> Field<i32> {
@@ -176,7 +176,7 @@ impl PaperTexture {
 }
 
 /// Shifts and scales heights to a mean of 0.5 and the standard deviation `deviation`, clipped to
-/// 0..1. Returns them with the scale; a flat field becomes 0.5 with a scale of 0.
+/// 0..1. Returns them with the scale. A flat field becomes 0.5 with a scale of 0.
 fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
     let count = heights.values().len().max(1) as f64;
     let mean = heights.values().iter().map(|&v| f64::from(v)).sum::<f64>() / count;
@@ -191,25 +191,28 @@ fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
 
 /// Root mean square length of the gradient (right minus left, below minus above).
 fn slope(heights: &Field<f32>) -> f32 {
-    let width = heights.width();
-    let height = heights.height();
-    let squares = |y: usize| -> f64 {
-        let here = heights.row(y, 0, width);
-        let above = heights.row(y.saturating_sub(1), 0, width);
-        let below = heights.row((y + 1).min(height - 1), 0, width);
-        (0..width)
-            .map(|x: usize| {
-                let across = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
-                let down = below[x] - above[x];
-                f64::from(across * across + down * down)
-            })
-            .sum()
-    };
-    let rows: Vec<f64> = (0..height).into_par_iter().map(squares).collect();
-    (rows.iter().sum::<f64>() / (width * height).max(1) as f64).sqrt() as f32
+    let rows = (0..heights.height()).into_par_iter();
+    let squares: Vec<f64> = rows.map(|y| squared_slopes(heights, y)).collect();
+    let pixels = heights.values().len().max(1);
+    (squares.iter().sum::<f64>() / pixels as f64).sqrt() as f32
 }
 
-/// The heights of a scan: sRGB-encoded luminance. Its pixels become `scale` px wide; beyond
+/// Sum of the squared lengths of the gradient in a row.
+fn squared_slopes(heights: &Field<f32>, y: usize) -> f64 {
+    let width = heights.width();
+    let here = heights.row(y, 0, width);
+    let above = heights.row(y.saturating_sub(1), 0, width);
+    let below = heights.row((y + 1).min(heights.height() - 1), 0, width);
+    (0..width)
+        .map(|x: usize| {
+            let across = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
+            let down = below[x] - above[x];
+            f64::from(across * across + down * down)
+        })
+        .sum()
+}
+
+/// The heights of a scan: sRGB-encoded luminance. Its pixels become `scale` px wide. Beyond
 /// its borders it is repeated, mirrored.
 fn scanned(
     width: usize,
@@ -255,7 +258,7 @@ pub enum PaperTextureError {
     Ground(#[from] GroundError),
 }
 
-/// Standard deviation of the texture, that of the heights of cold-pressed paper.
+/// Standard deviation of the texture, the same as for the heights of cold-pressed paper.
 const BRUSH_TOUCH_SPREAD: f32 = 0.18;
 
 /// Width of a streak relative to the grain of the paper. Chosen by eye.

@@ -8,9 +8,7 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
-use super::random_scenes::random_scene;
-use super::scene::{Scene, camera, wall};
-use super::shapes::Surfaces;
+use super::scene::{Scene, Surfaces, camera, random_scene, wall};
 use crate::compute::{Compute, Image};
 use crate::field::Field;
 use crate::gpu::{BackendChoice, choose};
@@ -175,18 +173,22 @@ fn the_device_gates_as_the_processor_does() {
     if !on_gpu.device().is_some_and(crate::gpu::Device::scatters) {
         return;
     }
-    let turned = |i: usize| Vec3::new(i as f32 * 0.7 - 3.0, 1.3 - (i % 5) as f32, (i % 3) as f32);
+    fn turned(i: usize) -> Vec3 {
+        Vec3::new(i as f32 * 0.7 - 3.0, 1.3 - (i % 5) as f32, (i % 3) as f32)
+    }
     let mut held = 0;
     let mut kept_out = 0;
     for seed in 90..94 {
         let scene = random_scene(seed);
-        let gate = |i: usize| {
-            let [x, y, z] = turned(i).normalize().to_array();
-            [x, y, z, [-2.0, -0.2, 0.3][i % 3], (i % 4) as f32, 9.0, 9.0, 9.0]
-        };
-        let gates: Vec<[f32; 8]> = (0..scene.surfaces.count as usize).map(gate).collect();
-        let normal = |i: usize| turned(7 * i).normalize().extend((i / 50 % 4) as f32).to_array();
-        let normals: Vec<[f32; 4]> = (0..scene.mesh.triangles.len()).map(normal).collect();
+        let gates: Vec<[f32; 8]> = (0..scene.surfaces.count as usize)
+            .map(|i: usize| {
+                let [x, y, z] = turned(i).normalize().to_array();
+                [x, y, z, [-2.0, -0.2, 0.3][i % 3], (i % 4) as f32, 9.0, 9.0, 9.0]
+            })
+            .collect();
+        let normals: Vec<[f32; 4]> = (0..scene.mesh.triangles.len())
+            .map(|i: usize| turned(7 * i).normalize().extend((i / 50 % 4) as f32).to_array())
+            .collect();
         let on_cpu = scene.gated_of(&mut Compute::cpu(), &gates, &normals);
         let found = scene.gated_of(&mut on_gpu, &gates, &normals);
         let differ = differing(&on_cpu, &found, &format!("scene {seed}"));

@@ -1,0 +1,362 @@
+//! Pictures of maps for a person to look at first: overviews at the size of a screen, as PNG files in colour.
+
+use std::ops::Range;
+
+use pigment::PigmentLibrary;
+use spectra::Viewing;
+
+use crate::pixel_maps::{BlockMaps, Mask, PixelCounts};
+#[cfg(feature = "files")]
+use crate::store::{StoreError, StoredMaps};
+use crate::surveyed::SurveyedScan;
+
+/// Means of maps over squares of pixels. Values are NaN where no pixel of a square is mapped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Overview {
+    /// Pixels of the scan along each side of a square.
+    pub step: usize,
+    /// Squares in a row.
+    pub width: usize,
+    /// Rows of squares.
+    pub height: usize,
+    /// Names of the pigments.
+    pub pigments: Vec<String>,
+    /// Mean share of each pigment: one field of squares a pigment.
+    pub share: Vec<Vec<f32>>,
+    /// Mean probability of each pigment.
+    pub presence: Vec<Vec<f32>>,
+    /// Mean chi-square of each square, also of pixels out of gamut.
+    pub chi2: Vec<f32>,
+    /// Mean residual of each square, also of pixels out of gamut.
+    pub rms: Vec<f32>,
+    /// Mean share of each pigment over all mapped pixels.
+    pub mean_share: Vec<f64>,
+    /// Part of the mapped pixels where a pigment is more likely present than not.
+    pub present: Vec<f64>,
+    /// Number of pixels by mask.
+    pub pixels: PixelCounts,
+}
+
+/// Sums of the values of each square, to which maps are added block by block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OverviewSums {
+    step: usize,
+    width: usize,
+    height: usize,
+    pigments: Vec<String>,
+    share: Vec<Vec<f64>>,
+    presence: Vec<Vec<f64>>,
+    chi2: Vec<f64>,
+    rms: Vec<f64>,
+    /// Mapped pixels of each square.
+    counts: Vec<u32>,
+    /// Pixels of each square that have a chi-square.
+    compared: Vec<u32>,
+    /// Pixels where each pigment is more likely present than not.
+    present: Vec<u64>,
+    pixels: PixelCounts,
+}
+
+impl OverviewSums {
+    /// Empty sums for maps of `pigments` with these rows and columns, with at most `longest` squares
+    /// along the longer side.
+    #[must_use]
+    pub fn new(pigments: &[String], (rows, columns): (usize, usize), longest: usize) -> Self {
+        let step = rows.max(columns).div_ceil(longest.max(1)).max(1);
+        let width = columns.div_ceil(step);
+        let height = rows.div_ceil(step);
+        let field = || vec![0.0; width * height];
+        Self {
+            step,
+            width,
+            height,
+            pigments: pigments.to_vec(),
+            share: vec![field(); pigments.len()],
+            presence: vec![field(); pigments.len()],
+            chi2: field(),
+            rms: field(),
+            counts: vec![0; width * height],
+            compared: vec![0; width * height],
+            present: vec![0; pigments.len()],
+            pixels: PixelCounts::default(),
+        }
+    }
+
+    /// Adds the maps `block` of the pixels in `rows` and `columns`, counted from the first of the maps. Pixels
+    /// outside the maps are passed over.
+    pub fn add(&mut self, rows: Range<usize>, columns: Range<usize>, block: &BlockMaps) {
+        self.pixels.add(&block.mask);
+        let count = self.pigments.len();
+        for (pixel, mask) in block.mask.iter().enumerate() {
+            let row = rows.start + pixel / columns.len();
+            let column = columns.start + pixel % columns.len();
+            let square = row / self.step * self.width + column / self.step;
+            if !mask.is_compared() || square >= self.compared.len() {
+                continue;
+            }
+            self.compared[square] += 1;
+            self.chi2[square] += f64::from(block.chi2[pixel]);
+            self.rms[square] += f64::from(block.rms[pixel]);
+            if *mask != Mask::Mapped {
+                continue;
+            }
+            self.counts[square] += 1;
+            for (pigment, present) in self.present.iter_mut().enumerate() {
+                let at = pixel * count + pigment;
+                self.share[pigment][square] += f64::from(block.share[at]);
+                self.presence[pigment][square] += f64::from(block.presence[at]);
+                *present += u64::from(block.presence[at] > 0.5);
+            }
+        }
+    }
+
+    /// Means of all that was added.
+    #[must_use]
+    pub fn finish(self) -> Overview {
+        let mapped = self.pixels.of(Mask::Mapped);
+        let part = |pixels: u64| pixels as f64 / mapped.max(1) as f64;
+        Overview {
+            step: self.step,
+            width: self.width,
+            height: self.height,
+            pigments: self.pigments,
+            mean_share: self
+                .share
+                .iter()
+                .map(|field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64)
+                .collect(),
+            present: self.present.into_iter().map(part).collect(),
+            // One field after another, so that sums and means of all never lie side by side.
+            share: self.share.into_iter().map(|field| means_of(field, &self.counts)).collect(),
+            presence: self.presence.into_iter().map(|it| means_of(it, &self.counts)).collect(),
+            chi2: means_of(self.chi2, &self.compared),
+            rms: means_of(self.rms, &self.compared),
+            pixels: self.pixels,
+        }
+    }
+}
+
+fn means_of(field: Vec<f64>, counts: &[u32]) -> Vec<f32> {
+    let pairs = field.iter().zip(counts);
+    // No pixel gives 0 / 0, which is NaN.
+    pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
+}
+
+/// Darkest lightness of the ink of a pigment's picture, so that pale pigments are seen.
+const DARKEST: u8 = 150;
+
+/// Pictures of one pigment or group.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PigmentPictures {
+    /// Place in [`Overview::pigments`].
+    pub place: usize,
+    /// Name of the file of its presence.
+    pub presence_file: String,
+    /// PNG of its presence: white for 0, the ink of the pigment for 1.
+    pub presence: Vec<u8>,
+    /// Name of the file of its share.
+    pub share_file: String,
+    /// PNG of its share.
+    pub share: Vec<u8>,
+}
+
+/// Pictures of all maps of a scan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MapPictures {
+    /// Those of pigments and groups, the ones that are present most often first.
+    pub pigments: Vec<PigmentPictures>,
+    /// PNG of chi-square: white for 0, red for 4 and more.
+    pub chi2: Vec<u8>,
+    /// PNG of the residual: white for 0, blue for 0.05 and more of reflectance.
+    pub residual: Vec<u8>,
+}
+
+impl MapPictures {
+    /// Name of the file of chi-square.
+    pub const CHI2_FILE: &str = "chi2.png";
+    /// Name of the file of the residual.
+    pub const RESIDUAL_FILE: &str = "residual.png";
+
+    /// Draws the maps `overview` of `scan`. `library` must be the library of the survey.
+    ///
+    /// # Errors
+    /// [`PictureError`] if a picture cannot be encoded.
+    pub fn of(
+        scan: &SurveyedScan,
+        overview: &Overview,
+        library: &PigmentLibrary,
+    ) -> Result<Self, PictureError> {
+        let size = (overview.width, overview.height);
+        let mut order: Vec<usize> = (0..overview.pigments.len()).collect();
+        order.sort_by(|&a, &b| overview.present[b].total_cmp(&overview.present[a]));
+        let drawn = |place: usize| {
+            let name = &overview.pigments[place];
+            let file = |kind: &str| format!("{kind}-{}.png", file_name(name));
+            let ink = Ramp::of_ink(ink(library, scan, name));
+            Ok(PigmentPictures {
+                place,
+                presence_file: file("presence"),
+                presence: picture_png(&overview.presence[place], size, &ink)?,
+                share_file: file("share"),
+                share: picture_png(&overview.share[place], size, &ink)?,
+            })
+        };
+        let chi2 = Ramp { from: (0.0, [255; 3]), to: (4.0, [150, 20, 20]) };
+        let rms = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
+        Ok(Self {
+            pigments: order.into_iter().map(drawn).collect::<Result<_, PictureError>>()?,
+            chi2: picture_png(&overview.chi2, size, &chi2)?,
+            residual: picture_png(&overview.rms, size, &rms)?,
+        })
+    }
+}
+
+/// The colour of a pigment's masstone, made dark enough to be seen on white.
+fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
+    let columns = scan.mapper().columns();
+    let first = columns.iter().find(|c| c.name == column).and_then(|c| c.pigments.first());
+    let color = first.and_then(|name| library.color([(name, 1.0)], &Viewing::default()).ok());
+    let rgb = color.map_or([0; 3], |color| color.srgb.0.map(|v| (255.0 * v.clamp(0.0, 1.0)) as u8));
+    let brightest = rgb.iter().copied().max().unwrap_or(0).max(1);
+    match brightest > DARKEST && rgb.iter().copied().min().unwrap_or(0) > DARKEST {
+        true => rgb.map(|v| (f64::from(v) * f64::from(DARKEST) / f64::from(brightest)) as u8),
+        false => rgb,
+    }
+}
+
+/// A name with letters and digits alone, for a file.
+fn file_name(name: &str) -> String {
+    let kept =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
+    let text: String = kept.collect();
+    text.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
+}
+
+/// A field that is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The number of values differs from the number of pixels, or there are none.
+    #[error("{values} values for a picture of {width} x {height} pixels")]
+    Size {
+        /// Number of values.
+        values: usize,
+        /// Width in pixels.
+        width: usize,
+        /// Height in pixels.
+        height: usize,
+    },
+    /// The encoder refuses it.
+    #[error("the picture cannot be encoded")]
+    Encoder(#[from] png::EncodingError),
+}
+
+impl documents::hint::Explain for PictureError {}
+
+/// Encodes `width` x `height` values as a PNG file, with the colours of `ramp`. NaN is transparent.
+///
+/// # Errors
+/// [`PictureError`] if the number of values differs from the number of pixels.
+pub fn picture_png(
+    values: &[f32],
+    (width, height): (usize, usize),
+    ramp: &Ramp,
+) -> Result<Vec<u8>, PictureError> {
+    let sizes = u32::try_from(width).ok().zip(u32::try_from(height).ok());
+    let fits = width.checked_mul(height) == Some(values.len()) && !values.is_empty();
+    let (Some((columns, rows)), true) = (sizes, fits) else {
+        return Err(PictureError::Size { values: values.len(), width, height });
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, columns, rows);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header()?;
+    let colors: Vec<u8> = values.iter().flat_map(|value| ramp.color(*value)).collect();
+    writer.write_image_data(&colors)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// Colours from one value to another, linear in encoded sRGB. Values beyond the ends have the colours of
+/// the ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ramp {
+    /// Value and encoded sRGB of the beginning.
+    pub from: (f32, [u8; 3]),
+    /// Value and encoded sRGB of the end.
+    pub to: (f32, [u8; 3]),
+}
+
+impl Ramp {
+    /// Shares or probabilities: white for none, `ink` for all.
+    #[must_use]
+    pub fn of_ink(ink: [u8; 3]) -> Self {
+        Self { from: (0.0, [255; 3]), to: (1.0, ink) }
+    }
+
+    /// Encoded sRGB and opacity of a value. NaN is transparent.
+    #[must_use]
+    pub fn color(&self, value: f32) -> [u8; 4] {
+        if value.is_nan() {
+            return [0; 4];
+        }
+        let way = ((value - self.from.0) / (self.to.0 - self.from.0)).clamp(0.0, 1.0);
+        let mut color = [255; 4];
+        for (channel, (from, to)) in color.iter_mut().zip(self.from.1.iter().zip(self.to.1)) {
+            let (from, to) = (f32::from(*from), f32::from(to));
+            *channel = (from + way * (to - from)).round() as u8;
+        }
+        color
+    }
+}
+
+/// Rows and columns that are read at once, so that wide scans take no more memory than others.
+#[cfg(feature = "files")]
+const ROWS: usize = 256;
+#[cfg(feature = "files")]
+const COLUMNS: usize = 2048;
+
+#[cfg(feature = "files")]
+impl Overview {
+    /// Reads all of `maps`, with at most `longest` squares along the longer side.
+    ///
+    /// # Errors
+    /// [`StoreError`] if a shard cannot be read.
+    pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
+        let rows = maps.rows();
+        let columns = maps.columns();
+        let mut sums = OverviewSums::new(maps.pigments(), (rows.len(), columns.len()), longest);
+        for start in rows.clone().step_by(ROWS) {
+            let end = (start + ROWS).min(rows.end);
+            for left in columns.clone().step_by(COLUMNS) {
+                let right = (left + COLUMNS).min(columns.end);
+                let block = maps.read(start..end, left..right)?;
+                let across = inside(left, right, columns.start);
+                sums.add(inside(start, end, rows.start), across, &block);
+            }
+        }
+        Ok(sums.finish())
+    }
+}
+
+fn inside(from: usize, to: usize, first: usize) -> Range<usize> {
+    from - first..to - first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_between_the_ends_are_blended() {
+        let ramp = Ramp::of_ink([55, 0, 155]);
+        assert_eq!(ramp.color(0.0), [255; 4]);
+        assert_eq!(ramp.color(0.5), [155, 128, 205, 255]);
+        assert_eq!(ramp.color(7.0), [55, 0, 155, 255]);
+        assert_eq!(ramp.color(-7.0), [255; 4]);
+        assert_eq!(ramp.color(f32::NAN), [0; 4], "no value");
+        let falling = Ramp { from: (4.0, [0; 3]), to: (2.0, [200; 3]) };
+        assert_eq!(falling.color(3.0), [100, 100, 100, 255]);
+    }
+}
