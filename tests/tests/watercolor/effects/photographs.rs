@@ -16,8 +16,7 @@ use image::{ImageFormat, Rgb, RgbImage};
 use spectra::color::{Lab, delta_e_ciede2000};
 use watercolor::{
     BackRunSettings, BrushTouch, Controls, FrameTextures, GlazeError, Glazes, PaperTexture,
-    PhotographPainter, PreparedPhotograph, Preset, Settings, Textures, Wash,
-    back_runs, paint,
+    PhotographPainter, PreparedPhotograph, Preset, Settings, Textures, Wash, back_runs, paint,
 };
 
 use super::{any_picture, without_effects};
