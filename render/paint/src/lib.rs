@@ -43,9 +43,7 @@
 pub mod amount;
 mod pigment_amounts;
 pub mod layer;
-pub mod dry_layer;
 pub mod optics;
-pub mod node_pigments;
 pub mod light;
 pub mod composite;
 pub mod shade;
@@ -56,9 +54,6 @@ pub mod mask;
 pub mod engine;
 pub mod ground;
 pub mod document;
-pub mod crop;
-pub mod canvas;
-pub mod palette;
 pub mod separation;
 pub mod brush;
 pub mod stroke;
@@ -72,9 +67,14 @@ pub mod export;
 pub mod timelapse;
 
 pub use brush::HeadShape;
-pub use canvas::Canvas;
+pub use document::Canvas;
 pub use engine::{BrushId, PaintEngine, UndoSlot, View};
 pub use painting::OpenStroke;
 pub use pose::Sample;
 pub use session::PaintingSession;
 pub use strokes::{BrushSpec, StrokeScript};
+
+/// The modules `canvas`, `palette` and `dry_layer` became parts of others; their paths stay.
+pub use document as canvas;
+pub use document as palette;
+pub use layer as dry_layer;

@@ -4,8 +4,6 @@
 mod script_builder;
 mod color_study;
 mod glaze;
-mod field_path;
-mod growth;
 mod landscape;
 
 use std::path::PathBuf;

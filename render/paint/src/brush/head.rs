@@ -2,19 +2,12 @@
 
 use std::ops::Range;
 
-use super::error::BrushError;
-use super::grip::Grip;
-use super::imprint::{Hold, Imprint};
-use super::locks::Locks;
-use super::mesh::HeadMesh;
-use super::net::{Net, columns};
+use super::footprint::{Hold, Imprint, Sides};
+use super::locks::{Locks, rates, rows_with_paint, wicking};
 use super::relief::Relief;
-use super::shape::HeadShape;
-use super::sides::Sides;
-use super::spines::Spines;
-use super::surface::LimitSurface;
-use super::uptake::{rates, rows_with_paint, wicking};
-use super::vector::Vector;
+use super::spines::{Grip, Spines, Vector};
+use super::surface::{HeadMesh, LimitSurface, Net, columns};
+use super::{BrushError, HeadShape};
 use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
 use graphics::tile::Rect;

@@ -2,8 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 
-use super::shape::NODES;
-use super::{BrushError, Head, HeadShape, Relief, SideBySide, StrokeTool};
+use super::{BrushError, Head, HeadShape, NODES, Relief, SideBySide, StrokeTool};
 use crate::amount::QUANTA_PER_CELL;
 use crate::contact::Contact;
 use crate::contact::Touch;

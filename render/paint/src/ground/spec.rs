@@ -6,14 +6,9 @@ use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::bare_surface::Ground;
-use super::error::GroundError;
-use super::linen::Linen;
-use super::panel::Panel;
-use super::paper::Paper;
-use super::picture_relief::PictureRelief;
 use super::primer::Primer;
-use super::wood::Wood;
+use super::relief::{Linen, Panel, Paper, PictureRelief, Wood};
+use super::{Ground, GroundError};
 use crate::amount::QUANTA_PER_CELL;
 use crate::optics::Gloss;
 use graphics::field::Field;

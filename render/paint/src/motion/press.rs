@@ -6,7 +6,7 @@
 //! pressure to low: the pressure is the height of the surface plus that of the head. Away
 //! from the head, paint is a Bingham fluid: it flows only where its slope exceeds its yield.
 
-use super::constants::MotionConstants;
+use super::MotionConstants;
 use crate::amount::{MAX_COLUMN, ratio_of_65536, share_of_65536};
 use crate::contact::{ExchangeRates, Touch};
 

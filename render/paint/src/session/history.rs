@@ -1,8 +1,15 @@
-//! One history over the paintings of both surfaces.
+//! The history over both surfaces, and the recording of a session as a script.
 
 use std::collections::VecDeque;
 
-use crate::strokes::{PerSurface, SurfaceId};
+use pigment::PigmentId;
+
+use crate::layer::{LayerId, layer_label};
+use crate::painting::{DryLayerState, Painting};
+use crate::strokes::{
+    Action, ActionPigments, BrushSpec, LayerRef, MAX_ACTIONS, MAX_FILE_BYTES, MAX_NAMES,
+    MAX_SAMPLES, MaskChange, PerSurface, StrokeScript, SurfaceId, action_line,
+};
 
 /// Move of a brush with its paint from one surface to another.
 #[derive(Debug, Clone, Copy)]
@@ -108,6 +115,175 @@ impl SharedHistory {
 
     fn entries(&self) -> impl Iterator<Item = &Entry> {
         self.done.entries.iter().chain(self.undone.entries.iter().rev())
+    }
+}
+
+/// Bytes of a file that are reserved for everything but its actions.
+const HEADER_BYTES: usize = 1 << 20;
+
+/// Maximum size of a recording, within the limits of scripts that can be read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    pub(super) actions: usize,
+    pub(super) samples: usize,
+    pub(super) bytes: usize,
+    pub(super) brushes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        let bytes = MAX_FILE_BYTES - HEADER_BYTES;
+        Self { actions: MAX_ACTIONS, samples: MAX_SAMPLES, bytes, brushes: MAX_NAMES }
+    }
+}
+
+/// A recording and its size.
+#[derive(Debug)]
+pub(super) struct Record {
+    pub(super) script: StrokeScript,
+    samples: usize,
+    bytes: usize,
+    pub(super) limits: Limits,
+    /// Reason why it ended, if it did.
+    pub(super) stopped: Option<String>,
+}
+
+impl Record {
+    /// An empty recording with this header, whose numbers must be rounded.
+    pub(super) fn new(header: StrokeScript) -> Self {
+        Self { script: header, samples: 0, bytes: 0, limits: Limits::default(), stopped: None }
+    }
+
+    /// A recording that continues `script`, whose numbers must be rounded. Further brushes have the
+    /// names of [`Record::add`].
+    pub(super) fn resumed(mut script: StrokeScript) -> Self {
+        let actions = std::mem::take(&mut script.actions);
+        let mut record = Self::new(script);
+        actions.into_iter().for_each(|action| record.add(action, None));
+        record
+    }
+
+    /// Appends an action and, if it uses one, its brush. An action that would exceed a limit
+    /// ends the recording.
+    pub(super) fn add(&mut self, action: Action, brush: Option<(&str, &BrushSpec)>) {
+        if self.stopped.is_some() {
+            return;
+        }
+        let Ok(text) = action_line(&action) else {
+            return self.stop("an action cannot be written");
+        };
+        let samples = action.stroke().map_or(0, |stroke| stroke.samples.len());
+        let new_name = brush.filter(|(name, _)| !self.script.brushes.contains_key(*name));
+        let most = self.limits;
+        // 6 bytes for comma, line break and indent.
+        let bytes = self.bytes + text.len() + 6;
+        if self.script.actions.len() >= most.actions {
+            self.stop(&format!("a recording holds {} actions", most.actions));
+        } else if self.samples + samples > most.samples {
+            self.stop(&format!("a recording holds {} samples", most.samples));
+        } else if bytes > most.bytes {
+            self.stop(&format!("a recording holds {} MiB", most.bytes >> 20));
+        } else if new_name.is_some() && self.script.brushes.len() >= most.brushes {
+            self.stop(&format!("a recording holds {} brushes", most.brushes));
+        } else {
+            if let Some((name, spec)) = new_name {
+                self.script.brushes.insert(name.to_owned(), spec.clone());
+            }
+            (self.samples, self.bytes) = (self.samples + samples, bytes);
+            self.script.actions.push(action);
+        }
+    }
+
+    /// Ends the recording, for a reason.
+    pub(super) fn stop(&mut self, reason: &str) {
+        self.stopped.get_or_insert_with(|| reason.to_owned());
+    }
+}
+
+/// Label of an action with the pigments that it names. `canvas` is that before the action, so that
+/// layers have the names and places that the action means.
+pub(super) fn label(action: &Action, pigments: &ActionPigments, canvas: &Painting) -> String {
+    let name = |pigment: PigmentId| canvas.library()[pigment].name.as_str();
+    let layer_name = |layer: LayerRef| layer_name(layer, canvas);
+    let on = |surface: SurfaceId| if surface.is_canvas() { "" } else { " on the palette" };
+    match action {
+        Action::Stroke(stroke) | Action::Cut(stroke) if stroke.tool.is_paint() => {
+            format!("stroke{}, {}", on(stroke.on), stroke.brush)
+        }
+        Action::Stroke(stroke) | Action::Cut(stroke) => {
+            format!("{}{}, {}", stroke.tool.name(), on(stroke.on), stroke.brush)
+        }
+        Action::Dry { fraction } if *fraction == 1.0 => "dry all".to_owned(),
+        Action::Dry { fraction } => format!("dry {}", percent(*fraction)),
+        Action::Palette(_) => "other pigments".to_owned(),
+        Action::Light(lighting) => format!("light {}", lighting.illuminant),
+        Action::Gloss { .. } => "gloss".to_owned(),
+        Action::Stiffness { value } => format!("stiffness {value}"),
+        Action::Opacity { layer, value } => {
+            format!("{} of {}", percent(*value), layer_name(*layer))
+        }
+        Action::Swap { layer, .. } => match pigments {
+            ActionPigments::Swap { from, to } => {
+                format!("{} for {}, {}", name(*to), name(*from), layer_name(*layer))
+            }
+            _ => "swap".to_owned(),
+        },
+        Action::Name { name, .. } if name.is_empty() => "no name for a layer".to_owned(),
+        Action::Name { name, .. } => format!("name {name}"),
+        Action::Visible { layer, value: true } => format!("show {}", layer_name(*layer)),
+        Action::Visible { layer, value: false } => format!("hide {}", layer_name(*layer)),
+        Action::Order { layer, to } => format!("{} to place {}", layer_name(*layer), to + 1),
+        Action::Merge { layer, with: None } => {
+            format!("merge {} with the one below", layer_name(*layer))
+        }
+        Action::Merge { layer, with: Some(with) } => {
+            format!("merge {} with {}", layer_name(*layer), layer_name(*with))
+        }
+        Action::Squeeze(squeeze) => {
+            let paint = match pigments {
+                ActionPigments::Recipe(parts) => match parts.as_slice() {
+                    [] => "medium".to_owned(),
+                    [(pigment, _)] => name(*pigment).to_owned(),
+                    [(first, _), (second, _)] => format!("{} and {}", name(*first), name(*second)),
+                    parts => format!("{} pigments", parts.len()),
+                },
+                _ => "paint".to_owned(),
+            };
+            format!("squeeze {paint}{}", if squeeze.on.is_canvas() { " on the canvas" } else { "" })
+        }
+        Action::Mask(change) => match change {
+            MaskChange::PolygonMm(_) => "mask".to_owned(),
+            MaskChange::Layer(layer) => format!("mask by {}", layer_name(*layer)),
+            MaskChange::Painted {} => "mask by all paint".to_owned(),
+            MaskChange::Inverse(_) => "mask inverted".to_owned(),
+            MaskChange::Clear {} => "mask off".to_owned(),
+        },
+        Action::Scrape { on: SurfaceId::Canvas } => "scrape the canvas".to_owned(),
+        Action::Scrape { on: SurfaceId::Palette } => "scrape the palette".to_owned(),
+        Action::Load(_)
+        | Action::Wipe { .. }
+        | Action::Wash { .. }
+        | Action::Undo {}
+        | Action::Redo {}
+        | Action::Save { .. } => action.kind().to_owned(),
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", (share * 1000.0).round() / 10.0)
+}
+
+fn layer_name(layer: LayerRef, canvas: &Painting) -> String {
+    match layer {
+        LayerRef::Wet => "wet paint".to_owned(),
+        LayerRef::Dry(index) => {
+            let dry = canvas.state().dry.get(index);
+            dry.map_or_else(|| layer_label(LayerId::by_place(index), ""), DryLayerState::label)
+        }
+        LayerRef::Id(id) => {
+            let dry = canvas.state().dry.iter().find(|layer| layer.id == id);
+            dry.map_or_else(|| layer_label(id, ""), DryLayerState::label)
+        }
     }
 }
 

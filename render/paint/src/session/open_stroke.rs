@@ -1,9 +1,7 @@
 //! The open stroke of a session.
 
-use super::failure::SessionError;
-use super::history::Carried;
-use super::label::label;
-use super::state::{PaintingSession, SessionStroke};
+use super::history::{Carried, label};
+use super::state::{PaintingSession, SessionError, SessionStroke};
 use crate::painting::{OpenStroke, Painting, PaintingError, StrokeReport};
 use crate::pose::Sample;
 use crate::stroke::{Path, SampleDecimals};

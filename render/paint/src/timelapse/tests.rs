@@ -6,7 +6,7 @@ use pigment::PigmentLibrary;
 
 use super::*;
 use crate::brush::HeadShape;
-use crate::canvas::Canvas;
+use crate::document::Canvas;
 use crate::painting::LayerRef;
 use crate::pose::Sample;
 use crate::session::PaintingSession;

@@ -1,20 +1,23 @@
 //! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
 //! specification in [`crate::motion`], row by row.
+//!
+//! A head that lies across the rows fills little of the rectangle around it, so each row is worked on
+//! only between its ends. The surface below the wet paint comes block by block from
+//! [`crate::motion::bed`].
 
 use std::ops::Range;
 
-use super::below::Below;
-use super::columns::Columns;
-use super::head_paint::HeadPaint;
-use super::spans::{Spans, joined};
+use graphics::field::Field;
+use graphics::tile::Rect;
+
+use super::columns::{Columns, HeadPaint};
 use crate::contact::{Contact, Touch};
 use crate::mask::Mask;
 use crate::motion::MotionConstants;
+use crate::motion::bed::{BLOCK, NO_BED, between, block_height, weighted};
 use crate::motion::press::{
     CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration, pressure,
 };
-use graphics::field::Field;
-use graphics::tile::Rect;
 
 /// Cells on every side of the reach that repeat the nearest cell of the reach, so that flows
 /// need no bounds checks.
@@ -338,4 +341,166 @@ fn highest(volumes: &[u32]) -> u32 {
         highest = highest.max(volume);
     }
     highest
+}
+
+/// One range of columns of the canvas for each row of a contact's reach; empty where a row has
+/// none.
+#[derive(Debug, Default)]
+pub(super) struct Spans {
+    /// First row.
+    first: usize,
+    ranges: Vec<Range<usize>>,
+}
+
+impl Spans {
+    /// Makes the spans of the rows of `reach` empty.
+    pub(super) fn clear(&mut self, reach: Rect) {
+        self.first = reach.y;
+        self.ranges.clear();
+        self.ranges.resize(reach.height, 0..0);
+    }
+
+    /// The rows.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.first..self.first + self.ranges.len()
+    }
+
+    /// Columns of row `y`; none of rows beyond the reach.
+    #[inline(always)]
+    pub(super) fn of(&self, y: usize) -> Range<usize> {
+        let row = y.checked_sub(self.first).and_then(|row| self.ranges.get(row));
+        row.cloned().unwrap_or_default()
+    }
+
+    /// Sets the columns of row `y`, which is one of the reach.
+    #[inline(always)]
+    pub(super) fn set(&mut self, y: usize, columns: Range<usize>) {
+        self.ranges[y - self.first] = columns;
+    }
+
+    /// Sets the columns of the rows of `rect` to those of `rect`.
+    pub(super) fn fill(&mut self, rect: Rect) {
+        for y in rect.y..rect.y + rect.height {
+            self.set(y, rect.x..rect.x + rect.width);
+        }
+    }
+
+    /// Sets each span to the columns within `limit` that have a neighbour in `inner`, be it aside,
+    /// above, below or diagonal, and those between them.
+    pub(super) fn surround(&mut self, inner: &Self, limit: Rect) {
+        for y in limit.y..limit.y + limit.height {
+            let near =
+                joined(&joined(&inner.of(y.wrapping_sub(1)), &inner.of(y)), &inner.of(y + 1));
+            if !near.is_empty() {
+                let start = near.start.saturating_sub(1).max(limit.x);
+                self.set(y, start..(near.end + 1).min(limit.x + limit.width));
+            }
+        }
+    }
+}
+
+/// The columns of both ranges and those between them.
+#[inline(always)]
+pub(super) fn joined(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+    if a.is_empty() {
+        b.clone()
+    } else if b.is_empty() {
+        a.clone()
+    } else {
+        a.start.min(b.start)..a.end.max(b.end)
+    }
+}
+
+/// Heights of the bed of a stroke.
+#[derive(Debug, Clone)]
+pub(super) struct Bed {
+    /// By block, in units of 256 quanta.
+    blocks: Field<i32>,
+}
+
+impl Bed {
+    /// A bed over `bounds` that was never noted.
+    pub(super) fn unknown(bounds: Rect) -> Self {
+        let width = bounds.width.div_ceil(BLOCK);
+        let height = bounds.height.div_ceil(BLOCK);
+        Self { blocks: Field::filled(width, height, NO_BED) }
+    }
+
+    /// Notes the surface of `rect`, whose corner lies at that of a block, as it is now.
+    pub(super) fn note(&mut self, rect: Rect, floor: &Field<i32>, wet: &Columns) {
+        for y in (rect.y..rect.y + rect.height).step_by(BLOCK) {
+            for x in (rect.x..rect.x + rect.width).step_by(BLOCK) {
+                let width = BLOCK.min(rect.x + rect.width - x);
+                let rows = y..(y + BLOCK).min(rect.y + rect.height);
+                let mut sum = 0;
+                for row in rows.clone() {
+                    let volume = &wet.volume()[row * floor.width() + x..][..width];
+                    let tops = floor.row(row, x, width).iter().zip(volume);
+                    sum += tops.map(|(&floor, &wet)| (floor + wet as i32) >> 8).sum::<i32>();
+                }
+                self.blocks[(x / BLOCK, y / BLOCK)] =
+                    block_height(sum, (width * rows.len()) as i32);
+            }
+        }
+    }
+
+    /// Writes the heights in quanta of the cells of row `y` from `x` on to `out`.
+    #[inline(always)]
+    pub(super) fn row(&self, (mut x, y): (usize, usize), mut out: &mut [i32]) {
+        let (upper, lower, down) = between(y, self.blocks.height());
+        let row = |block: usize| self.blocks.row(block, 0, self.blocks.width());
+        let upper = row(upper);
+        let lower = row(lower);
+        while !out.is_empty() {
+            let (left, right, share) = between(x, upper.len());
+            let column = |block: usize| weighted((upper[block], lower[block]), down);
+            let columns = (column(left), column(right));
+            // The cells up to the middle of the right block.
+            let count = (BLOCK - (x + BLOCK / 2) % BLOCK).min(out.len());
+            let (cells, rest) = out.split_at_mut(count);
+            for (i, out) in (0..).zip(cells) {
+                *out = weighted(columns, share + 2 * i);
+            }
+            (x, out) = (x + count, rest);
+        }
+    }
+
+    /// Height in quanta at a cell.
+    #[cfg(test)]
+    pub(super) fn at(&self, cell: (usize, usize)) -> i32 {
+        let mut height = [0];
+        self.row(cell, &mut height);
+        height[0]
+    }
+}
+
+/// Floor, bed and mask of a canvas.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Below<'a> {
+    /// Height of ground and dry paint in quanta.
+    pub(super) floor: &'a Field<i32>,
+    /// Surface before the stroke.
+    pub(super) bed: &'a Bed,
+    /// Covered cells; `None` if all are open.
+    pub(super) mask: Option<&'a Mask>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_around_spans_hold_all_neighbours_within_the_limit() {
+        let reach = Rect { x: 3, y: 10, width: 20, height: 6 };
+        let mut inner = Spans::default();
+        let mut around = Spans::default();
+        inner.clear(reach);
+        inner.set(12, 5..7);
+        inner.set(13, 20..23);
+        around.clear(reach);
+        around.surround(&inner, reach);
+        let found: Vec<_> = around.rows().map(|y| around.of(y)).collect();
+        assert_eq!(found, [0..0, 4..8, 4..23, 4..23, 19..23, 0..0]);
+        assert_eq!([around.of(9), around.of(16)], [0..0, 0..0]);
+    }
 }

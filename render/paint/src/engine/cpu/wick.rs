@@ -1,7 +1,6 @@
 //! Flow of paint over a head, along its hairs and between them.
 
-use super::columns::Columns as Paint;
-use super::head_paint::HeadPaint;
+use super::columns::{Columns as Paint, HeadPaint};
 use crate::contact::Wicking;
 use crate::layer::{Cell, SLOTS};
 use crate::motion::wick::{UNIT_BITS, dealt_share, flowing, given_share, lack, mean};
