@@ -3,7 +3,7 @@
 
 use pigment::PigmentId;
 
-use super::history::{Entry, label};
+use super::history::Entry;
 use super::state::{Adjusting, Control, Outcome, PaintingSession, SessionError};
 use crate::engine::BrushId;
 use crate::layer::SLOTS;
@@ -41,7 +41,7 @@ impl PaintingSession {
             _ => {}
         }
         let (action, pigments) = self.rounded(action)?;
-        let label = label(&action, &pigments, &self.canvas);
+        let label = action.label(&pigments, &self.canvas);
         let Some(on) = self.perform(&action, &pigments)? else { return Ok(Outcome::Nothing) };
         self.record_done(&action, &pigments, (label, on));
         Ok(Outcome::Done)
@@ -130,9 +130,8 @@ impl PaintingSession {
                 if let Some(palette) = &mut self.palette {
                     palette.slots_with(&pigments)?;
                 }
-                self.canvas.set_palette(&pigments)?;
-                if let Some(palette) = &mut self.palette {
-                    palette.set_palette(&pigments)?;
+                for painting in self.paintings_mut() {
+                    painting.set_palette(&pigments)?;
                 }
                 both
             }
@@ -144,16 +143,14 @@ impl PaintingSession {
                 both
             }
             (Action::Gloss { wet, dry }, _) => {
-                self.canvas.set_gloss(*wet, *dry)?;
-                if let Some(palette) = &mut self.palette {
-                    palette.set_gloss(*wet, *dry)?;
+                for painting in self.paintings_mut() {
+                    painting.set_gloss(*wet, *dry)?;
                 }
                 both
             }
             (Action::Stiffness { value }, _) => {
-                self.canvas.set_stiffness(*value)?;
-                if let Some(palette) = &mut self.palette {
-                    palette.set_stiffness(*value)?;
+                for painting in self.paintings_mut() {
+                    painting.set_stiffness(*value)?;
                 }
                 both
             }
@@ -171,16 +168,23 @@ impl PaintingSession {
                     _ => CANVAS,
                 }
             }
-            (
-                Action::Name { .. }
-                | Action::Visible { .. }
-                | Action::Order { .. }
-                | Action::Merge { .. },
-                _,
-            ) => {
-                if !change_stack(&mut self.canvas, action)? {
+            (Action::Name { layer, name }, _) => {
+                self.canvas.name_layer(*layer, name)?;
+                CANVAS
+            }
+            (Action::Visible { layer, value }, _) => {
+                self.canvas.show_layer(*layer, *value)?;
+                CANVAS
+            }
+            (Action::Order { layer, to }, _) => {
+                if !self.canvas.move_layer(*layer, *to)? {
                     return Ok(None);
                 }
+                CANVAS
+            }
+            (Action::Merge { layer, with }, _) => {
+                let with = with.map_or_else(|| below(&self.canvas, *layer), Ok)?;
+                self.canvas.merge(*layer, with)?;
                 CANVAS
             }
             (Action::Squeeze(squeeze), ActionPigments::Recipe(parts)) => {
@@ -351,8 +355,7 @@ impl PaintingSession {
         }
         let (action, pigments) = self.rounded(action)?;
         if self.adjusting.is_none() {
-            self.canvas.begin_adjusting();
-            self.palette.iter_mut().for_each(|palette| palette.begin_adjusting());
+            self.paintings_mut().for_each(Painting::begin_adjusting);
         }
         match self.perform(&action, &pigments) {
             Ok(on) => {
@@ -373,7 +376,7 @@ impl PaintingSession {
     pub fn end_adjustment(&mut self) {
         let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
-        let label = label(&action, &ActionPigments::None, &self.canvas);
+        let label = action.label(&ActionPigments::None, &self.canvas);
         self.record_done(&action, &ActionPigments::None, (label, on));
     }
 
@@ -390,22 +393,8 @@ impl PaintingSession {
     }
 
     fn end_adjusting(&mut self) {
-        self.canvas.end_adjusting();
-        self.palette.iter_mut().for_each(|palette| palette.end_adjusting());
+        self.paintings_mut().for_each(Painting::end_adjusting);
     }
-}
-
-/// Names, shows, moves or merges dry layers. Returns whether something was done.
-pub(super) fn change_stack(canvas: &mut Painting, action: &Action) -> Result<bool, PaintingError> {
-    match action {
-        Action::Name { layer, name } => canvas.name_layer(*layer, name)?,
-        Action::Visible { layer, value } => canvas.show_layer(*layer, *value)?,
-        Action::Order { layer, to } => return canvas.move_layer(*layer, *to),
-        Action::Merge { layer, with: Some(with) } => canvas.merge(*layer, *with)?,
-        Action::Merge { layer, with: None } => canvas.merge(*layer, below(canvas, *layer)?)?,
-        other => unreachable!("`{}` is applied elsewhere", other.kind()),
-    }
-    Ok(true)
 }
 
 /// The dry layer below another.

@@ -1,6 +1,6 @@
 //! The open stroke of a session.
 
-use super::history::{Carried, label};
+use super::history::Carried;
 use super::state::{PaintingSession, SessionError, SessionStroke};
 use crate::painting::{OpenStroke, Painting, PaintingError, StrokeReport};
 use crate::pose::Sample;
@@ -67,8 +67,7 @@ impl PaintingSession {
             let stroke = OpenStroke::new(self.canvas.cell_mm(), size_mm, working)?;
             let samples = Vec::new();
             let from = None;
-            self.stroke =
-                Some(SessionStroke { on, tool, decimals, working, samples, from, stroke });
+            self.stroke = Some(SessionStroke { on, tool, decimals, samples, from, stroke });
         }
         Ok(())
     }
@@ -179,10 +178,10 @@ impl PaintingSession {
     /// (see [`PaintingSession::advance`]), with the recorded name of its brush; `None` without a
     /// sample.
     pub(super) fn cut_so_far(&self) -> Option<Action> {
-        let SessionStroke { on, tool, working, samples, from, .. } = self.stroke.as_ref()?;
+        let SessionStroke { on, tool, samples, from, stroke, .. } = self.stroke.as_ref()?;
         from.as_ref()?;
         let brush = self.brushes.tools[*tool].recorded.clone();
-        Some(Action::Cut(Stroke { brush, on: *on, tool: *working, samples: samples.clone() }))
+        Some(Action::Cut(Stroke { brush, on: *on, tool: stroke.tool(), samples: samples.clone() }))
     }
 
     /// Paints the rest of the open stroke and closes it, as one action. Returns `None` if it
@@ -196,10 +195,10 @@ impl PaintingSession {
 
     fn close_stroke(&mut self, cut: bool) -> Result<Option<StrokeReport>, SessionError> {
         let open = self.stroke.take().ok_or(SessionError::NoStroke)?;
-        let SessionStroke { on, tool, working, samples, from: Some(from), stroke, .. } = open
-        else {
+        let SessionStroke { on, tool, samples, from: Some(from), stroke, .. } = open else {
             return Ok(None);
         };
+        let working = stroke.tool();
         let painting = self.surface_mut(on)?;
         let finished = if cut { stroke.cut(painting) } else { stroke.finish(painting) };
         let report = self.follow_failure(finished.map_err(SessionError::from))?;
@@ -208,7 +207,7 @@ impl PaintingSession {
         let action = if cut { Action::Cut(stroke) } else { Action::Stroke(stroke) };
         let mut touched = PerSurface::default();
         (touched[on], touched[from]) = (true, true);
-        let label = label(&action, &ActionPigments::None, &self.canvas);
+        let label = action.label(&ActionPigments::None, &self.canvas);
         let carried = Some(Carried { tool, from, to: on });
         self.history.add(label, touched, carried);
         self.limit_history();

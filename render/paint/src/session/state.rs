@@ -30,8 +30,6 @@ pub(super) struct SessionStroke {
     pub(super) tool: usize,
     /// Decimals that samples are rounded to.
     pub(super) decimals: SampleDecimals,
-    /// The tool that the head is used as.
-    pub(super) working: StrokeTool,
     /// Rounded samples that were accepted.
     pub(super) samples: Vec<Sample>,
     /// Surface that the brush came from; `None` before the first sample.
@@ -180,6 +178,11 @@ impl PaintingSession {
             SurfaceId::Canvas => Some(&mut self.canvas),
             SurfaceId::Palette => self.palette.as_mut(),
         }
+    }
+
+    /// The paintings of canvas and palette.
+    pub(super) fn paintings_mut(&mut self) -> impl Iterator<Item = &mut Painting> {
+        [Some(&mut self.canvas), self.palette.as_mut()].into_iter().flatten()
     }
 
     /// Painting of the canvas.

@@ -8,13 +8,14 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Index, IndexMut};
 
+use pigment::PigmentId;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{SerializeMap, SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
 
 use super::MAX_NAMES;
 use crate::brush::StrokeTool;
-use crate::document::Lighting;
+use crate::document::{Lighting, Slots};
 use crate::layer::SLOTS;
 use crate::optics::Gloss;
 use crate::painting::{LayerRef, MaskChange};
@@ -204,6 +205,25 @@ impl Action {
 
 fn whole() -> f64 {
     1.0
+}
+
+/// The pigments that an action names.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ActionPigments {
+    /// The action names no pigment.
+    None,
+    /// Pigments and parts of a load or a heap, in the order of the library. Parts are
+    /// above 0.
+    Recipe(Vec<(PigmentId, f64)>),
+    /// Pigments of a palette by slot.
+    Palette(Slots),
+    /// Pigments of a swap.
+    Swap {
+        /// Pigment to replace.
+        from: PigmentId,
+        /// Pigment that takes its place.
+        to: PigmentId,
+    },
 }
 
 /// Paint that a brush takes up.

@@ -45,8 +45,8 @@
 //! that are too long are refused with their location, and a script saves only below a
 //! folder that the caller chooses.
 
-mod check;
 mod action;
+mod table;
 mod script;
 mod start;
 
@@ -58,14 +58,16 @@ pub use crate::brush::StrokeTool;
 pub use crate::document::Canvas;
 pub use crate::painting::{LayerRef, MaskChange};
 pub use crate::stroke::SampleDecimals;
-pub use action::{Action, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke, SurfaceId};
-pub(super) use check::{
-    ActionLimits, CheckContext, action_line, check_brush, check_sample, check_size, check_tool,
+pub use action::{
+    Action, ActionPigments, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke, SurfaceId,
 };
-pub(super) use script::six_digits;
+pub(super) use script::action_line;
 pub use script::{BrushSpec, KeptBrush, SideTable, StrokeScript};
-pub use start::{ActionPigments, Resolved, ScriptLibrary, ScriptStartError};
 pub(super) use start::{PigmentNames, pigment_names};
+pub use start::{Resolved, ScriptLibrary, ScriptStartError};
+pub(super) use table::{
+    ActionLimits, CheckContext, check_brush, check_sample, check_size, check_tool, six_digits,
+};
 
 /// Most cells of a canvas: 8192 x 8192. Painting takes about 90 bytes per cell, plus 36
 /// per dry layer: 6 GB and up.

@@ -1,24 +1,22 @@
-//! A stroke script in memory.
-//!
-//! Every number is rounded to the digits of a file before it takes effect, so that a recording, which
-//! holds the rounded numbers, paints the same bits when it is played.
+//! A stroke script: its content, its check, and its JSON with one action per line.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-use pigment::digits;
+use documents::hint::Hint;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use super::MAX_ACTIONS;
-use super::action::{Action, Load, PaletteSpec, Recipe, Squeeze, Stroke, SurfaceId, distinct_keys};
+use super::action::{Action, PaletteSpec, SurfaceId, distinct_keys};
+use super::table::{
+    ActionLimits, CheckContext, Checked, check_brush, check_light, check_medium, check_palette,
+    check_size,
+};
+use super::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_SAMPLES, ScriptError};
 use crate::brush::{HeadShape, StrokeTool};
 use crate::document::{Canvas, Document, Lighting, Medium};
 use crate::layer::Layer;
-use crate::optics::Gloss;
-use crate::painting::MaskChange;
-use crate::pose::Sample;
-use crate::stroke::SampleDecimals;
 
 /// A script: canvas, pigments and brushes, and the actions done with them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -208,93 +206,6 @@ pub struct SideTable {
     pub brushes: Vec<KeptBrush>,
 }
 
-impl Action {
-    /// The action with its numbers rounded: samples to four decimals, all others to six
-    /// significant digits. Writing and reading leaves a rounded action as it is.
-    #[must_use]
-    pub fn rounded(&self) -> Self {
-        match self {
-            Self::Load(load) => Self::Load(Load {
-                brush: load.brush.clone(),
-                recipe: recipe(&load.recipe),
-                vehicle: six_digits(load.vehicle),
-                amount_mm: six_digits(load.amount_mm),
-            }),
-            Self::Stroke(stroke) => Self::Stroke(round_stroke(stroke)),
-            Self::Cut(stroke) => Self::Cut(round_stroke(stroke)),
-            Self::Wipe { brush, keep } => {
-                Self::Wipe { brush: brush.clone(), keep: six_digits(*keep) }
-            }
-            Self::Dry { fraction } => Self::Dry { fraction: six_digits(*fraction) },
-            Self::Light(lighting) => Self::Light(Lighting {
-                azimuth_deg: six_digits(lighting.azimuth_deg),
-                elevation_deg: six_digits(lighting.elevation_deg),
-                ambient: six_digits(lighting.ambient),
-                relief: six_digits(lighting.relief),
-                adaptation: six_digits(lighting.adaptation),
-                ..lighting.clone()
-            }),
-            Self::Opacity { layer, value } => {
-                Self::Opacity { layer: *layer, value: six_digits(*value) }
-            }
-            Self::Squeeze(squeeze) => Self::Squeeze(Squeeze {
-                on: squeeze.on,
-                recipe: recipe(&squeeze.recipe),
-                vehicle: six_digits(squeeze.vehicle),
-                x_mm: six_digits(squeeze.x_mm),
-                y_mm: six_digits(squeeze.y_mm),
-                volume_mm3: six_digits(squeeze.volume_mm3),
-            }),
-            Self::Mask(MaskChange::PolygonMm(points)) => {
-                let points = points.iter().map(|point| point.map(six_digits));
-                Self::Mask(MaskChange::PolygonMm(points.collect()))
-            }
-            Self::Gloss { wet, dry } => Self::Gloss { wet: gloss(*wet), dry: gloss(*dry) },
-            Self::Stiffness { value } => Self::Stiffness { value: six_digits(*value) },
-            Self::Wash { .. }
-            | Self::Palette(_)
-            | Self::Undo {}
-            | Self::Redo {}
-            | Self::Name { .. }
-            | Self::Visible { .. }
-            | Self::Order { .. }
-            | Self::Swap { .. }
-            | Self::Merge { .. }
-            | Self::Scrape { .. }
-            | Self::Mask(_)
-            | Self::Save { .. } => self.clone(),
-        }
-    }
-}
-
-fn round_stroke(stroke: &Stroke) -> Stroke {
-    Stroke {
-        brush: stroke.brush.clone(),
-        on: stroke.on,
-        tool: stroke.tool.map(six_digits),
-        samples: stroke
-            .samples
-            .iter()
-            .map(|sample: &Sample| SampleDecimals::RECORDING.round(sample))
-            .collect(),
-    }
-}
-
-fn recipe(parts: &Recipe) -> Recipe {
-    parts.iter().map(|(name, part)| (name.clone(), six_digits(*part))).collect()
-}
-
-fn gloss(gloss: Gloss) -> Gloss {
-    let round = |value: f32| six_digits(f64::from(value)) as f32;
-    Gloss { strength: round(gloss.strength), exponent: round(gloss.exponent) }
-}
-
-/// `value` rounded to six significant digits, and never -0, which a file cannot tell
-/// from 0.
-pub(crate) fn six_digits(value: f64) -> f64 {
-    digits::rounded(value) + 0.0
-}
-
 impl StrokeScript {
     /// Index of the first stroke, and name, of each brush that paints on the canvas before it was
     /// loaded or moved over the palette, in order. Such a stroke only moves the paint that lies there.
@@ -320,6 +231,285 @@ impl StrokeScript {
         }
         found
     }
+}
+
+impl StrokeScript {
+    /// Checks that every number is in range and every brush is declared. Pigments are
+    /// looked up by [`StrokeScript::resolve`].
+    ///
+    /// # Errors
+    /// [`ScriptError::Invalid`] with action, sample and field.
+    pub fn check(&self) -> Result<(), ScriptError> {
+        Ok(self.check_values()?)
+    }
+
+    pub(super) fn check_values(&self) -> Checked {
+        self.check_header()?;
+        let mut samples = 0;
+        if self.actions.len() > MAX_ACTIONS {
+            let wanted = format!("at most {MAX_ACTIONS}");
+            return Err(CheckContext::default().invalid(
+                "actions",
+                &wanted,
+                &self.actions.len(),
+                None,
+            ));
+        }
+        let limits = self.limits();
+        for (index, action) in self.actions.iter().enumerate() {
+            let at = CheckContext::action(index, action.kind());
+            if let Some(brush) = action.brush() {
+                check_brush(&at, brush, self.brushes.keys().map(String::as_str))?;
+            }
+            limits.check(&at, action)?;
+            if let Some(stroke) = action.stroke() {
+                samples += stroke.samples.len();
+            }
+            if samples > MAX_SAMPLES {
+                let wanted = format!("at most {MAX_SAMPLES} of all strokes so far");
+                let hint = Hint::new("record fewer samples a second, or several scripts");
+                return Err(at.invalid("samples", &wanted, &samples, Some(hint)));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_header(&self) -> Checked {
+        let top = CheckContext::default();
+        check_canvas("canvas", &self.canvas)?;
+        if let Some(mixing) = &self.mixing {
+            check_canvas("mixing", mixing)?;
+            let cell_mm = self.canvas.cell_mm;
+            if mixing.cell_mm != cell_mm {
+                let hint = Some(Hint::new(format!("\"cell_mm\": {cell_mm}")));
+                let wanted = format!("that of the canvas, {cell_mm}");
+                return Err(top.invalid("mixing.cell_mm", &wanted, &mixing.cell_mm, hint));
+            }
+        }
+        if let Some(start) = &self.start {
+            check_start(start)?;
+            let own = [("medium", self.medium.is_some()), ("lighting", self.lighting.is_some())];
+            if let Some((field, _)) = own.iter().find(|(_, given)| *given) {
+                let wanted = "left out with `start`: that painting has its own";
+                return Err(top.invalid(
+                    field,
+                    wanted,
+                    &"both",
+                    Some(Hint::new(format!("leave `{field}` out"))),
+                ));
+            }
+        }
+        if self.table && (self.start.is_none() || self.mixing.is_none()) {
+            let hint = Some(Hint::new("name the painting as `start`, and describe `mixing`"));
+            return Err(top.invalid("table", "only with `start` and `mixing`", &true, hint));
+        }
+        if let Some(medium) = &self.medium {
+            check_medium(medium)?;
+        }
+        if let Some(lighting) = &self.lighting {
+            check_light(&top, "lighting.", lighting)?;
+        }
+        check_palette(&top, &self.palette)?;
+        for (name, brush) in &self.brushes {
+            check_size(&top, &format!("brushes.{name}.size_mm"), brush.size_mm)?;
+        }
+        Ok(())
+    }
+
+    /// Limits of the script's actions.
+    pub(crate) fn limits(&self) -> ActionLimits {
+        ActionLimits {
+            canvas_mm: self.canvas.longer_side_mm(),
+            palette_mm: self.mixing.as_ref().map(Canvas::longer_side_mm),
+        }
+    }
+}
+
+fn check_canvas(key: &str, canvas: &Canvas) -> Checked {
+    let at = CheckContext::default();
+    at.range(&format!("{key}.cell_mm"), canvas.cell_mm, 0.001, 10.0)?;
+    for (field, side) in [("width_mm", canvas.width_mm), ("height_mm", canvas.height_mm)] {
+        at.range(&format!("{key}.{field}"), side, 0.001, 1e6)?;
+    }
+    let (width, height) = canvas.cells();
+    if (width as u64).saturating_mul(height as u64) > MAX_CELLS {
+        let wanted = format!("at most {MAX_CELLS} cells, which take 6 GB");
+        let least = (canvas.width_mm * canvas.height_mm / MAX_CELLS as f64).sqrt();
+        let cell_mm = (least * 1000.0).ceil() / 1000.0 + 0.001;
+        let hint = Hint::new(format!("\"cell_mm\": {cell_mm:.3}"));
+        return Err(at.invalid(key, &wanted, &format!("{width} x {height}"), Some(hint)));
+    }
+    Ok(())
+}
+
+/// Checks the path of the painting that a script continues. Like the path of a library, it
+/// may lead to any folder.
+fn check_start(path: &str) -> Checked {
+    let fits = (1..=1024).contains(&path.len())
+        && !path.contains(char::is_control)
+        && path.to_ascii_lowercase().ends_with(".exr");
+    if fits {
+        return Ok(());
+    }
+    let wanted = "the path of a painting, which ends in .exr";
+    let hint = Hint::new("save the painting as an .exr file");
+    Err(CheckContext::default().invalid("start", wanted, &path, Some(hint)))
+}
+
+impl StrokeScript {
+    /// Reads a script from `bytes`, the content of the file named `file`.
+    ///
+    /// # Errors
+    /// [`ScriptError`] for a file that is too long, not UTF-8, not JSON, or of another
+    /// format or version, for unknown, missing and repeated keys, and for values out of
+    /// range (see [`StrokeScript::check`]).
+    pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, ScriptError> {
+        let named = || file.to_owned();
+        if bytes.len() > MAX_FILE_BYTES {
+            let bytes = bytes.len();
+            let limit = MAX_FILE_BYTES;
+            return Err(ScriptError::TooLong { file: named(), bytes, limit });
+        }
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let (sound, rest) = bytes.split_at(error.valid_up_to());
+            let line = 1 + sound.iter().filter(|byte| **byte == b'\n').count();
+            ScriptError::Encoding { file: named(), line, byte: rest.first().copied().unwrap_or(0) }
+        })?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let script: Self =
+            serde_json::from_str(text).map_err(|error| explained(file, text, &error))?;
+        script.check_values().map_err(|invalid| ScriptError::Value { file: named(), invalid })?;
+        Ok(script)
+    }
+
+    /// The script without its actions, with numbers rounded to the digits of a file.
+    ///
+    /// # Errors
+    /// [`ScriptError`] for values out of range (see [`StrokeScript::check`]).
+    pub fn rounded_header(&self) -> Result<Self, ScriptError> {
+        Self::from_json(&self.title, self.header().to_json()?.as_bytes())
+    }
+
+    /// Writes the script as JSON with one action per line. Samples have four decimals, all
+    /// other numbers six significant digits. The same script gives the same bytes.
+    ///
+    /// # Errors
+    /// [`ScriptError`] for values out of range (see [`StrokeScript::check`]).
+    pub fn to_json(&self) -> Result<String, ScriptError> {
+        self.check()?;
+        let unwritable = |error: serde_json::Error| ScriptError::Syntax {
+            file: self.title.clone(),
+            line: 0,
+            column: 0,
+            reason: error.to_string(),
+        };
+        // The actions are written one by one: as one value they would take much memory.
+        let head = serde_json::to_value(self.header()).map_err(unwritable)?;
+        let mut text = "{\n".to_owned();
+        for (key, value) in
+            head.as_object().into_iter().flatten().filter(|(key, _)| *key != "actions")
+        {
+            text.push_str(&format!("  \"{key}\": "));
+            write(value, &mut text);
+            text.push_str(",\n");
+        }
+        text.push_str("  \"actions\": [");
+        for (index, action) in self.actions.iter().enumerate() {
+            text.push_str(if index == 0 { "\n    " } else { ",\n    " });
+            text.push_str(&action_line(action).map_err(unwritable)?);
+        }
+        text.push_str(if self.actions.is_empty() { "]\n}\n" } else { "\n  ]\n}\n" });
+        Ok(text)
+    }
+}
+
+/// An action as one line of a file, with its numbers rounded.
+pub(crate) fn action_line(action: &Action) -> Result<String, serde_json::Error> {
+    let action = &action.rounded();
+    let mut text = String::new();
+    write(&serde_json::to_value(action)?, &mut text);
+    Ok(text)
+}
+
+/// Converts an error of the parser; if the cause is another format or version, names that.
+fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
+    #[derive(Deserialize)]
+    struct Kind {
+        #[serde(default)]
+        format: Value,
+        #[serde(default)]
+        version: Value,
+    }
+    let file = file.to_owned();
+    if error.is_data()
+        && let Ok(Kind { format, version }) = serde_json::from_str(text)
+    {
+        if format != "strokes" {
+            return ScriptError::Format { file, found: format.to_string() };
+        }
+        if version != FormatVersion::NUMBER {
+            let newest = FormatVersion::NUMBER;
+            return ScriptError::Version { file, found: version.to_string(), newest };
+        }
+    }
+    // The parser's message ends with line and column, which this error states separately.
+    let reason = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let reason = reason.strip_suffix(&place).unwrap_or(&reason);
+    let reason = documents::plain_parser_message(reason);
+    ScriptError::Syntax { file, line: error.line(), column: error.column(), reason }
+}
+
+/// Appends `value` to `text` on one line.
+fn write(value: &Value, text: &mut String) {
+    match value {
+        Value::Object(map) => {
+            text.push('{');
+            for (index, (key, item)) in map.iter().enumerate() {
+                text.push_str(if index == 0 { "" } else { ", " });
+                text.push_str(&Value::from(key.as_str()).to_string());
+                text.push_str(": ");
+                write(item, text);
+            }
+            text.push('}');
+        }
+        Value::Array(items) => {
+            text.push('[');
+            for (index, item) in items.iter().enumerate() {
+                text.push_str(if index == 0 { "" } else { ", " });
+                match item {
+                    // Numbers of samples are already rounded.
+                    Value::Array(row) => write_row(row, text),
+                    _ => write(item, text),
+                }
+            }
+            text.push(']');
+        }
+        Value::Number(number) => match number.as_f64() {
+            Some(value) if number.is_f64() => {
+                text.push_str(&plain(pigment::digits::rounded(value)));
+            }
+            _ => text.push_str(&number.to_string()),
+        },
+        _ => text.push_str(&value.to_string()),
+    }
+}
+
+fn write_row(row: &[Value], text: &mut String) {
+    text.push('[');
+    for (index, item) in row.iter().enumerate() {
+        text.push_str(if index == 0 { "" } else { "," });
+        match item.as_f64() {
+            Some(number) => text.push_str(&plain(number)),
+            None => write(item, text),
+        }
+    }
+    text.push(']');
+}
+
+/// A number without `.0`, and without the sign of -0.
+fn plain(number: f64) -> String {
+    if number == 0.0 { "0".to_owned() } else { number.to_string() }
 }
 
 #[cfg(test)]

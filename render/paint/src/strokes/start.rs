@@ -9,9 +9,9 @@ use pigment::PigmentId;
 use pigment::digits::rounded;
 use pigment::library::{LibraryError, PigmentLibrary, RecipeError};
 
-use super::action::{Action, Load, PaletteSpec, Recipe, Squeeze};
-use super::check::{CheckContext, Checked, did_you_mean};
+use super::action::{Action, ActionPigments, Load, PaletteSpec, Recipe, Squeeze};
 use super::script::{KeptBrush, SideTable, StrokeScript};
+use super::table::{CheckContext, Checked, did_you_mean};
 use super::{InvalidValue, ScriptError};
 use crate::document::{Canvas, Document, Medium, Slots, covering_cells};
 use crate::ground::{Ground, GroundError, GroundRelief, GroundSpec};
@@ -233,25 +233,6 @@ pub struct Resolved {
     pub slots: Slots,
     /// Pigments that each action names, in the order of the actions.
     pub actions: Vec<ActionPigments>,
-}
-
-/// The pigments that an action names.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ActionPigments {
-    /// The action names no pigment.
-    None,
-    /// Pigments and parts of a load or a heap, in the order of the library. Parts are
-    /// above 0.
-    Recipe(Vec<(PigmentId, f64)>),
-    /// Pigments of a palette by slot.
-    Palette(Slots),
-    /// Pigments of a swap.
-    Swap {
-        /// Pigment to replace.
-        from: PigmentId,
-        /// Pigment that takes its place.
-        to: PigmentId,
-    },
 }
 
 impl StrokeScript {
