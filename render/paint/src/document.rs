@@ -118,7 +118,7 @@ pub struct Document {
     pub title: String,
     /// Width and height of a cell in mm.
     pub cell_mm: f64,
-    /// Ground of the painting; its size is that of the canvas.
+    /// Ground of the painting. Its size is that of the canvas.
     pub ground: Ground,
     /// Pigments that the layers refer to.
     pub library: PigmentLibrary,
@@ -207,10 +207,10 @@ pub struct Canvas {
     pub width_mm: f64,
     /// Height in mm, 0.001 to 1e6.
     pub height_mm: f64,
-    /// Width and height of a cell in mm, 0.001 to 10; 0.1 (254 to the inch) by default.
+    /// Width and height of a cell in mm, 0.001 to 10. 0.1 (254 to the inch) by default.
     #[serde(default = "default_cell_mm")]
     pub cell_mm: f64,
-    /// The ground; primed linen by default.
+    /// The ground. Primed linen by default.
     #[serde(default)]
     pub ground: GroundSpec,
 }
@@ -317,7 +317,7 @@ impl Explain for PaletteError {
 
 impl Document {
     /// The painting of the cells in `rect` alone: ground, dry layers and wet paint stay as they
-    /// are, to the quantum; light, binder and pigments are those of the whole.
+    /// are, to the quantum. Light, binder and pigments are those of the whole.
     ///
     /// Beyond its edges a painting has no ground that could be continued, since a file keeps the
     /// relief of a ground and not how it was made. So a painting can be cropped, but not enlarged.

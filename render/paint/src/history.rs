@@ -43,7 +43,7 @@ struct Action<T> {
 
 #[derive(Debug)]
 enum DryChange {
-    /// A layer was added at this index; the engine holds it.
+    /// A layer was added at this index. The engine holds it.
     Inserted(usize),
     /// This layer was removed from this index.
     Removed(usize, Layer),
@@ -130,7 +130,7 @@ pub struct History<T> {
     undone: Vec<Action<T>>,
     open: Option<OpenAction<T>>,
     free_slots: Vec<UndoSlot>,
-    /// Number of slots ever used; the engine holds memory for each.
+    /// Number of slots ever used. The engine holds memory for each.
     slot_count: usize,
 }
 
@@ -179,7 +179,7 @@ impl<T> History<T> {
         self.open = Some(OpenAction::Saved(Action::new(before)));
     }
 
-    /// Saves the wet paint of the tiles that `rect` overlaps; call it before they change.
+    /// Saves the wet paint of the tiles that `rect` overlaps. Call it before they change.
     /// Tiles that this action has saved before are skipped.
     ///
     /// # Errors
@@ -207,7 +207,7 @@ impl<T> History<T> {
         Ok(())
     }
 
-    /// Saves the paint of a brush; call it before the paint changes.
+    /// Saves the paint of a brush. Call it before the paint changes.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost.
@@ -229,7 +229,7 @@ impl<T> History<T> {
         Ok(())
     }
 
-    /// Dries a share of the wet paint, in parts of 65536, as part of the open action; see
+    /// Dries a share of the wet paint, in parts of 65536, as part of the open action. See
     /// [`PaintEngine::dry`].
     ///
     /// # Errors
@@ -309,7 +309,7 @@ impl<T> History<T> {
         }
     }
 
-    /// Closes the open action and drops its saved state; its changes stay.
+    /// Closes the open action and drops its saved state. Its changes stay.
     ///
     /// # Panics
     /// If no action is open.
@@ -319,7 +319,7 @@ impl<T> History<T> {
         }
     }
 
-    /// Restores the state before the last action; `None` if there is none to undo. A redo
+    /// Restores the state before the last action. `None` if there is none to undo. A redo
     /// returns `current`.
     ///
     /// # Errors
@@ -342,7 +342,7 @@ impl<T> History<T> {
         Ok(Some(restored))
     }
 
-    /// Restores the state after the action undone last; `None` if there is none to redo.
+    /// Restores the state after the action undone last. `None` if there is none to redo.
     /// Its undo returns `current`.
     ///
     /// # Errors
@@ -415,7 +415,7 @@ impl<T> History<T> {
         }
     }
 
-    /// The open action; `None` if it exceeds the limit.
+    /// The open action. `None` if it exceeds the limit.
     fn open_action(&mut self) -> Option<&mut Action<T>> {
         match self.open.as_mut().expect(OPEN) {
             OpenAction::Saved(action) => Some(action),
@@ -424,7 +424,7 @@ impl<T> History<T> {
     }
 
     /// Counts `more` bytes for the open action and forgets the oldest actions until they
-    /// fit. Returns whether they fit; if not, the open action's saved state is dropped.
+    /// fit. Returns whether they fit. If not, the open action's saved state is dropped.
     fn reserve(&mut self, more: u64) -> bool {
         while self.bytes + more > self.limit_bytes {
             if let Some(oldest) = self.done.pop_front() {

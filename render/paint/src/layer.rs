@@ -149,7 +149,7 @@ impl Layer {
         self.vehicle.put((x, y), &part.vehicle);
     }
 
-    /// Sums each pigment over all cells, in quanta; the last element is vehicle.
+    /// Sums each pigment over all cells, in quanta. The last element is vehicle.
     #[must_use]
     pub fn totals(&self) -> [u64; SLOTS + 1] {
         let mut totals = [0; SLOTS + 1];
@@ -201,7 +201,7 @@ impl fmt::Display for LayerId {
 pub struct DryLayer {
     /// Its identity within the painting.
     pub id: LayerId,
-    /// Its name, up to [`MAX_LAYER_NAME`] characters; empty if it has none.
+    /// Its name, up to [`MAX_LAYER_NAME`] characters. Empty if it has none.
     pub name: String,
     /// Whether it is shown. A hidden layer keeps its opacity and its height.
     pub visible: bool,

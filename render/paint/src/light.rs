@@ -23,7 +23,7 @@ const KEPT: usize = 8;
 
 static QUADRATURES: KeptQuadratures = KeptQuadratures(Mutex::new(Vec::new()));
 
-/// The quadrature of a light for a library; fitted, which takes about a second, unless it was before.
+/// The quadrature of a light for a library. Fitted, which takes about a second, unless it was before.
 fn quadrature(
     library: &PigmentLibrary,
     viewing: &Viewing,
@@ -216,7 +216,7 @@ impl Mixer {
         })
     }
 
-    /// Linear sRGB of an opaque mixture; `share` in 0..=1 is the part of the second paint.
+    /// Linear sRGB of an opaque mixture. `share` in 0..=1 is the part of the second paint.
     #[must_use]
     pub fn mix(&self, share: f32) -> [f32; 3] {
         let mut out = [[0.0; 3]];

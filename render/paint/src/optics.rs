@@ -14,7 +14,7 @@ use crate::layer::{SLOTS, Slots};
 pub const NODES: usize = 8;
 
 /// K and S of the pigments of one layer at the eight wavelengths, per quantum of height
-/// and multiplied by the layer's opacity; 0 for empty slots.
+/// and multiplied by the layer's opacity. 0 for empty slots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerOptics {
     /// Absorption K per quantum, by slot and wavelength.
@@ -27,9 +27,9 @@ pub struct LayerOptics {
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gloss {
-    /// Light of the highlight relative to a perfect white, at no ambient light; 0 and up.
+    /// Light of the highlight relative to a perfect white, at no ambient light. 0 and up.
     pub strength: f32,
-    /// Blinn's exponent; 10 is satin, 100 the gloss of wet paint.
+    /// Blinn's exponent. 10 is satin, 100 the gloss of wet paint.
     pub exponent: f32,
 }
 
@@ -70,7 +70,7 @@ pub struct Scene {
     pub cell_mm: f32,
 }
 
-/// The surface between paint and air in f32 (Saunderson 1942); see
+/// The surface between paint and air in f32 (Saunderson 1942). See
 /// [`spectra::optics::Surface`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneSurface {

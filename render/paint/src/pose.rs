@@ -5,7 +5,7 @@
 /// Position and attitude of a brush at one moment, as a pen reports it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Seconds since the stroke began; never less than in the sample before.
+    /// Seconds since the stroke began. Never less than in the sample before.
     pub seconds: f64,
     /// Distance in mm from the left edge of the canvas to the middle of
     /// what the brush touches.
@@ -18,7 +18,7 @@ pub struct Sample {
     pub tilt_x_deg: f64,
     /// Tilt of the handle towards the lower edge, -90 to 90 degrees from upright.
     pub tilt_y_deg: f64,
-    /// Rotation about the handle in degrees, clockwise seen from above; at 0 the broad
+    /// Rotation about the handle in degrees, clockwise seen from above. At 0 the broad
     /// side of a flat head runs along x.
     pub twist_deg: f64,
 }
@@ -105,20 +105,21 @@ impl SampleDecimals {
     /// file cannot tell from 0.
     #[must_use]
     pub fn round(&self, sample: &Sample) -> Sample {
-        let round = |number: f64, decimals: u8| {
-            let scale = 10_f64.powi(i32::from(decimals));
-            (number * scale).round() / scale + 0.0
-        };
         Sample {
-            seconds: round(sample.seconds, self.seconds),
-            x_mm: round(sample.x_mm, self.place),
-            y_mm: round(sample.y_mm, self.place),
-            pressure: round(sample.pressure, self.pressure),
-            tilt_x_deg: round(sample.tilt_x_deg, self.angle),
-            tilt_y_deg: round(sample.tilt_y_deg, self.angle),
-            twist_deg: round(sample.twist_deg, self.angle),
+            seconds: rounded(sample.seconds, self.seconds),
+            x_mm: rounded(sample.x_mm, self.place),
+            y_mm: rounded(sample.y_mm, self.place),
+            pressure: rounded(sample.pressure, self.pressure),
+            tilt_x_deg: rounded(sample.tilt_x_deg, self.angle),
+            tilt_y_deg: rounded(sample.tilt_y_deg, self.angle),
+            twist_deg: rounded(sample.twist_deg, self.angle),
         }
     }
+}
+
+fn rounded(number: f64, decimals: u8) -> f64 {
+    let scale = 10_f64.powi(i32::from(decimals));
+    (number * scale).round() / scale + 0.0
 }
 
 #[cfg(test)]

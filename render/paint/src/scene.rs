@@ -69,12 +69,15 @@ impl<'a> Appearance<'a> {
     pub fn scene(&self, light: &Light) -> Scene {
         let Self { library, medium, ground, lighting, .. } = *self;
         let thickness = thickness_per_quantum(self.cell_mm, medium.scattering_per_mm);
-        let optics = |slots, opacity| layer_optics(slots, &light.quadrature, thickness, opacity);
         let below = internal_ground(library, &ground.reflectance);
         Scene {
             ground: at_nodes(&light.quadrature.rule, library.grid, &below, 1.0),
-            dry: self.dry.iter().map(|(slots, opacity)| optics(slots, *opacity)).collect(),
-            wet: optics(self.slots, 1.0),
+            dry: self
+                .dry
+                .iter()
+                .map(|(slots, opacity)| layer_optics(slots, &light.quadrature, thickness, *opacity))
+                .collect(),
+            wet: layer_optics(self.slots, &light.quadrature, thickness, 1.0),
             surface: scene_surface(&library.saunderson),
             rgb_from_nodes: light.rgb_at_degree(lighting.adaptation),
             lamp: Lamp {
@@ -108,7 +111,7 @@ fn direction(lighting: &Lighting) -> [f32; 3] {
     [azimuth.sin() * level, -azimuth.cos() * level, elevation.sin()].map(|v| v as f32)
 }
 
-/// Picture of a document in linear sRGB, white at 1; the fourth value is 1. It equals the
+/// Picture of a document in linear sRGB, white at 1. The fourth value is 1. It equals the
 /// picture of a paint engine. Takes 20 bytes per cell beside the document.
 ///
 /// `scene` must have been made for `document`.
@@ -352,7 +355,7 @@ impl Between {
         (x / self.weights.len(), y / self.weights.len())
     }
 
-    /// Calls `add` with the weight of each cell around a pixel; the weights sum to 1. Beyond the
+    /// Calls `add` with the weight of each cell around a pixel. The weights sum to 1. Beyond the
     /// edges of the canvas its last cells go on.
     fn around(&self, x: usize, y: usize, mut add: impl FnMut(f32, (usize, usize))) {
         let count = self.weights.len();
@@ -475,7 +478,7 @@ impl SpectralStack {
     /// Part of the ground, then of each layer, in what is seen of a column of paint: sum 1.
     ///
     /// A film hides the part of the contrast between a white and a black below it that is lost, at each
-    /// wavelength; all wavelengths count alike. What it does not hide is left to the films below it.
+    /// wavelength. All wavelengths count alike. What it does not hide is left to the films below it.
     pub fn seen(&self, pigments: impl IntoIterator<Item = [u32; SLOTS]>) -> Vec<f64> {
         let columns: Vec<[f64; SLOTS]> =
             pigments.into_iter().map(|amounts| amounts.map(f64::from)).collect();
@@ -574,7 +577,7 @@ impl<'a> SpectralDocument<'a> {
 
     /// Measured reflectance of all cells as 32-bit planes, one per wavelength. Rows are
     /// computed on all CPU cores. After each row `go_on` is called with the number of rows
-    /// done; if it returns `false`, the result is `None`.
+    /// done. If it returns `false`, the result is `None`.
     pub fn planes(&self, mut go_on: impl FnMut(usize) -> bool) -> Option<Vec<Field<f32>>> {
         let width = self.document.wet.width();
         let height = self.document.wet.height();

@@ -256,7 +256,7 @@ pub fn color_row(scene: &Scene, internal: &[[f32; NODES]], out: &mut [[f32; 4]])
     graphics::lanes::vectorized(Color { scene, internal, out });
 }
 
-/// Adds relief and gloss to `out`, the linear sRGB of a row of level cells; see [`shade_row`].
+/// Adds relief and gloss to `out`, the linear sRGB of a row of level cells. See [`shade_row`].
 ///
 /// # Panics
 /// If the slices differ in length, or cells do not lie within `tops`.
@@ -291,7 +291,7 @@ pub fn relieve_row(
     }
 }
 
-/// Number of cells whose diffuse light is computed before their gloss; small enough that
+/// Number of cells whose diffuse light is computed before their gloss. Small enough that
 /// they stay in the L1 cache.
 const BLOCK: usize = 64;
 

@@ -16,7 +16,7 @@ pub use super::pose::SampleDecimals;
 /// the last, where the brush is lifted.
 ///
 /// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and
-/// Keyser 2011); pressure, tilt and twist are interpolated linearly, twist the shorter way
+/// Keyser 2011). Pressure, tilt and twist are interpolated linearly, twist the shorter way
 /// round. From one pose to the next, the sides of a brush of `size_mm` move by one cell at most,
 /// an angle changes by 3 degrees at most, and the pressure by 1/16 at most, less for a wide brush,
 /// so that the sides of its mark move by about a cell. At the last sample the brush is lifted on
@@ -182,7 +182,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// The curve between the samples `from` and `to`; the samples before and after them, if
+    /// The curve between the samples `from` and `to`. The samples before and after them, if
     /// there are any, set its tangents. `reach` is half of the width of the brush in cells.
     fn new(
         (before, from): (Option<Pose>, Pose),
@@ -191,7 +191,6 @@ impl Piece {
     ) -> Self {
         let turn = (to.twist_deg - from.twist_deg) % 360.0;
         to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
-        let place = |pose: &Pose| (pose.x, pose.y);
         let b = place(&from);
         let c = place(&to);
         let before = before.map_or_else(|| mirrored(c, b), |pose| place(&pose));
@@ -223,16 +222,23 @@ impl Piece {
         let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
         let on_curve = weights.iter().zip(&self.points);
         let (x, y) = on_curve.fold((0.0, 0.0), |(x, y), (w, p)| (x + w * p.0, y + w * p.1));
-        let between = |a: f64, b: f64| a + (b - a) * t;
         Pose {
             x,
             y,
-            pressure: between(self.from.pressure, self.to.pressure),
-            tilt_x_deg: between(self.from.tilt_x_deg, self.to.tilt_x_deg),
-            tilt_y_deg: between(self.from.tilt_y_deg, self.to.tilt_y_deg),
-            twist_deg: between(self.from.twist_deg, self.to.twist_deg),
+            pressure: between(self.from.pressure, self.to.pressure, t),
+            tilt_x_deg: between(self.from.tilt_x_deg, self.to.tilt_x_deg, t),
+            tilt_y_deg: between(self.from.tilt_y_deg, self.to.tilt_y_deg, t),
+            twist_deg: between(self.from.twist_deg, self.to.twist_deg, t),
         }
     }
+}
+
+fn between(a: f64, b: f64, t: f64) -> f64 {
+    a + (b - a) * t
+}
+
+fn place(pose: &Pose) -> (f64, f64) {
+    (pose.x, pose.y)
 }
 
 /// Number of sub-steps, or part of one, from `a` to the near pose `b`. In a sub-step the sides of
@@ -241,7 +247,7 @@ fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
     (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b, reach))
 }
 
-/// Way in cells of the sides of a brush as it twists; `reach` is half of its width in cells.
+/// Way in cells of the sides of a brush as it twists. `reach` is half of its width in cells.
 fn swung(a: &Pose, b: &Pose, reach: f64) -> f64 {
     reach * (a.twist_deg - b.twist_deg).abs().to_radians()
 }
@@ -308,7 +314,7 @@ pub struct Path {
     ended: usize,
     /// Number of pieces walked to their end.
     walked: usize,
-    /// Number of steps walked in the first of `pieces`; see `Piece::looks`.
+    /// Number of steps walked in the first of `pieces`. See `Piece::looks`.
     look: u64,
     /// Fraction of a sub-step from the last pose returned to `look`.
     since: f64,
@@ -349,7 +355,7 @@ impl Path {
     ///
     /// # Errors
     /// [`StrokeError`] for an impossible sample, and for a path of more than
-    /// [`MOST_SUBSTEPS`]; samples are counted from the first of the path.
+    /// [`MOST_SUBSTEPS`]. Samples are counted from the first of the path.
     ///
     /// # Panics
     /// If the path is finished.
@@ -365,8 +371,7 @@ impl Path {
         let known =
             from.zip(to).map(|(from, to)| Piece::new((before, from), (to, Some(pose)), self.reach));
         let guessed = to.map(|to| Piece::new((from, to), (pose, None), self.reach));
-        let size = |piece: &Option<Piece>| piece.as_ref().map_or(0.0, Piece::size);
-        let substeps = self.length + size(&known) + size(&guessed);
+        let substeps = self.length + piece_size(&known) + piece_size(&guessed);
         if substeps > MOST_SUBSTEPS as f64 {
             return Err(StrokeError::TooLong { substeps });
         }
@@ -383,7 +388,7 @@ impl Path {
         self.pieces.extend(piece);
     }
 
-    /// Ends the path at the last sample; its last poses can be computed now.
+    /// Ends the path at the last sample. Its last poses can be computed now.
     pub fn finish(&mut self) {
         let [before, from, to] = self.recent;
         if !self.finished {
@@ -410,7 +415,7 @@ impl Path {
         }
     }
 
-    /// Upper bound of the number of poses that can be computed now; 0 if and only if there is
+    /// Upper bound of the number of poses that can be computed now. 0 if and only if there is
     /// none.
     pub fn waiting(&mut self) -> usize {
         if self.peek().is_none() {
@@ -473,7 +478,7 @@ impl Path {
     }
 
     /// Number of sub-steps in which the brush is lifted at the last sample, and number of all poses
-    /// there. A path arrives pressed and is only lifted; a dab is pressed down first, in as many
+    /// there. A path arrives pressed and is only lifted. A dab is pressed down first, in as many
     /// sub-steps.
     fn pressing(&self) -> (usize, usize) {
         let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
@@ -522,10 +527,14 @@ impl Path {
     }
 }
 
+fn piece_size(piece: &Option<Piece>) -> f64 {
+    piece.as_ref().map_or(0.0, Piece::size)
+}
+
 impl Iterator for Path {
     type Item = Pose;
 
-    /// The next pose; `None` while it is not known, and after the last.
+    /// The next pose. `None` while it is not known, and after the last.
     fn next(&mut self) -> Option<Pose> {
         self.peek();
         self.next.take()
@@ -630,8 +639,9 @@ mod tests {
             let random = &mut ChaCha8Rng::seed_from_u64(seed);
             let samples = random_samples(random);
             let whole = poses(&samples);
-            let place = |sample: &Sample| (sample.x_mm, sample.y_mm);
-            dabs += usize::from(samples.iter().all(|sample| place(sample) == place(&SAMPLE)));
+            dabs += usize::from(
+                samples.iter().all(|sample| sample_place(sample) == sample_place(&SAMPLE)),
+            );
             let mut path = Path::new(0.1, SIZE_MM).unwrap();
             let mut pieces = Vec::new();
             let mut rest = &samples[..];
@@ -657,6 +667,10 @@ mod tests {
             assert!(lagged > 0, "seed {seed}: no path lagged behind");
         }
         assert!(dabs > 20, "{dabs} dabs");
+    }
+
+    fn sample_place(sample: &Sample) -> (f64, f64) {
+        (sample.x_mm, sample.y_mm)
     }
 
     #[test]
@@ -692,23 +706,19 @@ mod tests {
 
     #[test]
     fn sides_of_a_brush_move_by_a_cell_at_most() {
-        let bend = |index: u32| {
-            let angle = f64::from(index) * 0.2;
-            let (sin, cos) = angle.sin_cos();
-            let twist_deg = angle.to_degrees();
-            Sample { twist_deg, ..at(f64::from(index), 5.0 + 2.0 * sin, 5.0 - 2.0 * cos) }
-        };
-        let samples: Vec<Sample> = (0..20).map(bend).collect();
+        let samples: Vec<Sample> = (0..20)
+            .map(|index: u32| {
+                let angle = f64::from(index) * 0.2;
+                let (sin, cos) = angle.sin_cos();
+                let twist_deg = angle.to_degrees();
+                Sample { twist_deg, ..at(f64::from(index), 5.0 + 2.0 * sin, 5.0 - 2.0 * cos) }
+            })
+            .collect();
         let size_mm = 6.0;
-        let side = |pose: &Pose| {
-            let (sin, cos) = pose.twist_deg.to_radians().sin_cos();
-            let half = size_mm / 2.0 / 0.1;
-            (pose.x + half * sin, pose.y - half * cos)
-        };
         let poses: Vec<Pose> = substeps(&samples, 0.1, size_mm).unwrap().collect();
         for pair in poses.windows(2) {
-            let from = side(&pair[0]);
-            let to = side(&pair[1]);
+            let from = side(&pair[0], size_mm);
+            let to = side(&pair[1], size_mm);
             let way = (from.0 - to.0).hypot(from.1 - to.1);
             assert!(way <= 1.0 + 1e-9, "{way} cells from {pair:?}");
         }
@@ -727,6 +737,12 @@ mod tests {
         }
     }
 
+    fn side(pose: &Pose, size_mm: f64) -> (f64, f64) {
+        let (sin, cos) = pose.twist_deg.to_radians().sin_cos();
+        let half = size_mm / 2.0 / 0.1;
+        (pose.x + half * sin, pose.y - half * cos)
+    }
+
     #[test]
     fn contacts_begin_at_rest_and_a_dab_moves() {
         let relief = Relief::flat(300, 100, 0.1);
@@ -735,8 +751,6 @@ mod tests {
         let line = substeps(&[SAMPLE, at(1.0, 20.0, 5.0)], 0.1, SIZE_MM).unwrap();
         let stroke: Vec<Contact> = contacts(&mut head, line, &relief, bounds).collect();
         assert!(stroke.len() > 150, "{}", stroke.len());
-        // Hair is pressed by about half its sink.
-        let sunk = |contact: &Contact| (contact.rates.sink / 2) as i32;
         let fastest = |contact: &Contact| {
             let pressed = contact.touches.iter().filter(|touch| touch.height < sunk(contact));
             pressed.map(|touch| touch.velocity().0.abs()).max()
@@ -754,26 +768,34 @@ mod tests {
 
     #[test]
     fn impossible_samples_are_refused_with_their_index() {
-        let refused = |second: Sample| substeps(&[SAMPLE, second], 0.1, SIZE_MM).err().unwrap();
-        let error = refused(Sample { pressure: 1.5, ..SAMPLE });
+        let error = refused_second(Sample { pressure: 1.5, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: pressure is from 0 to 1: `1.5`");
-        let error = refused(Sample { tilt_y_deg: -91.0, ..SAMPLE });
+        let error = refused_second(Sample { tilt_y_deg: -91.0, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: tilt_y_deg is from -90 to 90: `-91`");
-        let error = refused(Sample { x_mm: f64::NAN, ..SAMPLE });
+        let error = refused_second(Sample { x_mm: f64::NAN, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: x_mm is no number: `NaN`");
-        let error = refused(Sample { twist_deg: f64::INFINITY, ..SAMPLE });
+        let error = refused_second(Sample { twist_deg: f64::INFINITY, ..SAMPLE });
         assert!(matches!(error, StrokeError::NoNumber { field: "twist_deg", .. }), "{error}");
-        let error = refused(Sample { seconds: -0.1, ..SAMPLE });
+        let error = refused_second(Sample { seconds: -0.1, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: seconds fall, from 0 to `-0.1`");
         for x_mm in [1e9, 1e300, -1e308] {
-            let error = refused(Sample { x_mm, ..SAMPLE });
+            let error = refused_second(Sample { x_mm, ..SAMPLE });
             assert!(matches!(error, StrokeError::Range { field: "x_mm", .. }), "{error}");
         }
         for x_mm in [1.1e6, -9e7] {
-            let error = refused(Sample { x_mm, ..SAMPLE });
+            let error = refused_second(Sample { x_mm, ..SAMPLE });
             assert!(matches!(error, StrokeError::TooLong { .. }), "{error}");
         }
         assert!(matches!(substeps(&[], 0.1, SIZE_MM).err(), Some(StrokeError::Empty)));
         assert!(matches!(substeps(&[SAMPLE], 0.0, SIZE_MM).err(), Some(StrokeError::Cell { .. })));
+    }
+
+    fn refused_second(second: Sample) -> StrokeError {
+        substeps(&[SAMPLE, second], 0.1, SIZE_MM).err().unwrap()
+    }
+
+    /// Hair is pressed by about half its sink.
+    fn sunk(contact: &Contact) -> i32 {
+        (contact.rates.sink / 2) as i32
     }
 }

@@ -1,7 +1,7 @@
 //! A wheat field with cypresses: underpainting, a sky painted wet in wet, then hills, field and
 //! trees over dry paint, with thick highlights and thin lines by the rigger.
 //!
-//! Most strokes start at the points of a jittered grid; direction and mixture depend on the
+//! Most strokes start at the points of a jittered grid. Direction and mixture depend on the
 //! position. Strokes in the foreground are longer.
 //!
 //! Plants of the landscape: cypresses and their shadows, bushes, ears and stalks of wheat,
@@ -158,19 +158,21 @@ fn sky(script: &mut ScriptBuilder) {
 
 /// Added lightness of the sky by clouds, whirls and the sun, in steps of the blue mixtures.
 fn brightness((x, y): Place) -> f64 {
-    let ring = |(cx, cy): Place, radius: f64, width: f64| {
-        let off = ((x - cx).hypot(y - cy) - radius) / width;
-        (-off * off).exp()
-    };
-    let bank = |cx: f64, cy: f64, wide: f64, high: f64| {
-        (-((x - cx) / wide).powi(2) - ((y - cy) / high).powi(2)).exp()
-    };
-    2.6 * ring((112.0, 24.0), 11.0, 3.0)
-        + 2.2 * ring((146.0, 33.0), 6.5, 2.2)
-        + 2.4 * bank(84.0, 47.0, 30.0, 4.0)
-        + 2.4 * bank(20.0, 49.0, 26.0, 4.0)
-        + 2.6 * bank(180.0, 14.0, 20.0, 5.0)
-        + 3.0 * bank(SUN.0, SUN.1, 15.0, 13.0)
+    2.6 * ring((112.0, 24.0), 11.0, 3.0, (x, y))
+        + 2.2 * ring((146.0, 33.0), 6.5, 2.2, (x, y))
+        + 2.4 * bank(84.0, 47.0, 30.0, 4.0, (x, y))
+        + 2.4 * bank(20.0, 49.0, 26.0, 4.0, (x, y))
+        + 2.6 * bank(180.0, 14.0, 20.0, 5.0, (x, y))
+        + 3.0 * bank(SUN.0, SUN.1, 15.0, 13.0, (x, y))
+}
+
+fn bank(cx: f64, cy: f64, wide: f64, high: f64, (x, y): Place) -> f64 {
+    (-((x - cx) / wide).powi(2) - ((y - cy) / high).powi(2)).exp()
+}
+
+fn ring((cx, cy): Place, radius: f64, width: f64, (x, y): Place) -> f64 {
+    let off = ((x - cx).hypot(y - cy) - radius) / width;
+    (-off * off).exp()
 }
 
 /// Rings of thick yellow around a disc.
@@ -278,7 +280,7 @@ fn field(script: &mut ScriptBuilder) {
             };
             let at = (x + script.about(1.5), y + script.about(1.2));
             let length = 5.5 + 9.5 * near + script.about(2.0);
-            // Strokes are nearly level far away; near by they are steep and bent by the wind.
+            // Strokes are nearly level far away. Near by they are steep and bent by the wind.
             let (way, bow) = if on_path {
                 (-0.3 - near * 0.4, 0.0)
             } else {
@@ -457,7 +459,7 @@ pub(crate) const WIDTH: f64 = 200.0;
 /// Height of the canvas in mm.
 pub(crate) const HEIGHT: f64 = 140.0;
 
-/// Distance of the horizon from the top in mm; the field begins there.
+/// Distance of the horizon from the top in mm. The field begins there.
 pub(crate) const HORIZON: f64 = 62.0;
 
 /// Middle and half width of the path in mm, `y` mm below the top.

@@ -1,4 +1,4 @@
-//! Writes the stroke scripts of `paintings/`; the output is deterministic:
+//! Writes the stroke scripts of `paintings/`. The output is deterministic:
 //! `cargo run -p impasto-render --example paintings -- paintings`.
 
 mod script_builder;

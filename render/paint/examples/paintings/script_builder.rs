@@ -90,8 +90,8 @@ impl ScriptBuilder {
         self.built.actions.push(Action::Palette(palette(pigments)));
     }
 
-    /// Paints a stroke through `places`. The brush lies across the path and leans forward;
-    /// its pressure rises from 60 % of `pressure` and falls back to it.
+    /// Paints a stroke through `places`. The brush lies across the path and leans forward.
+    /// Its pressure rises from 60 % of `pressure` and falls back to it.
     pub(crate) fn stroke(&mut self, brush: &str, places: &[Place], pressure: f64) {
         let last = places.len() - 1;
         self.pull(brush, places, |i| if i == 0 || i == last { 0.6 * pressure } else { pressure });

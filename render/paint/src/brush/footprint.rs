@@ -42,7 +42,7 @@ const ALONG: usize = 5;
 /// weight, these three times 65536.
 #[derive(Debug, Clone)]
 pub(super) struct Footprint {
-    /// Whether each facet has hair; empty if all have.
+    /// Whether each facet has hair. Empty if all have.
     hair: Vec<bool>,
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
@@ -175,7 +175,6 @@ impl Footprint {
     #[inline(always)]
     fn count(&mut self, contact: &mut Contact) {
         let Self { sharers, spans, .. } = self;
-        let touching = |touch: &&Touch| touch.height != Touch::NONE.height;
         for touch in within(&contact.touches, contact.rect.width, spans).filter(touching) {
             let sharers = &mut sharers[touch.brush_cell as usize];
             *sharers = sharers.saturating_add(1);
@@ -190,6 +189,11 @@ impl Footprint {
             sharers[touch.brush_cell as usize] = 0;
         }
     }
+}
+
+#[inline(always)]
+fn touching(touch: &&Touch) -> bool {
+    touch.height != Touch::NONE.height
 }
 
 /// The touches of the `spans` of the rows, which are `width` long.
@@ -255,7 +259,7 @@ struct Canvas<'a> {
 
 impl Canvas<'_> {
     /// Rasterises a triangle whose corners follow each other in the direction from the x axis
-    /// to the y axis; others are skipped. A cell centre on an edge belongs
+    /// to the y axis. Others are skipped. A cell centre on an edge belongs
     /// to the triangle right of it or below it.
     #[inline(always)]
     fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
@@ -352,7 +356,7 @@ impl Edge {
     fn new(from: &Corner, to: &Corner) -> Self {
         let side = to.y - from.y;
         let (upper, lower) = if side > 0.0 { (from, to) } else { (to, from) };
-        // Horizontal edges bound no row; their slope is never used.
+        // Horizontal edges bound no row. Their slope is never used.
         let slope = (lower.x - upper.x) / (lower.y - upper.y);
         Self { x: upper.x, y: upper.y, slope, side }
     }
@@ -416,7 +420,7 @@ pub(super) struct Imprint {
     cell_mm: f64,
     /// Height in quanta up to which the surface is drawn.
     ceiling: f32,
-    /// Extent of the contact across the stroke; `None` if the head hardly moved.
+    /// Extent of the contact across the stroke. `None` if the head hardly moved.
     extent: Option<Extent>,
 }
 
@@ -444,7 +448,7 @@ impl Imprint {
     }
 
     /// Fills `out` with the contact evaluated last. `locks` are those of each column of paint
-    /// cells; `border` is where its sides are, if the head moved.
+    /// cells. `border` is where its sides are, if the head moved.
     pub(super) fn draw(
         &mut self,
         locks: &[Lock],
@@ -536,7 +540,6 @@ fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let height = greater(z, relief);
     let speed = greater((dx * dx + dy * dy + dz * dz).sqrt(), pressed);
     let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
-    let fixed = |cells: f32| (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0;
     [
         x,
         y,
@@ -547,6 +550,11 @@ fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
         0.0,
         0.0,
     ]
+}
+
+#[inline(always)]
+fn fixed(cells: f32) -> f32 {
+    (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0
 }
 
 /// Increase of the coat at the sides (chosen by measured lips).
@@ -562,7 +570,7 @@ const FOLLOWED: f32 = 0.2;
 /// Where the sides of the contact are, seen from the pen.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sides {
-    /// Lowest and highest distance in cells across the stroke; `None` before its first contact.
+    /// Lowest and highest distance in cells across the stroke. `None` before its first contact.
     extent: Option<(f32, f32)>,
 }
 
@@ -576,7 +584,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// An empty extent around `pen`, which moved by `moved` cells; `None` if it hardly moved.
+    /// An empty extent around `pen`, which moved by `moved` cells. `None` if it hardly moved.
     pub(super) fn new(pen: (f32, f32), (x, y): (f32, f32)) -> Option<Self> {
         let length = libm::hypotf(x, y);
         let across = (-y / length, x / length);
@@ -603,7 +611,7 @@ impl Sides {
         self.extent = None;
     }
 
-    /// Follows the extent `now` of a contact. Returns where its sides are; `None` if the head hardly
+    /// Follows the extent `now` of a contact. Returns where its sides are. `None` if the head hardly
     /// moved or does not touch.
     pub(super) fn follow(&mut self, now: Option<Extent>) -> Option<Border> {
         let now = now.filter(|now| now.low <= now.high)?;

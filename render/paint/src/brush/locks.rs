@@ -101,9 +101,6 @@ impl Locks {
             self.change();
             return (0.0, 0.0);
         };
-        let moved = |to: i64, from: i64, to_part: f32, from_part: f32| {
-            (to - from) as f32 + to_part - from_part
-        };
         let x = moved(grip.origin.0, origin.0, grip.tip.0, tip.0);
         let y = moved(grip.origin.1, origin.1, grip.tip.1, tip.1);
         self.along += (x * x + y * y).sqrt() * self.cell_mm / CHANGE_MM;
@@ -128,6 +125,11 @@ impl Locks {
             lock.release = (release.clamp(1.0, 127.0) as u32) << 9;
         }
     }
+}
+
+#[inline(always)]
+fn moved(to: i64, from: i64, to_part: f32, from_part: f32) -> f32 {
+    (to - from) as f32 + to_part - from_part
 }
 
 /// Coat of a head, and the distances in mm that it moves while differences between head and canvas
@@ -156,7 +158,7 @@ struct Uptake {
     /// Number of flows in which all hairs have their turn, so that they do not fill in step, which
     /// would leave beads along a stroke.
     turns: u32,
-    /// Width of the groups of hairs that level together; 0 if each hair levels alone.
+    /// Width of the groups of hairs that level together. 0 if each hair levels alone.
     spread_mm: f64,
 }
 
@@ -242,8 +244,8 @@ pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usi
     if of.rigid { ((BANK_MM / row_mm).ceil() as usize).clamp(1, rows) } else { rows }
 }
 
-/// Flow of paint over a head before the sub-step number `sub_step` of a stroke; none in most
-/// sub-steps. The head has `rows` rows of paint cells; `cell_mm` is the width of its cells and of
+/// Flow of paint over a head before the sub-step number `sub_step` of a stroke. None in most
+/// sub-steps. The head has `rows` rows of paint cells. `cell_mm` is the width of its cells and of
 /// those of the canvas.
 pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64) -> Wicking {
     let uptake = uptake(of);

@@ -20,7 +20,7 @@ const REACH: f64 = 4.0;
 /// Cells that a clean head touches on a plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactMark {
-    /// Whether the hair touches each cell. The field holds the touched cells and no margin; it is
+    /// Whether the hair touches each cell. The field holds the touched cells and no margin. It is
     /// empty if nothing is touched.
     pub cells: Field<bool>,
     /// Position of the pen in mm from the upper left corner of `cells`.
@@ -204,7 +204,6 @@ mod mark_tests {
             behind.push(-along / count * CELL_MM);
             areas.push(count);
         }
-        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
         let area = mean(&areas);
         let spread =
             mean(&areas.iter().map(|a| (a - area) * (a - area)).collect::<Vec<_>>()).sqrt();
@@ -215,6 +214,10 @@ mod mark_tests {
             farthest_mm: behind.iter().fold(0.0, |most, b| b.abs().max(most)),
             unsteadiness: spread / area,
         }
+    }
+
+    fn mean(of: &[f64]) -> f64 {
+        of.iter().sum::<f64>() / of.len() as f64
     }
 
     /// The mark of `hand`, and its worst figures over all eight directions of its lean: widths, and

@@ -143,7 +143,7 @@ impl Explain for UnknownShape {
 ///
 /// Lengths follow catalogues of artists' brushes: a bright is about as long as wide, a flat
 /// and a filbert 1.5 times, a round 2.5, a rigger 6. Give, splay and the profiles near the tip
-/// are chosen such that a head marks its own width at middle pressure; the unevenness of bristles
+/// are chosen such that a head marks its own width at middle pressure. The unevenness of bristles
 /// is chosen by eye.
 #[derive(Debug)]
 struct Proportions {
@@ -161,7 +161,7 @@ struct Proportions {
     splay: f32,
     /// Profile of the width along the head.
     width: [f32; NODES],
-    /// Profile of the thickness along the head, as a fraction of the thickest position; 0 at
+    /// Profile of the thickness along the head, as a fraction of the thickest position. 0 at
     /// the tip closes it.
     depth: [f32; NODES],
     /// Whether the head has tufts with gaps between them.

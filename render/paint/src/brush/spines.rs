@@ -28,11 +28,11 @@ const CLEARANCE: f32 = 0.5;
 /// and touch none.
 const THINNEST: f32 = 2.0;
 
-/// Minimum distance by which full pressure lowers a head, in mm; a knife is lowered by just
+/// Minimum distance by which full pressure lowers a head, in mm. A knife is lowered by just
 /// this distance.
 const LEAST_DEPTH_MM: f32 = 0.6;
 
-/// Spines of one head; lengths in cells.
+/// Spines of one head. Lengths in cells.
 #[derive(Debug, Clone)]
 pub(super) struct Spines {
     pub(super) of: &'static Proportions,
@@ -49,7 +49,7 @@ pub(super) struct Spines {
     pub(super) nodes: Vec<Vector>,
     /// Pressure on each level, 0 to 1.
     pub(super) load: [f32; NODES],
-    /// Direction in which hair lies on the canvas; shorter than 1 while it swings round.
+    /// Direction in which hair lies on the canvas. Shorter than 1 while it swings round.
     trail: Vector,
     /// The pen in the last sub-step.
     pen: (f32, f32),
@@ -215,12 +215,15 @@ impl Spines {
 
 /// Profiles smoothed as the B-spline surface smooths them.
 fn rounded(breadth: [f32; NODES], thickness: [f32; NODES]) -> [(f32, f32); NODES] {
-    let at = |of: &[f32; NODES], i: usize| match i {
+    std::array::from_fn(|i| (smoothed_at(&breadth, i), smoothed_at(&thickness, i)))
+}
+
+fn smoothed_at(of: &[f32; NODES], i: usize) -> f32 {
+    match i {
         0 => of[0],
         i if i + 1 == NODES => of[i],
         i => (of[i - 1] + 4.0 * of[i] + of[i + 1]) / 6.0,
-    };
-    std::array::from_fn(|i| (at(&breadth, i), at(&thickness, i)))
+    }
 }
 
 /// Fraction of its thickness that a head loses under full pressure (chosen by eye).
@@ -233,7 +236,7 @@ const PRESSED: f32 = 0.6;
 const ARC: f32 = 0.8;
 
 /// Where the contact of slanting hair lies, from its core (0) to the side that faces the canvas
-/// (1); fitted to the contacts of all shapes.
+/// (1). Fitted to the contacts of all shapes.
 const INWARDS: f32 = 0.7;
 
 /// Number of points of a segment at which contact is looked for.
@@ -306,7 +309,7 @@ impl Hair<'_> {
             .sum()
     }
 
-    /// Lays a spine from `ferrule` over the heights `floor`; `rest` are the distances of its nodes
+    /// Lays a spine from `ferrule` over the heights `floor`. `rest` are the distances of its nodes
     /// along the axis and across it.
     pub(super) fn laid(
         &self,
@@ -343,7 +346,7 @@ impl Hair<'_> {
     }
 
     /// Horizontal way from the ferrule, `high` over a plane, to the middle of the contact of a
-    /// head whose width along the hair is `width`; to its tip if it does not touch.
+    /// head whose width along the hair is `width`. To its tip if it does not touch.
     pub(super) fn middle(&self, high: f32, width: &[f32; NODES]) -> Vector {
         let rest = std::array::from_fn::<_, NODES, _>(|level| {
             (self.length * level as f32 / (NODES - 1) as f32, 0.0)
@@ -367,9 +370,8 @@ impl Hair<'_> {
                 (0..4).fold(Vector::ZERO, |sum, i| sum + at(first + i as isize) * weights[i]);
             let along = (last - core).unit_or(self.axis);
             last = core;
-            let between = |a: f32, b: f32| a + (b - a) * share;
-            let flat = between(lying[level], lying[level + 1]);
-            let thick = between(self.section[level].1, self.section[level + 1].1)
+            let flat = between(lying[level], lying[level + 1], share);
+            let thick = between(self.section[level].1, self.section[level + 1].1, share)
                 * (1.0 - FLATTENED * self.pressure * flat);
             // The side that faces the canvas, at right angles to the hair.
             let side = (along * along.z - Vector::UP).unit_or(Vector::ZERO);
@@ -377,9 +379,13 @@ impl Hair<'_> {
             let under = core.z + side.z * thick;
             let pressed = (-under / thick.max(0.5)).clamp(0.0, 1.0);
             let chord = (pressed * (2.0 - pressed)).sqrt();
-            let weight = chord * between(width[level], width[level + 1]);
+            let weight = chord * between(width[level], width[level + 1], share);
             sum += place * weight;
             whole += weight;
+        }
+
+        fn between(a: f32, b: f32, share: f32) -> f32 {
+            a + (b - a) * share
         }
         let middle = if whole > 0.0 { sum * (1.0 / whole) } else { places[NODES - 1] };
         Vector::new(middle.x, middle.y, 0.0)
@@ -402,7 +408,7 @@ const BLADE_DEG: (f64, f64) = (25.0, 8.0);
 /// cells has the same contacts.
 const STEPS_PER_CELL: f64 = 65536.0;
 
-/// Largest distance from the origin in cells; positions beyond it are clipped.
+/// Largest distance from the origin in cells. Positions beyond it are clipped.
 const FARTHEST: f64 = 1e9;
 
 /// Axes of a head at a pose. Lengths are in cells from `origin`.
@@ -423,7 +429,7 @@ pub(super) struct Grip {
 }
 
 impl Grip {
-    /// Axes of a head of these proportions at `pose`; `None` if a number is not finite or the
+    /// Axes of a head of these proportions at `pose`. `None` if a number is not finite or the
     /// pressure is 0. A wide head or a blade lies level along its broad side, as it would
     /// stand on a corner if it leaned that way.
     pub(super) fn new(pose: &Pose, of: &Proportions) -> Option<Self> {
@@ -527,7 +533,7 @@ impl Vector {
         self.dot(self).sqrt()
     }
 
-    /// This direction with length 1; `otherwise` if its length is at most 1e-4.
+    /// This direction with length 1. `otherwise` if its length is at most 1e-4.
     pub(super) fn unit_or(self, otherwise: Self) -> Self {
         let length = self.length();
         if length > 1e-4 { self * (1.0 / length) } else { otherwise }
@@ -631,7 +637,6 @@ mod tests {
     fn a_wide_head_stays_level_and_a_blade_stands_on_its_edge() {
         for towards_deg in (0..360).step_by(15) {
             let (sin, cos) = f64::from(towards_deg).to_radians().sin_cos();
-            let tilt = |part: f64| (1.5 * part).atan().to_degrees();
             let pose = Pose { tilt_x_deg: tilt(cos), tilt_y_deg: tilt(sin), ..POSE };
             for shape in [HeadShape::Flat, HeadShape::Knife] {
                 let grip = Grip::new(&pose, shape.proportions()).unwrap();
@@ -644,6 +649,10 @@ mod tests {
             let leans = sin.abs() > 0.3;
             assert!(!leans || f64::from(blade.axis.y) * sin > 0.0, "{towards_deg}: {blade:?}");
         }
+    }
+
+    fn tilt(part: f64) -> f64 {
+        (1.5 * part).atan().to_degrees()
     }
 
     #[test]

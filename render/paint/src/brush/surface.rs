@@ -50,13 +50,13 @@ impl Span {
     }
 }
 
-/// Surface of a head; vertices row by row from the ferrule.
+/// Surface of a head. Vertices row by row from the ferrule.
 #[derive(Debug, Clone)]
 pub(super) struct LimitSurface {
     around: Span,
     along: Span,
     columns: usize,
-    /// Positions and displacements of vertices; valid where [`LimitSurface::is_near`].
+    /// Positions and displacements of vertices. Valid where [`LimitSurface::is_near`].
     pub(super) vertices: Vec<Point>,
     near: Vec<bool>,
     /// The net evaluated along the head but not around it.
@@ -237,7 +237,7 @@ impl Net {
         }
     }
 
-    /// Places the net around `spines`; the displacements are the changes since the last call.
+    /// Places the net around `spines`. The displacements are the changes since the last call.
     pub(super) fn follow(&mut self, spines: &Spines, grip: &Grip) {
         for level in 0..NODES {
             let ring = Ring::new(spines, grip, level);
@@ -260,7 +260,7 @@ impl Net {
             let first = at(1, column) * 2.0 - at(2, column);
             // The row beyond the tip is the row before it with opposite columns
             // exchanged, which closes the end bluntly. That would draw the end
-            // inwards; `last` moves it back to `ends`.
+            // inwards. `last` moves it back to `ends`.
             let here = at(tip - 1, column);
             let there = at(tip - 1, self.opposite(column));
             let last = self.ends[column] * 1.5 - (here + there) * 0.25;
@@ -295,7 +295,7 @@ struct Ring {
     centre: Vector,
     broad: Vector,
     thin: Vector,
-    /// Horizontal and upward vectors across the section; `None` where the head is vertical.
+    /// Horizontal and upward vectors across the section. `None` where the head is vertical.
     level: Option<(Vector, Vector)>,
     wider: f32,
     flatter: f32,
@@ -370,7 +370,7 @@ const VERTICES_AROUND: usize = 24;
 /// Surface of a head over the canvas: rows of vertices around it, from the ferrule to the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeadMesh {
-    /// Number of vertices around the head; the last is next to the first.
+    /// Number of vertices around the head. The last is next to the first.
     pub around: usize,
     /// Number of rows, from the open ferrule to the closed tip.
     pub along: usize,

@@ -38,7 +38,7 @@ pub enum StrokeTool {
     /// Takes all paint higher than a blade that glides over the crests of the ground. What lies
     /// between the crests stays.
     Scrape {
-        /// Height of the blade over the crests at pressure 0 in mm, 0 to 10; it falls to 0 at full
+        /// Height of the blade over the crests at pressure 0 in mm, 0 to 10. It falls to 0 at full
         /// pressure.
         height_mm: f64,
     },
@@ -121,7 +121,7 @@ impl StrokeTool {
 /// Distance in mm over which the paint under a rag falls to 1/e at full strength and pressure.
 const ERASE_MM: f64 = 1.0;
 
-/// Height in mm over the crests at which a rag no longer rubs; below it rubs the more the lower.
+/// Height in mm over the crests at which a rag no longer rubs. Below it rubs the more the lower.
 const RUB_MM: f64 = 0.3;
 
 /// Height in mm over the crests up to which the head is the edge of the blade.

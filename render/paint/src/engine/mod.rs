@@ -19,13 +19,13 @@ pub use cpu::CpuPaint;
 pub use gpu::{GpuPaint, kernels, max_canvas_cells};
 pub use paint_engine::{OpenedEngine, PaintEngine};
 
-/// Identifies a brush of one engine; returned by
+/// Identifies a brush of one engine. Returned by
 /// [`PaintEngine::add_brush`](PaintEngine::add_brush).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BrushId(pub usize);
 
 /// Identifies a place in the engine's memory that holds the wet paint of one tile
-/// for undo. Slots are numbered from 0; the engine allocates up to the highest used.
+/// for undo. Slots are numbered from 0. The engine allocates up to the highest used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct UndoSlot(pub usize);
 

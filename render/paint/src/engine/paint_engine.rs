@@ -18,7 +18,7 @@ use crate::optics::Scene;
 /// pictures of the canvas.
 ///
 /// Every change is exact integer arithmetic, so both backends hold the same bits after
-/// the same calls. On the processor no operation fails; on a graphics device each
+/// the same calls. On the processor no operation fails. On a graphics device each
 /// returns [`DeviceError`] if the device is lost, and those that allocate also if it has
 /// no memory left.
 ///
@@ -37,7 +37,7 @@ pub enum PaintEngine {
 pub struct OpenedEngine {
     /// The engine, without paint.
     pub engine: PaintEngine,
-    /// Why the processor is used although a device was found; `None` if the device is
+    /// Why the processor is used although a device was found. `None` if the device is
     /// used or there was none.
     pub device_error: Option<DeviceError>,
 }
@@ -89,7 +89,7 @@ impl PaintEngine {
         }
     }
 
-    /// The graphics device that computes; `None` on the processor.
+    /// The graphics device that computes. `None` on the processor.
     #[must_use]
     pub fn device(&self) -> Option<&Device> {
         match self {
@@ -119,7 +119,7 @@ impl PaintEngine {
         }
     }
 
-    /// Applies one sub-step of `brush` for each contact, in order; see
+    /// Applies one sub-step of `brush` for each contact, in order. See
     /// [`crate::motion`].
     ///
     /// # Errors
@@ -265,7 +265,7 @@ impl PaintEngine {
         }
     }
 
-    /// Downloads the first view as last rendered; see [`PaintEngine::picture_in`].
+    /// Downloads the first view as last rendered. See [`PaintEngine::picture_in`].
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -274,7 +274,7 @@ impl PaintEngine {
     }
 
     /// Downloads a view in `rect` as last rendered: linear sRGB with white at 1, and 1 as
-    /// the fourth component; black where nothing was rendered. Where paint changed since, either
+    /// the fourth component. Black where nothing was rendered. Where paint changed since, either
     /// the earlier or the present paint is seen. Time is proportional to the
     /// area of `rect`.
     ///
@@ -318,7 +318,7 @@ impl PaintEngine {
     }
 
     /// Notes the surface of the paint in a tile as it is now: loaded hair rides on it in the
-    /// contacts that follow, until the tile is noted again; see [`bed`](crate::motion::bed). Before
+    /// contacts that follow, until the tile is noted again. See [`bed`](crate::motion::bed). Before
     /// the first time it is unknown and bears nothing.
     ///
     /// # Errors
@@ -411,7 +411,7 @@ impl PaintEngine {
         }
     }
 
-    /// Adds a dry layer on top; the floor rises by its height.
+    /// Adds a dry layer on top. The floor rises by its height.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -419,7 +419,7 @@ impl PaintEngine {
         self.insert_dry_layer(self.dry_layer_count(), layer)
     }
 
-    /// Removes the topmost dry layer and returns it; the floor falls by its height.
+    /// Removes the topmost dry layer and returns it. The floor falls by its height.
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -428,7 +428,7 @@ impl PaintEngine {
         self.remove_dry_layer(top.expect("the caller checks that there is a dry layer"))
     }
 
-    /// Adds a dry layer at `index`; those from there on move up by one. The floor rises by its
+    /// Adds a dry layer at `index`. Those from there on move up by one. The floor rises by its
     /// height.
     ///
     /// # Errors
@@ -443,7 +443,7 @@ impl PaintEngine {
         }
     }
 
-    /// Removes a dry layer and returns it; those above it move down by one. The floor falls by
+    /// Removes a dry layer and returns it. Those above it move down by one. The floor falls by
     /// its height.
     ///
     /// # Errors
@@ -455,7 +455,7 @@ impl PaintEngine {
         }
     }
 
-    /// Moves a dry layer from one index to another; the layers between move by one. The floor
+    /// Moves a dry layer from one index to another. The layers between move by one. The floor
     /// stays, as heights add up in any order.
     pub fn move_dry_layer(&mut self, from: usize, to: usize) {
         match self {

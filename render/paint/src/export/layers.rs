@@ -34,17 +34,17 @@ use crate::shade::color_row;
 ///
 /// Films of paint do not blend by opacity. Each pixel of a layer gets the opacity by which its
 /// film hides what lies below, or the least with which a program that composites stored values by
-/// `svg:src-over` shows exactly the painting up to this layer; its colour is solved for that. So
+/// `svg:src-over` shows exactly the painting up to this layer. Its colour is solved for that. So
 /// the layers together show the merged picture to the rounding of 16 bits, and without its upper
 /// layers the file shows the painting before they were painted. In another order, or over other
 /// colours, they show what such a program makes of them, which paint would not.
 ///
 /// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer is
-/// listed as hidden, with the pixels that it would have if it were shown; those above it are made
+/// listed as hidden, with the pixels that it would have if it were shown. Those above it are made
 /// without its colour. The relief that it keeps is part of the next layer that is shown.
 ///
 /// Shadows and light of a layer's relief are part of the layer. After each layer `go_on` is called
-/// with the number of layers done; if it returns `false`, the result is `None`.
+/// with the number of layers done. If it returns `false`, the result is `None`.
 ///
 /// # Errors
 /// [`ExportError`] for a painting without cells, cells of a size out of range, and colours that are
@@ -282,7 +282,6 @@ mod tests {
             session.apply(&Action::Wash { brush: "flat".to_owned() }).unwrap();
             session.load("flat", [(pigment, 1.0)], amount_mm).unwrap();
             let y_mm = 4.0 + 3.0 * index as f64;
-            let at = |seconds, x_mm, y_mm| Sample::upright(seconds, x_mm, y_mm, 0.6);
             session.stroke("flat", &[at(0.0, 2.0, y_mm), at(1.0, 22.0, y_mm)]).unwrap();
             session.stroke("flat", &[at(0.0, 9.0, 2.0), at(1.0, 9.0, 14.0)]).unwrap();
             if index < 2 {
@@ -293,6 +292,10 @@ mod tests {
         let document = session.documents().unwrap().0;
         assert_eq!(document.dry.len(), 2, "two layers dried");
         (document, Light::clone(&light))
+    }
+
+    fn at(seconds: f64, x_mm: f64, y_mm: f64) -> Sample {
+        Sample::upright(seconds, x_mm, y_mm, 0.6)
     }
 
     fn entry(file: &[u8], name: &str) -> Vec<u8> {
@@ -339,7 +342,7 @@ mod tests {
         for count in 0..4 {
             let picture = picture_of_lowest(&document, &scene, count);
             let error = worst(&composited(&layers[..=count]), &picture);
-            // Half a step for each layer; a step of 8 bits is 257.
+            // Half a step for each layer. A step of 8 bits is 257.
             assert!(error <= 2.0, "{count} layers: {error}");
         }
         assert!(picture(&document, &scene) == picture_of_lowest(&document, &scene, 3));
@@ -377,7 +380,6 @@ mod tests {
         document.dry[1].visible = false;
         let file = layers_file(&document, &light, |_| true).unwrap().unwrap();
         let stack = String::from_utf8(entry(&file.bytes, "stack.xml")).unwrap();
-        let hidden = |line: &&str| line.contains("visibility=\"hidden\"");
         let hidden: Vec<&str> = stack.lines().filter(hidden).collect();
         assert!(hidden.len() == 1 && hidden[0].contains("layer002.png"), "{stack}");
         let layer = |index| layer(&file.bytes, index);
@@ -395,5 +397,9 @@ mod tests {
     fn an_export_can_be_cancelled() {
         let (document, light) = painted();
         assert_eq!(layers_file(&document, &light, |done| done < 2), Ok(None));
+    }
+
+    fn hidden(line: &&str) -> bool {
+        line.contains("visibility=\"hidden\"")
     }
 }

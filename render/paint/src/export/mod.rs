@@ -31,7 +31,7 @@ const STEM: &str = "painting";
 /// Function that takes path and content of a file.
 pub type PutFile<'a> = dyn FnMut(&Path, &[u8]) -> Result<(), FileError> + 'a;
 
-/// Files to make of a painting; `None` skips a file. Each is written whole or not at all.
+/// Files to make of a painting. `None` skips a file. Each is written whole or not at all.
 ///
 /// ```no_run
 /// use paint::export::PaintingExports;
@@ -60,7 +60,7 @@ pub struct PaintingExports {
     /// Path and wavelengths of a spectral OpenEXR: the reflectance of every cell, without
     /// relief and gloss.
     pub spectral: Option<(PathBuf, SpectralBands)>,
-    /// Folder for a map of each pigment, created if needed; see [`pigment_maps`] for the
+    /// Folder for a map of each pigment, created if needed. See [`pigment_maps`] for the
     /// files.
     pub pigment_maps: Option<PathBuf>,
     /// Path of the painting itself, see [`crate::file`].
@@ -197,7 +197,7 @@ pub enum SpectralBands {
 
 /// Encodes a spectral OpenEXR of `document`: the reflectance of every cell without relief
 /// and gloss, and `picture` (computed under `light`) for programs that show colours. After
-/// each row `go_on` is called with the number of rows done; if it returns `false`, the
+/// each row `go_on` is called with the number of rows done. If it returns `false`, the
 /// result is `None`.
 ///
 /// # Errors

@@ -38,7 +38,7 @@ pub struct NamedFile {
 ///
 /// All PNGs have one scale, so that they can be compared: the value 65535 is the greatest
 /// height in mm of all paint together in one cell (`mm_at_65535`). Cells are `cell_mm`
-/// wide; the PNGs store that in `pHYs`.
+/// wide. The PNGs store that in `pHYs`.
 ///
 /// # Errors
 /// [`ExportError`] for maps of different sizes or without cells, a cell size out of
@@ -65,8 +65,6 @@ pub fn pigment_maps(
     let mut names = FileNames::default();
     let mut files = Vec::new();
     let mut listed = Vec::new();
-    let scaled =
-        |mm: f64| if thickest > 0.0 { (mm / thickest * 65535.0).round() as u16 } else { 0 };
     let mut picture = |title: &str, name: String, values: Field<u16>| {
         let scale = format!("{thickest} mm at 65535");
         let bytes = grey16(&values, cell_mm, &[("Title", title), ("Description", &scale)])?;
@@ -75,14 +73,15 @@ pub fn pigment_maps(
     };
     for map in maps {
         let name = format!("{stem}.{}.png", names.name(&map.name));
-        let values = map.height_mm.values().iter().map(|&mm| scaled(f64::from(mm))).collect();
+        let values =
+            map.height_mm.values().iter().map(|&mm| scaled(f64::from(mm), thickest)).collect();
         let values = Field::from_values(bounds.width, bounds.height, values);
         listed.push(json!({"pigment": map.name, "file": name}));
         picture(&map.name, name, values)?;
     }
     let name = format!("{stem}.{}.png", names.name("thickness"));
     let total = json!({"file": name});
-    let values = thickness.values().iter().map(|&mm| scaled(mm)).collect();
+    let values = thickness.values().iter().map(|&mm| scaled(mm, thickest)).collect();
     picture("thickness", name, Field::from_values(bounds.width, bounds.height, values))?;
 
     let sidecar = json!({
@@ -100,6 +99,10 @@ pub fn pigment_maps(
     let recipe = recipe(maps, cell_mm);
     files.push(NamedFile { name: format!("{stem}.recipe.csv"), bytes: recipe.into_bytes() });
     Ok(files)
+}
+
+fn scaled(mm: f64, thickest: f64) -> u16 {
+    if thickest > 0.0 { (mm / thickest * 65535.0).round() as u16 } else { 0 }
 }
 
 fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), ExportError> {
@@ -123,8 +126,10 @@ fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), Export
 
 /// CSV table with a row per pigment: total, mean and greatest height, and coverage.
 fn recipe(maps: &[PigmentMap], cell_mm: f64) -> String {
-    let sum_mm = |map: &PigmentMap| map.height_mm.values().iter().map(|&mm| f64::from(mm)).sum();
-    let sums: Vec<f64> = maps.iter().map(sum_mm).collect();
+    let sums: Vec<f64> = maps
+        .iter()
+        .map(|map: &PigmentMap| map.height_mm.values().iter().map(|&mm| f64::from(mm)).sum())
+        .collect();
     let all: f64 = sums.iter().sum();
     let mut table =
         "pigment,volume_mm3,share,mean_height_mm,greatest_height_mm,covered_share\n".to_owned();
@@ -183,7 +188,7 @@ impl FileNames {
 }
 
 /// Encodes `planes` of reflectance (0..1) at `wavelengths_nm` with 32 bits each, and
-/// `picture` (linear sRGB) as R, G and B; a cell is `cell_mm` wide.
+/// `picture` (linear sRGB) as R, G and B. A cell is `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] unless wavelengths rise, there is one per plane, all planes have the

@@ -18,7 +18,7 @@ pub(super) enum Content {
     Height,
     /// Height of all paint together.
     Thickness,
-    /// Height of a slot's paint; [`SLOTS`] stands for the vehicle.
+    /// Height of a slot's paint. [`SLOTS`] stands for the vehicle.
     Amount(usize),
     /// Rounding residue of the ground's height.
     HeightResidue,
@@ -43,7 +43,7 @@ impl Channel {
     }
 }
 
-/// Channels of the ground; with a residue channel if `inexact`.
+/// Channels of the ground. With a residue channel if `inexact`.
 pub(super) fn of_ground(inexact: bool) -> Vec<Channel> {
     let mut channels = vec![Channel::new(HEIGHT, Content::Height)];
     channels.extend(inexact.then(|| Channel::residue(HEIGHT, Content::HeightResidue)));
@@ -122,13 +122,17 @@ impl ChannelNames {
     /// Channel name for `pigment`: its name with characters replaced that OpenEXR does not
     /// allow, numbered if taken.
     pub fn channel(&mut self, pigment: &str) -> String {
-        let legal = |letter: char| letter == ' ' || (letter.is_ascii_graphic() && letter != '.');
-        let plain: String =
-            pigment.chars().map(|l| if legal(l) { l } else { '_' }).take(LONGEST).collect();
+        let plain: String = pigment
+            .chars()
+            .map(|l| if l == ' ' || l.is_ascii_graphic() && l != '.' { l } else { '_' })
+            .take(LONGEST)
+            .collect();
         let plain = if plain.trim().is_empty() { "pigment".to_owned() } else { plain };
         let numbered = (2..).map(|number| format!("{plain} {number}"));
-        let free = |name: &String| !self.taken.contains(name);
-        let name = std::iter::once(plain.clone()).chain(numbered).find(free).unwrap_or(plain);
+        let name = std::iter::once(plain.clone())
+            .chain(numbered)
+            .find(|name: &String| !self.taken.contains(name))
+            .unwrap_or(plain);
         self.taken.push(name.clone());
         name
     }
@@ -178,7 +182,7 @@ pub struct PigmentChannel {
     pub channel: String,
 }
 
-/// The slots in use with a channel for each, beside the channels `reserved` of the same part;
+/// The slots in use with a channel for each, beside the channels `reserved` of the same part.
 /// `None` if the library lacks a pigment.
 #[must_use]
 pub fn channels_of_slots(
@@ -244,12 +248,11 @@ mod tests {
     fn quanta_come_back_without_residue_below_the_limit_and_with_it_above() {
         for cell_mm in [0.1, 0.25, 0.0317, 1.0] {
             let scale = Millimetres::new(cell_mm);
-            let back = |q: f64| scale.quanta(scale.mm(q), 0.0);
             let near = (0..1000)
                 .flat_map(|i| [i, INEXACT_FROM - 1 - i, i.wrapping_mul(8_388_593) % INEXACT_FROM]);
             for quanta in near.map(f64::from) {
-                assert_eq!(back(quanta), quanta, "{cell_mm}");
-                assert_eq!(back(-quanta), -quanta, "{cell_mm}");
+                assert_eq!(scale.quanta(scale.mm(quanta), 0.0), quanta, "{cell_mm}");
+                assert_eq!(scale.quanta(scale.mm(-quanta), 0.0), -quanta, "{cell_mm}");
             }
             let high = (0..100_000_u32).map(|i| MAX_COLUMN - i * 10_737);
             for quanta in high.filter(|q| *q >= INEXACT_FROM).map(f64::from) {
@@ -262,7 +265,7 @@ mod tests {
     #[test]
     fn a_float_alone_would_lose_quanta_of_thick_paint() {
         let scale = Millimetres::new(0.1);
-        // With cells of 0.1 mm, floats become coarser than a quantum at 0.5 mm; with other
+        // With cells of 0.1 mm, floats become coarser than a quantum at 0.5 mm. With other
         // cells this may already happen at `INEXACT_FROM`.
         let thick = 3 * INEXACT_FROM / 2;
         let lost =

@@ -40,7 +40,7 @@ pub(super) struct FileHeader {
     pub(super) lighting: Lighting,
     /// The wet layer, then the dry layers from the lowest.
     pub(super) layers: Vec<LayerHeader>,
-    /// Brushes beside a palette; none beside a canvas.
+    /// Brushes beside a palette. None beside a canvas.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) brushes: Vec<BrushHeader>,
     library: Value,
@@ -115,7 +115,6 @@ impl FileHeader {
         document: &Document,
         brushes: &[KeptBrush],
     ) -> Result<Self, PaintingFileError> {
-        let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
         let dry = document.dry.iter().enumerate();
         let dry = dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots));
         let layers = std::iter::once((WET.to_owned(), 1.0, &document.slots)).chain(dry);
@@ -123,7 +122,9 @@ impl FileHeader {
             let pigments = channels_of_slots(&document.library, slots, &LAYER_CHANNELS);
             let pigments = pigments.ok_or_else(|| {
                 let count = document.library.pigments.len();
-                unwritable(format!("part `{part}` has a pigment beyond the library's {count}"))
+                PaintingFileError::unwritable(format!(
+                    "part `{part}` has a pigment beyond the library's {count}"
+                ))
             })?;
             Ok::<_, PaintingFileError>(LayerHeader { part, opacity, pigments })
         });
@@ -155,15 +156,19 @@ impl FileHeader {
             lighting: document.lighting.clone(),
             layers: layers.collect::<Result<_, _>>()?,
             brushes: brushes.collect(),
-            library: library.map_err(|error| unwritable(error.to_string()))?,
+            library: library.map_err(|error| PaintingFileError::unwritable(error.to_string()))?,
         };
         // JSON has no notation for NaN and infinity. Such numbers are found by parsing the
         // text again.
         match Self::from_json("", &header.to_json()?) {
             Ok((back, library)) if back == header && library == document.library => Ok(header),
-            Ok(_) => Err(unwritable("its header does not come back as it was".to_owned())),
-            Err(PaintingFileError::Header { reason, .. }) => Err(unwritable(reason)),
-            Err(error) => Err(unwritable(error.to_string())),
+            Ok(_) => Err(PaintingFileError::unwritable(
+                "its header does not come back as it was".to_owned(),
+            )),
+            Err(PaintingFileError::Header { reason, .. }) => {
+                Err(PaintingFileError::unwritable(reason))
+            }
+            Err(error) => Err(PaintingFileError::unwritable(error.to_string())),
         }
     }
 
@@ -173,13 +178,13 @@ impl FileHeader {
             .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
     }
 
-    /// Parses and checks a description; returns it with the library that it holds.
+    /// Parses and checks a description. Returns it with the library that it holds.
     pub(super) fn from_json(
         file: &str,
         json: &str,
     ) -> Result<(Self, PigmentLibrary), PaintingFileError> {
-        let fault = |reason: String| PaintingFileError::Header { file: file.to_owned(), reason };
-        let value: Value = serde_json::from_str(json).map_err(|error| fault(error.to_string()))?;
+        let value: Value = serde_json::from_str(json)
+            .map_err(|error| PaintingFileError::header(file, error.to_string()))?;
         if value["format"] != FORMAT {
             let reason = format!("`format` must be \"{FORMAT}\", found `{}`", value["format"]);
             return Err(PaintingFileError::Format { file: file.to_owned(), reason });
@@ -192,11 +197,11 @@ impl FileHeader {
                 newest: VERSION,
             });
         }
-        let header: Self =
-            serde_json::from_value(value).map_err(|error| fault(error.to_string()))?;
+        let header: Self = serde_json::from_value(value)
+            .map_err(|error| PaintingFileError::header(file, error.to_string()))?;
         let library =
             PigmentLibrary::from_json(&format!("{file}: library"), &header.library.to_string())?;
-        header.check(&library).map_err(fault)?;
+        header.check(&library).map_err(|reason| PaintingFileError::header(file, reason))?;
         Ok((header, library))
     }
 

@@ -151,6 +151,20 @@ pub enum PaintingFileError {
     },
 }
 
+impl PaintingFileError {
+    fn unwritable(reason: String) -> Self {
+        Self::Unwritable { reason }
+    }
+
+    fn header(file: &str, reason: String) -> Self {
+        Self::Header { file: file.to_owned(), reason }
+    }
+
+    fn container(file: &str, reason: String) -> Self {
+        Self::Container { file: file.to_owned(), reason }
+    }
+}
+
 impl Explain for PaintingFileError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
@@ -219,23 +233,26 @@ mod tests {
     }
 
     fn table() -> SideTable {
-        let brush = |name: &str, at, paint| KeptBrush {
-            name: name.to_owned(),
-            spec: BrushSpec { shape: HeadShape::Flat, size_mm: 4.5 },
-            at,
-            paint,
-        };
         // The cells of a head can reach beyond the palette.
         let brushes = vec![
-            brush("big", SurfaceId::Palette, Some(paint(40, 9, 4))),
-            brush("clean", SurfaceId::Canvas, None),
-            brush("r\u{f6}und", SurfaceId::Canvas, Some(paint(3, 50, 5))),
+            kept_brush("big", SurfaceId::Palette, Some(paint(40, 9, 4))),
+            kept_brush("clean", SurfaceId::Canvas, None),
+            kept_brush("r\u{f6}und", SurfaceId::Canvas, Some(paint(3, 50, 5))),
         ];
         SideTable { palette: document(30, 20), brushes }
     }
 
     fn with_table(canvas: &Document, table: &SideTable) -> Result<Vec<u8>, PaintingFileError> {
         write_with_table(canvas, &table.palette, &table.brushes)
+    }
+
+    fn kept_brush(name: &str, at: SurfaceId, paint: Option<Layer>) -> KeptBrush {
+        KeptBrush {
+            name: name.to_owned(),
+            spec: BrushSpec { shape: HeadShape::Flat, size_mm: 4.5 },
+            at,
+            paint,
+        }
     }
 
     #[test]

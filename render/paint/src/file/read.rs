@@ -195,9 +195,9 @@ fn rows(
     parts: &[PartLayout],
     scale: Millimetres,
 ) -> Result<Rows, PaintingFileError> {
-    let damaged = |reason: String| PaintingFileError::Container { file: file.to_owned(), reason };
     let block = UncompressedBlock::decompress_chunk(chunk, meta, false);
-    let UncompressedBlock { index, data } = block.map_err(|error| damaged(error.to_string()))?;
+    let UncompressedBlock { index, data } =
+        block.map_err(|error| PaintingFileError::container(file, error.to_string()))?;
     let part = index.layer;
     let y = index.pixel_position.y();
     let layout = &parts[part];
@@ -208,7 +208,10 @@ fn rows(
     if index.pixel_size.width() != width || data.len() != wanted {
         let part = &layout.name;
         let found = data.len();
-        return Err(damaged(format!("block of part `{part}` with `{found}` bytes for {wanted}")));
+        return Err(PaintingFileError::container(
+            file,
+            format!("block of part `{part}` with `{found}` bytes for {wanted}"),
+        ));
     }
     let mut values = vec![Cell::default(); width * height];
     let lines: Vec<&[u8]> = data.chunks(line).collect();
@@ -317,14 +320,16 @@ fn document(
     height: Field<i32>,
     (names, mut paints): (Vec<LayerAttribute>, Vec<Layer>),
 ) -> Result<Document, PaintingFileError> {
-    let fault = |reason: String| PaintingFileError::Header { file: file.to_owned(), reason };
     // The header check guarantees that the wet layer comes first.
-    let slots = header.layers[0].slots(&library).map_err(fault)?;
+    let slots = header.layers[0]
+        .slots(&library)
+        .map_err(|reason| PaintingFileError::header(file, reason))?;
     let wet = paints.remove(0);
     let next = names.iter().map(|name| name.next).max().unwrap_or(LayerId::FIRST);
     let layers = header.layers.iter().skip(1).zip(names.into_iter().zip(paints));
     let layers = layers.map(|(layer, (about, paint))| {
-        let slots = layer.slots(&library).map_err(fault)?;
+        let slots =
+            layer.slots(&library).map_err(|reason| PaintingFileError::header(file, reason))?;
         let LayerAttribute { id, name, visible, .. } = about;
         Ok(DryLayer { id, name, visible, slots, opacity: layer.opacity, paint })
     });
@@ -357,7 +362,7 @@ pub const EXPANSION: u64 = 1100;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PartLayout {
     pub(super) name: String,
-    /// Index of the header's paint that the part holds; `None` for the ground.
+    /// Index of the header's paint that the part holds. `None` for the ground.
     pub(super) layer: Option<usize>,
     pub(super) window: Rect,
     /// Number of channels of the part.
@@ -369,7 +374,7 @@ pub(super) struct PartLayout {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Plane {
     pub(super) name: String,
-    /// Slot of the amount; [`SLOTS`] stands for the vehicle, and for the ground's height.
+    /// Slot of the amount. [`SLOTS`] stands for the vehicle, and for the ground's height.
     pub(super) slot: usize,
     pub(super) channel: usize,
     pub(super) residue: Option<usize>,
@@ -406,9 +411,8 @@ pub(super) fn layout(
     limit: u64,
 ) -> Result<Vec<PartLayout>, PaintingFileError> {
     let paints = header.paints();
-    let cells = |(width, height): (usize, usize)| (width as u64).saturating_mul(height as u64);
-    let sizes = paints.iter().map(|paint| cells(paint.size).saturating_mul(36));
-    let ground = cells((header.width, header.height)).saturating_mul(4);
+    let sizes = paints.iter().map(|paint| cell_count(paint.size).saturating_mul(36));
+    let ground = cell_count((header.width, header.height)).saturating_mul(4);
     let bytes = sizes.fold(ground, u64::saturating_add);
     if bytes > limit {
         return Err(PaintingFileError::TooLarge { file: file.to_owned(), bytes, limit });
@@ -438,6 +442,10 @@ pub(super) fn layout(
         });
     }
     Ok(found)
+}
+
+fn cell_count((width, height): (usize, usize)) -> u64 {
+    (width as u64).saturating_mul(height as u64)
 }
 
 fn check_part(
@@ -472,7 +480,7 @@ fn check_part(
     Ok(PartLayout { name, layer, window, channels, planes })
 }
 
-/// Cells that a part covers within its `room`; the ground, which has none, must cover the whole
+/// Cells that a part covers within its `room`. The ground, which has none, must cover the whole
 /// canvas.
 fn window(
     fault: &Fault<'_>,

@@ -131,10 +131,12 @@ fn exr_header(
 }
 
 fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileError> {
-    let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
     let bounds = document.ground.height.bounds();
     if bounds.width.max(bounds.height) > i32::MAX as usize / 4 {
-        return Err(unwritable(format!("a side has `{}` cells", bounds.width.max(bounds.height))));
+        return Err(PaintingFileError::unwritable(format!(
+            "a side has `{}` cells",
+            bounds.width.max(bounds.height)
+        )));
     }
     let dry = document.dry.iter().enumerate();
     let dry = dry.map(|(i, layer)| (dry_part(i), &layer.slots, &layer.paint));
@@ -145,19 +147,24 @@ fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileE
             let width = size.width;
             let height = size.height;
             let canvas = format!("{} x {}", bounds.width, bounds.height);
-            return Err(unwritable(format!(
+            return Err(PaintingFileError::unwritable(format!(
                 "layer `{name}` has `{width} x {height}` cells, the canvas {canvas}"
             )));
         }
-        check_paint(slots, paint).map_err(|what| unwritable(format!("layer `{name}` {what}")))?;
+        check_paint(slots, paint)
+            .map_err(|what| PaintingFileError::unwritable(format!("layer `{name}` {what}")))?;
     }
     for brush in brushes {
         let Some(paint) = &brush.paint else { continue };
         if paint.pigments.bounds() != paint.vehicle.bounds() || paint.vehicle.values().is_empty() {
-            return Err(unwritable(format!("brush `{}` has no cells", brush.name)));
+            return Err(PaintingFileError::unwritable(format!(
+                "brush `{}` has no cells",
+                brush.name
+            )));
         }
-        check_paint(&document.slots, paint)
-            .map_err(|what| unwritable(format!("brush `{}` {what}", brush.name)))?;
+        check_paint(&document.slots, paint).map_err(|what| {
+            PaintingFileError::unwritable(format!("brush `{}` {what}", brush.name))
+        })?;
     }
     Ok(())
 }
@@ -222,7 +229,7 @@ pub(super) fn parts<'a>(
     std::iter::once(base).chain(layers).collect()
 }
 
-/// Smallest rectangle that contains all paint; one cell if there is none, since a data
+/// Smallest rectangle that contains all paint. One cell if there is none, since a data
 /// window cannot be empty.
 fn covered(paint: &Layer) -> Rect {
     let width = paint.width();
@@ -235,9 +242,10 @@ fn covered(paint: &Layer) -> Rect {
         let last = (0..width).rfind(|x| painted(y * width + x))?;
         Some((y, first, last))
     });
-    let union = |a: Bounds, b: Bounds| (a.0.min(b.0), a.1.max(b.1), a.2.min(b.2), a.3.max(b.3));
     type Bounds = (usize, usize, usize, usize);
-    match rows.map(|(y, first, last)| (y, y, first, last)).reduce_with(union) {
+    match rows.map(|(y, first, last)| (y, y, first, last)).reduce_with(|a: Bounds, b: Bounds| {
+        (a.0.min(b.0), a.1.max(b.1), a.2.min(b.2), a.3.max(b.3))
+    }) {
         Some((top, bottom, left, right)) => {
             Rect { x: left, y: top, width: right - left + 1, height: bottom - top + 1 }
         }

@@ -39,7 +39,7 @@ pub enum GroundError {
     OutOfRange {
         /// Name of the setting, for example `relief_mm`.
         name: &'static str,
-        /// Unit with a space before it; empty for a plain number.
+        /// Unit with a space before it. Empty for a plain number.
         unit: &'static str,
         /// Least value allowed.
         least: f64,

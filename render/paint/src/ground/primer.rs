@@ -69,7 +69,7 @@ const WHITE: f64 = 0.87;
 
 impl Primer {
     /// Measured reflectance of an opaque film of the library's reference white, on its
-    /// grid; 0.87 throughout if it has none.
+    /// grid. 0.87 throughout if it has none.
     #[must_use]
     pub fn library_white(library: &PigmentLibrary) -> Vec<f64> {
         let reference = library.reference.as_deref().and_then(|name| library.find(name).ok());

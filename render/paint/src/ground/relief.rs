@@ -54,16 +54,16 @@ pub(super) fn heights_mm(
 /// Settings of primed linen: warp (along y) and weft (along x) in plain weave, unevenly
 /// spaced threads with slubs, gaps filled by the priming.
 ///
-/// Painters' canvases have about 8 to 25 threads per centimetre; primed, their relief is
+/// Painters' canvases have about 8 to 25 threads per centimetre. Primed, their relief is
 /// 0.1 to 0.2 mm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Linen {
     /// Seed of the cloth's irregularities, 1 by default.
     pub seed: u64,
-    /// Threads per centimetre in both directions, 2 to 60; 14 by default.
+    /// Threads per centimetre in both directions, 2 to 60. 14 by default.
     pub threads_per_cm: f64,
-    /// Height from the gaps to the top of an average thread in mm, 0 to 2; 0.12 by default.
+    /// Height from the gaps to the top of an average thread in mm, 0 to 2. 0.12 by default.
     pub relief_mm: f64,
 }
 
@@ -200,7 +200,7 @@ impl Threads {
 pub struct Panel {
     /// Seed of the brush marks, 1 by default.
     pub seed: u64,
-    /// Height from an average hollow to an average ridge in mm, 0 to 2; 0.012 by default.
+    /// Height from an average hollow to an average ridge in mm, 0 to 2. 0.012 by default.
     pub relief_mm: f64,
 }
 
@@ -227,7 +227,7 @@ impl Panel {
         Ok(heights_mm(width, height, |x, y| {
             let x = mm * x as f32;
             let y = mm * y as f32;
-            // Strokes are not quite straight; marks of bristles are long and thin.
+            // Strokes are not quite straight. Marks of bristles are long and thin.
             let across = y + 1.5 * sway.at(x / 60.0, y / 25.0);
             let bristles =
                 0.6 * marks.at(x / 30.0, across / 0.9) + 0.4 * fine.at(x / 18.0, across / 0.35);
@@ -259,7 +259,7 @@ pub enum PaperFinish {
 pub struct Paper {
     /// Seed of the grain, 1 by default.
     pub seed: u64,
-    /// Height from an average hollow to an average bump in mm, 0 to 2; by default that of
+    /// Height from an average hollow to an average bump in mm, 0 to 2. By default that of
     /// the finish.
     pub relief_mm: f64,
     /// Finish of the paper, cold-pressed by default.
@@ -371,7 +371,7 @@ impl Paper {
 pub struct Wood {
     /// Seed of the grain, 1 by default.
     pub seed: u64,
-    /// Height from the bottom of an average pore to the average surface in mm, 0 to 2; 0.1
+    /// Height from the bottom of an average pore to the average surface in mm, 0 to 2. 0.1
     /// by default.
     pub relief_mm: f64,
 }
@@ -414,7 +414,7 @@ impl Wood {
             let across =
                 y + 9.0 * sway.at(x / 160.0, y / 50.0) + 1.2 * drift.at(x / 45.0, y / 12.0);
             let ring = (across / RING_MM + 0.6 * drift.at(across / 17.0, 0.3)).rem_euclid(1.0);
-            // Dense latewood stands higher; the next ring begins abruptly.
+            // Dense latewood stands higher. The next ring begins abruptly.
             let late = ring * ring * (1.0 - ring.powi(8));
             let grain =
                 0.6 * fibres.at(x / 26.0, across / 1.1) + 0.4 * fine.at(x / 11.0, across / 0.55);
@@ -434,7 +434,7 @@ impl Wood {
 pub struct PictureRelief {
     /// Path of the picture, a PNG, JPEG, TIFF or WebP file.
     pub path: String,
-    /// Height of white in mm, 0 to 20; 0.2 by default.
+    /// Height of white in mm, 0 to 20. 0.2 by default.
     #[serde(default = "default_depth_mm")]
     pub depth_mm: f64,
 }
@@ -456,18 +456,6 @@ impl PictureRelief {
         let picture = self.read()?;
         let columns = picture.width() as usize;
         let rows = picture.height() as usize;
-        // For each cell: two neighbouring pixels, and the share of the second.
-        let interpolation = |cells: usize, pixels: usize| -> Vec<(usize, usize, f32)> {
-            let last = pixels as f64 - 1.0;
-            (0..cells)
-                .map(|cell: usize| {
-                    let place = (cell as f64 + 0.5) / cells as f64 * pixels as f64 - 0.5;
-                    let place = place.clamp(0.0, last);
-                    let first = place as usize;
-                    (first, (first + 1).min(pixels - 1), (place - first as f64) as f32)
-                })
-                .collect()
-        };
         let across = interpolation(width, columns);
         let down = interpolation(height, rows);
         let values = picture.as_raw();
@@ -505,4 +493,17 @@ impl PictureRelief {
         }
         Ok(picture)
     }
+}
+
+/// For each cell: two neighbouring pixels, and the share of the second.
+fn interpolation(cells: usize, pixels: usize) -> Vec<(usize, usize, f32)> {
+    let last = pixels as f64 - 1.0;
+    (0..cells)
+        .map(|cell: usize| {
+            let place = (cell as f64 + 0.5) / cells as f64 * pixels as f64 - 0.5;
+            let place = place.clamp(0.0, last);
+            let first = place as usize;
+            (first, (first + 1).min(pixels - 1), (place - first as f64) as f32)
+        })
+        .collect()
 }

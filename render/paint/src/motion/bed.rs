@@ -4,7 +4,7 @@
 //! [`BLOCK`] x [`BLOCK`] cells, the mean of their tops, and between the middles of four blocks the
 //! bilinear mean of their heights.
 
-/// Width and height of a block in cells; those of a tile are a multiple.
+/// Width and height of a block in cells. Those of a tile are a multiple.
 pub const BLOCK: usize = 8;
 
 /// Height, in units of 256 quanta, of a block that was never noted: below all paint.

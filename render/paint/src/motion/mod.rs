@@ -48,7 +48,7 @@ use crate::amount::{QUANTA_PER_CELL, quanta_from_mm};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct MotionConstants {
     /// Share of a difference in pressure between two columns, one of them under the head,
-    /// that flows in a sub-step, in parts of 65536; up to 8192.
+    /// that flows in a sub-step, in parts of 65536. Up to 8192.
     pub push_share: u32,
     /// Pressure under a head that has penetrated 1 mm, relative to that under 1 mm of paint, in
     /// parts of 65536.
@@ -56,15 +56,15 @@ pub struct MotionConstants {
     /// Difference in height between two columns, in quanta, that the paint bears without
     /// flowing: its yield.
     pub yield_quanta: u32,
-    /// Share of a kink of single cells that is levelled in a sub-step, in parts of 65536; up
+    /// Share of a kink of single cells that is levelled in a sub-step, in parts of 65536. Up
     /// to 8192.
     pub levelling_share: u32,
-    /// Height in quanta that always stays behind when a column moves; below 65536.
+    /// Height in quanta that always stays behind when a column moves. Below 65536.
     pub adhesion_quanta: u32,
-    /// 0 if paint moves in contact with the head and next to it only; 1 if it moves everywhere, as
+    /// 0 if paint moves in contact with the head and next to it only. 1 if it moves everywhere, as
     /// after a stroke.
     pub everywhere: u32,
-    /// Unused; pads the uniforms of the shaders.
+    /// Unused. Pads the uniforms of the shaders.
     pub padding: [u32; 2],
 }
 
@@ -86,7 +86,6 @@ impl MotionConstants {
     /// which levels by itself, 1 is putty, which stays as it is laid.
     #[must_use]
     pub fn new(cell_mm: f64, stiffness: f64) -> Self {
-        let parts = |share: f64| (share * 65536.0).round() as u32;
         let slope = FLATTEST * libm::pow(STEEPEST / FLATTEST, stiffness.clamp(0.0, 1.0));
         Self {
             push_share: parts((PUSH_MM / cell_mm).min(0.125)),
@@ -104,6 +103,10 @@ impl MotionConstants {
     pub fn everywhere(self) -> Self {
         Self { everywhere: 1, ..self }
     }
+}
+
+fn parts(share: f64) -> u32 {
+    (share * 65536.0).round() as u32
 }
 
 /// Stiffness below which paint levels after a stroke.

@@ -125,7 +125,7 @@ impl Painting {
         Ok(Cell { pigments, vehicle })
     }
 
-    /// Wipes a brush on a rag; the fraction `kept` (0 to 1) of its paint stays.
+    /// Wipes a brush on a rag. The fraction `kept` (0 to 1) of its paint stays.
     ///
     /// # Errors
     /// [`PaintingError`] if `kept` is outside 0 to 1.
@@ -267,7 +267,7 @@ impl TipLoad {
 }
 
 impl Painting {
-    /// Paint at the tip of a brush, which is what it paints with now; the rest of the head may
+    /// Paint at the tip of a brush, which is what it paints with now. The rest of the head may
     /// hold more.
     ///
     /// # Errors
@@ -342,10 +342,6 @@ impl Heap {
     /// Rectangle that it covers within `bounds`.
     fn rect(&self, bounds: Rect) -> Rect {
         let [columns, rows] = self.reach();
-        let cut = |range: Range<i64>, end: usize| {
-            let end = end as i64;
-            (range.start.clamp(0, end) as usize, range.end.clamp(0, end) as usize)
-        };
         let (x, right) = cut(columns, bounds.width);
         let (y, bottom) = cut(rows, bounds.height);
         Rect { x, y, width: right - x, height: bottom - y }
@@ -378,6 +374,11 @@ impl Heap {
     }
 }
 
+fn cut(range: Range<i64>, end: usize) -> (usize, usize) {
+    let end = end as i64;
+    (range.start.clamp(0, end) as usize, range.end.clamp(0, end) as usize)
+}
+
 impl Painting {
     /// Squeezes a heap of `volume_mm3` mm3 out of a tube at the position `x_mm`, `y_mm`. The
     /// paint is the mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0
@@ -407,12 +408,11 @@ impl Painting {
             return Err(PaintingError::Volume { value: volume_mm3 });
         }
         let bounds = self.engine.bounds();
-        let off_canvas = || PaintingError::OffCanvas { x_mm, y_mm };
         let middle = (x_mm / self.cell_mm, y_mm / self.cell_mm);
         let inside = (0.0..=bounds.width as f64).contains(&middle.0)
             && (0.0..=bounds.height as f64).contains(&middle.1);
         if !inside {
-            return Err(off_canvas());
+            return Err(PaintingError::OffCanvas { x_mm, y_mm });
         }
         let quanta = volume_mm3 / self.cell_mm.powi(3) * f64::from(QUANTA_PER_CELL);
         let natural = Heap::new(middle, quanta, HIGHEST_HEAP);
@@ -435,10 +435,6 @@ impl Painting {
                 return;
             }
             let there = paint.cell(index);
-            let volume = |cell: &Cell| {
-                u64::from(cell.vehicle)
-                    + cell.pigments.iter().map(|&amount| u64::from(amount)).sum::<u64>()
-            };
             if volume(&there) + volume(&more) > u64::from(HIGHEST) {
                 too_high = true;
             } else {
@@ -498,6 +494,10 @@ impl Painting {
     }
 }
 
+fn volume(cell: &Cell) -> u64 {
+    u64::from(cell.vehicle) + cell.pigments.iter().map(|&amount| u64::from(amount)).sum::<u64>()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -507,11 +507,6 @@ mod tests {
     #[test]
     fn the_last_third_of_the_rows_counts() {
         let mut paint = Layer::empty(6, 9);
-        let cell = |slot: usize, mm: f64| {
-            let mut cell = Cell::default();
-            cell.pigments[slot] = quanta_from_mm(mm, 0.1);
-            cell
-        };
         for index in 0..54 {
             paint.set_cell(index, if index < 36 { cell(0, 1.0) } else { cell(1, 0.2) });
         }
@@ -545,7 +540,14 @@ mod tests {
             assert!((f64::from(highest) / wanted - 1.0).abs() < 0.01, "{volume}: {highest}");
         }
         // Eight times the paint, twice the width.
-        let radius = |volume: f64| Heap::new((0.0, 0.0), volume * quanta, HIGHEST_HEAP).radius;
-        assert!((radius(8e3) / radius(1e3) - 2.0).abs() < 1e-9);
+        let [small, large] =
+            [1e3, 8e3].map(|volume| Heap::new((0.0, 0.0), volume * quanta, HIGHEST_HEAP).radius);
+        assert!((large / small - 2.0).abs() < 1e-9);
+    }
+
+    fn cell(slot: usize, mm: f64) -> Cell {
+        let mut cell = Cell::default();
+        cell.pigments[slot] = quanta_from_mm(mm, 0.1);
+        cell
     }
 }

@@ -15,7 +15,7 @@ use pigment::PigmentId;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
-use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
+use spectra::color::{Lab, Matrix3, RgbSpace, delta_e_ciede2000};
 
 use super::brushes::share_of_65536_parts;
 use super::failure::PaintingError;
@@ -59,7 +59,7 @@ impl Painting {
     /// Sets the pigments of the palette. Pigments that stay keep their slots.
     ///
     /// # Errors
-    /// The errors of [`Painting::slots_with`]; nothing is changed then.
+    /// The errors of [`Painting::slots_with`]. Nothing is changed then.
     ///
     /// # Panics
     /// If a stroke is open.
@@ -178,7 +178,7 @@ impl Painting {
         })
     }
 
-    /// Index of a dry layer from the lowest, which is 0; `None` for the wet one.
+    /// Index of a dry layer from the lowest, which is 0. `None` for the wet one.
     ///
     /// # Errors
     /// [`PaintingError::NoLayer`] or [`PaintingError::UnknownLayer`] if there is no such layer.
@@ -238,7 +238,7 @@ impl Painting {
 pub enum LayerRef {
     /// The wet layer.
     Wet,
-    /// A dry layer by its index; 0 is the lowest.
+    /// A dry layer by its index. 0 is the lowest.
     Dry(usize),
     /// A dry layer by its identity, wherever it lies.
     Id(LayerId),
@@ -302,7 +302,7 @@ impl<'de> Deserialize<'de> for LayerRef {
 }
 
 impl Painting {
-    /// Names a dry layer; an empty name takes its name away.
+    /// Names a dry layer. An empty name takes its name away.
     ///
     /// # Errors
     /// [`PaintingError`] for the wet layer, a layer that does not exist, or a name that is not one
@@ -337,7 +337,7 @@ impl Painting {
         })
     }
 
-    /// Moves a dry layer to place `to` of the stack; 0 is the lowest. The layers between move by
+    /// Moves a dry layer to place `to` of the stack. 0 is the lowest. The layers between move by
     /// one place. Returns whether it lay elsewhere before.
     ///
     /// # Errors
@@ -376,7 +376,7 @@ pub enum MaskChange {
     Layer(LayerRef),
     /// Leaves the cells open that have paint now, wet or dry.
     Painted {},
-    /// Exchanges what is covered and what is open; always true.
+    /// Exchanges what is covered and what is open. Always true.
     Inverse(bool),
     /// Takes the mask off.
     Clear {},
@@ -390,7 +390,7 @@ impl Painting {
     }
 
     /// Changes the mask. Strokes, heaps and scraping change no paint of covered cells, and nothing
-    /// flows over the border; light and drying go through the film. Returns whether there was
+    /// flows over the border. Light and drying go through the film. Returns whether there was
     /// anything to change: without a mask there is none to invert or to take off.
     ///
     /// # Errors
@@ -405,8 +405,8 @@ impl Painting {
             (MaskChange::Clear {}, Some(_)) => None,
             (MaskChange::Inverse(_), Some(mask)) => Some(mask.inverse()),
             (MaskChange::PolygonMm(points_mm), _) => {
-                let cells = |mm: f64| mm / self.cell_mm;
-                let points: Vec<_> = points_mm.iter().map(|&[x, y]| (cells(x), cells(y))).collect();
+                let points: Vec<_> =
+                    points_mm.iter().map(|&[x, y]| (x / self.cell_mm, y / self.cell_mm)).collect();
                 Some(Mask::with_open_polygon(bounds, &points))
             }
             (&MaskChange::Layer(layer), _) => {
@@ -460,7 +460,7 @@ impl Painting {
     /// unless that is empty. It lies where the lower was, or, if the films between overlap that
     /// one, where the upper was.
     ///
-    /// The paints mix, so that films of different paint over each other would change colour; such
+    /// The paints mix, so that films of different paint over each other would change colour. Such
     /// a merge is refused. So is one with a film between that overlaps both.
     ///
     /// # Errors
@@ -621,7 +621,7 @@ fn thin(paint: &mut Layer, share: f64) {
     }
 }
 
-/// Adds `upper` to `lower`; slot `i` of `upper` is slot `place[i]` of `lower`.
+/// Adds `upper` to `lower`. Slot `i` of `upper` is slot `place[i]` of `lower`.
 fn add(lower: &mut Layer, upper: &Layer, place: &[usize; SLOTS]) {
     for index in 0..lower.vehicle.values().len() {
         let mut cell = lower.cell(index);
@@ -637,19 +637,21 @@ fn add(lower: &mut Layer, upper: &Layer, place: &[usize; SLOTS]) {
 /// Largest colour difference between two pictures in CIEDE2000, with its column and row.
 fn farthest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> (f64, usize, usize) {
     let matrix = RgbSpace::Srgb.xyz_from_linear();
-    let lab = |rgb: &[f32; 4]| {
-        let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
-        Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
-    };
     let mut largest = (0.0, 0, 0);
     let width = a.width();
     for (cell, (a, b)) in a.values().iter().zip(b.values()).enumerate() {
-        let delta_e = if a == b { 0.0 } else { delta_e_ciede2000(lab(a), lab(b)) };
+        let delta_e =
+            if a == b { 0.0 } else { delta_e_ciede2000(lab(a, &matrix), lab(b, &matrix)) };
         if delta_e > largest.0 {
             largest = (delta_e, cell % width, cell / width);
         }
     }
     largest
+}
+
+fn lab(rgb: &[f32; 4], matrix: &Matrix3) -> Lab {
+    let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
+    Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
 }
 
 #[cfg(test)]

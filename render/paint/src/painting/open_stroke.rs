@@ -132,7 +132,7 @@ impl OpenStroke {
         self.brush.is_some()
     }
 
-    /// Adds samples; [`OpenStroke::advance`] paints them. If one is refused, those before
+    /// Adds samples. [`OpenStroke::advance`] paints them. If one is refused, those before
     /// it are kept, and the stroke can continue with others.
     ///
     /// # Errors
@@ -182,7 +182,7 @@ impl OpenStroke {
     /// `most_substeps` 0 it only counts.
     ///
     /// The paint lags one sample behind, as the path to a sample depends on the one after
-    /// it; a dab is painted once the brush is lifted.
+    /// it. A dab is painted once the brush is lifted.
     ///
     /// While the backend moves the paint of 32 sub-steps, the head bends through the next
     /// 32 on another thread, so multiples of 32 are fastest.
@@ -264,10 +264,10 @@ impl OpenStroke {
     }
 
     /// Paints the rest of the stroke and closes it, as one action. A stroke without
-    /// samples is no action; its brush keeps its paint.
+    /// samples is no action. Its brush keeps its paint.
     ///
     /// # Errors
-    /// [`PaintingError`] if the device was lost; the part that was painted is closed as an
+    /// [`PaintingError`] if the device was lost. The part that was painted is closed as an
     /// action.
     ///
     /// # Panics
@@ -322,12 +322,15 @@ impl OpenStroke {
             return Ok(());
         }
         let id = painting.brushes[brush.0].id;
-        let resting = |tile: Tile| {
-            let rect = tile.rect(bounds);
-            let touches = vec![Touch::NONE; rect.width * rect.height];
-            Contact { rect, touches, ..Contact::default() }
-        };
-        let contacts: Vec<Contact> = self.touched.iter().map(resting).collect();
+        let contacts: Vec<Contact> = self
+            .touched
+            .iter()
+            .map(|tile: Tile| {
+                let rect = tile.rect(bounds);
+                let touches = vec![Touch::NONE; rect.width * rect.height];
+                Contact { rect, touches, ..Contact::default() }
+            })
+            .collect();
         for contact in &contacts {
             let reach = contact.rect.grown(2, bounds);
             painting.history.save_tiles(&mut painting.engine, reach)?;
@@ -521,7 +524,7 @@ impl Batch {
 /// exactly what the surface has lost. None for a stroke that paints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TakenPaint {
-    /// Quanta of each slot and, last, of the vehicle, summed over cells; see [`crate::amount`].
+    /// Quanta of each slot and, last, of the vehicle, summed over cells. See [`crate::amount`].
     pub quanta: [u64; SLOTS + 1],
 }
 
@@ -558,7 +561,7 @@ pub(super) struct CleanHead {
     /// Paint of the brush.
     kept: Layer,
     taken: TakenPaint,
-    /// Number of sub-steps since the head was emptied; `None` if it lays its paint again.
+    /// Number of sub-steps since the head was emptied. `None` if it lays its paint again.
     since: Option<usize>,
 }
 

@@ -58,7 +58,7 @@ impl Painting {
         Ok(self.engine.picture()?)
     }
 
-    /// The picture in linear sRGB with several pixels a cell, see [`fine_picture`]; with one
+    /// The picture in linear sRGB with several pixels a cell, see [`fine_picture`]. With one
     /// pixel a cell it is [`Painting::picture`].
     ///
     /// # Errors
@@ -240,11 +240,11 @@ impl Painting {
         })
     }
 
-    /// Also keeps a picture under a second light, for a view that is split between the two;
+    /// Also keeps a picture under a second light, for a view that is split between the two.
     /// `None` frees its memory. Not an action of the history.
     ///
     /// # Errors
-    /// [`PaintingError::Light`] if the light is unknown; the second light stays unchanged.
+    /// [`PaintingError::Light`] if the light is unknown. The second light stays unchanged.
     pub fn set_second_light(&mut self, lighting: Option<Lighting>) -> Result<(), PaintingError> {
         let Some(lighting) = lighting else {
             self.views.second = None;
@@ -350,15 +350,6 @@ mod tests {
         let mut painting = bare();
         assert_picture(&mut painting, "nothing");
         let brush = painting.add_brush(HeadShape::Flat, 3.0).unwrap();
-        let sample = |seconds: f64, x_mm: f64| Sample {
-            seconds,
-            x_mm,
-            y_mm: 6.0,
-            pressure: 0.7,
-            tilt_x_deg: 10.0,
-            tilt_y_deg: 0.0,
-            twist_deg: 90.0,
-        };
         for end_mm in [14.0, 25.0] {
             painting.load(brush, &[1.0; SLOTS], 0.1, 0.3).unwrap();
             painting.stroke(brush, &[sample(0.0, 3.0), sample(1.0, end_mm)]).unwrap();
@@ -372,6 +363,18 @@ mod tests {
         for undone in ["the lamp", "the drying", "the stroke", "the first drying"] {
             assert!(painting.undo().unwrap(), "{undone}");
             assert_picture(&mut painting, &format!("undoing {undone}"));
+        }
+    }
+
+    fn sample(seconds: f64, x_mm: f64) -> Sample {
+        Sample {
+            seconds,
+            x_mm,
+            y_mm: 6.0,
+            pressure: 0.7,
+            tilt_x_deg: 10.0,
+            tilt_y_deg: 0.0,
+            twist_deg: 90.0,
         }
     }
 }

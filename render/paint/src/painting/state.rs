@@ -24,7 +24,7 @@ use crate::shade::reach;
 pub struct DryLayerState {
     /// Its identity within the painting.
     pub id: LayerId,
-    /// Its name; empty if it has none.
+    /// Its name. Empty if it has none.
     pub name: String,
     /// Whether it is shown.
     pub visible: bool,
@@ -111,7 +111,7 @@ pub struct Painting {
     pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<UndoState>,
-    /// Covered cells; see [`Painting::change_mask`].
+    /// Covered cells. See [`Painting::change_mask`].
     pub(super) mask: Option<Arc<Mask>>,
     /// Brush of the open stroke, if one is open.
     pub(super) stroke_brush: Option<BrushId>,
@@ -432,7 +432,7 @@ impl Views {
 }
 
 impl Painting {
-    /// Undoes the last action; returns whether there was one.
+    /// Undoes the last action. Returns whether there was one.
     ///
     /// Loading, wiping and washing are not actions of their own: the undo of a stroke
     /// restores the paint that its brush held before. If the undo changes the palette,
@@ -452,7 +452,7 @@ impl Painting {
         }
     }
 
-    /// Repeats the action that was undone last; returns whether there was one.
+    /// Repeats the action that was undone last. Returns whether there was one.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -541,7 +541,7 @@ impl Painting {
         result
     }
 
-    /// Panics if a stroke or an adjustment is open; `what` names the next action.
+    /// Panics if a stroke or an adjustment is open. `what` names the next action.
     pub(super) fn assert_idle(&self, what: &str) {
         assert!(self.stroke_brush.is_none(), "a stroke is open; it ends before {what}");
         assert!(self.adjusting.is_none(), "an adjustment is open; it ends before {what}");

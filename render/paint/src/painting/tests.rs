@@ -60,7 +60,7 @@ fn on_cpu(ground: &str, mm: f64) -> Painting {
     with_film(document, engine, mm)
 }
 
-/// Such a painting on a graphics device; `None` without one.
+/// Such a painting on a graphics device. `None` without one.
 fn on_gpu(ground: &str, mm: f64) -> Option<Painting> {
     let document = document(ground);
     let opened = PaintEngine::open(BackendChoice::Gpu, &document.ground.height).ok()?;
@@ -197,7 +197,6 @@ fn a_mask_by_paint_locks_the_bare_canvas() {
     painting.stroke(brush, &along(11.0, (4.0, 20.0), 0.6)).unwrap();
     let dry = painting.dry_in(0, painting.bounds()).unwrap();
     let wet = painting.wet().unwrap();
-    let painted = |layer: &Layer, cell: usize| layer.cell(cell).volume() > 0;
     for (change, open) in [
         (MaskChange::Layer(LayerRef::Dry(0)), (true, false)),
         (MaskChange::Layer(LayerRef::Wet), (false, true)),
@@ -206,12 +205,16 @@ fn a_mask_by_paint_locks_the_bare_canvas() {
         painting.change_mask(&change).unwrap();
         let mask = painting.mask().unwrap();
         for cell in 0..wet.vehicle.values().len() {
-            let wanted = open.0 && painted(&dry, cell) || open.1 && painted(&wet, cell);
+            let wanted = open.0 && has_paint(&dry, cell) || open.1 && has_paint(&wet, cell);
             assert_eq!(mask.covers(cell), !wanted, "{change:?}, cell {cell}");
         }
     }
     let error = painting.change_mask(&MaskChange::Layer(LayerRef::Dry(1))).unwrap_err();
     assert!(matches!(error, PaintingError::NoLayer { index: 1, count: 1 }), "{error}");
+}
+
+fn has_paint(layer: &Layer, cell: usize) -> bool {
+    layer.cell(cell).volume() > 0
 }
 
 #[test]
@@ -229,9 +232,11 @@ fn heaps_and_scraping_spare_covered_cells() {
     let scraped = painting.wet().unwrap();
     assert_eq!(changed(&painting, &heap, &scraped).0, 0);
     let mask = painting.mask().unwrap();
-    let left = |cell: usize| scraped.cell(cell).volume() > 0;
     let cells = scraped.vehicle.values().len();
-    assert!((0..cells).all(|cell| left(cell) == mask.covers(cell)), "{CELL_MM} mm cells");
+    assert!(
+        (0..cells).all(|cell| (scraped.cell(cell).volume() > 0) == mask.covers(cell)),
+        "{CELL_MM} mm cells"
+    );
 }
 
 #[test]
@@ -411,31 +416,27 @@ fn scraping_leaves_paint_in_the_valleys_of_linen_and_frees_its_crests() {
         .map(|at| (floor.values()[at], mm_from_quanta(wet.cell(at).volume(), CELL_MM)))
         .collect();
     found.sort_by_key(|(floor, _)| *floor);
-    let mean = |part: &[(i32, f64)]| part.iter().map(|(_, mm)| mm).sum::<f64>() / part.len() as f64;
     let tenth = found.len() / 10;
     let valleys = mean(&found[..tenth]);
     let crests = mean(&found[found.len() - tenth..]);
     assert!(valleys > 0.05 && crests < 0.005, "valleys {valleys} mm, crests {crests} mm");
 }
 
+fn mean(part: &[(i32, f64)]) -> f64 {
+    part.iter().map(|(_, mm)| mm).sum::<f64>() / part.len() as f64
+}
+
 #[test]
 fn a_mop_softens_an_edge_and_takes_little() {
-    let share = |painting: &mut Painting, x_mm: f64| {
-        let wet = painting.wet().unwrap();
-        let x = (x_mm / CELL_MM) as usize;
-        let y = (8.0 / CELL_MM) as usize;
-        let cell = wet.cell(y * wet.width() + x);
-        f64::from(cell.pigments[2]) / f64::from(cell.volume().max(1))
-    };
     let mut painting = on_cpu(PANEL, 0.2);
-    assert!(share(&mut painting, 20.5) > 0.99 && share(&mut painting, 19.5) < 0.01);
+    assert!(white_share(&mut painting, 20.5) > 0.99 && white_share(&mut painting, 19.5) < 0.01);
     let before = painting.wet().unwrap().totals().iter().sum::<u64>() as f64;
     // The brush is loaded with the right half's pigment, which must not reach the left.
     let brush = loaded(&mut painting, HeadShape::Mop, 6.0);
     let taken = painting.stroke_as(BLEND, brush, &along(8.0, (12.0, 28.0), 0.5)).unwrap().taken;
-    let left = share(&mut painting, 15.0);
-    let near = share(&mut painting, 20.5);
-    let far = share(&mut painting, 24.0);
+    let left = white_share(&mut painting, 15.0);
+    let near = white_share(&mut painting, 20.5);
+    let far = white_share(&mut painting, 24.0);
     assert!(left < 0.01, "{left}: the load of the brush went onto the canvas");
     assert!((0.05..0.9).contains(&near), "{near} beside the edge");
     assert!(far > near, "{near} at the edge, {far} beyond it");
@@ -443,6 +444,14 @@ fn a_mop_softens_an_edge_and_takes_little() {
     assert!(lost < 0.04, "{lost} of all paint");
     let height = height_mm(&painting.wet().unwrap(), 20.0, 8.0);
     assert!((0.12..0.3).contains(&height), "{height} mm of 0.2 under the mop");
+}
+
+fn white_share(painting: &mut Painting, x_mm: f64) -> f64 {
+    let wet = painting.wet().unwrap();
+    let x = (x_mm / CELL_MM) as usize;
+    let y = (8.0 / CELL_MM) as usize;
+    let cell = wet.cell(y * wet.width() + x);
+    f64::from(cell.pigments[2]) / f64::from(cell.volume().max(1))
 }
 
 #[test]
@@ -688,8 +697,12 @@ fn opacities_become_part_of_the_merged_paint() {
     assert_eq!(cell(35).pigments[0], THICK + THICK / 2, "both in one cell");
     assert!(painting.engine.floor().unwrap() == floor, "heights stay");
     let merged = painting.picture().unwrap();
-    let far = |a: &[f32; 4], b: &[f32; 4]| (0..3).any(|i| (a[i] - b[i]).abs() > 1e-4);
-    let moved = picture.values().iter().zip(merged.values()).filter(|(a, b)| far(a, b)).count();
+    let moved = picture
+        .values()
+        .iter()
+        .zip(merged.values())
+        .filter(|(a, b)| (0..3).any(|i| (a[i] - b[i]).abs() > 1e-4))
+        .count();
     assert_eq!(moved, 0, "cells that changed colour");
     painting.undo().unwrap();
     painting.show_layer(id(2), false).unwrap();
@@ -712,7 +725,6 @@ fn hidden_layers_merge_only_if_it_would_not_show() {
 #[test]
 fn more_pigments_than_a_layer_holds_are_named() {
     let mut document = painting(&[]).document().unwrap();
-    let place = |at: usize| Rect { x: 10 * at, y: 3, width: 8, height: 8 };
     let mut eight = Layer::empty(WIDTH, HEIGHT);
     for slot in 0..8 {
         let mut cell = eight.cell(slot);
@@ -725,7 +737,7 @@ fn more_pigments_than_a_layer_holds_are_named() {
     let library = document.library.clone();
     let mut more = library.ids().filter(|&more| !slots.contains(&Some(more)));
     (others[0], others[1]) = (more.next(), more.next());
-    document.push_dry(others, slot_film(0, 100, place(4)));
+    document.push_dry(others, slot_film(0, 100, Rect { x: 40, y: 3, width: 8, height: 8 }));
     let mut painting = opened(document);
     let error = painting.merge(id(2), id(1)).unwrap_err();
     let PaintingError::MergedPigments { pigments } = &error else { panic!("{error}") };

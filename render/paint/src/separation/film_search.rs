@@ -122,7 +122,7 @@ impl FilmSearch {
         0.5 * self.ground_residual(mixed).powi(2) + pull
     }
 
-    /// Weighted difference between a film over the ground and over black (CIE 1976); 0 if the
+    /// Weighted difference between a film over the ground and over black (CIE 1976). 0 if the
     /// ground may show.
     pub(super) fn ground_residual(&self, mixed: &FilmMix) -> f64 {
         if self.hiding == 0.0 {
@@ -372,28 +372,29 @@ impl SampledFilms {
 /// Shares by slot of all sampled mixtures of one, two and three pigments.
 fn shares(film: &PaintFilm) -> Vec<[f64; SLOTS]> {
     let used = film.used();
-    let of = |parts: &[(usize, f64)]| {
-        let total: f64 = parts.iter().map(|(_, part)| part).sum();
-        let mut shares = [0.0; SLOTS];
-        parts.iter().for_each(|&(slot, part)| shares[slot] = part / total);
-        shares
-    };
     let mut all = Vec::new();
     for (a, &first) in used.iter().enumerate() {
-        all.push(of(&[(first, 1.0)]));
+        all.push(shares_of(&[(first, 1.0)]));
         for (b, &second) in used.iter().enumerate().skip(a + 1) {
             for step in -PAIR_STEPS..=PAIR_STEPS {
-                all.push(of(&[(first, PAIR_RATIO.powi(step)), (second, 1.0)]));
+                all.push(shares_of(&[(first, PAIR_RATIO.powi(step)), (second, 1.0)]));
             }
             for &third in &used[b + 1..] {
                 for i in -TRIPLE_STEPS..=TRIPLE_STEPS {
                     for j in -TRIPLE_STEPS..=TRIPLE_STEPS {
                         let parts = [TRIPLE_RATIO.powi(i), TRIPLE_RATIO.powi(j)];
-                        all.push(of(&[(first, parts[0]), (second, parts[1]), (third, 1.0)]));
+                        all.push(shares_of(&[(first, parts[0]), (second, parts[1]), (third, 1.0)]));
                     }
                 }
             }
         }
     }
     all
+}
+
+fn shares_of(parts: &[(usize, f64)]) -> [f64; SLOTS] {
+    let total: f64 = parts.iter().map(|(_, part)| part).sum();
+    let mut shares = [0.0; SLOTS];
+    parts.iter().for_each(|&(slot, part)| shares[slot] = part / total);
+    shares
 }

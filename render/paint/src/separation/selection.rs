@@ -41,7 +41,7 @@ pub struct ChosenPalette {
 }
 
 /// Chooses up to eight pigments that come nearest to a photograph's colours. Pigments are
-/// added greedily one at a time; then each is exchanged once if another is better.
+/// added greedily one at a time. Then each is exchanged once if another is better.
 /// Pigments whose S is unknown take no part.
 ///
 /// The picture's black should be raised to a tone that paint reaches, else pigments are
@@ -171,7 +171,7 @@ pub struct ColorErrors {
     pub p95: f64,
     /// Largest CIEDE2000 of all pixels.
     pub max: f64,
-    /// Mean CIEDE2000 over the pixels within the palette's gamut; 0 if there are none.
+    /// Mean CIEDE2000 over the pixels within the palette's gamut. 0 if there are none.
     pub mean_in_gamut: f64,
     /// Share of pixels outside the palette's gamut, 0..1.
     pub out_of_gamut: f64,
@@ -197,19 +197,22 @@ impl ColorErrors {
         let doubtful = all.iter().zip(target.values()).filter(|(error, _)| **error > OUT_OF_GAMUT);
         let outside = Outside::of(separation, doubtful.map(|(_, &target)| target));
         let pixels = all.iter().zip(target.values());
-        let is_within = |error: f64, target| error <= OUT_OF_GAMUT || !outside.holds(target);
-        let within = pixels.filter(|(error, target)| is_within(**error, **target));
+        let within =
+            pixels.filter(|(error, target)| **error <= OUT_OF_GAMUT || !outside.holds(**target));
         let within: Vec<f64> = within.map(|(error, _)| *error).collect();
-        let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len().max(1) as f64;
         Self {
-            mean: mean(&all),
+            mean: mean_of(&all),
             median: percentile(&all, 50.0),
             p95: percentile(&all, 95.0),
             max: percentile(&all, 100.0),
-            mean_in_gamut: mean(&within),
+            mean_in_gamut: mean_of(&within),
             out_of_gamut: 1.0 - within.len() as f64 / all.len() as f64,
         }
     }
+}
+
+fn mean_of(errors: &[f64]) -> f64 {
+    errors.iter().sum::<f64>() / errors.len().max(1) as f64
 }
 
 /// Colours out of gamut. Finding one film takes long, so all colours that agree in the first 7
@@ -226,11 +229,14 @@ impl Outside {
         let mut colors: Vec<_> = colors.map(leading_bits).collect();
         colors.par_sort_unstable();
         colors.dedup();
-        let middle = |bits: u16| f32::from_bits(u32::from(bits) << 16 | 0x8000);
         Self {
             colors: colors
                 .into_par_iter()
-                .filter(|color: &[u16; 3]| separation.is_out_of_gamut(color.map(middle)))
+                .filter(|color: &[u16; 3]| {
+                    separation.is_out_of_gamut(
+                        color.map(|bits: u16| f32::from_bits(u32::from(bits) << 16 | 0x8000)),
+                    )
+                })
                 .collect(),
         }
     }

@@ -22,19 +22,19 @@ use crate::layer::SLOTS;
 /// Settings of a separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeparationSettings {
-    /// Lattice points along each side of the table, 5 to 65; 25 by default. Time grows with
+    /// Lattice points along each side of the table, 5 to 65. 25 by default. Time grows with
     /// the cube.
     pub lattice: usize,
-    /// Least height of a film in mm, above 0; 0.03 by default.
+    /// Least height of a film in mm, above 0. 0.03 by default.
     pub least_mm: f64,
-    /// Greatest height of a film in mm, from `least_mm` to 100; 0.3 by default.
+    /// Greatest height of a film in mm, from `least_mm` to 100. 0.3 by default.
     pub most_mm: f64,
-    /// Whether films should hide the ground as well as the heights allow; true by default. If
+    /// Whether films should hide the ground as well as the heights allow. True by default. If
     /// false, the ground may show through, which over white reaches lighter and more
     /// saturated colours.
     pub hides: bool,
     /// Whether [`Separation::separate`] refines the table's film for every pixel, at some
-    /// microseconds each; true by default.
+    /// microseconds each. True by default.
     pub refined: bool,
 }
 
@@ -71,7 +71,7 @@ pub struct Separation {
     search: FilmSearch,
     refined: bool,
     lattice: usize,
-    /// Heights in mm by slot; blue varies fastest.
+    /// Heights in mm by slot. Blue varies fastest.
     heights: Vec<[f32; SLOTS]>,
 }
 
@@ -224,7 +224,7 @@ impl Separation {
     }
 }
 
-/// The nearest colour inside the sRGB cube; NaN counts as 0.
+/// The nearest colour inside the sRGB cube. NaN counts as 0.
 fn clamped(rgb: [f32; 3]) -> [f32; 3] {
     rgb.map(|value| if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) })
 }
@@ -342,11 +342,12 @@ impl SeparationByHeight {
         let SeparationSettings { least_mm, most_mm, .. } = *settings;
         let steps = (most_mm / least_mm).ln() / RATIO.ln();
         let steps = (steps - 1e-9).ceil().max(0.0) as usize;
-        let height = |step: usize| {
-            let share = if steps == 0 { 0.0 } else { step as f64 / steps as f64 };
-            least_mm * (most_mm / least_mm).powf(share)
-        };
-        let heights_mm: Vec<f64> = (0..=steps).map(height).collect();
+        let heights_mm: Vec<f64> = (0..=steps)
+            .map(|step: usize| {
+                let share = if steps == 0 { 0.0 } else { step as f64 / steps as f64 };
+                least_mm * (most_mm / least_mm).powf(share)
+            })
+            .collect();
         // Recipes spread from the middle, where a film hides and is not yet a masstone.
         let middle = steps / 2;
         let least_mm = heights_mm[middle];

@@ -21,11 +21,11 @@ const NONE: PerSurface<bool> = PerSurface { canvas: false, palette: false };
 
 impl PaintingSession {
     /// Applies one action. Any open stroke or adjustment is finished first. Drying, layers and
-    /// merging concern the canvas; light, gloss, stiffness, pigments and a swap in the wet layer
+    /// merging concern the canvas. Light, gloss, stiffness, pigments and a swap in the wet layer
     /// concern both surfaces.
     ///
     /// # Errors
-    /// [`SessionError`] for an action that cannot be done; nothing is changed then. If the
+    /// [`SessionError`] for an action that cannot be done. Nothing is changed then. If the
     /// backend fails half way, history and recording end there.
     pub fn apply(&mut self, action: &Action) -> Result<Outcome, SessionError> {
         self.finish_open()?;
@@ -69,7 +69,7 @@ impl PaintingSession {
         Ok((action, pigments))
     }
 
-    /// Applies an action to the surfaces. Returns the surfaces whose histories have it; `None`
+    /// Applies an action to the surfaces. Returns the surfaces whose histories have it. `None`
     /// if there was nothing to do.
     pub(super) fn perform(
         &mut self,
@@ -101,7 +101,6 @@ impl PaintingSession {
         pigments: &ActionPigments,
     ) -> Result<Option<PerSurface<bool>>, SessionError> {
         let both = PerSurface { canvas: true, palette: self.palette.is_some() };
-        let only = |on| PerSurface::from_fn(|surface| surface == on);
         let on = match (action, pigments) {
             (Action::Load(load), ActionPigments::Recipe(parts)) => {
                 let recipe = recipe(&self.canvas, parts)?;
@@ -191,13 +190,13 @@ impl PaintingSession {
                 let recipe = recipe(&self.canvas, parts)?;
                 let Squeeze { on, vehicle, x_mm, y_mm, volume_mm3, .. } = *squeeze;
                 self.surface_mut(on)?.squeeze(&recipe, vehicle, x_mm, y_mm, volume_mm3)?;
-                only(on)
+                PerSurface::from_fn(|surface| surface == on)
             }
             (Action::Scrape { on }, _) => {
                 if !self.surface_mut(*on)?.scrape()? {
                     return Ok(None);
                 }
-                only(*on)
+                PerSurface::from_fn(|surface| surface == *on)
             }
             (Action::Mask(change), _) => {
                 if !self.canvas.change_mask(change)? {
@@ -245,7 +244,7 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Id of a head in the painting of a surface; it is added there if it is new.
+    /// Id of a head in the painting of a surface. It is added there if it is new.
     pub(super) fn brush_id(&mut self, tool: usize, on: SurfaceId) -> Result<BrushId, SessionError> {
         if let Some(id) = self.brushes.tools[tool].ids[on] {
             return Ok(id);
@@ -372,7 +371,7 @@ impl PaintingSession {
         }
     }
 
-    /// Ends the open adjustment; does nothing if none is open.
+    /// Ends the open adjustment. Does nothing if none is open.
     pub fn end_adjustment(&mut self) {
         let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
@@ -410,7 +409,7 @@ fn below(canvas: &Painting, layer: LayerRef) -> Result<LayerRef, PaintingError> 
 const RESERVED: u64 = 8;
 
 impl PaintingSession {
-    /// Undoes the last action on either surface; returns whether there was one. An open stroke
+    /// Undoes the last action on either surface. Returns whether there was one. An open stroke
     /// or adjustment is finished first, and is then the last action.
     ///
     /// # Errors
@@ -429,7 +428,7 @@ impl PaintingSession {
         Ok(true)
     }
 
-    /// Repeats the action that was undone last; returns whether there was one.
+    /// Repeats the action that was undone last. Returns whether there was one.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -466,7 +465,7 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Labels of all actions, the oldest first, and the number of those that are done; the
+    /// Labels of all actions, the oldest first, and the number of those that are done. The
     /// others were undone. Actions that can no longer be reached are left out.
     #[must_use]
     pub fn history(&self) -> (Vec<&str>, usize) {
@@ -475,7 +474,7 @@ impl PaintingSession {
 
     /// Number of the state before the actions of [`PaintingSession::history`], then of the state
     /// after each. Each action of the session has a number of its own, rising from 1, which it keeps
-    /// while others are dropped; the state before the first has 0.
+    /// while others are dropped. The state before the first has 0.
     #[must_use]
     pub fn history_numbers(&self) -> Vec<u64> {
         self.history.numbers()
@@ -502,9 +501,8 @@ impl PaintingSession {
         let reserved = if self.palette.is_some() { self.undo_limit / RESERVED } else { 0 };
         let canvas = self.used_bytes(SurfaceId::Canvas);
         let palette = self.used_bytes(SurfaceId::Palette);
-        let left = |other: u64| self.undo_limit.saturating_sub(other.max(reserved));
-        let for_canvas = left(palette);
-        let for_palette = left(canvas);
+        let for_canvas = self.undo_limit.saturating_sub(palette.max(reserved));
+        let for_palette = self.undo_limit.saturating_sub(canvas.max(reserved));
         self.canvas.set_undo_bytes(for_canvas);
         if let Some(palette) = &mut self.palette {
             palette.set_undo_bytes(for_palette);

@@ -71,23 +71,23 @@ impl Entries {
 #[derive(Debug, Default)]
 pub(super) struct SharedHistory {
     pub(super) done: Entries,
-    /// Undone actions; the next redo is the last one.
+    /// Undone actions. The next redo is the last one.
     pub(super) undone: Entries,
-    /// Number of the action added last; 0 before the first.
+    /// Number of the action added last. 0 before the first.
     last: u64,
-    /// Number of the last done action that was dropped; 0 if none was.
+    /// Number of the last done action that was dropped. 0 if none was.
     beginning: u64,
 }
 
 impl SharedHistory {
-    /// Adds a new action; the undone ones are dropped.
+    /// Adds a new action. The undone ones are dropped.
     pub(super) fn add(&mut self, label: String, on: PerSurface<bool>, carried: Option<Carried>) {
         self.undone = Entries::default();
         self.last += 1;
         self.done.push(Entry { number: self.last, label, on, carried });
     }
 
-    /// Drops the actions that a painting has dropped; `undo` and `redo` are the numbers of
+    /// Drops the actions that a painting has dropped. `undo` and `redo` are the numbers of
     /// actions that each painting can still undo and redo.
     pub(super) fn limit_to(&mut self, undo: PerSurface<usize>, redo: PerSurface<usize>) {
         self.beginning = self.done.drop_farthest(undo).unwrap_or(self.beginning);

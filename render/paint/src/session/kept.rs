@@ -30,13 +30,13 @@ pub struct KeptHead {
     pub recorded: String,
     /// Shape and size.
     pub spec: BrushSpec,
-    /// Whether it has its name now; another head may have taken it.
+    /// Whether it has its name now. Another head may have taken it.
     pub named: bool,
     /// Surface that its paint belongs to.
     pub at: SurfaceId,
     /// Its number among the heads used on each surface, from 0, if it was used there.
     pub numbers: PerSurface<Option<usize>>,
-    /// The paint on it, by slots of the palette; `None` if it is clean.
+    /// The paint on it, by slots of the palette. `None` if it is clean.
     pub paint: Option<Layer>,
 }
 
@@ -59,7 +59,7 @@ pub struct RecordingTail {
 pub struct KeptSession {
     /// All heads, in the order in which they were added.
     pub brushes: Vec<KeptHead>,
-    /// The whole recording; `None` if the session records nothing.
+    /// The whole recording. `None` if the session records nothing.
     pub recording: Option<StrokeScript>,
     /// The mask of the canvas, if one is set.
     pub mask: Option<Arc<Mask>>,
@@ -96,7 +96,7 @@ impl PaintingSession {
         Ok(kept)
     }
 
-    /// The recording from action `from` on; `None` if the session records nothing or the recording
+    /// The recording from action `from` on. `None` if the session records nothing or the recording
     /// ended early. While a stroke is open, nothing known of it may wait (see
     /// [`PaintingSession::advance`]), so that the end agrees with the documents.
     #[must_use]
@@ -242,7 +242,7 @@ pub struct ReplayReport {
     pub not_undoable: u64,
 }
 
-/// Why a replay failed; `E` is the error of the function that saves.
+/// Why a replay failed. `E` is the error of the function that saves.
 #[derive(Debug, thiserror::Error)]
 pub enum ReplayError<E: std::error::Error + 'static> {
     /// The script is invalid.
@@ -293,7 +293,7 @@ impl StrokeScript {
     /// [`StrokeScript::surfaces`]). Brushes that the session has under the same name are used
     /// as they are.
     ///
-    /// `save` is called with path and canvas for each action that saves a file; `step` is
+    /// `save` is called with path and canvas for each action that saves a file. `step` is
     /// called after each action and can end the replay.
     ///
     /// # Errors

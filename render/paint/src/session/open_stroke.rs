@@ -21,7 +21,7 @@ impl PaintingSession {
         Ok((open, painting))
     }
 
-    /// Sets a brush down on a surface; samples follow. Any open stroke or adjustment is
+    /// Sets a brush down on a surface. Samples follow. Any open stroke or adjustment is
     /// finished first. Samples are rounded to [`SampleDecimals::RECORDING`].
     ///
     /// # Errors
@@ -72,7 +72,7 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Rounds samples and adds them to the open stroke; [`PaintingSession::advance`] paints
+    /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints
     /// them. If one is refused, those before it count, and the stroke stays open.
     ///
     /// # Errors
@@ -154,7 +154,7 @@ impl PaintingSession {
         self.stroke.as_ref().map(|open| &open.stroke)
     }
 
-    /// Paints a whole stroke; one that is `cut` is not lifted at its end. A stroke that is too long
+    /// Paints a whole stroke. One that is `cut` is not lifted at its end. A stroke that is too long
     /// is refused before any of it is painted.
     pub(super) fn apply_stroke(
         &mut self,
@@ -175,7 +175,7 @@ impl PaintingSession {
     }
 
     /// The open stroke as the action that paints what is painted of it, once nothing known waits
-    /// (see [`PaintingSession::advance`]), with the recorded name of its brush; `None` without a
+    /// (see [`PaintingSession::advance`]), with the recorded name of its brush. `None` without a
     /// sample.
     pub(super) fn cut_so_far(&self) -> Option<Action> {
         let SessionStroke { on, tool, samples, from, stroke, .. } = self.stroke.as_ref()?;

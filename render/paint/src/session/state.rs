@@ -32,7 +32,7 @@ pub(super) struct SessionStroke {
     pub(super) decimals: SampleDecimals,
     /// Rounded samples that were accepted.
     pub(super) samples: Vec<Sample>,
-    /// Surface that the brush came from; `None` before the first sample.
+    /// Surface that the brush came from. `None` before the first sample.
     pub(super) from: Option<SurfaceId>,
     pub(super) stroke: OpenStroke,
 }
@@ -89,7 +89,7 @@ impl PaintingSession {
     /// same library, the same pigments in the same slots, the same light and medium, and
     /// cells of the same width. Nothing is recorded.
     ///
-    /// Both share the memory that they were opened with for the history; see
+    /// Both share the memory that they were opened with for the history. See
     /// [`PaintingSession::set_undo_bytes`].
     ///
     /// # Errors
@@ -109,8 +109,8 @@ impl PaintingSession {
         }
         let own = PaletteSpec::from_names(pigment_names(&canvas.state().slots, canvas.library()));
         let (scope, _) = PigmentNames::new(&own, canvas.library())?;
-        let limit = |painting: &Painting| painting.undo_bytes().1;
-        let undo_limit = limit(&canvas).saturating_add(palette.as_ref().map_or(0, limit));
+        let undo_limit =
+            undo_limit_of(&canvas).saturating_add(palette.as_ref().map_or(0, undo_limit_of));
         Ok(Self {
             canvas,
             palette,
@@ -197,7 +197,7 @@ impl PaintingSession {
     }
 
     /// Adds a clean brush under a name. If the name belongs to another head, that one is
-    /// washed and replaced; if it belongs to the same head, nothing changes. Any open stroke
+    /// washed and replaced. If it belongs to the same head, nothing changes. Any open stroke
     /// or adjustment is finished first.
     ///
     /// # Errors
@@ -225,7 +225,7 @@ impl PaintingSession {
         self.brushes.names().map(|(name, tool)| (name, &tool.spec))
     }
 
-    /// Paint on a brush; `None` if there is no such brush, or if it was never used.
+    /// Paint on a brush. `None` if there is no such brush, or if it was never used.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -254,7 +254,7 @@ impl PaintingSession {
         Ok((canvas, palette))
     }
 
-    /// The recording so far, without an open stroke or adjustment; `None` if the session
+    /// The recording so far, without an open stroke or adjustment. `None` if the session
     /// records nothing.
     #[must_use]
     pub fn recording(&self) -> Option<&StrokeScript> {
@@ -279,18 +279,14 @@ impl PaintingSession {
 
     /// Sizes of the surfaces, for the checks of actions.
     pub(super) fn surfaces(&self) -> ActionLimits {
-        let side_mm = |painting: &Painting| {
-            let bounds = painting.bounds();
-            bounds.width.max(bounds.height) as f64 * painting.cell_mm()
-        };
         let own = ActionLimits {
-            canvas_mm: side_mm(&self.canvas),
-            palette_mm: self.palette.as_ref().map(side_mm),
+            canvas_mm: longer_side_mm(&self.canvas),
+            palette_mm: self.palette.as_ref().map(longer_side_mm),
         };
         self.recording().map_or(own, StrokeScript::limits)
     }
 
-    /// Painting of a surface; an error if the session does not have it.
+    /// Painting of a surface. An error if the session does not have it.
     pub(super) fn surface_mut(
         &mut self,
         surface: SurfaceId,
@@ -301,6 +297,15 @@ impl PaintingSession {
             _ => &mut self.canvas,
         })
     }
+}
+
+fn longer_side_mm(painting: &Painting) -> f64 {
+    let bounds = painting.bounds();
+    bounds.width.max(bounds.height) as f64 * painting.cell_mm()
+}
+
+fn undo_limit_of(painting: &Painting) -> u64 {
+    painting.undo_bytes().1
 }
 
 impl PaintingSession {
@@ -367,7 +372,7 @@ impl PaintingSession {
     /// Paints a stroke on the canvas. An undo takes it back.
     ///
     /// # Errors
-    /// [`SessionError`] for an unknown brush and for impossible samples; nothing is painted
+    /// [`SessionError`] for an unknown brush and for impossible samples. Nothing is painted
     /// then.
     pub fn stroke(
         &mut self,
@@ -380,7 +385,7 @@ impl PaintingSession {
     /// Works the wet paint of the canvas with the head of a brush as `tool`. An undo takes it back.
     ///
     /// # Errors
-    /// [`SessionError`] for an unknown brush, and for impossible samples and tools; nothing is
+    /// [`SessionError`] for an unknown brush, and for impossible samples and tools. Nothing is
     /// changed then.
     pub fn stroke_as(
         &mut self,
@@ -416,7 +421,7 @@ pub(super) struct Tool {
     pub(super) spec: BrushSpec,
     /// Its id in the painting of each surface, once it was used there.
     pub(super) ids: PerSurface<Option<BrushId>>,
-    /// Surface whose painting holds its paint; in the other one it is clean.
+    /// Surface whose painting holds its paint. In the other one it is clean.
     pub(super) at: SurfaceId,
 }
 
@@ -431,7 +436,7 @@ impl Tool {
 pub(super) enum Added {
     /// The head is new, or had the name already.
     Ready,
-    /// The head had the name before and was used; it may have paint on it.
+    /// The head had the name before and was used. It may have paint on it.
     Used,
 }
 
@@ -529,7 +534,7 @@ pub enum SessionError {
         /// Name of what differs.
         what: &'static str,
     },
-    /// The action saves a file. Sessions do not write files; their owner does.
+    /// The action saves a file. Sessions do not write files. Their owner does.
     #[error("a session saves nothing")]
     Save,
     /// There is no open stroke, or it was lifted.

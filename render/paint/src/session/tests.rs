@@ -17,6 +17,7 @@ use crate::document::{Document, LayerId};
 use crate::engine::PaintEngine;
 use crate::file::{read, read_table, write_with_table};
 use crate::history::TILE_BYTES;
+use crate::layer::Layer;
 use crate::mask::Mask;
 use crate::painting::{LayerRef, MaskChange, Painting};
 use crate::pose::Sample;
@@ -392,7 +393,6 @@ const HEADER: &str = r#"{"format": "strokes", "version": 1, "brushes": {}, "acti
     "palette": ["Lead White", "Prussian Blue"]}"#;
 
 fn opened(canvas: Document, palette: Option<Document>) -> (Painting, Option<Painting>) {
-    let engine = |document: &Document| PaintEngine::on_cpu(document.ground.height.clone());
     let on_canvas = engine(&canvas);
     let on_palette = palette.as_ref().map(engine);
     let canvas = Painting::open(canvas, on_canvas, 1 << 26).unwrap();
@@ -400,6 +400,10 @@ fn opened(canvas: Document, palette: Option<Document>) -> (Painting, Option<Pain
         Painting::open_under(palette, Arc::clone(canvas.light()), engine, 1 << 26).unwrap()
     });
     (canvas, palette)
+}
+
+fn engine(document: &Document) -> PaintEngine {
+    PaintEngine::on_cpu(document.ground.height.clone())
 }
 
 fn begun() -> PaintingSession {
@@ -495,8 +499,11 @@ fn replayed(session: &PaintingSession) -> PaintingSession {
 
 fn assert_same_paint(a: &mut PaintingSession, b: &mut PaintingSession, when: &str) {
     assert!(a.documents().unwrap() == b.documents().unwrap(), "canvas and palette {when}");
-    let paint = |session: &mut PaintingSession| session.brush_paint("round").unwrap();
-    assert!(paint(a) == paint(b), "the brush {when}");
+    assert!(paint_on(a, "round") == paint_on(b, "round"), "the brush {when}");
+}
+
+fn paint_on(session: &mut PaintingSession, brush: &str) -> Option<Layer> {
+    session.brush_paint(brush).unwrap()
 }
 
 #[test]
@@ -505,8 +512,11 @@ fn a_restored_session_goes_on_as_the_session_itself_would_have() {
     first_half(&mut whole);
     let mut again = restored(&mut whole, 3);
     assert_same_paint(&mut whole, &mut again, "when restored");
-    let flat = |session: &mut PaintingSession| session.brush_paint("flat").unwrap();
-    assert!(flat(&mut whole).is_some() && flat(&mut whole) == flat(&mut again), "the second head");
+    assert!(
+        paint_on(&mut whole, "flat").is_some()
+            && paint_on(&mut whole, "flat") == paint_on(&mut again, "flat"),
+        "the second head"
+    );
     second_half(&mut whole);
     second_half(&mut again);
     assert_same_paint(&mut whole, &mut again, "at the end");

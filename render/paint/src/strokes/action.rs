@@ -52,7 +52,7 @@ pub enum Action {
     },
     /// Dries wet paint of the canvas, from the bottom up, into a new dry layer.
     Dry {
-        /// Share of the wet paint that dries, above 0 to 1; 1 by default.
+        /// Share of the wet paint that dries, above 0 to 1. 1 by default.
         #[serde(default = "whole")]
         fraction: f64,
     },
@@ -75,7 +75,7 @@ pub enum Action {
     Name {
         /// The layer, which must be dry.
         layer: LayerRef,
-        /// One line of at most 80 characters; empty takes the name away.
+        /// One line of at most 80 characters. Empty takes the name away.
         name: String,
     },
     /// Shows or hides a dry layer, which keeps its opacity.
@@ -105,7 +105,7 @@ pub enum Action {
     Merge {
         /// One of the two, which must be dry.
         layer: LayerRef,
-        /// The other one; the layer below by default.
+        /// The other one. The layer below by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         with: Option<LayerRef>,
     },
@@ -113,7 +113,7 @@ pub enum Action {
     Squeeze(Squeeze),
     /// Removes all wet paint of a surface.
     Scrape {
-        /// The surface; the canvas by default.
+        /// The surface. The canvas by default.
         #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
         on: SurfaceId,
     },
@@ -235,7 +235,7 @@ pub struct Load {
     /// Parts of each pigment.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
-    /// Share of clear vehicle in the paint, 0 to 1; 0 by default.
+    /// Share of clear vehicle in the paint, 0 to 1. 0 by default.
     #[serde(default)]
     pub vehicle: f64,
     /// Height of the paint on the head in mm.
@@ -246,13 +246,13 @@ pub struct Load {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Squeeze {
-    /// The surface; the canvas by default.
+    /// The surface. The canvas by default.
     #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
     pub on: SurfaceId,
     /// Parts of each pigment.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
-    /// Share of clear vehicle in the paint, 0 to 1; 0 by default.
+    /// Share of clear vehicle in the paint, 0 to 1. 0 by default.
     #[serde(default)]
     pub vehicle: f64,
     /// Distance of the heap's centre from the left edge of the surface, in mm.
@@ -269,16 +269,16 @@ const STRENGTH: f64 = 0.5;
 /// A stroke of a brush.
 ///
 /// In a script the tool is `"tool": "blend"`, `"scrape"` or `"erase"`, left out for painting. Blending
-/// and erasing have a `"strength"` above 0 to 1, 0.5 by default; scraping has a `"height_mm"` of 0 to
+/// and erasing have a `"strength"` above 0 to 1, 0.5 by default. Scraping has a `"height_mm"` of 0 to
 /// 10 over the ground, 0 by default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Keys", into = "Keys")]
 pub struct Stroke {
     /// Name of the brush.
     pub brush: String,
-    /// The surface; the canvas by default.
+    /// The surface. The canvas by default.
     pub on: SurfaceId,
-    /// The tool that the head is used as; it paints by default.
+    /// The tool that the head is used as. It paints by default.
     pub tool: StrokeTool,
     /// Samples of the pen in order of time.
     pub samples: Vec<Sample>,

@@ -93,7 +93,7 @@ pub const MAX_FILE_BYTES: usize = 128 << 20;
 /// Location of a value in a script.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ValueLocation {
-    /// Index of the action from 0, and its key; `None` for a value of the header.
+    /// Index of the action from 0, and its key. `None` for a value of the header.
     pub action: Option<(usize, &'static str)>,
     /// Index of the sample in its stroke, from 0.
     pub sample: Option<usize>,
@@ -230,7 +230,6 @@ mod tests {
     const ODD: f64 = 0.123_456_789_012;
 
     fn odd() -> Vec<Action> {
-        let recipe = || Recipe::from([("Zinc White".to_owned(), 1.0 / 3.0), ("B".to_owned(), ODD)]);
         let sample = Sample {
             seconds: ODD,
             x_mm: -1e-5,
@@ -240,7 +239,6 @@ mod tests {
             tilt_y_deg: 1e-9,
             twist_deg: 359.999_99,
         };
-        let brush = || "big".to_owned();
         let gloss = Gloss { strength: 0.06, exponent: 20.123_457 };
         vec![
             Action::Load(Load { brush: brush(), recipe: recipe(), vehicle: ODD, amount_mm: ODD }),
@@ -284,14 +282,16 @@ mod tests {
         format!("{action:?}")
     }
 
+    fn brush() -> String {
+        "big".to_owned()
+    }
+
+    fn recipe() -> Recipe {
+        Recipe::from([("Zinc White".to_owned(), 1.0 / 3.0), ("B".to_owned(), ODD)])
+    }
+
     #[test]
     fn a_rounded_action_is_read_as_it_was_written() {
-        let canvas = || Canvas {
-            width_mm: 100.0,
-            height_mm: 80.0,
-            cell_mm: 0.1,
-            ground: GroundSpec::default(),
-        };
         let mut script =
             StrokeScript::new("", "", canvas(), PaletteSpec::from_names(["Zinc White"]));
         script.mixing = Some(canvas());
@@ -333,6 +333,10 @@ mod tests {
         script
     }
 
+    fn canvas() -> Canvas {
+        Canvas { width_mm: 100.0, height_mm: 80.0, cell_mm: 0.1, ground: GroundSpec::default() }
+    }
+
     #[test]
     fn masks_are_read_and_written_by_their_keys() {
         for (text, change) in [
@@ -363,25 +367,29 @@ mod tests {
 
     #[test]
     fn tools_and_masks_out_of_range_are_refused_with_their_place() {
-        let polygon = |points: Vec<[f64; 2]>| Action::Mask(MaskChange::PolygonMm(points));
-        let stroke = |tool: StrokeTool| {
-            let samples = vec![Sample::upright(0.0, 1.0, 2.0, 0.5)];
-            Action::Stroke(Stroke { brush: "big".to_owned(), on: SurfaceId::Canvas, tool, samples })
-        };
         for (action, wanted) in [
             (polygon(vec![[0.0, 0.0], [1.0, 1.0]]), "polygon_mm"),
             (polygon(vec![[0.0, 0.0]; MAX_MASK_POINTS + 1]), "polygon_mm"),
             (polygon(vec![[f64::NAN, 0.0]; 3]), "polygon_mm, x"),
             (polygon(vec![[0.0, 1e9]; 3]), "polygon_mm, y"),
             (Action::Mask(MaskChange::Inverse(false)), "inverse"),
-            (stroke(StrokeTool::Erase { strength: 0.0 }), "strength"),
-            (stroke(StrokeTool::Blend { strength: 1.5 }), "strength"),
-            (stroke(StrokeTool::Scrape { height_mm: -0.1 }), "height_mm"),
+            (stroke_as(StrokeTool::Erase { strength: 0.0 }), "strength"),
+            (stroke_as(StrokeTool::Blend { strength: 1.5 }), "strength"),
+            (stroke_as(StrokeTool::Scrape { height_mm: -0.1 }), "height_mm"),
         ] {
             let error = script(vec![Action::Undo {}, action]).check().unwrap_err().to_string();
             assert!(error.contains(wanted) && error.contains("action 1"), "{wanted}: {error}");
         }
-        let sound = [polygon(vec![[0.0, 0.0]; MAX_MASK_POINTS]), stroke(StrokeTool::Paint)];
+        let sound = [polygon(vec![[0.0, 0.0]; MAX_MASK_POINTS]), stroke_as(StrokeTool::Paint)];
         script(sound.to_vec()).check().unwrap();
+    }
+
+    fn stroke_as(tool: StrokeTool) -> Action {
+        let samples = vec![Sample::upright(0.0, 1.0, 2.0, 0.5)];
+        Action::Stroke(Stroke { brush: "big".to_owned(), on: SurfaceId::Canvas, tool, samples })
+    }
+
+    fn polygon(points: Vec<[f64; 2]>) -> Action {
+        Action::Mask(MaskChange::PolygonMm(points))
     }
 }

@@ -46,10 +46,10 @@ pub struct StrokeScript {
     /// `start` as well.
     #[serde(default, skip_serializing_if = "is_false")]
     pub table: bool,
-    /// The binder; oil by default.
+    /// The binder. Oil by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub medium: Option<Medium>,
-    /// The light; daylight from the upper left by default.
+    /// The light. Daylight from the upper left by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lighting: Option<Lighting>,
     /// Pigment library that the script was made for: a path, or the title of a library.
@@ -152,7 +152,7 @@ pub struct BrushSpec {
     pub size_mm: f64,
 }
 
-/// The name of the format; serde refuses any other.
+/// The name of the format. Serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum FormatName {
@@ -160,7 +160,7 @@ pub(super) enum FormatName {
     Strokes,
 }
 
-/// The version that is read and written; serde refuses any other.
+/// The version that is read and written. Serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u64", into = "u64")]
 pub(super) struct FormatVersion;
@@ -193,7 +193,7 @@ pub struct KeptBrush {
     pub spec: BrushSpec,
     /// Surface where it was last used.
     pub at: SurfaceId,
-    /// Paint on the cells of its head, with the pigments of the palette; `None` if it is clean.
+    /// Paint on the cells of its head, with the pigments of the palette. `None` if it is clean.
     pub paint: Option<Layer>,
 }
 
@@ -431,7 +431,7 @@ pub(crate) fn action_line(action: &Action) -> Result<String, serde_json::Error> 
     Ok(text)
 }
 
-/// Converts an error of the parser; if the cause is another format or version, names that.
+/// Converts an error of the parser. If the cause is another format or version, names that.
 fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     #[derive(Deserialize)]
     struct Kind {
@@ -518,9 +518,6 @@ mod tests {
 
     #[test]
     fn brushes_without_paint_are_found_once() {
-        let stroke = |brush: &str, more: &str| {
-            format!(r#"{{"stroke": {{"brush": "{brush}", {more} "samples": [[0, 1, 1, 0.5]]}}}}"#)
-        };
         let actions = [
             stroke("dry", ""),
             stroke("dry", ""),
@@ -541,5 +538,9 @@ mod tests {
         let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
         assert_eq!(script.unloaded_brushes(&BTreeSet::from(["kept"])), [(0, "dry")]);
         assert_eq!(script.unloaded_brushes(&BTreeSet::new()), [(0, "dry"), (5, "kept")]);
+    }
+
+    fn stroke(brush: &str, more: &str) -> String {
+        format!(r#"{{"stroke": {{"brush": "{brush}", {more} "samples": [[0, 1, 1, 0.5]]}}}}"#)
     }
 }

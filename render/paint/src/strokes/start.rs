@@ -55,7 +55,7 @@ impl StrokeScript {
     /// The canvas before the first action, and the palette if the script has one. Numbers
     /// are rounded to the digits of a file.
     ///
-    /// `start` is the painting that the script continues, if it names one; pigments are
+    /// `start` is the painting that the script continues, if it names one. Pigments are
     /// then those of its library, and `library` is not used.
     ///
     /// # Errors
@@ -149,7 +149,7 @@ impl StrokeScript {
     }
 
     /// Checks that the script describes a painting with cells `bounds` of width `cell_mm`
-    /// and the pigments `own` of `library`; `slots` are the pigments that the script starts
+    /// and the pigments `own` of `library`. `slots` are the pigments that the script starts
     /// with.
     pub(crate) fn check_painting(
         &self,
@@ -171,12 +171,7 @@ impl StrokeScript {
             let hint = Some(Hint::new(format!("\"cell_mm\": {cell_mm}")));
             return Err(at.invalid("canvas.cell_mm", &wanted, &self.canvas.cell_mm, hint));
         }
-        let sorted = |slots: &Slots| {
-            let mut pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
-            pigments.sort_unstable();
-            pigments
-        };
-        if sorted(slots) != sorted(own) {
+        if sorted_pigments(slots) != sorted_pigments(own) {
             let wanted =
                 format!("that of the painting, {}", pigment_names(own, library).join(", "));
             let named: Vec<&str> = self.palette.pigments.iter().map(|(_, name)| &**name).collect();
@@ -219,6 +214,12 @@ impl StrokeScript {
         script.library = Some(painting.library.title.clone());
         script
     }
+}
+
+fn sorted_pigments(slots: &Slots) -> Vec<PigmentId> {
+    let mut pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
+    pigments.sort_unstable();
+    pigments
 }
 
 /// The names of the pigments of `slots`, in the order of the slots.

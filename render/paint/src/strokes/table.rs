@@ -268,13 +268,16 @@ fn light_numbers(lighting: &mut Lighting) -> [Number<'_>; 5] {
     ]
 }
 
-fn gloss_numbers<'a>(wet: &'a mut Gloss, dry: &'a mut Gloss) -> [Number<'a>; 4] {
-    let single = |field, value, highest| Number {
+fn single<'a>(field: &'static str, value: &'a mut f32, highest: f64) -> Number<'a> {
+    Number {
         field: Cow::Borrowed(field),
         value: NumberRef::Single(value),
         limits: 0.0..=highest,
         above_zero: false,
-    };
+    }
+}
+
+fn gloss_numbers<'a>(wet: &'a mut Gloss, dry: &'a mut Gloss) -> [Number<'a>; 4] {
     [
         single("wet.strength", &mut wet.strength, 100.0),
         single("wet.exponent", &mut wet.exponent, 1e6),
@@ -423,7 +426,7 @@ fn check_mask(at: &CheckContext, change: &MaskChange) -> Checked {
     Ok(())
 }
 
-/// Checks the lighting of a painting; names of its fields begin with `prefix`.
+/// Checks the lighting of a painting. Names of its fields begin with `prefix`.
 pub(super) fn check_light(at: &CheckContext, prefix: &str, lighting: &Lighting) -> Checked {
     for number in light_numbers(&mut lighting.clone()) {
         number.check(at, prefix)?;
@@ -534,7 +537,7 @@ pub(crate) type Checked = Result<(), Box<InvalidValue>>;
 /// Action and sample that are being checked.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct CheckContext {
-    /// Index of the action from 0, and its key; `None` for the header of a script and for
+    /// Index of the action from 0, and its key. `None` for the header of a script and for
     /// an action that is in no script.
     action: Option<(usize, &'static str)>,
     sample: Option<usize>,

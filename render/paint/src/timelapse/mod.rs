@@ -36,7 +36,7 @@ pub enum Interval {
     /// After every so many seconds of painting: the time that strokes on the canvas took, without
     /// pauses and without mixing on the palette. 0.01 to 86,400.
     Seconds(f64),
-    /// So many frames in all, 2 and up, spread evenly over the painting time; over the actions if
+    /// So many frames in all, 2 and up, spread evenly over the painting time. Over the actions if
     /// no stroke took time. There are fewer if so many moments differ by no sample.
     Frames(usize),
 }
@@ -46,7 +46,7 @@ pub enum Interval {
 pub struct TimelapseSettings {
     /// How often a frame is taken. The first frame shows the start, the last one the end.
     pub interval: Interval,
-    /// Longest side of a frame in pixels, 16 to 16,384; a canvas with fewer cells keeps them.
+    /// Longest side of a frame in pixels, 16 to 16,384. A canvas with fewer cells keeps them.
     pub longest_px: usize,
     /// Whether passages that were undone later are shown. They are painted in any case.
     pub with_undone: bool,
@@ -146,7 +146,6 @@ struct Moment {
 /// Moments of all frames, rising: the start, those between, and the end.
 fn moments(actions: &[Action], settings: &TimelapseSettings) -> Vec<Moment> {
     let shown = shown(actions, settings.with_undone);
-    let after = |index: usize| Moment { action: index + 1, samples: 0 };
     let changes: Vec<usize> = (0..actions.len()).filter(|&index| shown[index]).collect();
     let seconds: f64 = changes.iter().map(|&index| duration(&actions[index])).sum();
     let start = Moment { action: 0, samples: 0 };
@@ -177,6 +176,10 @@ fn moments(actions: &[Action], settings: &TimelapseSettings) -> Vec<Moment> {
     all
 }
 
+fn after(index: usize) -> Moment {
+    Moment { action: index + 1, samples: 0 }
+}
+
 /// Multiples of `every` seconds below `seconds`.
 fn times(every: f64, seconds: f64) -> Vec<f64> {
     // One more than fits is enough to be refused.
@@ -202,11 +205,14 @@ fn at_times(actions: &[Action], changes: &[usize], times: &[f64]) -> Vec<Moment>
     found
 }
 
-/// Seconds that a stroke takes; 0 for other actions.
+/// Seconds that a stroke takes. 0 for other actions.
 fn duration(action: &Action) -> f64 {
     let Some(Stroke { samples, .. }) = action.stroke() else { return 0.0 };
-    let seconds = |sample: Option<&Sample>| sample.map_or(0.0, |sample| sample.seconds);
     seconds(samples.last()) - seconds(samples.first())
+}
+
+fn seconds(sample: Option<&Sample>) -> f64 {
+    sample.map_or(0.0, |sample| sample.seconds)
 }
 
 /// A script and the moments of its timelapse.
@@ -387,23 +393,23 @@ impl<P: FnMut(usize, Frame) -> Result<(), TimelapseError>> Taking<'_, P> {
     }
 }
 
-/// Share of the work that is playing the script; the rest is joining the frames.
+/// Share of the work that is playing the script. The rest is joining the frames.
 const PLAYING: f64 = 0.9;
 
 /// Files of a timelapse.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimelapseFiles {
-    /// The file of all frames and its format; `None` writes frames only.
+    /// The file of all frames and its format. `None` writes frames only.
     pub animation: Option<(PathBuf, AnimationFormat)>,
     /// Folder of the frames. Those of the same script and settings are kept from an interrupted
-    /// run; see [`Sequence`].
+    /// run. See [`Sequence`].
     pub frames: PathBuf,
     /// Whether the frames stay once the animation is written or the work is ended. If the program
     /// itself is ended they stay in any case.
     pub keep_frames: bool,
     /// Frames a second.
     pub rate: FrameRate,
-    /// Seconds for which the animation shows its last frame, 0 to 60; at least one frame.
+    /// Seconds for which the animation shows its last frame, 0 to 60. At least one frame.
     pub hold_seconds: f64,
 }
 
@@ -593,8 +599,10 @@ mod kept_tests {
 
     #[test]
     fn the_palette_is_not_shown() {
-        let scrape = |on| Action::Scrape { on };
-        let found = shown(&[scrape(SurfaceId::Palette), scrape(SurfaceId::Canvas)], true);
+        let found = shown(
+            &[Action::Scrape { on: SurfaceId::Palette }, Action::Scrape { on: SurfaceId::Canvas }],
+            true,
+        );
         assert_eq!(found, [false, true]);
     }
 }

@@ -8,7 +8,7 @@ use graphics::tile::{Rect, TILE, Tile, TileSet};
 
 use crate::layer::{Cell, Layer, SLOTS};
 
-/// A layer and the volume of each of its cells; 40 bytes a cell.
+/// A layer and the volume of each of its cells. 40 bytes a cell.
 #[derive(Debug, Clone)]
 pub(super) struct Columns {
     layer: Layer,
@@ -51,8 +51,11 @@ impl Columns {
         for tile in covered.iter() {
             let inside = tile.rect(bounds).intersection(rect);
             let mut rows = inside.y..inside.y + inside.height;
-            let row = |y: usize| &self.volume[y * self.width() + inside.x..][..inside.width];
-            if rows.any(|y| row(y).iter().any(|&volume| volume > 0)) {
+            if rows.any(|y| {
+                self.volume[y * self.width() + inside.x..][..inside.width]
+                    .iter()
+                    .any(|&volume| volume > 0)
+            }) {
                 let at = (inside.x - rect.x, inside.y - rect.y);
                 part.put(at, &self.layer.part(inside));
             }
@@ -156,7 +159,7 @@ impl Rows<'_> {
     }
 }
 
-/// Consecutive cells of one row; the three slices have the same length.
+/// Consecutive cells of one row. The three slices have the same length.
 #[derive(Debug)]
 pub(super) struct Row<'a> {
     pub(super) pigments: &'a mut [[u32; SLOTS]],
@@ -164,13 +167,13 @@ pub(super) struct Row<'a> {
     pub(super) volume: &'a mut [u32],
 }
 
-/// A layer stored by tiles; tiles without paint are not stored.
+/// A layer stored by tiles. Tiles without paint are not stored.
 #[derive(Debug, Clone)]
 pub(super) struct SparseLayer {
     bounds: Rect,
     /// Number of tiles in a row of tiles.
     tile_columns: usize,
-    /// Row by row; `None` without paint.
+    /// Row by row. `None` without paint.
     tiles: Vec<Option<Layer>>,
 }
 
@@ -212,7 +215,7 @@ impl SparseLayer {
         })
     }
 
-    /// The paint of one tile; `None` if the tile has no paint.
+    /// The paint of one tile. `None` if the tile has no paint.
     pub(super) fn tile(&self, tile: Tile) -> Option<&Layer> {
         self.tiles[tile.row * self.tile_columns + tile.column].as_ref()
     }
@@ -243,7 +246,7 @@ impl SparseLayer {
     }
 }
 
-/// Paint of a tile, one list of amounts for each slot and, last, for the vehicle; a list without
+/// Paint of a tile, one list of amounts for each slot and, last, for the vehicle. A list without
 /// paint is left out.
 #[derive(Debug, Clone)]
 pub(super) struct SavedTile {

@@ -32,13 +32,13 @@ use penetration::{Bed, Below};
 use render::{PaintLayers, RenderedView};
 use sub_steps::SubStepRunner;
 
-/// The paint of one painting in the machine's memory; used through
+/// The paint of one painting in the machine's memory. Used through
 /// [`PaintEngine`](crate::engine::PaintEngine), which documents its operations.
 #[derive(Debug)]
 pub struct CpuPaint {
     /// Height of the ground in quanta.
     ground: Arc<Field<i32>>,
-    /// Height of ground and dry paint in quanta; shared with `ground` until paint dries.
+    /// Height of ground and dry paint in quanta. Shared with `ground` until paint dries.
     floor: Arc<Field<i32>>,
     wet: Columns,
     /// Surface before the stroke.

@@ -39,13 +39,13 @@ pub(super) struct PenetrationMap {
     changing: Spans,
     /// Columns whose tops are computed, as flows depend on them.
     seen: Spans,
-    /// Coats in quanta of the cells in contact, with the same rim; of no meaning elsewhere.
+    /// Coats in quanta of the cells in contact, with the same rim. Of no meaning elsewhere.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
     /// Mean volumes of the hair over the cells of one row of the contact.
     means: Vec<u32>,
-    /// Whether each column is crowded or covered, with the same rim; empty if none is, which is
+    /// Whether each column is crowded or covered, with the same rim. Empty if none is, which is
     /// nearly always so without a mask.
     crowded: Vec<bool>,
 }
@@ -114,7 +114,6 @@ impl PenetrationMap {
         let rates = contact.rates;
         let Below { floor, bed, mask } = below;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
-            let below_head = |touch: &Touch| touch.height != Touch::NONE.height;
             let Some(from) = touches.iter().position(below_head) else { continue };
             let touches = &touches[from..];
             let count = touches.iter().rposition(below_head).map_or(0, |last| last + 1);
@@ -146,7 +145,6 @@ impl PenetrationMap {
                     *here = if mask.covers(cell) { NO_CONTACT } else { *here };
                 }
             }
-            let touching = |penetration: &i32| *penetration != NO_CONTACT;
             let Some(first) = found.iter().position(touching) else { continue };
             let end = found.iter().rposition(touching).map_or(first, |last| last + 1);
             self.contact.set(y, x + first..x + end);
@@ -154,6 +152,16 @@ impl PenetrationMap {
             for (pressed, &penetration) in pressures.iter_mut().zip(&found[first..end]) {
                 *pressed = pressure(motion, penetration);
             }
+        }
+
+        #[inline(always)]
+        fn touching(penetration: &i32) -> bool {
+            *penetration != NO_CONTACT
+        }
+
+        #[inline(always)]
+        fn below_head(touch: &Touch) -> bool {
+            touch.height != Touch::NONE.height
         }
     }
 
@@ -216,16 +224,20 @@ impl PenetrationMap {
         let row = self.row_length();
         let count = found.len();
         let middle = self.start(y) + x - self.reach.x;
-        // Nine rows of pressures; those without contact are the lowest.
+        // Nine rows of pressures. Those without contact are the lowest.
         let beside = |place: usize| {
             let at = |place: usize| &self.pressures[place..][..count];
             at(place - 1).iter().zip(at(place)).zip(at(place + 1))
         };
         let rows = beside(middle - row).zip(beside(middle)).zip(beside(middle + row));
         for (found, ((above, here), below)) in found.iter_mut().zip(rows) {
-            let highest = |((&a, &b), &c): ((&i32, &i32), &i32)| a.max(b).max(c);
             let highest = highest(above).max(highest(here)).max(highest(below));
             *found = if highest == NO_CONTACT { 0 } else { u32::MAX };
+        }
+
+        #[inline(always)]
+        fn highest(((&a, &b), &c): ((&i32, &i32), &i32)) -> i32 {
+            a.max(b).max(c)
         }
     }
 
@@ -236,14 +248,14 @@ impl PenetrationMap {
         let reach = self.reach;
         self.crowded.clear();
         let rows = reach.y..reach.y + reach.height;
-        let row = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
-        let highest = rows.clone().map(|y| highest(row(y))).max().unwrap_or(0);
+        let volumes = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
+        let highest = rows.clone().map(|y| highest(volumes(y))).max().unwrap_or(0);
         if highest > CROWDED_VOLUME || mask.is_some() {
             self.crowded.resize(self.row_length() * (reach.height + 2 * RIM), false);
             for y in rows {
                 let start = self.start(y);
                 let first = y * wet.width() + reach.x;
-                let columns = self.crowded[start..].iter_mut().zip(row(y));
+                let columns = self.crowded[start..].iter_mut().zip(volumes(y));
                 for (cell, (crowded, &volume)) in (first..).zip(columns) {
                     *crowded =
                         volume > CROWDED_VOLUME || mask.is_some_and(|mask| mask.covers(cell));
@@ -321,15 +333,18 @@ impl PenetrationMap {
         let motion = *motion;
         let count = found.len();
         let tops = |first: usize| &self.tops[first..][..count];
-        let pressures = |first: usize| &self.pressures[first..][..count];
         let before = tops(place - 2 * stride).iter();
-        let here = tops(place - stride).iter().zip(pressures(place - stride));
-        let next = tops(place).iter().zip(pressures(place));
+        let here = tops(place - stride).iter().zip(&self.pressures[place - stride..][..count]);
+        let next = tops(place).iter().zip(&self.pressures[place..][..count]);
         let beyond = tops(place + stride);
         let columns = before.zip(here).zip(next).zip(beyond);
         for (found, (((&before, here), next), &beyond)) in found.iter_mut().zip(columns) {
-            let column = |(&top, &pressure): (&i32, &i32)| Column { top, pressure };
             *found = flow(&motion, before, column(here), column(next), beyond);
+        }
+
+        #[inline(always)]
+        fn column((&top, &pressure): (&i32, &i32)) -> Column {
+            Column { top, pressure }
         }
     }
 }
@@ -343,7 +358,7 @@ fn highest(volumes: &[u32]) -> u32 {
     highest
 }
 
-/// One range of columns of the canvas for each row of a contact's reach; empty where a row has
+/// One range of columns of the canvas for each row of a contact's reach. Empty where a row has
 /// none.
 #[derive(Debug, Default)]
 pub(super) struct Spans {
@@ -365,7 +380,7 @@ impl Spans {
         self.first..self.first + self.ranges.len()
     }
 
-    /// Columns of row `y`; none of rows beyond the reach.
+    /// Columns of row `y`. None of rows beyond the reach.
     #[inline(always)]
     pub(super) fn of(&self, y: usize) -> Range<usize> {
         let row = y.checked_sub(self.first).and_then(|row| self.ranges.get(row));
@@ -481,7 +496,7 @@ pub(super) struct Below<'a> {
     pub(super) floor: &'a Field<i32>,
     /// Surface before the stroke.
     pub(super) bed: &'a Bed,
-    /// Covered cells; `None` if all are open.
+    /// Covered cells. `None` if all are open.
     pub(super) mask: Option<&'a Mask>,
 }
 

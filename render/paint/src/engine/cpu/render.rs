@@ -30,7 +30,7 @@ pub(super) struct PaintLayers<'a> {
 /// 16 bytes a cell and is read once after it changed. Allocated when first rendered.
 #[derive(Debug, Default)]
 pub(super) struct RenderedView {
-    /// The scene of the last rendering; `None` before the first.
+    /// The scene of the last rendering. `None` before the first.
     scene: Option<Scene>,
     /// Internal reflectance of ground and dry layers.
     baked: BakedTiles,
@@ -73,11 +73,14 @@ impl RenderedView {
         let end = ((lowest.row + 1) * TILE).min(bounds.height);
         let spans = spans(&both, bounds);
         let PaintLayers { floor, wet, .. } = *layers;
-        let top = |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32;
-        self.tops.set(first..end, |y| &spans[y / TILE], top);
+        self.tops.set(
+            first..end,
+            |y| &spans[y / TILE],
+            |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32,
+        );
     }
 
-    /// The picture in `rect`: linear sRGB, with 1 as the fourth component; black before the first
+    /// The picture in `rect`: linear sRGB, with 1 as the fourth component. Black before the first
     /// rendering. Rows are distributed over all cores.
     pub(super) fn picture_in(&self, layers: &PaintLayers<'_>, rect: Rect) -> Field<[f32; 4]> {
         let mut picture = Field::filled(rect.width, rect.height, BLACK);
@@ -118,7 +121,7 @@ impl RenderedView {
     }
 }
 
-/// The ranges of cell columns that `tiles` cover, for each row of tiles; adjacent
+/// The ranges of cell columns that `tiles` cover, for each row of tiles. Adjacent
 /// tiles are merged.
 fn spans(tiles: &TileSet, bounds: Rect) -> Vec<Vec<Range<usize>>> {
     let mut rows: Vec<Vec<Range<usize>>> = vec![Vec::new(); bounds.height.div_ceil(TILE)];
@@ -150,7 +153,7 @@ pub(super) struct BakedTiles {
     width: usize,
     /// Number of tiles in a row of tiles.
     tile_columns: usize,
-    /// Row by row; `None` without dry paint.
+    /// Row by row. `None` without dry paint.
     tiles: Vec<Option<TileReflectance>>,
 }
 
@@ -167,8 +170,10 @@ impl BakedTiles {
         self.tile_columns = bounds.width.div_ceil(TILE);
         self.tiles.resize_with(self.tile_columns * bounds.height.div_ceil(TILE), || None);
         let tiles: Vec<Tile> = tiles.iter().collect();
-        let bake = |&tile: &Tile| (tile, baked(scene, dry, tile, tile.rect(bounds)));
-        let baked: Vec<_> = tiles.par_iter().map(bake).collect();
+        let baked: Vec<_> = tiles
+            .par_iter()
+            .map(|&tile: &Tile| (tile, baked(scene, dry, tile, tile.rect(bounds))))
+            .collect();
         for (tile, reflectance) in baked {
             self.tiles[tile.row * self.tile_columns + tile.column] = reflectance;
         }
@@ -191,7 +196,7 @@ impl BakedTiles {
     }
 }
 
-/// Internal reflectance of ground and dry layers in `tile`, which covers `rect`; `None` if no
+/// Internal reflectance of ground and dry layers in `tile`, which covers `rect`. `None` if no
 /// layer has paint there.
 fn baked(scene: &Scene, dry: &[SparseLayer], tile: Tile, rect: Rect) -> Option<TileReflectance> {
     let mut backing: Option<TileReflectance> = None;

@@ -97,8 +97,11 @@ impl SubStepRunner {
         self.bands.resize_with(self.bands.len().max(count), Band::default);
         let bands = &mut self.bands[..count];
         for (i, band) in bands.iter_mut().enumerate() {
-            let edge = |i: usize| reach.y + reach.height * i / count;
-            band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
+            band.begin(
+                reach.y + reach.height * i / count..reach.y + reach.height * (i + 1) / count,
+                reach,
+                head.cells.volume().len(),
+            );
         }
         let penetration = &mut self.penetration;
         vectorized(MeasurePenetration { penetration, motion, contact, reach, below, wet, head });

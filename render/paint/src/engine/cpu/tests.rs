@@ -412,17 +412,10 @@ fn a_tile_is_exchanged_with_what_was_saved_and_nothing_else_changes() {
 }
 
 fn scene(layers: usize) -> Scene {
-    let layer = |strength: f32| LayerOptics {
-        absorption: std::array::from_fn(|slot| {
-            std::array::from_fn(|node| strength * ((slot * 3 + node * 5) % 7) as f32)
-        }),
-        scattering: [[strength * 2.0; NODES]; SLOTS],
-    };
-    let gloss = |strength: f32| Gloss { strength, exponent: 20.0 };
     Scene {
         ground: [0.8; NODES],
-        dry: (0..layers).map(|i| layer(1e-6 * (i + 1) as f32)).collect(),
-        wet: layer(2e-6),
+        dry: (0..layers).map(|i| layer_optics(1e-6 * (i + 1) as f32)).collect(),
+        wet: layer_optics(2e-6),
         surface: SceneSurface { k1: 0.03, k2: 0.5, specular: 0.0 },
         rgb_from_nodes: std::array::from_fn(|node| [0.125, 0.02 * node as f32, 0.1]),
         lamp: Lamp {
@@ -435,6 +428,19 @@ fn scene(layers: usize) -> Scene {
         },
         cell_mm: 0.1,
     }
+}
+
+fn layer_optics(strength: f32) -> LayerOptics {
+    LayerOptics {
+        absorption: std::array::from_fn(|slot| {
+            std::array::from_fn(|node| strength * ((slot * 3 + node * 5) % 7) as f32)
+        }),
+        scattering: [[strength * 2.0; NODES]; SLOTS],
+    }
+}
+
+fn gloss(strength: f32) -> Gloss {
+    Gloss { strength, exponent: 20.0 }
 }
 
 #[test]
@@ -455,11 +461,10 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
     engine.render(View::First, &scene(1), &all, &none);
     assert!(engine.picture() == shown, "shown tiles alone");
     // Shading looks 8 cells of 0.1 mm far.
-    let untouched = |x: usize, y: usize| x >= 128 || !(32..88).contains(&y) && x < 42;
     for (index, (now, before)) in shown.values().iter().zip(first.values()).enumerate() {
         let x = index % WIDTH;
         let y = index / WIDTH;
-        assert!(!untouched(x, y) || now == before, "cell {x}, {y}");
+        assert!(!(x >= 128 || !(32..88).contains(&y) && x < 42) || now == before, "cell {x}, {y}");
     }
     assert_ne!(shown[(80, 80)], first[(80, 80)]);
     engine.dry(65_536);
@@ -476,7 +481,7 @@ fn bare_ground_shows_what_an_instrument_would_read_of_it() {
     let all = TileSet::all(engine.bounds());
     engine.render(View::First, &scene(0), &all, &all);
     let seen = engine.picture()[(7, 5)][0];
-    // Internal reflectance 0.8, k1 = 0.03, k2 = 0.5; the weights of eight nodes sum to 1.
+    // Internal reflectance 0.8, k1 = 0.03, k2 = 0.5. The weights of eight nodes sum to 1.
     let measured = 0.97 * 0.5 * 0.8 / (1.0 - 0.5 * 0.8);
     assert!((seen - measured).abs() < 1e-6, "{seen} {measured}");
 }
@@ -516,11 +521,11 @@ pub(super) fn sub_step(
         let here = touch(x, y);
         coat(rates, here, means[here.brush_cell as usize])
     };
-    let covered =
-        |x: i64, y: i64| mask.is_some_and(|mask| mask.covers(y as usize * width + x as usize));
     let pressed = |x: i64, y: i64| -> i32 {
         let here = touch(x, y);
-        if here == Touch::NONE || covered(x, y) {
+        if here == Touch::NONE
+            || mask.is_some_and(|mask| mask.covers(y as usize * width + x as usize))
+        {
             return NO_CONTACT;
         }
         let index = y as usize * width + x as usize;
@@ -572,7 +577,7 @@ pub(super) fn sub_step(
             let (right, down) = avoid_crowded_columns((right, down), |to_x, to_y| {
                 let x = x + i64::from(to_x);
                 let y = y + i64::from(to_y);
-                covered(x, y)
+                mask.is_some_and(|mask| mask.covers(y as usize * width + x as usize))
                     || start.cell(y as usize * width + x as usize).volume() > CROWDED_VOLUME
             });
             let mobile = mobile_share(motion, volume);

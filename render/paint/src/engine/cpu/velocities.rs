@@ -24,13 +24,13 @@ pub(super) struct Velocities {
     y: Vec<i32>,
     /// Share of each column that may move, in parts of 65536.
     mobile: Vec<u32>,
-    /// Shares of each column that leave it along x, along y and diagonally; see [`outflow`].
+    /// Shares of each column that leave it along x, along y and diagonally. See [`outflow`].
     pub(super) outflow: [Vec<u32>; 3],
     /// Signs of the velocities along x and y: to which neighbours paint moves.
     pub(super) beside: Vec<i32>,
     pub(super) below: Vec<i32>,
     touches: Vec<Touch>,
-    /// All bits set for each cell that, or a neighbour of which, is in contact; else 0.
+    /// All bits set for each cell that, or a neighbour of which, is in contact. Else 0.
     near: Vec<u32>,
     /// Flows over the left sides of the cells of the row and over the right side of its last.
     in_x: Vec<i32>,
@@ -124,15 +124,14 @@ impl Velocities {
         }
     }
 
-    /// Copies the touches of `columns` of row `y`; cells beyond the contact get [`Touch::NONE`].
+    /// Copies the touches of `columns` of row `y`. Cells beyond the contact get [`Touch::NONE`].
     #[inline(always)]
     fn gather_touches(&mut self, contact: &Contact, columns: &Range<usize>, y: usize) {
         let rect = contact.rect;
         self.touches.clear();
         if (rect.y..rect.y + rect.height).contains(&y) {
-            let within = |x: usize| x.clamp(rect.x, rect.x + rect.width) - rect.x;
-            let from = within(columns.start);
-            let to = within(columns.end);
+            let from = columns.start.clamp(rect.x, rect.x + rect.width) - rect.x;
+            let to = columns.end.clamp(rect.x, rect.x + rect.width) - rect.x;
             self.touches.resize(rect.x.saturating_sub(columns.start), Touch::NONE);
             let row = &contact.touches[(y - rect.y) * rect.width..];
             self.touches.extend_from_slice(&row[from..to]);
@@ -191,14 +190,14 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Makes room for `count` cells; those added have no paint.
+    /// Makes room for `count` cells. Those added have no paint.
     pub(super) fn grow(&mut self, count: usize) {
         let count = count.max(self.vehicle.len());
         self.pigments.resize(count, [0; SLOTS]);
         self.vehicle.resize(count, 0);
     }
 
-    /// Removes the paint of a cell; `None` if there is no such cell.
+    /// Removes the paint of a cell. `None` if there is no such cell.
     #[inline(always)]
     pub(super) fn take(&mut self, at: usize) -> Option<Cell> {
         let pigments = self.pigments.get_mut(at)?;
@@ -207,7 +206,7 @@ impl Cells {
     }
 }
 
-/// Paint by cell, row by row; none between sub-steps. Holds its buffers, so that no sub-step
+/// Paint by cell, row by row. None between sub-steps. Holds its buffers, so that no sub-step
 /// allocates.
 #[derive(Debug, Default)]
 pub(super) struct Inflow {

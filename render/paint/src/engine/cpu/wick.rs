@@ -50,7 +50,7 @@ pub(super) struct Wick {
 }
 
 impl Wick {
-    /// Moves paint within each group of hairs of `head`; see [`crate::motion::wick`].
+    /// Moves paint within each group of hairs of `head`. See [`crate::motion::wick`].
     #[inline(always)]
     pub(super) fn apply(&mut self, wicking: Wicking, head: &mut HeadPaint) {
         let width = head.cells.width();
@@ -284,11 +284,6 @@ mod tests {
 
     #[test]
     fn level_hair_does_not_mix() {
-        let cell = |index: usize| {
-            let mut cell = Cell::default();
-            cell.pigments[index % SLOTS] = 5_000_000;
-            cell
-        };
         let mut paint = head(4, 30, cell);
         Wick::default().apply(along(65536), &mut paint);
         assert!((0..120).all(|index| paint.cells.cell(index) == cell(index)), "paint moved");
@@ -306,6 +301,12 @@ mod tests {
         }
         let lowest = paint.cells.volume().iter().min();
         assert!(lowest > Some(&(MAX_COLUMN / 4)), "{lowest:?}");
+    }
+
+    fn cell(index: usize) -> Cell {
+        let mut cell = Cell::default();
+        cell.pigments[index % SLOTS] = 5_000_000;
+        cell
     }
 
     #[test]
@@ -332,7 +333,6 @@ mod tests {
     fn hairs_flow_in_turns() {
         let mut paint =
             head(12, 5, |index: usize| Cell { vehicle: 6_000_000 * (index / 12) as u32, ..EMPTY });
-        let volumes = |paint: &HeadPaint| paint.cells.volume().to_vec();
         let mut whole = paint.clone();
         Wick::default().apply(along(9000), &mut whole);
         for turn in 0..4 {
@@ -345,5 +345,9 @@ mod tests {
             }
         }
         assert_eq!(volumes(&paint), volumes(&whole));
+    }
+
+    fn volumes(paint: &HeadPaint) -> Vec<u32> {
+        paint.cells.volume().to_vec()
     }
 }

@@ -35,7 +35,7 @@ const SUBMIT_COMMANDS: usize = 512;
 /// Minimum number of cells that the buffers of a sub-step are allocated for.
 const MIN_SUB_STEP_CELLS: usize = 1 << 14;
 
-/// The paint of one painting on a graphics device; used through
+/// The paint of one painting on a graphics device. Used through
 /// [`PaintEngine`](crate::engine::PaintEngine), which documents its operations.
 #[derive(Debug)]
 pub struct GpuPaint {

@@ -173,7 +173,7 @@ pub(super) struct CanvasBuffers<'a> {
     pub(super) dry: &'a [PaintBuffers],
 }
 
-/// The buffers of one view; the handles are cheap to clone.
+/// The buffers of one view. The handles are cheap to clone.
 #[derive(Debug, Clone)]
 pub(super) struct ViewBuffers {
     /// Internal reflectance of ground and dry layers at the eight wavelengths.
@@ -193,24 +193,28 @@ impl From<&crate::optics::LayerOptics> for LayerOptics {
 impl From<ReliefLamp> for LampParams {
     fn from(lamp: ReliefLamp) -> Self {
         let [x, y, z] = lamp.halfway;
-        let gloss = |(Gloss { strength, exponent }, level)| [strength, exponent, level, 0.0];
-        let tap = |tap: Tap| {
-            let [x, y] = tap.offset.map(|cells| cells as f32);
-            [x, y, tap.per_quantum, tap.less]
-        };
         Self {
             towards_lamp: lamp.towards_lamp,
             ambient: lamp.ambient,
             slope: lamp.slope,
             halfway: [x, y, z, 0.0],
-            gloss: lamp.gloss.map(gloss),
-            shadow: lamp.shadow.map(tap),
-            around: lamp.around.map(tap),
+            gloss: lamp.gloss.map(gloss_uniform),
+            shadow: lamp.shadow.map(tap_uniform),
+            around: lamp.around.map(tap_uniform),
             soft: SOFT,
             most: MOST,
             padding: [0.0; 2],
         }
     }
+}
+
+fn gloss_uniform((Gloss { strength, exponent }, level): (Gloss, f32)) -> [f32; 4] {
+    [strength, exponent, level, 0.0]
+}
+
+fn tap_uniform(tap: Tap) -> [f32; 4] {
+    let [x, y] = tap.offset.map(|cells| cells as f32);
+    [x, y, tap.per_quantum, tap.less]
 }
 
 impl ViewBuffers {

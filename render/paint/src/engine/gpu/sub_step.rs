@@ -169,7 +169,7 @@ pub(super) struct WickParams {
     pub(super) turn: u32,
 }
 
-/// Lets paint flow over a head; an invocation a group of hairs.
+/// Lets paint flow over a head. An invocation a group of hairs.
 pub(super) static WICK: Kernel = Kernel {
     name: "wick_hairs",
     source: concat!(
