@@ -106,8 +106,8 @@ fn sample(seconds: f64, x_mm: f64, pressure: f64) -> Sample {
     }
 }
 
-/// A loaded flat of 25 mm, upright, in two circles over each other on linen, as fast as in the studio's
-/// bench `speed`.
+/// A loaded flat of 25 mm, upright, in two circles over each other on linen, as fast as in the
+/// studio's bench `speed`.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn wide_flat(bencher: Bencher<'_, '_>) {
     let library = oils();

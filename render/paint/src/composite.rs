@@ -18,8 +18,8 @@ use crate::optics::{LayerOptics, NODES};
 use graphics::lanes::{decay, greater, lesser, multiply_add};
 
 /// Composites a layer over a row of cells, in place. `pigments` holds the amounts in quanta
-/// by slot. `backing` holds the internal reflectance below the layer and receives that of
-/// the result. Vehicle is transparent.
+/// by slot. `backing` holds the internal reflectance below the layer and receives the
+/// reflectance of the result. Vehicle is transparent.
 ///
 /// Agrees within 5e-7 with f64 arithmetic for K d and S d of 0 to 1e4 and backings of 0
 /// to 1. Results lie in 0 to 1. Cells without paint keep their backing bit for bit.

@@ -107,7 +107,7 @@ fn pack(low: u16, high: u16) -> u32 {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ExchangeRates {
-    /// Thickness of the head's coat relative to that of the paint on it, beyond `film`.
+    /// Thickness of the head's coat relative to the paint on it, beyond `film`.
     pub release: u32,
     /// Thickness in quanta of the part of the coat that does not depend on the paint on the head.
     pub film: u32,
@@ -120,8 +120,8 @@ pub struct ExchangeRates {
     /// Distance in quanta by which hair is pressed below the crests of the ground. Less where
     /// its coat bears it.
     pub sink: u32,
-    /// Velocity of the paint that the head has penetrated, relative to that of the head, in
-    /// parts of 256. Up to 256.
+    /// Velocity of the paint that the head has penetrated, relative to the head's, in
+    /// parts of 256, up to 256.
     pub drag: u32,
     /// Share of the paint from before the stroke that bears the hair, in parts of 65536. Less where
     /// the coat is thin.

@@ -1,5 +1,5 @@
-//! A painting at rest: everything that its file stores, its canvas and palette, and a part of it cut
-//! out as a painting.
+//! A painting at rest: everything that its file stores, its canvas and palette, and a part of it
+//! cut out as a painting.
 
 use documents::hint::{Explain, Fault, Hint};
 use graphics::tile::Rect;
@@ -69,7 +69,7 @@ pub struct Medium {
     /// library's thickness, which has no unit of its own.
     pub scattering_per_mm: f64,
     /// Stiffness of the wet paint: 0 is stand oil, which levels by itself, 1 is putty, which
-    /// stays as it is laid. Left out of files where it is that of tube paint.
+    /// stays as it is laid. Left out of files for tube paint.
     #[serde(default = "tube_paint", skip_serializing_if = "is_tube_paint")]
     pub stiffness: f64,
     /// Gloss of wet paint.
@@ -118,7 +118,7 @@ pub struct Document {
     pub title: String,
     /// Width and height of a cell in mm.
     pub cell_mm: f64,
-    /// Ground of the painting. Its size is that of the canvas.
+    /// Ground of the painting. It is as large as the canvas.
     pub ground: Ground,
     /// Pigments that the layers refer to.
     pub library: PigmentLibrary,
@@ -126,7 +126,7 @@ pub struct Document {
     pub medium: Medium,
     /// Dry layers, lowest first.
     pub dry: Vec<DryLayer>,
-    /// Identity of the next dry layer, above those of all layers so far.
+    /// Identity of the next dry layer, above the identities of all layers so far.
     pub next_layer: LayerId,
     /// Pigments of the wet layer.
     pub slots: Slots,
@@ -174,8 +174,8 @@ impl Document {
             && self.cell_mm == canvas.cell_mm
     }
 
-    /// SHA-256 of the ground's heights and of all amounts of paint, wet and dry, as 64 hexadecimal digits. Two
-    /// paintings with equal digests hold the same paint to the last quantum.
+    /// SHA-256 of the ground's heights and of all amounts of paint, wet and dry, as 64 hexadecimal
+    /// digits. Two paintings with equal digests hold the same paint to the last quantum.
     #[must_use]
     pub fn digest_of_paint(&self) -> String {
         let mut digest = Sha256::new();
@@ -317,7 +317,7 @@ impl Explain for PaletteError {
 
 impl Document {
     /// The painting of the cells in `rect` alone: ground, dry layers and wet paint stay as they
-    /// are, to the quantum. Light, binder and pigments are those of the whole.
+    /// are, to the quantum. Light, binder and pigments are the whole painting's.
     ///
     /// Beyond its edges a painting has no ground that could be continued, since a file keeps the
     /// relief of a ground and not how it was made. So a painting can be cropped, but not enlarged.

@@ -1,8 +1,9 @@
 //! Undo and redo by tiles.
 //!
 //! Before an action changes paint, the history saves the wet paint of each tile concerned (in the
-//! engine's memory), the paint of brushes, removed dry layers, and a value of the caller's. Undo swaps
-//! all of this with the present state. Redo is the same swap once more, and both are exact to the bit.
+//! engine's memory), the paint of brushes, removed dry layers, and a value of the caller's. Undo
+//! swaps all of this with the present state. Redo is the same swap once more, and both are exact to
+//! the bit.
 //!
 //! Memory: [`TILE_BYTES`] per tile, 36 bytes per cell of brushes and dry layers. All of it
 //! counts towards the limit, which is exceeded at most during one call.
@@ -67,7 +68,7 @@ impl<T> Action<T> {
         self.tiles.len() as u64 * TILE_BYTES + brushes.chain(dry).map(bytes_of).sum::<u64>()
     }
 
-    /// Swaps the saved state with that of the engine, and the caller's value with
+    /// Swaps the saved state with the engine's, and the caller's value with
     /// `current`.
     fn swap(&mut self, engine: &mut PaintEngine, current: T) -> Result<Restored<T>, DeviceError> {
         let mut tiles = TileSet::default();
@@ -532,7 +533,8 @@ mod tests {
         }
     }
 
-    /// One action: a stroke, a new dry layer, drying with a layer moved, or a dry layer replaced by another.
+    /// One action: a stroke, a new dry layer, drying with a layer moved, or a dry layer replaced by
+    /// another.
     fn act(
         history: &mut History<usize>,
         engine: &mut PaintEngine,

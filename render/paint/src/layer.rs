@@ -1,5 +1,5 @@
-//! A layer of paint: the amounts of eight pigments and of vehicle in every cell, and dry layers, with
-//! properties that can be changed later.
+//! A layer of paint: the amounts of eight pigments and of vehicle in every cell, and dry layers,
+//! with properties that can be changed later.
 
 use std::fmt;
 

@@ -1,5 +1,5 @@
-//! Light for painting: eight wavelengths that represent a light's spectrum, their conversion to sRGB,
-//! and fast mixing of two paints in any ratio.
+//! Light for painting: eight wavelengths that represent a light's spectrum, their conversion to
+//! sRGB, and fast mixing of two paints in any ratio.
 //!
 //! Quadratures that were fitted before are stored: a program asks for the same few lights again and
 //! again.
@@ -18,12 +18,14 @@ use spectra::{LightError, Observer, ObserverError, light_from_text};
 
 use crate::optics::{NODES, SceneSurface, scaled, scene_surface};
 
-/// Quadratures that are kept, those used last: two of a split view, and a few that a painter compares.
+/// Quadratures that are kept, those used last: two of a split view, and a few that a painter
+/// compares.
 const KEPT: usize = 8;
 
 static QUADRATURES: KeptQuadratures = KeptQuadratures(Mutex::new(Vec::new()));
 
-/// The quadrature of a light for a library. Fitted, which takes about a second, unless it was before.
+/// The quadrature of a light for a library. Fitted, which takes about a second, unless it was
+/// before.
 fn quadrature(
     library: &PigmentLibrary,
     viewing: &Viewing,
@@ -61,7 +63,8 @@ impl KeptQuadratures {
             kept.push(used);
             return Ok(quadrature);
         }
-        // The fit runs without the lock: a thread that waits in it may take up work that needs the lock.
+        // The fit runs without the lock: a thread that waits in it may take up work that needs the
+        // lock.
         drop(kept);
         let quadrature = fit()?;
         let mut kept = lock();
@@ -82,7 +85,7 @@ pub struct Light {
     /// Illuminant and observer.
     pub viewing: Viewing,
     /// Wavelengths, their weights in XYZ, and K and S of every pigment, fitted to films of the
-    /// library ([`EffectiveQuadrature::of`]). Their white is that of the full spectrum.
+    /// library ([`EffectiveQuadrature::of`]). Their white equals the white of the full spectrum.
     pub quadrature: EffectiveQuadrature,
     /// Linear sRGB of reflectance 1 at each wavelength, adapted from the light's white to D65
     /// by Bradford's transform. They sum to (1, 1, 1) up to rounding.
@@ -90,8 +93,8 @@ pub struct Light {
 }
 
 impl Light {
-    /// Prepares the light of `viewing` for painting with `library`. Takes up to a second, unless this
-    /// program prepared it before and used few others since.
+    /// Prepares the light of `viewing` for painting with `library`. Takes up to a second, unless
+    /// this program prepared it before and used few others since.
     ///
     /// # Errors
     /// [`PaintLightError::Quadrature`] if the light has fewer than eight usable wavelengths.
@@ -153,7 +156,7 @@ pub enum PaintLightError {
     /// The name of the observer is unknown.
     #[error(transparent)]
     Observer(#[from] ObserverError),
-    /// The light has too few usable wavelengths, for example that of a laser.
+    /// The light has too few usable wavelengths, for example a laser.
     #[error(transparent)]
     Quadrature(#[from] QuadratureFailure),
 }
@@ -178,9 +181,9 @@ impl Explain for PaintLightError {
 /// precomputed, so that a mixture costs eight square roots and eight divisions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mixer {
-    /// K of the first paint, then K of the second minus that of the first.
+    /// K of the first paint, then K of the second minus K of the first.
     absorption: [[f32; NODES]; 2],
-    /// S of the first paint, then S of the second minus that of the first.
+    /// S of the first paint, then S of the second minus S of the first.
     scattering: [[f32; NODES]; 2],
     surface: SceneSurface,
     rgb_from_nodes: [[f32; 3]; NODES],

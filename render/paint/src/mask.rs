@@ -10,8 +10,8 @@ const WORD: usize = 32;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mask {
     bounds: Rect,
-    /// Bits of the cells row by row, the first in the lowest bit. 1 is covered. Those after the last
-    /// cell are 0.
+    /// Bits of the cells row by row, the first in the lowest bit. 1 is covered. Those after the
+    /// last cell are 0.
     words: Vec<u32>,
 }
 
@@ -86,8 +86,8 @@ impl Mask {
     }
 
     /// Lines between covered and open blocks of `step` x `step` cells, from corner to corner in
-    /// cells, each as long as it is straight. Those along x first. The cell in the middle of a block
-    /// stands for it. The edge of the canvas is no such line.
+    /// cells, each as long as it is straight. Those along x first. The cell in the middle of a
+    /// block stands for it. The edge of the canvas is no such line.
     #[must_use]
     pub fn outline(&self, step: usize) -> Vec<[(u32, u32); 2]> {
         let step = step.max(1);

@@ -111,7 +111,7 @@ pub(crate) fn scaled(at_nodes: &[f64], scale: f64) -> [f32; NODES] {
 }
 
 /// Computes K and S of a layer per quantum. `slots` holds pigments of the library that
-/// `quadrature` was made for, `thickness_per_quantum` is that of [`thickness_per_quantum`],
+/// `quadrature` was made for, `thickness_per_quantum` comes from [`thickness_per_quantum`],
 /// and `opacity` multiplies all K and S (1 leaves them as measured).
 ///
 /// # Panics

@@ -1,9 +1,9 @@
 //! Viewing of a painting at rest: the parameters of its [`Scene`](crate::optics::Scene), its
 //! picture without a paint engine, and the exact spectrum of every cell.
 //!
-//! Pictures are computed on all cores, with one pixel a cell or several. The reflectance by wavelength
-//! is in f64. It is the reference for the eight wavelengths of the engine, and serves spectral files
-//! and the eyedropper.
+//! Pictures are computed on all cores, with one pixel a cell or several. The reflectance by
+//! wavelength is in f64. It is the reference for the eight wavelengths of the engine, and serves
+//! spectral files and the eyedropper.
 
 use documents::hint::{Explain, Fault, Hint};
 use graphics::field::Field;
@@ -241,7 +241,7 @@ impl PixelsPerCell {
 
 /// Picture of a document in linear sRGB, white at 1, like [`picture`](picture) but with
 /// `pixels` along the width and the height of every cell. Heights and the light of level
-/// paint between the centres of cells are those of Mitchell and Netravali's (1988) bicubic filter,
+/// paint between the centres of cells come from Mitchell and Netravali's (1988) bicubic filter,
 /// and relief and gloss are shaded at the finer grid. Even paint has its exact colour. Takes 21
 /// bytes per cell and 20 bytes per pixel beside the document.
 ///
@@ -267,7 +267,7 @@ pub fn fine_picture(document: &Document, scene: &Scene, pixels: PixelsPerCell) -
         });
         (from + more).round() as i32
     });
-    // Heights are in widths of a cell, so those of the finer grid count more.
+    // Heights are in widths of a cell, so heights of the finer grid count more.
     let relief = scene.lamp.relief * count as f32;
     let lamp = Lamp { relief, ..scene.lamp };
     let scene = Scene { lamp, cell_mm: scene.cell_mm / count as f32, ..scene.clone() };
@@ -477,8 +477,9 @@ impl SpectralStack {
 
     /// Part of the ground, then of each layer, in what is seen of a column of paint: sum 1.
     ///
-    /// A film hides the part of the contrast between a white and a black below it that is lost, at each
-    /// wavelength. All wavelengths count alike. What it does not hide is left to the films below it.
+    /// A film hides the part of the contrast between a white and a black below it that is lost, at
+    /// each wavelength. All wavelengths count alike. What it does not hide is left to the films
+    /// below it.
     pub fn seen(&self, pigments: impl IntoIterator<Item = [u32; SLOTS]>) -> Vec<f64> {
         let columns: Vec<[f64; SLOTS]> =
             pigments.into_iter().map(|amounts| amounts.map(f64::from)).collect();
@@ -553,8 +554,9 @@ impl<'a> SpectralDocument<'a> {
         self.stack.measured_reflectance(self.layers.iter().map(|layer| layer.pigments[(x, y)]))
     }
 
-    /// Paint that shows at the cell in column `x` and row `y`: each layer by what it hides of those below
-    /// (see [`SpectralStack::seen`]), each pigment by its part of the layer's paint, by volume.
+    /// Paint that shows at the cell in column `x` and row `y`: each layer by what it hides of those
+    /// below (see [`SpectralStack::seen`]), each pigment by its part of the layer's paint, by
+    /// volume.
     #[must_use]
     pub fn seen(&self, x: usize, y: usize) -> SeenPaint {
         let parts = self.stack.seen(self.layers.iter().map(|layer| layer.pigments[(x, y)]));

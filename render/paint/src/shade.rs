@@ -140,7 +140,7 @@ pub struct Tap {
     pub offset: [i32; 2],
     /// Slope for each quantum that the other cell is higher.
     pub per_quantum: f32,
-    /// Subtracted from the slope: that of the ray to the lamp, or 0.
+    /// Subtracted from the slope: the slope of the ray to the lamp, or 0.
     pub less: f32,
 }
 

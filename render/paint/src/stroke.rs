@@ -289,8 +289,8 @@ fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
 /// (chosen by the measured lip at the end of a stroke).
 const LIFT: f64 = 1.5;
 
-/// Iterator over the poses of a stroke whose samples arrive in portions. The poses are the
-/// same to the bit as those of [`substeps`](substeps) for all samples at once.
+/// Iterator over the poses of a stroke. Its samples arrive in portions. The poses are the
+/// same to the bit as the poses of [`substeps`](substeps) for all samples at once.
 ///
 /// The curve to a sample depends on the one after it, so poses lag one sample behind until
 /// the path is finished. A dab (all samples at one position and pose) has no poses until

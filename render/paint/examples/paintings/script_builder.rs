@@ -28,7 +28,7 @@ pub(crate) struct ScriptBuilder {
 }
 
 impl ScriptBuilder {
-    /// Starts with an empty canvas. `seed` is that of the random variations.
+    /// Starts with an empty canvas. `seed` seeds the random variations.
     pub(crate) fn new(title: &str, canvas: Canvas, pigments: &[(&str, &str)], seed: u64) -> Self {
         let mut script = StrokeScript::new(title, "CC0-1.0", canvas, palette(pigments));
         script.library = Some("Van Gogh's oils".to_owned());

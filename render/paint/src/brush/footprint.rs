@@ -7,8 +7,8 @@
 //! the sides of the contact.
 //!
 //! A side that crosses the rows of cells at a small angle takes one cell after another. Over the
-//! last cell the velocity therefore falls to 0. Otherwise the paint that is dragged along would stay
-//! as a bead in each cell that the side leaves.
+//! last cell the velocity therefore falls to 0. Otherwise the paint that is dragged along would
+//! stay as a bead in each cell that the side leaves.
 
 use std::ops::Range;
 
@@ -69,8 +69,8 @@ impl Footprint {
     }
 
     /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
-    /// of `bounds`, in coordinates from the cell `origin`. `locks` are those of each column of
-    /// paint cells.
+    /// of `bounds`, in coordinates from the cell `origin`. `locks` has the lock of each column
+    /// of paint cells.
     #[inline(always)]
     pub(super) fn draw(
         &mut self,
@@ -279,7 +279,8 @@ impl Canvas<'_> {
         let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
         let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
         let step = whole(&right);
-        // The slopes of a sliver are inaccurate, so heights are clamped to those of its corners.
+        // The slopes of a sliver are inaccurate, so heights are clamped to the heights of its
+        // corners.
         let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
         let lowest = lesser(lesser(heights[0], heights[1]), heights[2]);
         let highest = greater(greater(heights[0], heights[1]), heights[2]);
@@ -362,7 +363,7 @@ impl Edge {
     }
 }
 
-/// First cell, up to `end`, whose centre is at `place` or beyond.
+/// First cell, up to `end`, with its centre at `place` or beyond.
 #[inline(always)]
 fn first_middle(place: f32, end: usize) -> usize {
     let cells = lesser(greater(place - 0.5, 0.0), end as f32);
@@ -447,8 +448,8 @@ impl Imprint {
         self.extent
     }
 
-    /// Fills `out` with the contact evaluated last. `locks` are those of each column of paint
-    /// cells. `border` is where its sides are, if the head moved.
+    /// Fills `out` with the contact evaluated last. `locks` has the lock of each column of
+    /// paint cells. `border` is where its sides are, if the head moved.
     pub(super) fn draw(
         &mut self,
         locks: &[Lock],
@@ -532,7 +533,8 @@ impl WithSimd for Draw<'_> {
 }
 
 /// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
-/// 0.2 cells per sub-step, full from 0.3, and at least that of a speed of `pressed`), both times
+/// 0.2 cells per sub-step, full from 0.3, and at least the weight at a speed of `pressed`), both
+/// times
 /// `grasp`. Where the surface would be below the relief, it is raised to it.
 #[inline(always)]
 fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
@@ -611,8 +613,8 @@ impl Sides {
         self.extent = None;
     }
 
-    /// Follows the extent `now` of a contact. Returns where its sides are. `None` if the head hardly
-    /// moved or does not touch.
+    /// Follows the extent `now` of a contact. Returns where its sides are. `None` if the head
+    /// hardly moved or does not touch.
     pub(super) fn follow(&mut self, now: Option<Extent>) -> Option<Border> {
         let now = now.filter(|now| now.low <= now.high)?;
         let (before_low, before_high) = self.extent.unwrap_or((now.low, now.high));

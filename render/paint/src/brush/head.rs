@@ -260,7 +260,7 @@ impl Head {
         self.spines.advance(&grip, &view);
         self.net.follow(&self.spines, &grip);
         if turned_over {
-            // Its edge stays where it is. The blade does not sweep over the paint.
+            // Its edge stays where it is, so the blade does not sweep over the paint.
             self.net.rest();
         }
         let before = self.last.map_or(0.0, |last| last.pressure) as f32;
@@ -278,8 +278,8 @@ impl Head {
         (lifted, Some(hold))
     }
 
-    /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is pressed
-    /// or lifted on the spot, which drags no paint along.
+    /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is
+    /// pressed or lifted on the spot, which drags no paint along.
     fn travelled(&self, pose: &Pose) -> f64 {
         let Some(last) = self.last else { return 0.0 };
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();

@@ -135,13 +135,13 @@ fn moved(to: i64, from: i64, to_part: f32, from_part: f32) -> f32 {
 /// Coat of a head, and the distances in mm that it moves while differences between head and canvas
 /// fall to 1/e.
 struct Uptake {
-    /// Thickness of the coat relative to that of the paint on the head: at pressure 0, and how
+    /// Thickness of the coat relative to the paint on the head: at pressure 0, and how
     /// much full pressure adds.
     coat: (f64, f64),
     /// Thickness in mm, at pressure 0, of the part of the coat that does not depend on the paint
     /// on the head.
     film_mm: f64,
-    /// Velocity of the paint relative to that of the head.
+    /// Velocity of the paint relative to the head's.
     drag: f64,
     /// Share of the wet paint from before the stroke that bears the head at pressure 0.
     bearing: f64,
@@ -246,7 +246,7 @@ pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usi
 
 /// Flow of paint over a head before the sub-step number `sub_step` of a stroke. None in most
 /// sub-steps. The head has `rows` rows of paint cells. `cell_mm` is the width of its cells and of
-/// those of the canvas.
+/// the cells of the canvas.
 pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64) -> Wicking {
     let uptake = uptake(of);
     let with_paint = rows_with_paint(of, rows, cell_mm);
@@ -260,7 +260,7 @@ pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64
     let hairs = (uptake.spread_mm / cell_mm).min(most).max(1.0) as u32;
     let flow = sub_step / between;
     let odd = flow % 2 == 1;
-    // The first flow is that of all hairs.
+    // All hairs take part in the first flow.
     let turns = if flow == 0 { 1 } else { uptake.turns };
     Wicking {
         share: share(cell_mm * f64::from(between * uptake.turns), uptake.wicking_mm),

@@ -59,7 +59,7 @@ impl ContactMark {
         Ok(Self::cut(&contact, at, cell_mm))
     }
 
-    /// The touched cells of a contact whose pen is at `at` cells along x and y.
+    /// The touched cells of a contact with the pen at `at` cells along x and y.
     fn cut(contact: &Contact, at: f64, cell_mm: f64) -> Self {
         let Rect { x: left, y: top, width, .. } = contact.rect;
         let held: Vec<bool> = contact

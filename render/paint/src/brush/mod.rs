@@ -1,9 +1,9 @@
 //! Brush heads: bending spines that carry a surface with paint on it.
 //!
-//! We follow Baxter, Wendt and Lin 2004, section 3, and Baxter et al. 2001 ("DAB: interactive haptic
-//! painting with 3D virtual brushes"): a head is a skeleton with a subdivision surface around it.
-//! The skeleton lies on the canvas in equilibrium, without masses and springs. Each sub-step the
-//! surface gives one [`Contact`](super::contact::Contact).
+//! We follow Baxter, Wendt and Lin 2004, section 3, and Baxter et al. 2001 ("DAB: interactive
+//! haptic painting with 3D virtual brushes"): a head is a skeleton with a subdivision surface
+//! around it. The skeleton lies on the canvas in equilibrium, without masses and springs. Each
+//! sub-step the surface gives one [`Contact`](super::contact::Contact).
 mod relief;
 mod spines;
 mod surface;
@@ -124,7 +124,7 @@ impl FromStr for HeadShape {
     }
 }
 
-/// The name is not that of a shape.
+/// The name does not belong to a shape.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no brush has this shape: `{name}`")]
 pub struct UnknownShape {

@@ -19,8 +19,8 @@ pub struct Relief {
 }
 
 impl Relief {
-    /// Relief of `floor`, heights in quanta over the plane of the canvas, whose cells are
-    /// `cell_mm` mm wide.
+    /// Relief of `floor`, heights in quanta over the plane of the canvas, with cells of
+    /// `cell_mm` mm.
     ///
     /// # Panics
     /// If there is no cell.
@@ -98,7 +98,7 @@ pub(super) struct ReliefView<'a> {
 }
 
 impl ReliefView<'_> {
-    /// Height at `(x, y)` in cells. Outside the canvas that of its edge.
+    /// Height at `(x, y)` in cells. Outside the canvas, the height of its edge.
     #[inline(always)]
     pub(super) fn height(&self, x: f32, y: f32) -> f32 {
         let x = x * (1.0 / BLOCK as f32) + self.shift.0;

@@ -1,10 +1,10 @@
 //! Spines of a head: chains of nodes, bent by the canvas, and how a hand holds them.
 //!
-//! Hair is light and paint is thick, so a head is in equilibrium in every sub-step. Its shape follows
-//! from how it is held and how it trails. Hair leaves the ferrule along the handle, bends upright
-//! towards the canvas, and lies on it from where it reaches it. The part that lies is towed: its
-//! direction follows the pen as the tractrix does (Huygens 1693), the curve of a body that is dragged
-//! on a string. Nothing sticks and slips, so an even hand has an even contact.
+//! Hair is light and paint is thick, so a head is in equilibrium in every sub-step. Its shape
+//! follows from how it is held and how it trails. Hair leaves the ferrule along the handle, bends
+//! upright towards the canvas, and lies on it from where it reaches it. The part that lies is
+//! towed: its direction follows the pen as the tractrix does (Huygens 1693), the curve of a body
+//! that is dragged on a string. Nothing sticks and slips, so an even hand has an even contact.
 //!
 //! A painter leads the place where hair touches, so a head is held such that the middle of its
 //! contact is at the pen, whatever its lean.
@@ -236,7 +236,7 @@ const PRESSED: f32 = 0.6;
 const ARC: f32 = 0.8;
 
 /// Where the contact of slanting hair lies, from its core (0) to the side that faces the canvas
-/// (1). Fitted to the contacts of all shapes.
+/// (1), fitted to the contacts of all shapes.
 const INWARDS: f32 = 0.7;
 
 /// Number of points of a segment at which contact is looked for.

@@ -1,5 +1,5 @@
-//! The surface of a head: a control net around the spines, its limit surface as a grid of facets, and
-//! a mesh for drawing.
+//! The surface of a head: a control net around the spines, its limit surface as a grid of facets,
+//! and a mesh for drawing.
 //!
 //! The net is closed around the head, open at the ferrule and closed at the tip. Over a regular net
 //! the limit of Catmull-Clark subdivision (1978) is the uniform bicubic B-spline, so we evaluate it
@@ -15,8 +15,8 @@ use super::spines::{FLATTENED, Grip, Spines, Vector, b_spline};
 const ALONG: f32 = 4.0;
 const AROUND: f32 = 6.0;
 
-/// Longest spans along the head and around it, in paint cells, whose facets are that long: those of
-/// a round brush of 60 cells.
+/// Longest spans along the head and around it, in paint cells, with facets of that length, as on a
+/// round brush of 60 cells.
 const SPAN_ALONG: f32 = 30.0;
 const SPAN_AROUND: f32 = 24.0;
 

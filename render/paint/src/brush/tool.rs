@@ -135,7 +135,7 @@ const MIX_MM: f64 = 1.0;
 const FILL_MM: f64 = 12.0;
 const LAY_MM: f64 = 0.5;
 
-/// Velocity of the paint under a mop relative to that of a brush at full strength.
+/// Velocity of the paint under a mop relative to a brush at full strength.
 const DRAG: f64 = 0.5;
 
 /// Coat of a mop relative to the paint on its hair, in parts of 32: the most there is, so that the
@@ -164,8 +164,8 @@ impl Head {
         self.use_as(tool, (pose, self.sub_step()), relief, out);
     }
 
-    /// Makes the contact `out` of the sub-step at `pose` that of `tool`. `sub_steps` is the number
-    /// since the head was set down, this one included.
+    /// Turns the contact `out` of the sub-step at `pose` into the contact of `tool`. `sub_steps` is
+    /// the number since the head was set down, this one included.
     pub(super) fn use_as(
         &self,
         tool: StrokeTool,
@@ -294,8 +294,8 @@ pub(crate) struct SideBySide {
 }
 
 impl SideBySide {
-    /// Moves `head` through `poses` as `tool`, and fills one of `contacts` for each. All calls must be
-    /// for one head.
+    /// Moves `head` through `poses` as `tool`, and fills one of `contacts` for each. All calls must
+    /// be for one head.
     ///
     /// # Panics
     /// If there are fewer contacts than poses.

@@ -1,5 +1,5 @@
-//! The paint engine: it holds the paint of one painting, moves it under brushes and renders it, on the
-//! processor or on a graphics device.
+//! The paint engine: it holds the paint of one painting, moves it under brushes and renders it, on
+//! the processor or on a graphics device.
 //!
 //! ```text
 //! Contact  -> apply_contacts -> wet paint, paint on the brush
@@ -7,9 +7,9 @@
 //! Scene    -> render         -> picture
 //! ```
 //!
-//! Amounts of paint are integers, so both backends hold the same bits after the same calls. Pictures
-//! are f32 and agree to rounding. The caller decides where the brush is, which tiles an undo needs and
-//! which light is used.
+//! Amounts of paint are integers, so both backends hold the same bits after the same calls.
+//! Pictures are f32 and agree to rounding. The caller decides where the brush is, which tiles an
+//! undo needs and which light is used.
 
 mod cpu;
 mod gpu;

@@ -2,9 +2,9 @@
 //! know nothing else.
 //!
 //! Light passes through a film of paint twice and is scattered on its way. The film does not blend
-//! with the colour below by one share of opacity. But at one pixel, over one colour, every colour can
-//! be reached: with `b` the colour below and `c` the colour with the film, both as stored (encoded
-//! sRGB, 0 to 1), programs show
+//! with the colour below by one share of opacity. But at one pixel, over one colour, every colour
+//! can be reached: with `b` the colour below and `c` the colour with the film, both as stored
+//! (encoded sRGB, 0 to 1), programs show
 //! ```text
 //! c = a f + (1 - a) b
 //! ```
@@ -39,9 +39,9 @@ use crate::shade::color_row;
 /// layers the file shows the painting before they were painted. In another order, or over other
 /// colours, they show what such a program makes of them, which paint would not.
 ///
-/// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer is
-/// listed as hidden, with the pixels that it would have if it were shown. Those above it are made
-/// without its colour. The relief that it keeps is part of the next layer that is shown.
+/// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer
+/// is listed as hidden, with the pixels that it would have if it were shown. Those above it are
+/// made without its colour. The relief that it keeps is part of the next layer that is shown.
 ///
 /// Shadows and light of a layer's relief are part of the layer. After each layer `go_on` is called
 /// with the number of layers done. If it returns `false`, the result is `None`.

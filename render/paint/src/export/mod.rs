@@ -37,8 +37,8 @@ pub type PutFile<'a> = dyn FnMut(&Path, &[u8]) -> Result<(), FileError> + 'a;
 /// use paint::export::PaintingExports;
 /// use graphics::export::PictureFormat;
 ///
-/// # fn example(painting: &mut paint::painting::Painting) -> Result<(), Box<dyn std::error::Error>> {
-/// let exports = PaintingExports {
+/// # fn example(painting: &mut paint::painting::Painting) -> Result<(), Box<dyn std::error::Error>>
+/// { let exports = PaintingExports {
 ///     picture: Some(("wheat.png".into(), PictureFormat::Png16)),
 ///     painting: Some("wheat.exr".into()),
 ///     ..PaintingExports::default()
@@ -80,8 +80,8 @@ impl PaintingExports {
         self.write_with(painting, &mut |path, bytes| write_whole(path, bytes))
     }
 
-    /// Makes the files and hands path and content of each to `put`, as [`Self::write`] hands them to
-    /// [`write_whole`]. For programs that send some of them elsewhere.
+    /// Makes the files and hands path and content of each to `put`, as [`Self::write`] hands them
+    /// to [`write_whole`]. For programs that send some of them elsewhere.
     ///
     /// # Errors
     /// Those of [`Self::write`], and of `put`.

@@ -3,9 +3,9 @@
 //!
 //! The layout of spectral files is the one of A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR
 //! Layout for Spectral Images" (Journal of Computer Graphics Techniques 10(3), 2021): a channel
-//! `T.550,000000nm` per wavelength of a reflective image (with a decimal comma, since a dot separates
-//! layers), R, G and B for programs that know no spectra, and attribute `spectralLayoutVersion` "1.0".
-//! Reflectance has no unit, so other attributes are not needed.
+//! `T.550,000000nm` per wavelength of a reflective image (with a decimal comma, since a dot
+//! separates layers), R, G and B for programs that know no spectra, and attribute
+//! `spectralLayoutVersion` "1.0". Reflectance has no unit, so other attributes are not needed.
 
 use exr::image::FlatSamples;
 use exr::meta::attribute::{AttributeValue, Text};

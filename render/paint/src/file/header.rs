@@ -1,8 +1,8 @@
 //! The description of a painting in its file: JSON in ASCII in attributes of OpenEXR.
 //!
-//! Attribute `impasto` describes the painting. Each dry layer has an attribute with its identity, name
-//! and visibility, which other programs and older versions leave alone. Palette and brushes are a file
-//! of their own in an attribute of part `wet`.
+//! Attribute `impasto` describes the painting. Each dry layer has an attribute with its identity,
+//! name and visibility, which other programs and older versions leave alone. Palette and brushes
+//! are a file of their own in an attribute of part `wet`.
 
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;

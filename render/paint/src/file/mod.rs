@@ -17,10 +17,10 @@
 //! cell size, ground, medium, lighting, the layers with the channel of each pigment, their
 //! opacity, and the pigment library.
 //!
-//! The part of a dry layer has an attribute `impasto.layer`: JSON in ASCII with its identity (`id`),
-//! the identity of the next layer (`next`), its `name` and whether it is `visible`. A file of an
-//! earlier version has none: its layers are numbered from the lowest, 1, and visible. Older programs
-//! leave the attribute alone, and show hidden layers.
+//! The part of a dry layer has an attribute `impasto.layer`: JSON in ASCII with its identity
+//! (`id`), the identity of the next layer (`next`), its `name` and whether it is `visible`. A file
+//! of an earlier version has none: its layers are numbered from the lowest, 1, and visible. Older
+//! programs leave the attribute alone, and show hidden layers.
 //!
 //! The studio also keeps the palette and the brushes: as the bytes of a file of this format in
 //! attribute `impasto.table` of part `wet`. Its layers are the layers of the palette. A part
@@ -205,8 +205,8 @@ mod tests {
     use pigment::PigmentId;
     use pigment::library::PigmentLibrary;
 
-    /// A painting that was saved before layers had identities: two dry layers, of which the lower is
-    /// hidden by an opacity of 0.
+    /// A painting that was saved before layers had identities: two dry layers, of which the lower
+    /// is hidden by an opacity of 0.
     const EARLIER: &[u8] = include_bytes!("../../../../tests/fixtures/paintings/earlier.exr");
 
     fn paint(width: usize, height: usize, seed: u32) -> Layer {

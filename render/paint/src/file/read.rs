@@ -1,5 +1,5 @@
-//! Decoding of a painting's file. Its parts and channels are checked against its header before memory
-//! is allocated.
+//! Decoding of a painting's file. Its parts and channels are checked against its header before
+//! memory is allocated.
 
 use std::io::Cursor;
 

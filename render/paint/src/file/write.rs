@@ -46,8 +46,8 @@ pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
 /// leaves out and [`read_table`](super::read_table) reads.
 ///
 /// # Errors
-/// [`PaintingFileError::Unwritable`] in the cases of [`write()`], for the palette and the brushes as
-/// well.
+/// [`PaintingFileError::Unwritable`] in the cases of [`write()`], for the palette and the brushes
+/// as well.
 pub fn write_with_table(
     document: &Document,
     palette: &Document,
@@ -97,7 +97,7 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// Attribute of the part `name`, if it is that of a dry layer.
+/// Attribute of the part `name`, if it is the part of a dry layer.
 fn layer_attribute<'a>(
     document: &Document,
     name: &str,

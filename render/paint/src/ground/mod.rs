@@ -1,5 +1,5 @@
-//! Grounds to paint on. The relief is generated from a seed or taken from a picture. The colour is the
-//! colour of the priming.
+//! Grounds to paint on. The relief is generated from a seed or taken from a picture. The colour is
+//! the colour of the priming.
 //!
 //! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always
 //! give equal grounds.

@@ -1,7 +1,7 @@
 //! Reflectance of a ground: its priming, and an imprimatura, a thin dry film of paint over it.
 //!
-//! The film has the same thickness everywhere, so ground and film together are one reflectance: a dry
-//! layer of this height over this priming, computed at all wavelengths of the library.
+//! The film has the same thickness everywhere, so ground and film together are one reflectance: a
+//! dry layer of this height over this priming, computed at all wavelengths of the library.
 
 use std::collections::BTreeMap;
 
@@ -154,12 +154,12 @@ impl TonedPrimer {
         let parts = library.recipe(recipe.iter().map(|(name, part)| (name, *part)))?;
         let parts = parts.as_ref();
         let sum: f64 = parts.iter().map(|(_, part)| part).sum();
-        // The height is that of all pigments together, also where a library's parts are amounts.
+        // The height counts all pigments together, also where a library's parts are amounts.
         let shares: Vec<(PigmentId, f64)> =
             parts.iter().map(|&(pigment, part)| (pigment, part / sum.max(1e-12))).collect();
         let mixture = library.mix(shares)?;
         let per_mm = scattering_per_mm(library).unwrap_or(USUAL_SCATTERING_PER_MM);
-        // The unevenness of a library is that of its measured films.
+        // The unevenness of a library belongs to its measured films.
         let even = UnevenFilm { unevenness: 0.0, ..library.film() };
         Ok(mixture.film(height_mm * per_mm, priming, even))
     }

@@ -259,8 +259,8 @@ pub enum PaperFinish {
 pub struct Paper {
     /// Seed of the grain, 1 by default.
     pub seed: u64,
-    /// Height from an average hollow to an average bump in mm, 0 to 2. By default that of
-    /// the finish.
+    /// Height from an average hollow to an average bump in mm, 0 to 2. By default the
+    /// height of the finish.
     pub relief_mm: f64,
     /// Finish of the paper, cold-pressed by default.
     #[serde(rename = "making", skip_serializing_if = "PaperFinish::is_default")]
@@ -391,7 +391,7 @@ impl Wood {
         Primer::Color(ColorPrimer { rgb: "#7a5433".to_owned() })
     }
 
-    /// Default gloss: that of varnish.
+    /// Default gloss: varnish.
     pub(super) const VARNISH: Gloss = Gloss { strength: 0.2, exponent: 40.0 };
 
     /// Heights in mm of `width` x `height` cells, each `cell_mm` wide.

@@ -95,7 +95,7 @@ impl GroundKind {
     }
 }
 
-/// A name is not that of a kind of ground.
+/// A name does not belong to a kind of ground.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("a ground is linen, paper, panel or wood, found `{0}`")]
 pub struct ParseGroundKindError(pub String);

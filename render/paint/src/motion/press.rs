@@ -39,9 +39,9 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 
 /// Penetration of the head in quanta: how far its hair is below the top of the paint, but
 /// never below the floor. Negative if it is above. [`NO_CONTACT`] if not even its `coat`
-/// reaches the paint. `floor` is the height of ground and dry paint, `volume` that of the wet
-/// paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless its
-/// coat is thick enough to bear it, so a thick film hides a weave.
+/// reaches the paint. `floor` is the height of ground and dry paint, `volume` the height of
+/// the wet paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless
+/// its coat is thick enough to bear it, so a thick film hides a weave.
 ///
 /// A loaded head rides on a share of the paint that was there before the stroke, from the ground
 /// under the hair up to `bed`, the height of that paint in quanta, as far as twice its coat, and
@@ -129,8 +129,8 @@ fn with_sign_of(sign: i32, size: i32) -> i32 {
 }
 
 /// Velocity of a column of `volume` quanta along one axis, in 1/16384 cell a sub-step, at most
-/// a cell: that of the head, 0 without contact, and the larger of its outflows. `before` is the
-/// flow from the neighbour before it, `after` that to the neighbour after it, in quanta.
+/// a cell: the head's velocity, 0 without contact, and the larger of its outflows. `before` is the
+/// flow from the neighbour before it, `after` the flow to the neighbour after it, in quanta.
 #[inline(always)]
 #[must_use]
 pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {

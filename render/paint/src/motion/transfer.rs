@@ -26,8 +26,9 @@ pub struct Exchange {
 
 /// Computes the transfer of one sub-step.
 ///
-/// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are those
-/// at the start of the sub-step, in quanta. The volumes are those of the two cells now, in quanta.
+/// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are the
+/// values at the start of the sub-step, in quanta. The volumes are the volumes of the two cells
+/// now, in quanta.
 /// `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell: paint that
 /// would leave with half of it goes onto the head.
 #[inline(always)]

@@ -1,4 +1,5 @@
-//! Brushes of a painting and the paint on them, heaps of paint from a tube, and scraping paint away.
+//! Brushes of a painting and the paint on them, heaps of paint from a tube, and scraping paint
+//! away.
 
 use std::ops::Range;
 
@@ -33,8 +34,8 @@ impl Painting {
         Ok(id)
     }
 
-    /// Adds paint to a brush: all over its hair, or along the edge of a knife, `amount_mm` mm of the
-    /// mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear
+    /// Adds paint to a brush: all over its hair, or along the edge of a knife, `amount_mm` mm of
+    /// the mixture of `recipe` (parts by slot), of which the fraction `vehicle` (0 to 1) is clear
     /// medium. With `vehicle` 1 the recipe may be empty.
     ///
     /// # Errors
@@ -164,7 +165,7 @@ impl Painting {
         Ok(self.engine.brush_paint(self.brushes[brush.0].id)?)
     }
 
-    /// Replaces the paint on a brush by `paint`, whose slots are those of this painting's
+    /// Replaces the paint on a brush by `paint`, with the slots of this painting's
     /// palette. Not an action of the history.
     ///
     /// # Errors
@@ -458,7 +459,8 @@ impl Painting {
         Ok(cells.map(|index| paint.cell(index).volume()).max().unwrap_or(0))
     }
 
-    /// Scrapes all wet paint off the canvas, but not off covered cells. Returns whether there was any.
+    /// Scrapes all wet paint off the canvas, but not off covered cells. Returns whether there was
+    /// any.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.

@@ -518,7 +518,8 @@ impl Painting {
     }
 
     /// Index of the merged layer, once both are taken out: it may lie at the place of the lower if
-    /// no film between overlaps the upper, and at the place of the upper if none overlaps the lower.
+    /// no film between overlaps the upper, and at the place of the upper if none overlaps the
+    /// lower.
     fn merged_place(
         &mut self,
         (lower, below): (usize, &Layer),

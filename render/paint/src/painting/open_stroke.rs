@@ -1,4 +1,5 @@
-//! The open stroke: one state machine from the first sample to the last sub-step, and whole strokes.
+//! The open stroke: one state machine from the first sample to the last sub-step, and whole
+//! strokes.
 //!
 //! The head bends through sub-steps in batches while others are painted. A tool works with a clean
 //! head: the paint of the brush is set aside, and the paint that the tool takes off is counted.
@@ -37,7 +38,7 @@ pub struct StrokeReport {
 /// The caller owns it, adds samples with [`OpenStroke::extend`] as they come, paints in
 /// portions with [`OpenStroke::advance`], so that pictures can be shown in between, and
 /// closes the action with [`OpenStroke::finish`]. Paint and undo are the same to the bit
-/// as those of [`Painting::stroke`] with all samples, for any portions.
+/// as with [`Painting::stroke`] with all samples, for any portions.
 ///
 /// Until it is finished, the painting refuses all other actions (they panic).
 #[derive(Debug)]
@@ -587,8 +588,8 @@ impl CleanHead {
         self.since.map_or(usize::MAX, |since| EMPTIED_EVERY - since)
     }
 
-    /// Counts sub-steps, at most those of [`CleanHead::left`], and empties the head when it is time.
-    /// The count does not depend on the portions of a stroke.
+    /// Counts sub-steps, at most those of [`CleanHead::left`], and empties the head when it is
+    /// time. The count does not depend on the portions of a stroke.
     pub(super) fn painted(
         &mut self,
         engine: &mut PaintEngine,

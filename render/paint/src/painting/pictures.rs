@@ -338,7 +338,7 @@ mod tests {
         opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
     }
 
-    /// Asserts that the picture equals that of the same painting opened anew.
+    /// Asserts that the picture equals the picture of the same painting opened anew.
     fn assert_picture(painting: &mut Painting, after: &str) {
         let shown = painting.picture().unwrap();
         let whole = opened(painting.document().unwrap()).picture().unwrap();

@@ -560,7 +560,7 @@ fn opened(document: Document) -> Painting {
     Painting::open(document, engine, 1 << 26).unwrap()
 }
 
-/// Asserts that the picture and the relief are those of the painting opened anew.
+/// Asserts that picture and relief equal the picture and relief of the painting opened anew.
 fn assert_as_new(painting: &mut Painting, after: &str) {
     let mut new = opened(painting.document().unwrap());
     assert!(painting.picture().unwrap() == new.picture().unwrap(), "picture after {after}");

@@ -224,7 +224,7 @@ struct Outside {
 }
 
 impl Outside {
-    /// Those of `colors` that are out of gamut.
+    /// The `colors` that are out of gamut.
     fn of(separation: &Separation, colors: impl Iterator<Item = [f32; 3]>) -> Self {
         let mut colors: Vec<_> = colors.map(leading_bits).collect();
         colors.par_sort_unstable();

@@ -1,13 +1,13 @@
 //! Tables over the sRGB cube from colours to pigment heights.
 //!
 //! The lattice is even in the square roots of linear red, green and blue, which are perceptually
-//! nearly even. Each point holds the film nearest to its colour (see `film_search`). Between points,
-//! heights are interpolated within tetrahedra, as usual for colour tables.
+//! nearly even. Each point holds the film nearest to its colour (see `film_search`). Between
+//! points, heights are interpolated within tetrahedra, as usual for colour tables.
 //!
 //! Where the relief demands the height of a film, only its mixture is free: thin paint over a light
-//! ground takes more colour than thick paint does. We keep a table for each of a few heights. Recipes
-//! change little from height to height, so they are interpolated between the tables, evenly in the
-//! logarithm of the height.
+//! ground takes more colour than thick paint does. We keep a table for each of a few heights.
+//! Recipes change little from height to height, so they are interpolated between the tables, evenly
+//! in the logarithm of the height.
 
 use documents::hint::{Explain, Hint};
 use graphics::field::Field;

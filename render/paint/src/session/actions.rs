@@ -1,5 +1,5 @@
-//! Applying actions to a session: single actions, adjustments by a slider that count as one, and undo
-//! and redo over both surfaces.
+//! Applying actions to a session: single actions, adjustments by a slider that count as one, and
+//! undo and redo over both surfaces.
 
 use pigment::PigmentId;
 
@@ -446,7 +446,7 @@ impl PaintingSession {
         Ok(true)
     }
 
-    /// Undoes or repeats actions until `done` of those of [`PaintingSession::history`] are done,
+    /// Undoes or repeats actions until `done` actions of [`PaintingSession::history`] are done,
     /// or as near as can be reached.
     ///
     /// # Errors
@@ -473,8 +473,8 @@ impl PaintingSession {
     }
 
     /// Number of the state before the actions of [`PaintingSession::history`], then of the state
-    /// after each. Each action of the session has a number of its own, rising from 1, which it keeps
-    /// while others are dropped. The state before the first has 0.
+    /// after each. Each action of the session has a number of its own, rising from 1, which it
+    /// keeps while others are dropped. The state before the first has 0.
     #[must_use]
     pub fn history_numbers(&self) -> Vec<u64> {
         self.history.numbers()

@@ -45,7 +45,7 @@ pub struct KeptHead {
 pub struct RecordingTail {
     /// The recording without its actions, with all its brushes.
     pub header: StrokeScript,
-    /// Number of actions before those of this end.
+    /// Number of actions before this end.
     pub from: usize,
     /// The actions from there.
     pub actions: Vec<Action>,
@@ -289,7 +289,7 @@ impl<E: Explain + 'static> Explain for ReplayError<E> {
 }
 
 impl StrokeScript {
-    /// Plays all actions on `session`, whose surfaces must be those of this script (see
+    /// Plays all actions on `session`, which must have the surfaces of this script (see
     /// [`StrokeScript::surfaces`]). Brushes that the session has under the same name are used
     /// as they are.
     ///

@@ -11,8 +11,8 @@
 //! **One history** covers both surfaces, in the order of the actions. Both share its memory. When
 //! one of them drops an action, all earlier ones become unreachable and are dropped as well, so
 //! that nothing is undone out of order and no memory is lost to them. Loading, wiping and washing a
-//! brush are not actions of the history: the undo of a stroke restores the paint that its brush held
-//! before.
+//! brush are not actions of the history: the undo of a stroke restores the paint that its brush
+//! held before.
 //!
 //! **The recording** holds all actions since the session started, undo and redo included, as
 //! a script of the format `strokes/1`.

@@ -31,7 +31,7 @@ impl PaintingSession {
     }
 
     /// Sets a brush down like [`PaintingSession::begin_stroke`], for samples that are rounded
-    /// to `decimals`, at most those of a recording.
+    /// to `decimals`, at most the decimals of a recording.
     ///
     /// # Errors
     /// [`SessionError`] if there is no such brush or surface, or if the device was lost.

@@ -534,7 +534,7 @@ pub enum SessionError {
         /// Name of what differs.
         what: &'static str,
     },
-    /// The action saves a file. Sessions do not write files. Their owner does.
+    /// The action saves a file. Sessions do not write files, their owner does.
     #[error("a session saves nothing")]
     Save,
     /// There is no open stroke, or it was lifted.

@@ -1,7 +1,7 @@
 //! Actions of a script: single steps of work on a painting, as they stand in its JSON.
 //!
-//! Samples are rows of numbers: `[seconds, x, y, pressure, tilt x, tilt y, twist]`. Zeros at the end
-//! may be left out. Objects with free names refuse duplicate keys.
+//! Samples are rows of numbers: `[seconds, x, y, pressure, tilt x, tilt y, twist]`. Zeros at the
+//! end may be left out. Objects with free names refuse duplicate keys.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -268,8 +268,9 @@ const STRENGTH: f64 = 0.5;
 
 /// A stroke of a brush.
 ///
-/// In a script the tool is `"tool": "blend"`, `"scrape"` or `"erase"`, left out for painting. Blending
-/// and erasing have a `"strength"` above 0 to 1, 0.5 by default. Scraping has a `"height_mm"` of 0 to
+/// In a script the tool is `"tool": "blend"`, `"scrape"` or `"erase"`, left out for painting.
+/// Blending and erasing have a `"strength"` above 0 to 1, 0.5 by default. Scraping has a
+/// `"height_mm"` of 0 to
 /// 10 over the ground, 0 by default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Keys", into = "Keys")]

@@ -7,8 +7,8 @@
 //! ```json
 //! {
 //!   "format": "strokes", "version": 1, "title": "A study", "licence": "CC0-1.0",
-//!   "canvas": {"width_mm": 100, "height_mm": 80, "cell_mm": 0.1, "ground": {"kind": "linen", "seed": 1}},
-//!   "library": "oils.json",
+//!   "canvas": {"width_mm": 100, "height_mm": 80, "cell_mm": 0.1, "ground": {"kind": "linen",
+//! "seed": 1}},   "library": "oils.json",
 //!   "palette": {"W": "Zinc White", "B": "Prussian Blue"},
 //!   "brushes": {"big": {"shape": "flat", "size_mm": 12}},
 //!   "actions": [
@@ -27,8 +27,8 @@
 //! or merged. [`Action`] lists all actions.
 //!
 //! With `"tool": "blend"`, `"scrape"` or `"erase"` a stroke works the wet paint with a clean head
-//! ([`StrokeTool`]), and the paint on its brush is set aside. Blending and erasing have a `"strength"`
-//! above 0 to 1, scraping has the `"height_mm"` of the blade over the ground:
+//! ([`StrokeTool`]), and the paint on its brush is set aside. Blending and erasing have a
+//! `"strength"` above 0 to 1, scraping has the `"height_mm"` of the blade over the ground:
 //! `{"stroke": {"brush": "big", "tool": "erase", "strength": 0.5, "samples": [..]}}`.
 //!
 //! `{"mask": {"polygon_mm": [[x, y], ..]}}` covers the canvas outside a polygon, as with masking
@@ -38,8 +38,8 @@
 //! same width. Strokes, heaps and scraping act on it with `"on": "palette"`. With `start`,
 //! the path of a painting (`.exr`), the script continues that painting: `canvas` and
 //! `palette` must agree with it, `medium` and `lighting` are left out. `"table": true` takes the
-//! palette's paint and the loads of the brushes from that file as well. Otherwise the palette begins
-//! bare and the brushes clean, whatever the file holds.
+//! palette's paint and the loads of the brushes from that file as well. Otherwise the palette
+//! begins bare and the brushes clean, whatever the file holds.
 //!
 //! Scripts are untrusted input. Unknown and repeated keys, numbers out of range and files
 //! that are too long are refused with their location, and a script saves only below a
@@ -156,7 +156,7 @@ pub enum ScriptError {
         /// First byte that is not part of a UTF-8 sequence.
         byte: u8,
     },
-    /// The file is not JSON, or its keys and types are not those of a script.
+    /// The file is not JSON, or its keys and types do not fit a script.
     #[error("{file}: line {line}, column {column}: {reason}")]
     Syntax {
         /// Name of the file.

@@ -35,7 +35,7 @@ pub struct StrokeScript {
     /// Size and ground of the canvas.
     pub canvas: Canvas,
     /// Size and ground of the palette that paint is mixed on, if there is one. Its cells
-    /// are as wide as those of the canvas.
+    /// are as wide as the canvas's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mixing: Option<Canvas>,
     /// Path of a painting (`.exr`) to continue instead of a bare canvas. Its size, pigments,
@@ -208,8 +208,8 @@ pub struct SideTable {
 
 impl StrokeScript {
     /// Index of the first stroke, and name, of each brush that paints on the canvas before it was
-    /// loaded or moved over the palette, in order. Such a stroke only moves the paint that lies there.
-    /// Brushes of `kept`, which come with paint of an earlier session, are left out.
+    /// loaded or moved over the palette, in order. Such a stroke only moves the paint that lies
+    /// there. Brushes of `kept`, which come with paint of an earlier session, are left out.
     #[must_use]
     pub fn unloaded_brushes(&self, kept: &BTreeSet<&str>) -> Vec<(usize, &str)> {
         let mut seen = kept.clone();

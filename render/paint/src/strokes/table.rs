@@ -1,7 +1,8 @@
-//! The table of actions: the numbers of each with their limits and digits, its rules, and its label.
+//! The table of actions: the numbers of each with their limits and digits, its rules, and its
+//! label.
 //!
-//! Every number is rounded to the digits of a file before it takes effect, so that a recording, which
-//! holds the rounded numbers, paints the same bits when it is played.
+//! Every number is rounded to the digits of a file before it takes effect, so that a recording,
+//! which holds the rounded numbers, paints the same bits when it is played.
 //!
 //! A script saves only below the folder that its player chose.
 
@@ -25,7 +26,7 @@ use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 
 impl Action {
-    /// The numbers of the action with their limits, except those of a stroke. A corner of a mask lies
+    /// The numbers of the action with their limits, except for a stroke. A corner of a mask lies
     /// at most `reach_mm` from the corner of the canvas.
     fn numbers(&mut self, reach_mm: f64) -> Vec<Number<'_>> {
         match self {
@@ -101,8 +102,8 @@ impl Action {
         }
     }
 
-    /// Label for the history, with the pigments that the action names. `canvas` is the canvas before the
-    /// action, so that layers have the names and places that the action means.
+    /// Label for the history, with the pigments that the action names. `canvas` is the canvas
+    /// before the action, so that layers have the names and places that the action means.
     pub(crate) fn label(&self, pigments: &ActionPigments, canvas: &Painting) -> String {
         let name = |pigment: PigmentId| canvas.library()[pigment].name.as_str();
         match self {

@@ -1,4 +1,5 @@
-//! Timelapse of a script: its canvas at chosen moments, as GIF, animated PNG, or a folder of frames.
+//! Timelapse of a script: its canvas at chosen moments, as GIF, animated PNG, or a folder of
+//! frames.
 //!
 //! A [`Timelapse`] is the plan of the moments. [`Timelapse::play`] plays the script and hands out
 //! the frames. [`Timelapse::write`] keeps them in a folder, from which an interrupted run
@@ -36,8 +37,8 @@ pub enum Interval {
     /// After every so many seconds of painting: the time that strokes on the canvas took, without
     /// pauses and without mixing on the palette. 0.01 to 86,400.
     Seconds(f64),
-    /// So many frames in all, 2 and up, spread evenly over the painting time. Over the actions if
-    /// no stroke took time. There are fewer if so many moments differ by no sample.
+    /// So many frames in all, 2 and up, spread evenly over the painting time, or over the actions
+    /// if no stroke took time. There are fewer if so many moments differ by no sample.
     Frames(usize),
 }
 
@@ -401,7 +402,7 @@ const PLAYING: f64 = 0.9;
 pub struct TimelapseFiles {
     /// The file of all frames and its format. `None` writes frames only.
     pub animation: Option<(PathBuf, AnimationFormat)>,
-    /// Folder of the frames. Those of the same script and settings are kept from an interrupted
+    /// Folder of the frames. Frames of the same script and settings are kept from an interrupted
     /// run. See [`Sequence`].
     pub frames: PathBuf,
     /// Whether the frames stay once the animation is written or the work is ended. If the program

@@ -1,7 +1,8 @@
-//! Paint as the processor stores it: columns with their volume beside them, sparse dry layers, tiles
-//! saved for undo, and the paint on a head.
+//! Paint as the processor stores it: columns with their volume beside them, sparse dry layers,
+//! tiles saved for undo, and the paint on a head.
 //!
-//! The volume of every cell is stored, so that the penetration of the head need not sum the pigments.
+//! The volume of every cell is stored, so that the penetration of the head need not sum the
+//! pigments.
 
 use graphics::field::Field;
 use graphics::tile::{Rect, TILE, Tile, TileSet};

@@ -1,9 +1,10 @@
 //! The paint engine on the processor, using all cores.
 //!
-//! The result does not depend on the number of threads. Memory per cell of the canvas: 44 bytes (wet
-//! paint 36, its volume 4, floor 4), of which the first 40 are taken only where there was paint. The
-//! ground takes 4 more once paint is dry. Each view that has been rendered takes 4, and 32 for each of
-//! its cells in tiles with dry paint. A dry layer takes 36 bytes for each cell of its painted tiles.
+//! The result does not depend on the number of threads. Memory per cell of the canvas: 44 bytes
+//! (wet paint 36, its volume 4, floor 4), of which the first 40 are taken only where there was
+//! paint. The ground takes 4 more once paint is dry. Each view that has been rendered takes 4, and
+//! 32 for each of its cells in tiles with dry paint. A dry layer takes 36 bytes for each cell of
+//! its painted tiles.
 
 mod columns;
 mod penetration;

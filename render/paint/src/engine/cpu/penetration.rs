@@ -1,8 +1,8 @@
 //! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
 //! specification in [`crate::motion`], row by row.
 //!
-//! A head that lies across the rows fills little of the rectangle around it, so each row is worked on
-//! only between its ends. The surface below the wet paint comes block by block from
+//! A head that lies across the rows fills little of the rectangle around it, so each row is worked
+//! on only between its ends. The surface below the wet paint comes block by block from
 //! [`crate::motion::bed`].
 
 use std::ops::Range;
@@ -39,7 +39,7 @@ pub(super) struct PenetrationMap {
     changing: Spans,
     /// Columns whose tops are computed, as flows depend on them.
     seen: Spans,
-    /// Coats in quanta of the cells in contact, with the same rim. Of no meaning elsewhere.
+    /// Coats in quanta of the cells in contact, with the same rim, undefined elsewhere.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
@@ -165,7 +165,7 @@ impl PenetrationMap {
         }
     }
 
-    /// Computes the tops of the columns that are seen, and those of the rim beside them.
+    /// Computes the tops of the columns that are seen, and of the rim beside them.
     #[inline(always)]
     fn find_tops(&mut self, floor: &Field<i32>, wet: &Columns) {
         let reach = self.reach;
@@ -393,7 +393,7 @@ impl Spans {
         self.ranges[y - self.first] = columns;
     }
 
-    /// Sets the columns of the rows of `rect` to those of `rect`.
+    /// Sets the columns of the rows of `rect` to the columns of `rect`.
     pub(super) fn fill(&mut self, rect: Rect) {
         for y in rect.y..rect.y + rect.height {
             self.set(y, rect.x..rect.x + rect.width);
@@ -441,7 +441,7 @@ impl Bed {
         Self { blocks: Field::filled(width, height, NO_BED) }
     }
 
-    /// Notes the surface of `rect`, whose corner lies at that of a block, as it is now.
+    /// Records the current surface height under `rect` (corner aligned to a block).
     pub(super) fn note(&mut self, rect: Rect, floor: &Field<i32>, wet: &Columns) {
         for y in (rect.y..rect.y + rect.height).step_by(BLOCK) {
             for x in (rect.x..rect.x + rect.width).step_by(BLOCK) {

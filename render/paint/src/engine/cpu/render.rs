@@ -1,7 +1,8 @@
 //! Rendering on the processor: the reflectance of ground and dry layers is baked, and where a
 //! picture is read, the wet paint is composited over it and shaded.
 //!
-//! The baked reflectance is stored only where there is dry paint. Everywhere else it is the ground's.
+//! The baked reflectance is stored only where there is dry paint. Everywhere else it is the
+//! ground's.
 
 use std::ops::Range;
 

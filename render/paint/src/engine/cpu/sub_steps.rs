@@ -1,8 +1,8 @@
 //! Runs sub-steps in order, each on as many threads as suit the size of its contact.
 //!
-//! Each thread moves some rows of the contact. The transfers between a row and the head above it are
-//! step 4 of the specification in [`crate::motion`]. Their loop has no branches, so that the compiler
-//! makes vector instructions of it.
+//! Each thread moves some rows of the contact. The transfers between a row and the head above it
+//! are step 4 of the specification in [`crate::motion`]. Their loop has no branches, so that the
+//! compiler makes vector instructions of it.
 
 use std::ops::Range;
 
@@ -340,7 +340,8 @@ pub(super) struct Exchanges {
 }
 
 impl Exchanges {
-    /// Computes those of the cells in contact of row `y`, whose columns are `volumes` quanta high.
+    /// Computes the transfers of the cells in contact of row `y`. `volumes` holds the heights of
+    /// its columns in quanta.
     #[inline(always)]
     pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
         let columns = step.penetration.in_contact(y);

@@ -1,5 +1,6 @@
-//! Tests of the paint engine on the processor: sub-steps with random contacts against a slow reference
-//! written from the specification in [`crate::motion`], drying, layers, undo and rendering.
+//! Tests of the paint engine on the processor: sub-steps with random contacts against a slow
+//! reference written from the specification in [`crate::motion`], drying, layers, undo and
+//! rendering.
 
 use graphics::field::Field;
 use graphics::tile::{Rect, Tile, TileSet};

@@ -1,5 +1,5 @@
-//! Velocities of the paint of one row (step 2 of the specification in [`crate::motion`]) and the paint
-//! that flows into the rows of a band (step 3).
+//! Velocities of the paint of one row (step 2 of the specification in [`crate::motion`]) and the
+//! paint that flows into the rows of a band (step 3).
 //!
 //! The loops have no branches, so that the compiler makes vector instructions of them.
 
@@ -30,7 +30,7 @@ pub(super) struct Velocities {
     pub(super) beside: Vec<i32>,
     pub(super) below: Vec<i32>,
     touches: Vec<Touch>,
-    /// All bits set for each cell that, or a neighbour of which, is in contact. Else 0.
+    /// All bits set for each cell that, or a neighbour of which, is in contact, else 0.
     near: Vec<u32>,
     /// Flows over the left sides of the cells of the row and over the right side of its last.
     in_x: Vec<i32>,
@@ -49,8 +49,8 @@ impl Velocities {
         self.flow_in_y(step, first, 0);
     }
 
-    /// Computes those of the cells of row `y` that may move, whose columns are `volumes` quanta
-    /// high. The row before it was the one above.
+    /// Computes the velocities of the cells of row `y` that may move. `volumes` holds the
+    /// heights of its columns in quanta. The row before it was the one above.
     #[inline(always)]
     pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
         let columns = step.penetration.moving(y);
@@ -182,7 +182,7 @@ impl SubStep<'_> {
 }
 
 /// Amounts in quanta by cell, modulo 2^32. Pigments and vehicle lie apart, as in a layer, so that
-/// those of a cell take one vector and one number.
+/// the amounts of a cell take one vector and one number.
 #[derive(Debug, Default)]
 pub(super) struct Cells {
     pub(super) pigments: Vec<[u32; SLOTS]>,
@@ -190,7 +190,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Makes room for `count` cells. Those added have no paint.
+    /// Makes room for `count` cells. New cells have no paint.
     pub(super) fn grow(&mut self, count: usize) {
         let count = count.max(self.vehicle.len());
         self.pigments.resize(count, [0; SLOTS]);
@@ -343,7 +343,7 @@ impl Inflow {
     }
 }
 
-/// Sum of `pigments` and those of `more`.
+/// Sum of `pigments` and the pigments of `more`.
 #[inline(always)]
 fn sum(pigments: &[u32; SLOTS], more: &Cell) -> [u32; SLOTS] {
     more.plus(&Cell { pigments: *pigments, vehicle: 0 }).pigments

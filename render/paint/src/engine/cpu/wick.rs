@@ -38,7 +38,8 @@ struct Columns {
     lacks: Vec<u32>,
     /// Volumes in quanta of all cells, row by row.
     volumes: Vec<u32>,
-    /// Shares in parts of 65536 of the cells of one row that are given, or of the pot that they get.
+    /// Shares in parts of 65536 of the cells of one row that are given, or of the pot that they
+    /// get.
     shares: Vec<u32>,
 }
 

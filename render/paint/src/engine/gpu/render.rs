@@ -1,8 +1,8 @@
 //! Rendering on the device: dry layers are baked, the wet layer is composited over them and shaded.
 //!
-//! These are twins of [`crate::composite`] and [`crate::shade`] in f32. Tests state how close the two
-//! backends agree. Shading reads the heights of the surface around every cell. They are computed again
-//! only where the paint changed, and serve all views.
+//! These are twins of [`crate::composite`] and [`crate::shade`] in f32. Tests state how close the
+//! two backends agree. Shading reads the heights of the surface around every cell. They are
+//! computed again only where the paint changed, and serve all views.
 
 use graphics::gpu::{Buffer, Device, DeviceError, Kernel, Layout, Recording, Storage, layout};
 use graphics::tile::{Rect, TILE, TileSet};

@@ -1,7 +1,7 @@
 //! Kernels that change the paint on the device: a sub-step, drying, and tiles saved for undo.
 //!
-//! A sub-step is four kernels over the contact grown by 2 cells, and one along the hair of the head.
-//! They compute the same as [`crate::motion`], bit for bit.
+//! A sub-step is four kernels over the contact grown by 2 cells, and one along the hair of the
+//! head. They compute the same as [`crate::motion`], bit for bit.
 
 use graphics::gpu::{Device, DeviceError, Kernel, Layout, Storage, layout};
 use graphics::tile::{Rect, TILE};
@@ -55,7 +55,7 @@ const STRUCTS: &[Layout] = &[
     layout!(Touch { height, brush_cell, velocity, weights }),
 ];
 
-/// Joins the sources that all four kernels share with those of one kernel.
+/// Joins the sources that all four kernels share with the sources of one kernel.
 macro_rules! sub_step_source {
     ($($part:literal),*) => {
         concat!(
@@ -169,7 +169,7 @@ pub(super) struct WickParams {
     pub(super) turn: u32,
 }
 
-/// Lets paint flow over a head. An invocation a group of hairs.
+/// Lets paint flow over a head. One invocation computes a group of hairs.
 pub(super) static WICK: Kernel = Kernel {
     name: "wick_hairs",
     source: concat!(
