@@ -51,9 +51,12 @@ fn contacts(side: usize, count: usize) -> Vec<Contact> {
             Touch::new(200_000, brush_cell, (200, 40), 256, 1)
         })
         .collect();
-    let rect = |step: usize| Rect { x: 10 + step % 128, y: 20, width: side, height: side };
     (0..count)
-        .map(|step| Contact { rect: rect(step), touches: touches.clone(), ..Contact::default() })
+        .map(|step| Contact {
+            rect: Rect { x: 10 + step % 128, y: 20, width: side, height: side },
+            touches: touches.clone(),
+            ..Contact::default()
+        })
         .collect()
 }
 
@@ -88,8 +91,9 @@ fn one_sub_step_and_wait(bencher: Bencher<'_, '_>, side: usize) {
 }
 
 fn scene(dry: usize) -> Scene {
-    let per = |slot: usize, node: usize| 1e-7 * (1 + (slot * 3 + node * 5) % 11) as f32;
-    let table = std::array::from_fn(|slot| std::array::from_fn(|node| per(slot, node)));
+    let table = std::array::from_fn(|slot| {
+        std::array::from_fn(|node| 1e-7 * (1 + (slot * 3 + node * 5) % 11) as f32)
+    });
     let coat = LayerOptics { absorption: table, scattering: table };
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
     Scene {

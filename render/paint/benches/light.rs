@@ -67,7 +67,7 @@ fn painting(width: usize, height: usize) -> (Document, Scene) {
 }
 
 /// One layer of eight pigments at eight wavelengths over the ground, to internal
-/// reflectance; one core.
+/// reflectance. One core.
 #[divan::bench]
 fn one_layer(bencher: Bencher) {
     let (document, scene) = painting(WIDTH, 4);

@@ -84,16 +84,7 @@ fn stroke(bencher: Bencher<'_, '_>, head: usize) {
     let mut painting = painting(2048, 256, 0);
     let brush = painting.add_brush(shape, size_mm).expect("a brush");
     painting.load(brush, &[1.0; SLOTS], 0.1, 0.2).expect("paint for it");
-    let sample = |seconds: f64, x_mm: f64| Sample {
-        seconds,
-        x_mm,
-        y_mm: 12.83,
-        pressure,
-        tilt_x_deg: 20.0,
-        tilt_y_deg: 10.0,
-        twist_deg: 90.0,
-    };
-    let samples = [sample(0.0, 25.0), sample(1.0, 185.0)];
+    let samples = [sample(0.0, 25.0, pressure), sample(1.0, 185.0, pressure)];
     let report = painting.stroke(brush, &samples).expect("painted");
     let painting = RefCell::new(painting);
     bencher
@@ -103,8 +94,20 @@ fn stroke(bencher: Bencher<'_, '_>, head: usize) {
         .bench_local_values(|_| painting.borrow_mut().stroke(brush, &samples).expect("painted"));
 }
 
-/// A loaded flat of 25 mm, upright, in two circles over each other on linen, as fast as in the studio's
-/// bench `speed`.
+fn sample(seconds: f64, x_mm: f64, pressure: f64) -> Sample {
+    Sample {
+        seconds,
+        x_mm,
+        y_mm: 12.83,
+        pressure,
+        tilt_x_deg: 20.0,
+        tilt_y_deg: 10.0,
+        twist_deg: 90.0,
+    }
+}
+
+/// A loaded flat of 25 mm, upright, in two circles over each other on linen, as fast as in the
+/// studio's bench `speed`.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn wide_flat(bencher: Bencher<'_, '_>) {
     let library = oils();

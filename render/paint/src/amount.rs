@@ -1,8 +1,8 @@
 //! Amounts of paint in whole quanta of height.
 //!
-//! The column of paint over a cell is measured in quanta; 2^21 quanta are as high as a
+//! The column of paint over a cell is measured in quanta. 2^21 quanta are as high as a
 //! cell is wide (with cells of 0.1 mm a quantum is 0.05 nm). Quanta are only moved,
-//! never created or lost, so every pigment's total is exact; and integer sums do not
+//! never created or lost, so every pigment's total is exact. And integer sums do not
 //! depend on their order, so threads, backends and machines agree bit for bit.
 
 /// Height in quanta of a column as high as its cell is wide.

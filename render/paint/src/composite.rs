@@ -1,6 +1,6 @@
 //! Composites Kubelka-Munk layers: the internal reflectance of painted cells.
 //!
-//! The layer equations in Baxter, Wendt and Lin 2004 (eq. 8 and 9) are misprinted; see
+//! The layer equations in Baxter, Wendt and Lin 2004 (eq. 8 and 9) are misprinted. See
 //! [`spectra::optics::Layer::new`] for the form with decaying exponentials. With d = 1
 //! over a backing g, and rearranged so that it subtracts no nearly equal values and
 //! divides once, that form is:
@@ -18,11 +18,11 @@ use crate::optics::{LayerOptics, NODES};
 use graphics::lanes::{decay, greater, lesser, multiply_add};
 
 /// Composites a layer over a row of cells, in place. `pigments` holds the amounts in quanta
-/// by slot. `backing` holds the internal reflectance below the layer and receives that of
-/// the result. Vehicle is transparent.
+/// by slot. `backing` holds the internal reflectance below the layer and receives the
+/// reflectance of the result. Vehicle is transparent.
 ///
 /// Agrees within 5e-7 with f64 arithmetic for K d and S d of 0 to 1e4 and backings of 0
-/// to 1; results lie in 0 to 1. Cells without paint keep their backing bit for bit.
+/// to 1. Results lie in 0 to 1. Cells without paint keep their backing bit for bit.
 /// Slots that are empty over the whole row are skipped, which does not change the result, so
 /// rows may be split anywhere.
 ///

@@ -8,14 +8,14 @@ use graphics::tile::Rect;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Touch {
     /// Height of the head's surface at the cell's centre, in quanta over the plane of the
-    /// canvas; `i32::MAX` if there is no head.
+    /// canvas. `i32::MAX` if there is no head.
     pub height: i32,
     /// Index of the head's paint cell at that point, counted row by row.
     pub brush_cell: u32,
     /// Tangential velocity of the surface in 1/256 cell a sub-step: x in the low 16 bits,
     /// y in the high 16 bits, each as two's complement.
     pub velocity: u32,
-    /// Bits 0 to 8: [`Touch::transfer_weight`]; bits 9 to 15: [`Touch::release`]; bits 16 to
+    /// Bits 0 to 8: [`Touch::transfer_weight`]. Bits 9 to 15: [`Touch::release`]. Bits 16 to
     /// 31: [`Touch::sharers`].
     pub weights: u32,
 }
@@ -24,7 +24,7 @@ impl Touch {
     /// The touch of a cell without a head above it.
     pub const NONE: Self = Self { height: i32::MAX, brush_cell: u32::MAX, velocity: 0, weights: 0 };
 
-    /// Packs a touch of hair with the mean coat; see the fields and accessors for units. `(x, y)`
+    /// Packs a touch of hair with the mean coat. See the fields and accessors for units. `(x, y)`
     /// is the velocity in 1/256 cell a sub-step.
     #[must_use]
     pub fn new(
@@ -34,7 +34,6 @@ impl Touch {
         transfer_weight: u16,
         sharers: u16,
     ) -> Self {
-        let pack = |low: u16, high: u16| u32::from(low) | u32::from(high) << 16;
         Self {
             height,
             brush_cell,
@@ -82,8 +81,7 @@ impl Touch {
     #[inline(always)]
     pub(crate) fn slow(&mut self, left: f32) {
         let (x, y) = self.velocity();
-        let part = |along: i32| (along as f32 * left) as i32 as u32 & 0xffff;
-        self.velocity = part(x) | part(y) << 16;
+        self.velocity = velocity_bits(x, left) | velocity_bits(y, left) << 16;
     }
 
     /// Number of canvas cells that lie under the same cell of the head, 1 and up.
@@ -94,12 +92,22 @@ impl Touch {
     }
 }
 
+#[inline(always)]
+fn velocity_bits(along: i32, left: f32) -> u32 {
+    (along as f32 * left) as i32 as u32 & 0xffff
+}
+
+#[inline(always)]
+fn pack(low: u16, high: u16) -> u32 {
+    u32::from(low) | u32::from(high) << 16
+}
+
 /// How a head exchanges paint with the canvas in a sub-step. Shares are in parts of 65536. The
 /// shaders read it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ExchangeRates {
-    /// Thickness of the head's coat relative to that of the paint on it, beyond `film`.
+    /// Thickness of the head's coat relative to the paint on it, beyond `film`.
     pub release: u32,
     /// Thickness in quanta of the part of the coat that does not depend on the paint on the head.
     pub film: u32,
@@ -109,13 +117,13 @@ pub struct ExchangeRates {
     pub pick_up: u32,
     /// Share of the smaller side that goes to the other side and is replaced by its paint.
     pub mixing: u32,
-    /// Distance in quanta by which hair is pressed below the crests of the ground; less where
+    /// Distance in quanta by which hair is pressed below the crests of the ground. Less where
     /// its coat bears it.
     pub sink: u32,
-    /// Velocity of the paint that the head has penetrated, relative to that of the head, in
-    /// parts of 256; up to 256.
+    /// Velocity of the paint that the head has penetrated, relative to the head's, in
+    /// parts of 256, up to 256.
     pub drag: u32,
-    /// Share of the paint from before the stroke that bears the hair, in parts of 65536; less where
+    /// Share of the paint from before the stroke that bears the hair, in parts of 65536. Less where
     /// the coat is thin.
     pub bearing: u32,
 }
@@ -123,7 +131,7 @@ pub struct ExchangeRates {
 /// The head of a brush over the canvas during one sub-step.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contact {
-    /// Rectangle around the cells under the head, clipped to the canvas; empty if the head
+    /// Rectangle around the cells under the head, clipped to the canvas. Empty if the head
     /// touches none.
     pub rect: Rect,
     /// One touch for each cell of `rect`, row by row.
@@ -137,16 +145,16 @@ pub struct Contact {
 /// Flow of paint over a head: along each hair, and between neighbouring hairs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Wicking {
-    /// Share of the differences that flows off, in parts of 65536; 0 if no paint flows.
+    /// Share of the differences that flows off, in parts of 65536. 0 if no paint flows.
     pub share: u32,
-    /// First row of the head's cells that takes part; rows count from the ferrule.
+    /// First row of the head's cells that takes part. Rows count from the ferrule.
     pub first_row: u32,
-    /// Number of neighbouring hairs whose paint levels together; 0 and 1 level each hair alone.
+    /// Number of neighbouring hairs whose paint levels together. 0 and 1 level each hair alone.
     pub hairs: u32,
     /// Number of hairs by which the groups start before the first hair, below `hairs`. Groups
     /// that overlap from flow to flow spread paint across the head.
     pub shift: u32,
-    /// Number of flows in which all groups have their turn; 0 and 1 let all flow at once.
+    /// Number of flows in which all groups have their turn. 0 and 1 let all flow at once.
     pub turns: u32,
     /// Groups take part whose number divided by `turns` leaves this, below `turns`.
     pub turn: u32,

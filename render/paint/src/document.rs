@@ -1,15 +1,19 @@
-//! A painting at rest: everything that its file stores.
+//! A painting at rest: everything that its file stores, its canvas and palette, and a part of it
+//! cut out as a painting.
 
+use documents::hint::{Explain, Fault, Hint};
+use graphics::tile::Rect;
+use pigment::RecipeError;
 use pigment::library::PigmentLibrary;
 use pigment::palette::scattering_per_mm;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::ground::Ground;
-use crate::layer::Layer;
+use crate::ground::{Ground, GroundError, GroundSpec};
+use crate::layer::{Layer, SLOTS};
 use crate::optics::Gloss;
 
-pub use crate::dry_layer::{DryLayer, LayerId};
-pub use crate::layer::Slots;
+pub use crate::layer::{DryLayer, LayerId, Slots};
 
 /// Light that a painting is viewed under.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -65,7 +69,7 @@ pub struct Medium {
     /// library's thickness, which has no unit of its own.
     pub scattering_per_mm: f64,
     /// Stiffness of the wet paint: 0 is stand oil, which levels by itself, 1 is putty, which
-    /// stays as it is laid. Left out of files where it is that of tube paint.
+    /// stays as it is laid. Left out of files for tube paint.
     #[serde(default = "tube_paint", skip_serializing_if = "is_tube_paint")]
     pub stiffness: f64,
     /// Gloss of wet paint.
@@ -114,7 +118,7 @@ pub struct Document {
     pub title: String,
     /// Width and height of a cell in mm.
     pub cell_mm: f64,
-    /// Ground of the painting; its size is that of the canvas.
+    /// Ground of the painting. It is as large as the canvas.
     pub ground: Ground,
     /// Pigments that the layers refer to.
     pub library: PigmentLibrary,
@@ -122,7 +126,7 @@ pub struct Document {
     pub medium: Medium,
     /// Dry layers, lowest first.
     pub dry: Vec<DryLayer>,
-    /// Identity of the next dry layer, above those of all layers so far.
+    /// Identity of the next dry layer, above the identities of all layers so far.
     pub next_layer: LayerId,
     /// Pigments of the wet layer.
     pub slots: Slots,
@@ -170,8 +174,8 @@ impl Document {
             && self.cell_mm == canvas.cell_mm
     }
 
-    /// SHA-256 of the ground's heights and of all amounts of paint, wet and dry, as 64 hexadecimal digits. Two
-    /// paintings with equal digests hold the same paint to the last quantum.
+    /// SHA-256 of the ground's heights and of all amounts of paint, wet and dry, as 64 hexadecimal
+    /// digits. Two paintings with equal digests hold the same paint to the last quantum.
     #[must_use]
     pub fn digest_of_paint(&self) -> String {
         let mut digest = Sha256::new();
@@ -192,5 +196,213 @@ impl Document {
     pub fn push_dry(&mut self, slots: Slots, paint: Layer) {
         self.dry.push(DryLayer::new(self.next_layer, slots, paint));
         self.next_layer = self.next_layer.next();
+    }
+}
+
+/// A canvas without paint: its size, its cells and its ground.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Canvas {
+    /// Width in mm, 0.001 to 1e6.
+    pub width_mm: f64,
+    /// Height in mm, 0.001 to 1e6.
+    pub height_mm: f64,
+    /// Width and height of a cell in mm, 0.001 to 10. 0.1 (254 to the inch) by default.
+    #[serde(default = "default_cell_mm")]
+    pub cell_mm: f64,
+    /// The ground. Primed linen by default.
+    #[serde(default)]
+    pub ground: GroundSpec,
+}
+
+impl Default for Canvas {
+    /// Primed linen of 192 x 108 mm, which are 1920 x 1080 cells.
+    fn default() -> Self {
+        let cell_mm = default_cell_mm();
+        Self { width_mm: 192.0, height_mm: 108.0, cell_mm, ground: GroundSpec::default() }
+    }
+}
+
+impl Canvas {
+    /// Columns and rows of cells: as many as cover the canvas, at least one each.
+    #[must_use]
+    pub fn cells(&self) -> (usize, usize) {
+        let Self { width_mm, height_mm, cell_mm, .. } = *self;
+        (covering_cells(width_mm, cell_mm), covering_cells(height_mm, cell_mm))
+    }
+
+    /// The ground of this canvas, with its reflectance on the grid of `library`.
+    ///
+    /// # Errors
+    /// [`GroundError`] for a ground that cannot be made or whose picture cannot be read.
+    pub fn ground(&self, library: &PigmentLibrary) -> Result<Ground, GroundError> {
+        let (width, height) = self.cells();
+        self.ground.build(width, height, self.cell_mm, library)
+    }
+
+    /// The longer side in mm.
+    pub(crate) fn longer_side_mm(&self) -> f64 {
+        self.width_mm.max(self.height_mm)
+    }
+}
+
+/// Number of cells that cover a side, at least one.
+pub(crate) fn covering_cells(side_mm: f64, cell_mm: f64) -> usize {
+    // A remainder below 1e-6 of a cell is a rounding error and adds no cell.
+    ((side_mm / cell_mm - 1e-6).ceil() as usize).max(1)
+}
+
+fn default_cell_mm() -> f64 {
+    0.1
+}
+
+/// Slots of a palette with the pigments of these names (see [`PigmentLibrary::find`]), in
+/// their order.
+///
+/// # Errors
+/// [`PaletteError`] for more than eight names, an unknown name, and a pigment named twice.
+pub fn palette_slots(names: &[String], library: &PigmentLibrary) -> Result<Slots, PaletteError> {
+    if names.len() > SLOTS {
+        return Err(PaletteError::TooMany { count: names.len() });
+    }
+    let mut slots = Slots::default();
+    for (slot, name) in names.iter().enumerate() {
+        let pigment = library.find(name)?;
+        if slots.contains(&Some(pigment)) {
+            return Err(PaletteError::Repeated { name: name.clone() });
+        }
+        slots[slot] = Some(pigment);
+    }
+    Ok(slots)
+}
+
+/// The names do not make a palette.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PaletteError {
+    /// There are more pigments than slots.
+    #[error("a palette has at most {SLOTS} pigments, found `{count}`")]
+    TooMany {
+        /// Number of names.
+        count: usize,
+    },
+    /// Two names mean the same pigment.
+    #[error("a palette takes each pigment once, found `{name}` again")]
+    Repeated {
+        /// The second name, as it was given.
+        name: String,
+    },
+    /// The library has no pigment of this name, or several.
+    #[error(transparent)]
+    Pigment(#[from] RecipeError),
+}
+
+impl Explain for PaletteError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::TooMany { .. } => {
+                Some(Hint::new("leave [palette] out to have the best eight chosen"))
+            }
+            Self::Repeated { .. } => Some(Hint::new("leave the second out")),
+            Self::Pigment(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::TooMany { .. } | Self::Repeated { .. } => Fault::Setting,
+            Self::Pigment(error) => error.fault(),
+        }
+    }
+}
+
+impl Document {
+    /// The painting of the cells in `rect` alone: ground, dry layers and wet paint stay as they
+    /// are, to the quantum. Light, binder and pigments are the whole painting's.
+    ///
+    /// Beyond its edges a painting has no ground that could be continued, since a file keeps the
+    /// relief of a ground and not how it was made. So a painting can be cropped, but not enlarged.
+    ///
+    /// # Panics
+    /// If `rect` is empty or reaches beyond the canvas.
+    #[must_use]
+    pub fn cropped(&self, rect: Rect) -> Self {
+        assert!(rect.width > 0 && rect.height > 0, "a crop without cells");
+        let dry = self.dry.iter().map(|layer| DryLayer {
+            id: layer.id,
+            name: layer.name.clone(),
+            visible: layer.visible,
+            slots: layer.slots,
+            opacity: layer.opacity,
+            paint: layer.paint.part(rect),
+        });
+        let mut ground = self.ground.clone();
+        ground.height = ground.height.part(rect);
+        Self {
+            title: self.title.clone(),
+            cell_mm: self.cell_mm,
+            ground,
+            library: self.library.clone(),
+            medium: self.medium.clone(),
+            dry: dry.collect(),
+            next_layer: self.next_layer,
+            slots: self.slots,
+            wet: self.wet.part(rect),
+            lighting: self.lighting.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::GroundSpec;
+    use crate::layer::{Cell, Layer};
+    use crate::strokes::{Canvas, PaletteSpec, StrokeScript};
+    use pigment::library::PigmentLibrary;
+
+    /// A painting of 8 x 6 cells, with the number of each cell as its paint.
+    fn numbered() -> Document {
+        let library = PigmentLibrary::van_gogh_oils();
+        let canvas =
+            Canvas { width_mm: 4.0, height_mm: 3.0, cell_mm: 0.5, ground: GroundSpec::default() };
+        let palette = PaletteSpec::from_names(["Zinc White", "Vermilion"]);
+        let script = StrokeScript::new("numbered", "", canvas, palette);
+        let (mut document, _) = script.surfaces(&library, None).unwrap();
+        let mut paint = Layer::empty(8, 6);
+        for index in 0..48 {
+            let mut cell = Cell { vehicle: 7, ..Cell::default() };
+            cell.pigments[1] = 100 + index as u32;
+            paint.set_cell(index, cell);
+        }
+        let slots = document.slots;
+        document.push_dry(slots, paint.clone());
+        document.dry[0].opacity = 0.5;
+        document.wet = paint;
+        document
+    }
+
+    #[test]
+    fn a_crop_keeps_the_paint_and_the_ground_of_its_cells() {
+        let whole = numbered();
+        let part = whole.cropped(Rect { x: 2, y: 1, width: 3, height: 4 });
+        assert_eq!((part.wet.width(), part.wet.height()), (3, 4));
+        for (x, y) in [(0, 0), (2, 3), (1, 2)] {
+            let own = y * 3 + x;
+            let there = (y + 1) * 8 + x + 2;
+            assert_eq!(part.wet.cell(own), whole.wet.cell(there), "wet paint at {x}, {y}");
+            assert_eq!(part.dry[0].paint.cell(own), whole.dry[0].paint.cell(there));
+            assert_eq!(part.ground.height[(x, y)], whole.ground.height[(x + 2, y + 1)]);
+        }
+        assert_eq!(part.dry[0].opacity, 0.5);
+        assert_eq!(part.lighting, whole.lighting);
+        let all = Rect { x: 0, y: 0, width: 8, height: 6 };
+        assert_eq!(whole.cropped(all), whole, "the whole is itself");
+    }
+
+    #[test]
+    fn a_cropped_painting_survives_its_file() {
+        let part = numbered().cropped(Rect { x: 5, y: 2, width: 2, height: 3 });
+        let file = crate::file::write(&part).unwrap();
+        assert_eq!(crate::file::read("part", &file).unwrap(), part);
     }
 }

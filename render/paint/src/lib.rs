@@ -27,12 +27,12 @@
 //!
 //! [`PaintingSession`] is the main entry point: it takes pigments and brushes by name, undoes
 //! actions and records them.
-//! [`OpenStroke`] paints a stroke whose samples arrive one by one; [`StrokeScript`] is a
+//! [`OpenStroke`] paints a stroke whose samples arrive one by one. [`StrokeScript`] is a
 //! file of strokes, and [`document::Document`] a painting at rest.
 //!
 //! Follows Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for Paint" (NPAR
 //! 2004). Amounts of paint are integers (see [`amount`]), so that paint is conserved exactly
-//! and CPU and GPU agree to the bit; light is computed in f32 at eight wavelengths chosen for
+//! and CPU and GPU agree to the bit. Light is computed in f32 at eight wavelengths chosen for
 //! the illuminant.
 //!
 //! Out of scope: meshes, painting techniques (crate `render`), fitting pigments
@@ -43,9 +43,7 @@
 pub mod amount;
 mod pigment_amounts;
 pub mod layer;
-pub mod dry_layer;
 pub mod optics;
-pub mod node_pigments;
 pub mod light;
 pub mod composite;
 pub mod shade;
@@ -56,9 +54,6 @@ pub mod mask;
 pub mod engine;
 pub mod ground;
 pub mod document;
-pub mod crop;
-pub mod canvas;
-pub mod palette;
 pub mod separation;
 pub mod brush;
 pub mod stroke;
@@ -72,9 +67,14 @@ pub mod export;
 pub mod timelapse;
 
 pub use brush::HeadShape;
-pub use canvas::Canvas;
+pub use document::Canvas;
 pub use engine::{BrushId, PaintEngine, UndoSlot, View};
 pub use painting::OpenStroke;
 pub use pose::Sample;
 pub use session::PaintingSession;
 pub use strokes::{BrushSpec, StrokeScript};
+
+/// The modules `canvas`, `palette` and `dry_layer` became parts of others. Their paths stay.
+pub use document as canvas;
+pub use document as palette;
+pub use layer as dry_layer;

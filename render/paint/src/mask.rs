@@ -10,8 +10,8 @@ const WORD: usize = 32;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mask {
     bounds: Rect,
-    /// Bits of the cells row by row, the first in the lowest bit; 1 is covered. Those after the last
-    /// cell are 0.
+    /// Bits of the cells row by row, the first in the lowest bit. 1 is covered. Those after the
+    /// last cell are 0.
     words: Vec<u32>,
 }
 
@@ -29,7 +29,7 @@ impl Mask {
     }
 
     /// A mask that leaves the cells open whose centres lie within a polygon, by the even-odd rule.
-    /// Its points are in cells; it is closed from the last to the first.
+    /// Its points are in cells. It is closed from the last to the first.
     #[must_use]
     pub fn with_open_polygon(bounds: Rect, points: &[(f64, f64)]) -> Self {
         let mut open = vec![false; bounds.width * bounds.height];
@@ -45,8 +45,8 @@ impl Mask {
             }
             crossings.sort_by(f64::total_cmp);
             for pair in crossings.chunks_exact(2) {
-                let cell = |x: f64| (x - 0.5).ceil().clamp(0.0, bounds.width as f64) as usize;
-                cells[cell(pair[0])..cell(pair[1])].fill(true);
+                cells[first_cell(pair[0], bounds.width)..first_cell(pair[1], bounds.width)]
+                    .fill(true);
             }
         }
         Self::with_open(bounds, |cell| open[cell])
@@ -86,16 +86,17 @@ impl Mask {
     }
 
     /// Lines between covered and open blocks of `step` x `step` cells, from corner to corner in
-    /// cells, each as long as it is straight; those along x first. The cell in the middle of a block
-    /// stands for it. The edge of the canvas is no such line.
+    /// cells, each as long as it is straight. Those along x first. The cell in the middle of a
+    /// block stands for it. The edge of the canvas is no such line.
     #[must_use]
     pub fn outline(&self, step: usize) -> Vec<[(u32, u32); 2]> {
         let step = step.max(1);
         let Rect { width, height, .. } = self.bounds;
         let columns = width.div_ceil(step);
         let rows = height.div_ceil(step);
-        let middle = |block: usize, count: usize| (block * step + step / 2).min(count - 1);
-        let covers = |x: usize, y: usize| self.covers(middle(y, height) * width + middle(x, width));
+        let covers = |x: usize, y: usize| {
+            self.covers(block_middle(y, height, step) * width + block_middle(x, width, step))
+        };
         let at_x = |x: usize| (x * step).min(width) as u32;
         let at_y = |y: usize| (y * step).min(height) as u32;
         let mut lines = Vec::new();
@@ -119,6 +120,14 @@ impl Mask {
         }
         lines
     }
+}
+
+fn block_middle(block: usize, count: usize, step: usize) -> usize {
+    (block * step + step / 2).min(count - 1)
+}
+
+fn first_cell(x: f64, width: usize) -> usize {
+    (x - 0.5).ceil().clamp(0.0, width as f64) as usize
 }
 
 /// Calls `found` with start and end of each run of places, below `count`, that `within` accepts.

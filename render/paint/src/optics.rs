@@ -1,14 +1,20 @@
-//! The optical data that rendering reads: K and S, surface and lamp at eight
-//! wavelengths, in f32.
+//! The optical data that rendering reads: K and S, surface and lamp at eight wavelengths, in f32.
+//!
+//! Only here the library's f64 becomes the f32 of painting.
 
-use crate::layer::SLOTS;
+use pigment::quadrature::{EffectiveQuadrature, Quadrature};
+use spectra::Grid;
+use spectra::optics::Surface;
+
+use crate::amount::QUANTA_PER_CELL;
+use crate::layer::{SLOTS, Slots};
 
 /// Number of wavelengths that represent the spectrum: the nodes of a
 /// [`pigment::quadrature::Quadrature`].
 pub const NODES: usize = 8;
 
 /// K and S of the pigments of one layer at the eight wavelengths, per quantum of height
-/// and multiplied by the layer's opacity; 0 for empty slots.
+/// and multiplied by the layer's opacity. 0 for empty slots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerOptics {
     /// Absorption K per quantum, by slot and wavelength.
@@ -21,9 +27,9 @@ pub struct LayerOptics {
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gloss {
-    /// Light of the highlight relative to a perfect white, at no ambient light; 0 and up.
+    /// Light of the highlight relative to a perfect white, at no ambient light. 0 and up.
     pub strength: f32,
-    /// Blinn's exponent; 10 is satin, 100 the gloss of wet paint.
+    /// Blinn's exponent. 10 is satin, 100 the gloss of wet paint.
     pub exponent: f32,
 }
 
@@ -64,7 +70,7 @@ pub struct Scene {
     pub cell_mm: f32,
 }
 
-/// The surface between paint and air in f32 (Saunderson 1942); see
+/// The surface between paint and air in f32 (Saunderson 1942). See
 /// [`spectra::optics::Surface`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneSurface {
@@ -75,4 +81,64 @@ pub struct SceneSurface {
     /// Surface reflection included in the measured reflectance: k1 where the readings
     /// include the specular component, else 0.
     pub specular: f32,
+}
+
+/// Thickness of one quantum in the library's unit. `cell_mm` is the width of a cell in
+/// mm, `scattering_per_mm` the S of the reference white per mm.
+#[must_use]
+pub fn thickness_per_quantum(cell_mm: f64, scattering_per_mm: f64) -> f64 {
+    cell_mm / f64::from(QUANTA_PER_CELL) * scattering_per_mm
+}
+
+/// Samples a spectrum, `values` on `grid`, at the quadrature's nodes and multiplies it
+/// by `scale`.
+///
+/// # Panics
+/// If the quadrature does not have [`NODES`] nodes.
+#[must_use]
+pub fn at_nodes(quadrature: &Quadrature, grid: Grid, values: &[f64], scale: f64) -> [f32; NODES] {
+    scaled(&quadrature.at_nodes(grid, values), scale)
+}
+
+/// Values at the nodes times `scale`.
+///
+/// # Panics
+/// If there are not [`NODES`] values.
+#[must_use]
+pub(crate) fn scaled(at_nodes: &[f64], scale: f64) -> [f32; NODES] {
+    assert_eq!(at_nodes.len(), NODES, "painting needs a quadrature of {NODES} nodes");
+    std::array::from_fn(|i| (at_nodes[i] * scale) as f32)
+}
+
+/// Computes K and S of a layer per quantum. `slots` holds pigments of the library that
+/// `quadrature` was made for, `thickness_per_quantum` comes from [`thickness_per_quantum`],
+/// and `opacity` multiplies all K and S (1 leaves them as measured).
+///
+/// # Panics
+/// If a slot holds a pigment that the quadrature lacks, or if the quadrature does not have
+/// [`NODES`] nodes.
+#[must_use]
+pub fn layer_optics(
+    slots: &Slots,
+    quadrature: &EffectiveQuadrature,
+    thickness_per_quantum: f64,
+    opacity: f64,
+) -> LayerOptics {
+    let table = |curves: &[Vec<f64>]| {
+        slots.map(|slot| match slot {
+            Some(pigment) => scaled(&curves[pigment.index()], thickness_per_quantum * opacity),
+            None => [0.0; NODES],
+        })
+    };
+    LayerOptics {
+        absorption: table(&quadrature.absorption),
+        scattering: table(&quadrature.scattering),
+    }
+}
+
+/// Converts the surface of a library's films to f32.
+#[must_use]
+pub fn scene_surface(surface: &Surface) -> SceneSurface {
+    let Surface { k1, k2, .. } = *surface;
+    SceneSurface { k1: k1 as f32, k2: k2 as f32, specular: surface.floor() as f32 }
 }

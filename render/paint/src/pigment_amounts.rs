@@ -100,7 +100,7 @@ mod loops {
     }
 }
 
-/// Vectors do not check that sums fit into 32 bits; the same paint is moved by the loops in the
+/// Vectors do not check that sums fit into 32 bits. The same paint is moved by the loops in the
 /// tests, which do.
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod vectors {

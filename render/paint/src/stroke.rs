@@ -1,27 +1,22 @@
-//! Strokes: the smooth path through pen samples, cut into sub-steps of at most one cell,
-//! and the contacts of a head along it.
+//! Strokes: the smooth path through pen samples as they arrive, cut into sub-steps of at most one
+//! cell, and the contacts of a head along it.
 
-mod decimals;
-mod limits;
-mod error;
-mod piece;
-mod path;
+use std::collections::VecDeque;
 
-pub use decimals::SampleDecimals;
-pub use error::StrokeError;
-pub use limits::MOST_SUBSTEPS;
-pub use path::Path;
+use documents::hint::{Explain, Hint};
+use graphics::tile::Rect;
 
 use super::brush::{Head, Relief};
 use super::contact::Contact;
 use super::pose::{Pose, Sample};
-use graphics::tile::Rect;
+
+pub use super::pose::SampleDecimals;
 
 /// Poses of a stroke, each at most one cell from the previous one, from the first sample to
 /// the last, where the brush is lifted.
 ///
 /// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and
-/// Keyser 2011); pressure, tilt and twist are interpolated linearly, twist the shorter way
+/// Keyser 2011). Pressure, tilt and twist are interpolated linearly, twist the shorter way
 /// round. From one pose to the next, the sides of a brush of `size_mm` move by one cell at most,
 /// an angle changes by 3 degrees at most, and the pressure by 1/16 at most, less for a wide brush,
 /// so that the sides of its mark move by about a cell. At the last sample the brush is lifted on
@@ -76,13 +71,482 @@ pub fn contacts(
     })
 }
 
+/// Maximum number of sub-steps of a stroke.
+pub const MOST_SUBSTEPS: u64 = 10_000_000;
+
+/// Maximum distance of a sample from the origin of the canvas along each axis, in cells.
+const FARTHEST: f64 = 1e9;
+
+/// Why samples cannot be painted. Samples are counted from 0, the first of the stroke.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StrokeError {
+    /// The stroke has no sample.
+    #[error("a stroke without samples")]
+    Empty,
+    /// The width of a cell is not above 0.
+    #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    Cell {
+        /// Width of a cell in mm.
+        cell_mm: f64,
+    },
+    /// A number is infinite or NaN.
+    #[error("sample {sample}: {field} is no number: `{found}`")]
+    NoNumber {
+        /// Index of the sample.
+        sample: usize,
+        /// Name of the field.
+        field: &'static str,
+        /// Value of the field.
+        found: f64,
+    },
+    /// A number is out of range.
+    #[error("sample {sample}: {field} is from {lowest} to {highest}: `{found}`")]
+    Range {
+        /// Index of the sample.
+        sample: usize,
+        /// Name of the field.
+        field: &'static str,
+        /// Value of the field.
+        found: f64,
+        /// Lowest value allowed.
+        lowest: f64,
+        /// Highest value allowed.
+        highest: f64,
+    },
+    /// A sample is earlier than the one before it.
+    #[error("sample {sample}: seconds fall, from {before} to `{found}`")]
+    Backwards {
+        /// Index of the sample.
+        sample: usize,
+        /// Value of the field.
+        found: f64,
+        /// Seconds of the sample before it.
+        before: f64,
+    },
+    /// The stroke needs more than [`MOST_SUBSTEPS`] sub-steps.
+    #[error("the stroke takes up to {substeps:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
+    TooLong {
+        /// Upper bound of the sub-steps that the stroke would take.
+        substeps: f64,
+    },
+    /// A sample came after the brush was lifted.
+    #[error("the brush was lifted, so the stroke takes no more samples")]
+    Lifted,
+}
+
+impl Explain for StrokeError {
+    fn hint(&self) -> Option<Hint> {
+        let hint = match self {
+            Self::Empty => "give at least one sample",
+            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
+            Self::NoNumber { .. } => "leave the sample out",
+            Self::Range { field: "pressure", .. } => "divide by the pen's highest pressure",
+            Self::Range { field: "x_mm" | "y_mm", .. } => {
+                "places are in mm from the canvas's corner"
+            }
+            Self::Range { .. } => "tilts are degrees from upright",
+            Self::Backwards { .. } => "sort the samples by time",
+            Self::TooLong { .. } => "places are in mm; cut the stroke in pieces",
+            Self::Lifted => "begin another stroke",
+        };
+        Some(Hint::new(hint))
+    }
+}
+
+/// Maximum change of pressure in a sub-step, 0 to 1 (chosen by eye).
+const MOST_PRESSURE: f64 = 1.0 / 16.0;
+
+/// Maximum change of pressure in a sub-step of a brush whose half width is `reach` in cells: the
+/// sides of its mark move by about a cell.
+fn most_pressure(reach: f64) -> f64 {
+    MOST_PRESSURE.min(0.5 / reach)
+}
+/// Maximum change of tilt or twist in a sub-step, in degrees (chosen by eye).
+const MOST_DEGREES: f64 = 3.0;
+
+/// Number of points per sub-step at which the walk tests whether the sub-step is full, so
+/// that none is shorter than 15/16.
+const LOOKS: f64 = 16.0;
+
+/// The curve from one sample to the next.
+#[derive(Debug, Clone)]
+struct Piece {
+    from: Pose,
+    to: Pose,
+    /// Bezier points of the curve, in cells.
+    points: [(f64, f64); 4],
+    /// Half of the width of the brush in cells.
+    reach: f64,
+    /// Number of equal steps of the curve's parameter in which it is walked.
+    looks: u64,
+}
+
+impl Piece {
+    /// The curve between the samples `from` and `to`. The samples before and after them, if
+    /// there are any, set its tangents. `reach` is half of the width of the brush in cells.
+    fn new(
+        (before, from): (Option<Pose>, Pose),
+        (mut to, after): (Pose, Option<Pose>),
+        reach: f64,
+    ) -> Self {
+        let turn = (to.twist_deg - from.twist_deg) % 360.0;
+        to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
+        let b = place(&from);
+        let c = place(&to);
+        let before = before.map_or_else(|| mirrored(c, b), |pose| place(&pose));
+        let after = after.map_or_else(|| mirrored(b, c), |pose| place(&pose));
+        let points = [b, handle(before, b, c), handle(after, c, b), c];
+        let mut piece = Self { from, to, points, reach, looks: 0 };
+        piece.looks = (piece.size() * LOOKS).ceil() as u64;
+        piece
+    }
+
+    /// Upper bound of its sub-steps.
+    fn size(&self) -> f64 {
+        let legs = self.points.windows(2).map(|leg| distance(leg[0], leg[1]));
+        // A Bezier curve of parameter 0..1 is nowhere faster than this.
+        let fastest = 3.0 * legs.fold(0.0, f64::max);
+        let swung = swung(&self.from, &self.to, self.reach);
+        (fastest + swung).max(turned(&self.from, &self.to, self.reach))
+    }
+
+    /// Number of sub-steps from its step `look` to the next.
+    fn part(&self, look: u64) -> f64 {
+        substeps_between(&self.pose(look), &self.pose(look + 1), self.reach)
+    }
+
+    /// Pose after `look` of its `looks` steps.
+    fn pose(&self, look: u64) -> Pose {
+        let t = look as f64 / self.looks as f64;
+        let s = 1.0 - t;
+        let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let on_curve = weights.iter().zip(&self.points);
+        let (x, y) = on_curve.fold((0.0, 0.0), |(x, y), (w, p)| (x + w * p.0, y + w * p.1));
+        Pose {
+            x,
+            y,
+            pressure: between(self.from.pressure, self.to.pressure, t),
+            tilt_x_deg: between(self.from.tilt_x_deg, self.to.tilt_x_deg, t),
+            tilt_y_deg: between(self.from.tilt_y_deg, self.to.tilt_y_deg, t),
+            twist_deg: between(self.from.twist_deg, self.to.twist_deg, t),
+        }
+    }
+}
+
+fn between(a: f64, b: f64, t: f64) -> f64 {
+    a + (b - a) * t
+}
+
+fn place(pose: &Pose) -> (f64, f64) {
+    (pose.x, pose.y)
+}
+
+/// Number of sub-steps, or part of one, from `a` to the near pose `b`. In a sub-step the sides of
+/// the brush move by a cell at most.
+fn substeps_between(a: &Pose, b: &Pose, reach: f64) -> f64 {
+    (distance((a.x, a.y), (b.x, b.y)) + swung(a, b, reach)).max(turned(a, b, reach))
+}
+
+/// Way in cells of the sides of a brush as it twists. `reach` is half of its width in cells.
+fn swung(a: &Pose, b: &Pose, reach: f64) -> f64 {
+    reach * (a.twist_deg - b.twist_deg).abs().to_radians()
+}
+
+/// Number of sub-steps that the change of pressure and angles takes.
+fn turned(a: &Pose, b: &Pose, reach: f64) -> f64 {
+    let tilted = (a.tilt_x_deg - b.tilt_x_deg).abs().max((a.tilt_y_deg - b.tilt_y_deg).abs());
+    let turned = tilted.max((a.twist_deg - b.twist_deg).abs());
+    (turned / MOST_DEGREES).max((a.pressure - b.pressure).abs() / most_pressure(reach))
+}
+
+fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
+    libm::hypot(a.0 - b.0, a.1 - b.1)
+}
+
+/// `a` mirrored at `b`.
+fn mirrored(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (2.0 * b.0 - a.0, 2.0 * b.1 - a.1)
+}
+
+/// Inner Bezier point next to `here` of the curve from `here` to `next`, with `last` as the
+/// point before.
+fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
+    // Centripetal: knot distances are square roots of point distances.
+    let d = distance(last, here);
+    let e = distance(here, next);
+    let root_d = d.sqrt();
+    let root_e = e.sqrt();
+    let whole = 3.0 * root_d * (root_d + root_e);
+    if whole == 0.0 {
+        return here;
+    }
+    let weight = 2.0 * d + 3.0 * root_d * root_e + e;
+    let along = |l: f64, h: f64, n: f64| (d * n - e * l + weight * h) / whole;
+    (along(last.0, here.0, next.0), along(last.1, here.1, next.1))
+}
+
+/// Cells by which the side of a mark moves in a sub-step of pressing down or lifting on the spot
+/// (chosen by the measured lip at the end of a stroke).
+const LIFT: f64 = 1.5;
+
+/// Iterator over the poses of a stroke. Its samples arrive in portions. The poses are the
+/// same to the bit as the poses of [`substeps`](substeps) for all samples at once.
+///
+/// The curve to a sample depends on the one after it, so poses lag one sample behind until
+/// the path is finished. A dab (all samples at one position and pose) has no poses until
+/// then.
+#[derive(Debug, Clone)]
+pub struct Path {
+    cell_mm: f64,
+    /// Half of the width of the brush in cells.
+    reach: f64,
+    samples: usize,
+    seconds: f64,
+    /// Poses of the last three samples, the newest last: the curve of the next piece needs them.
+    recent: [Option<Pose>; 3],
+    /// Pieces whose curve is known and that are not yet walked to their end.
+    pieces: VecDeque<Piece>,
+    /// Sum of the sizes of all pieces whose curve is known, in sub-steps.
+    length: f64,
+    first: Option<Pose>,
+    finished: bool,
+    /// Number of poses returned of a dab, or of the lifting of the brush after a path.
+    ended: usize,
+    /// Number of pieces walked to their end.
+    walked: usize,
+    /// Number of steps walked in the first of `pieces`. See `Piece::looks`.
+    look: u64,
+    /// Fraction of a sub-step from the last pose returned to `look`.
+    since: f64,
+    /// Next pose, if it was computed and not yet returned.
+    next: Option<Pose>,
+}
+
+impl Path {
+    /// A path without samples over cells of `cell_mm`, for a brush of `size_mm`, whose sides move
+    /// by a cell or less in a sub-step.
+    ///
+    /// # Errors
+    /// [`StrokeError::Cell`] if `cell_mm` is not a finite number above 0.
+    pub fn new(cell_mm: f64, size_mm: f64) -> Result<Self, StrokeError> {
+        if !(cell_mm.is_finite() && cell_mm > 0.0) {
+            return Err(StrokeError::Cell { cell_mm });
+        }
+        Ok(Self {
+            cell_mm,
+            reach: 0.5 * size_mm / cell_mm,
+            samples: 0,
+            seconds: f64::NEG_INFINITY,
+            recent: [None; 3],
+            pieces: VecDeque::new(),
+            length: 0.0,
+            first: None,
+            finished: false,
+            ended: 0,
+            walked: 0,
+            look: 0,
+            since: 0.0,
+            next: None,
+        })
+    }
+
+    /// Appends samples. If one is refused, the path keeps those before it, and others can be
+    /// appended after them.
+    ///
+    /// # Errors
+    /// [`StrokeError`] for an impossible sample, and for a path of more than
+    /// [`MOST_SUBSTEPS`]. Samples are counted from the first of the path.
+    ///
+    /// # Panics
+    /// If the path is finished.
+    pub fn push(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
+        assert!(!self.finished, "a path takes no samples after it is finished");
+        samples.iter().try_for_each(|sample| self.push_one(sample))
+    }
+
+    fn push_one(&mut self, sample: &Sample) -> Result<(), StrokeError> {
+        self.check(sample)?;
+        let pose = sample.pose(self.cell_mm);
+        let [before, from, to] = self.recent;
+        let known =
+            from.zip(to).map(|(from, to)| Piece::new((before, from), (to, Some(pose)), self.reach));
+        let guessed = to.map(|to| Piece::new((from, to), (pose, None), self.reach));
+        let substeps = self.length + piece_size(&known) + piece_size(&guessed);
+        if substeps > MOST_SUBSTEPS as f64 {
+            return Err(StrokeError::TooLong { substeps });
+        }
+        self.first = if self.samples == 0 { Some(pose) } else { self.first };
+        self.samples += 1;
+        self.seconds = sample.seconds;
+        self.recent = [from, to, Some(pose)];
+        self.add(known);
+        Ok(())
+    }
+
+    fn add(&mut self, piece: Option<Piece>) {
+        self.length += piece.as_ref().map_or(0.0, Piece::size);
+        self.pieces.extend(piece);
+    }
+
+    /// Ends the path at the last sample. Its last poses can be computed now.
+    pub fn finish(&mut self) {
+        let [before, from, to] = self.recent;
+        if !self.finished {
+            self.add(
+                from.zip(to).map(|(from, to)| Piece::new((before, from), (to, None), self.reach)),
+            );
+        }
+        self.finished = true;
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Number of samples that the returned poses have reached.
+    #[must_use]
+    pub fn reached(&self) -> usize {
+        match (self.finished && self.ended > 0, self.first) {
+            (true, _) => self.samples,
+            (false, None) if self.samples > 0 => self.walked + 1,
+            _ => 0,
+        }
+    }
+
+    /// Upper bound of the number of poses that can be computed now. 0 if and only if there is
+    /// none.
+    pub fn waiting(&mut self) -> usize {
+        if self.peek().is_none() {
+            return 0;
+        }
+        if self.length == 0.0 {
+            return self.pressing().1 + 1 - self.ended;
+        }
+        let looked = match self.pieces.front() {
+            Some(piece) => piece.size() * self.look as f64 / piece.looks.max(1) as f64,
+            None => 0.0,
+        };
+        let sizes: f64 = self.pieces.iter().map(Piece::size).sum();
+        let lifting = if self.finished { self.pressing().1 - self.ended } else { 0 };
+        1 + lifting + (sizes - looked + self.since).max(0.0) as usize
+    }
+
+    /// The next pose, if it is known, without removing it.
+    pub fn peek(&mut self) -> Option<&Pose> {
+        if self.next.is_none() {
+            self.next = self.walk();
+        }
+        self.next.as_ref()
+    }
+
+    /// Removes and returns the first pose together with a copy of the second, once both are
+    /// known: a head is set down at the first in the direction of the second. Call it
+    /// before any pose is removed.
+    pub fn set_out(&mut self) -> Option<(Pose, Pose)> {
+        let first = self.next()?;
+        let second = self.peek().copied();
+        if second.is_none() {
+            self.next = Some(first);
+        }
+        second.map(|second| (first, second))
+    }
+
+    fn walk(&mut self) -> Option<Pose> {
+        if self.length == 0.0 {
+            return self.pressed();
+        }
+        if let Some(first) = self.first.take() {
+            return Some(first);
+        }
+        while let Some(piece) = self.pieces.front() {
+            while self.look < piece.looks {
+                let part = piece.part(self.look);
+                if self.since + part > 1.0 {
+                    self.since = 0.0;
+                    return Some(piece.pose(self.look));
+                }
+                self.since += part;
+                self.look += 1;
+            }
+            self.pieces.pop_front();
+            self.walked += 1;
+            self.look = 0;
+        }
+        self.pressed()
+    }
+
+    /// Number of sub-steps in which the brush is lifted at the last sample, and number of all poses
+    /// there. A path arrives pressed and is only lifted. A dab is pressed down first, in as many
+    /// sub-steps.
+    fn pressing(&self) -> (usize, usize) {
+        let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
+        let lifting = (pressure / (LIFT * most_pressure(self.reach))).ceil() as usize;
+        (lifting, if self.length == 0.0 { 2 * lifting + 1 } else { lifting + 1 })
+    }
+
+    /// The next pose at the last sample.
+    fn pressed(&mut self) -> Option<Pose> {
+        let last = self.recent[2].filter(|_| self.finished)?;
+        let (lifting, poses) = self.pressing();
+        let left = (poses - 1).checked_sub(self.ended)?;
+        self.ended += 1;
+        let share = 1.0 - lifting.abs_diff(left) as f64 / lifting.max(1) as f64;
+        Some(Pose { pressure: share * last.pressure, ..last })
+    }
+
+    /// Refuses impossible samples.
+    fn check(&self, sample: &Sample) -> Result<(), StrokeError> {
+        let index = self.samples;
+        let farthest = FARTHEST * self.cell_mm;
+        let fields = [
+            ("seconds", sample.seconds, f64::INFINITY),
+            ("x_mm", sample.x_mm, farthest),
+            ("y_mm", sample.y_mm, farthest),
+            ("pressure", sample.pressure, 1.0),
+            ("tilt_x_deg", sample.tilt_x_deg, 90.0),
+            ("tilt_y_deg", sample.tilt_y_deg, 90.0),
+            ("twist_deg", sample.twist_deg, f64::INFINITY),
+        ];
+        for (field, found, highest) in fields {
+            if !found.is_finite() {
+                return Err(StrokeError::NoNumber { sample: index, field, found });
+            }
+            let lowest = if field == "pressure" { 0.0 } else { -highest };
+            if !(lowest..=highest).contains(&found) {
+                return Err(StrokeError::Range { sample: index, field, found, lowest, highest });
+            }
+        }
+        if sample.seconds < self.seconds {
+            let found = sample.seconds;
+            let before = self.seconds;
+            return Err(StrokeError::Backwards { sample: index, found, before });
+        }
+        Ok(())
+    }
+}
+
+fn piece_size(piece: &Option<Piece>) -> f64 {
+    piece.as_ref().map_or(0.0, Piece::size)
+}
+
+impl Iterator for Path {
+    type Item = Pose;
+
+    /// The next pose. `None` while it is not known, and after the last.
+    fn next(&mut self) -> Option<Pose> {
+        self.peek();
+        self.next.take()
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::*;
+    use crate::brush::HeadShape;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-
-    use super::super::brush::HeadShape;
-    use super::*;
 
     const SAMPLE: Sample = Sample {
         seconds: 0.0,
@@ -175,8 +639,9 @@ mod tests {
             let random = &mut ChaCha8Rng::seed_from_u64(seed);
             let samples = random_samples(random);
             let whole = poses(&samples);
-            let place = |sample: &Sample| (sample.x_mm, sample.y_mm);
-            dabs += usize::from(samples.iter().all(|sample| place(sample) == place(&SAMPLE)));
+            dabs += usize::from(
+                samples.iter().all(|sample| sample_place(sample) == sample_place(&SAMPLE)),
+            );
             let mut path = Path::new(0.1, SIZE_MM).unwrap();
             let mut pieces = Vec::new();
             let mut rest = &samples[..];
@@ -202,6 +667,10 @@ mod tests {
             assert!(lagged > 0, "seed {seed}: no path lagged behind");
         }
         assert!(dabs > 20, "{dabs} dabs");
+    }
+
+    fn sample_place(sample: &Sample) -> (f64, f64) {
+        (sample.x_mm, sample.y_mm)
     }
 
     #[test]
@@ -231,29 +700,25 @@ mod tests {
         let poses = poses(&[SAMPLE, end]);
         assert!(poses.len() > 30, "{}", poses.len());
         for pair in poses[..poses.len() - 20].windows(2) {
-            assert!(piece::turned(&pair[0], &pair[1], 15.0) <= 1.0 + 1e-9, "{pair:?}");
+            assert!(turned(&pair[0], &pair[1], 15.0) <= 1.0 + 1e-9, "{pair:?}");
         }
     }
 
     #[test]
     fn sides_of_a_brush_move_by_a_cell_at_most() {
-        let bend = |index: u32| {
-            let angle = f64::from(index) * 0.2;
-            let (sin, cos) = angle.sin_cos();
-            let twist_deg = angle.to_degrees();
-            Sample { twist_deg, ..at(f64::from(index), 5.0 + 2.0 * sin, 5.0 - 2.0 * cos) }
-        };
-        let samples: Vec<Sample> = (0..20).map(bend).collect();
+        let samples: Vec<Sample> = (0..20)
+            .map(|index: u32| {
+                let angle = f64::from(index) * 0.2;
+                let (sin, cos) = angle.sin_cos();
+                let twist_deg = angle.to_degrees();
+                Sample { twist_deg, ..at(f64::from(index), 5.0 + 2.0 * sin, 5.0 - 2.0 * cos) }
+            })
+            .collect();
         let size_mm = 6.0;
-        let side = |pose: &Pose| {
-            let (sin, cos) = pose.twist_deg.to_radians().sin_cos();
-            let half = size_mm / 2.0 / 0.1;
-            (pose.x + half * sin, pose.y - half * cos)
-        };
         let poses: Vec<Pose> = substeps(&samples, 0.1, size_mm).unwrap().collect();
         for pair in poses.windows(2) {
-            let from = side(&pair[0]);
-            let to = side(&pair[1]);
+            let from = side(&pair[0], size_mm);
+            let to = side(&pair[1], size_mm);
             let way = (from.0 - to.0).hypot(from.1 - to.1);
             assert!(way <= 1.0 + 1e-9, "{way} cells from {pair:?}");
         }
@@ -272,6 +737,12 @@ mod tests {
         }
     }
 
+    fn side(pose: &Pose, size_mm: f64) -> (f64, f64) {
+        let (sin, cos) = pose.twist_deg.to_radians().sin_cos();
+        let half = size_mm / 2.0 / 0.1;
+        (pose.x + half * sin, pose.y - half * cos)
+    }
+
     #[test]
     fn contacts_begin_at_rest_and_a_dab_moves() {
         let relief = Relief::flat(300, 100, 0.1);
@@ -280,8 +751,6 @@ mod tests {
         let line = substeps(&[SAMPLE, at(1.0, 20.0, 5.0)], 0.1, SIZE_MM).unwrap();
         let stroke: Vec<Contact> = contacts(&mut head, line, &relief, bounds).collect();
         assert!(stroke.len() > 150, "{}", stroke.len());
-        // Hair is pressed by about half its sink.
-        let sunk = |contact: &Contact| (contact.rates.sink / 2) as i32;
         let fastest = |contact: &Contact| {
             let pressed = contact.touches.iter().filter(|touch| touch.height < sunk(contact));
             pressed.map(|touch| touch.velocity().0.abs()).max()
@@ -299,26 +768,34 @@ mod tests {
 
     #[test]
     fn impossible_samples_are_refused_with_their_index() {
-        let refused = |second: Sample| substeps(&[SAMPLE, second], 0.1, SIZE_MM).err().unwrap();
-        let error = refused(Sample { pressure: 1.5, ..SAMPLE });
+        let error = refused_second(Sample { pressure: 1.5, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: pressure is from 0 to 1: `1.5`");
-        let error = refused(Sample { tilt_y_deg: -91.0, ..SAMPLE });
+        let error = refused_second(Sample { tilt_y_deg: -91.0, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: tilt_y_deg is from -90 to 90: `-91`");
-        let error = refused(Sample { x_mm: f64::NAN, ..SAMPLE });
+        let error = refused_second(Sample { x_mm: f64::NAN, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: x_mm is no number: `NaN`");
-        let error = refused(Sample { twist_deg: f64::INFINITY, ..SAMPLE });
+        let error = refused_second(Sample { twist_deg: f64::INFINITY, ..SAMPLE });
         assert!(matches!(error, StrokeError::NoNumber { field: "twist_deg", .. }), "{error}");
-        let error = refused(Sample { seconds: -0.1, ..SAMPLE });
+        let error = refused_second(Sample { seconds: -0.1, ..SAMPLE });
         assert_eq!(error.to_string(), "sample 1: seconds fall, from 0 to `-0.1`");
         for x_mm in [1e9, 1e300, -1e308] {
-            let error = refused(Sample { x_mm, ..SAMPLE });
+            let error = refused_second(Sample { x_mm, ..SAMPLE });
             assert!(matches!(error, StrokeError::Range { field: "x_mm", .. }), "{error}");
         }
         for x_mm in [1.1e6, -9e7] {
-            let error = refused(Sample { x_mm, ..SAMPLE });
+            let error = refused_second(Sample { x_mm, ..SAMPLE });
             assert!(matches!(error, StrokeError::TooLong { .. }), "{error}");
         }
         assert!(matches!(substeps(&[], 0.1, SIZE_MM).err(), Some(StrokeError::Empty)));
         assert!(matches!(substeps(&[SAMPLE], 0.0, SIZE_MM).err(), Some(StrokeError::Cell { .. })));
+    }
+
+    fn refused_second(second: Sample) -> StrokeError {
+        substeps(&[SAMPLE, second], 0.1, SIZE_MM).err().unwrap()
+    }
+
+    /// Hair is pressed by about half its sink.
+    fn sunk(contact: &Contact) -> i32 {
+        (contact.rates.sink / 2) as i32
     }
 }

@@ -45,8 +45,8 @@ pub(crate) fn script() -> StrokeScript {
     script.built
 }
 
-/// Three whirls of white petals and a wavy border, each stroke repeated so that the paint piles up;
-/// two pulls of the knife below.
+/// Three whirls of white petals and a wavy border, each stroke repeated so that the paint piles up.
+/// Two pulls of the knife below.
 fn relief(script: &mut ScriptBuilder) {
     for number in 0..3 {
         let x = 18.0 + 32.0 * f64::from(number);

@@ -1,8 +1,13 @@
 //! A wheat field with cypresses: underpainting, a sky painted wet in wet, then hills, field and
 //! trees over dry paint, with thick highlights and thin lines by the rigger.
 //!
-//! Most strokes start at the points of a jittered grid; direction and mixture depend on the
+//! Most strokes start at the points of a jittered grid. Direction and mixture depend on the
 //! position. Strokes in the foreground are longer.
+//!
+//! Plants of the landscape: cypresses and their shadows, bushes, ears and stalks of wheat,
+//! poppies.
+//!
+//! Layout of the landscape: its size, the horizon and the path through the field.
 
 use std::f64::consts::PI;
 
@@ -11,8 +16,6 @@ use paint::document::{Lighting, Medium};
 use paint::ground::{ColorPrimer, GroundRelief, GroundSpec, Linen, Primer};
 use paint::strokes::{Canvas, StrokeScript};
 
-use super::field_path::{HEIGHT, HORIZON, WIDTH, path};
-use super::growth::{bowed, bushes, cypress, poppies, shadows, wheat};
 use super::script_builder::{Place, ScriptBuilder};
 
 const SUN: Place = (47.0, 25.0);
@@ -155,19 +158,21 @@ fn sky(script: &mut ScriptBuilder) {
 
 /// Added lightness of the sky by clouds, whirls and the sun, in steps of the blue mixtures.
 fn brightness((x, y): Place) -> f64 {
-    let ring = |(cx, cy): Place, radius: f64, width: f64| {
-        let off = ((x - cx).hypot(y - cy) - radius) / width;
-        (-off * off).exp()
-    };
-    let bank = |cx: f64, cy: f64, wide: f64, high: f64| {
-        (-((x - cx) / wide).powi(2) - ((y - cy) / high).powi(2)).exp()
-    };
-    2.6 * ring((112.0, 24.0), 11.0, 3.0)
-        + 2.2 * ring((146.0, 33.0), 6.5, 2.2)
-        + 2.4 * bank(84.0, 47.0, 30.0, 4.0)
-        + 2.4 * bank(20.0, 49.0, 26.0, 4.0)
-        + 2.6 * bank(180.0, 14.0, 20.0, 5.0)
-        + 3.0 * bank(SUN.0, SUN.1, 15.0, 13.0)
+    2.6 * ring((112.0, 24.0), 11.0, 3.0, (x, y))
+        + 2.2 * ring((146.0, 33.0), 6.5, 2.2, (x, y))
+        + 2.4 * bank(84.0, 47.0, 30.0, 4.0, (x, y))
+        + 2.4 * bank(20.0, 49.0, 26.0, 4.0, (x, y))
+        + 2.6 * bank(180.0, 14.0, 20.0, 5.0, (x, y))
+        + 3.0 * bank(SUN.0, SUN.1, 15.0, 13.0, (x, y))
+}
+
+fn bank(cx: f64, cy: f64, wide: f64, high: f64, (x, y): Place) -> f64 {
+    (-((x - cx) / wide).powi(2) - ((y - cy) / high).powi(2)).exp()
+}
+
+fn ring((cx, cy): Place, radius: f64, width: f64, (x, y): Place) -> f64 {
+    let off = ((x - cx).hypot(y - cy) - radius) / width;
+    (-off * off).exp()
 }
 
 /// Rings of thick yellow around a disc.
@@ -275,7 +280,7 @@ fn field(script: &mut ScriptBuilder) {
             };
             let at = (x + script.about(1.5), y + script.about(1.2));
             let length = 5.5 + 9.5 * near + script.about(2.0);
-            // Strokes are nearly level far away; near by they are steep and bent by the wind.
+            // Strokes are nearly level far away. Near by they are steep and bent by the wind.
             let (way, bow) = if on_path {
                 (-0.3 - near * 0.4, 0.0)
             } else {
@@ -293,4 +298,172 @@ fn field(script: &mut ScriptBuilder) {
         }
         y += 2.4 + 4.6 * near;
     }
+}
+
+/// The three points of a bent stroke of `length` mm from `x`, `y`. Its halves have the directions
+/// `first` and `second`, in radians.
+pub(crate) fn bowed((x, y): Place, first: f64, second: f64, length: f64) -> [Place; 3] {
+    let half = 0.5 * length;
+    let middle = (x + half * first.cos(), y + half * first.sin());
+    [(x, y), middle, (middle.0 + half * second.cos(), middle.1 + half * second.sin())]
+}
+
+/// A cypress in upward strokes: four passes from dark and wide to light and narrow, each from the
+/// foot to the top, then highlights on the side of the sun.
+pub(crate) fn cypress(script: &mut ScriptBuilder, foot: Place, height: f64, half: f64) {
+    let passes = [
+        ("K2V1P0.5", 1.0, 7.0),
+        ("V2P1K1Y1", 0.85, 7.0),
+        ("Y5P1V1", 0.75, 7.0),
+        ("Y10P1V1W1", 0.6, 8.0),
+    ];
+    for (number, (recipe, spread, step)) in passes.into_iter().enumerate() {
+        let mut up: f64 = 0.0;
+        while up < 0.97 {
+            let wide = half * (1.0 - up).powf(0.7) * (0.75 + 0.9 * up * (1.0 - up)) * spread + 0.6;
+            script.fresh("filbert", recipe, 0.0, 0.3);
+            let count = ((wide / 2.4) as i32).max(1);
+            for i in -count..=count {
+                let side = f64::from(i) / f64::from(count);
+                let lit = if number > 1 { -0.25 * half } else { 0.0 };
+                let x = foot.0 + side * wide + lit * (1.0 - up) + script.about(0.8);
+                let y = foot.1 - up * height + script.about(3.5);
+                let length = 11.0 + script.about(2.5);
+                let curl = 1.8 * (up * 14.0 + side * 2.0).sin();
+                if number > 1 && script.about(1.0) > 0.2 {
+                    continue;
+                }
+                let lean = -side * 0.25 * length;
+                script.stroke(
+                    "filbert",
+                    &[
+                        (x, y),
+                        (x + curl + 0.3 * lean, y - 0.5 * length),
+                        (x + lean - 0.4 * curl, y - length),
+                    ],
+                    0.5 * (1.0 - 0.3 * up),
+                );
+            }
+            up += step / height;
+        }
+    }
+    script.fresh("small", "Y4E2W1", 0.0, 0.3);
+    for number in 0..(height / 4.0) as i32 {
+        let up = f64::from(number) * 4.0 / height;
+        script.load("small", "Y4E2W1", 0.0, 0.15);
+        let wide = half * (1.0 - up).powf(0.7) * 0.75;
+        let at =
+            (foot.0 - wide * (0.55 + script.about(0.4)), foot.1 - up * height + script.about(2.0));
+        let curl = 1.2 + script.about(1.2);
+        script.stroke("small", &[at, (at.0 - curl, at.1 - 3.0), (at.0 + curl, at.1 - 6.0)], 0.35);
+    }
+}
+
+/// Shadows of the cypresses on the wheat, away from the sun.
+pub(crate) fn shadows(script: &mut ScriptBuilder) {
+    for (x, y, length) in [(163.0, 104.0, 60.0), (181.0, 100.0, 40.0)] {
+        for number in 0..14 {
+            script.fresh("flat", ["C2R1K0.3Y2W2", "Y8R2K2C1"][number % 2], 0.1, 0.22);
+            let along = number as f64 / 13.0;
+            let at = (x - 9.0 + along * length, y - 1.0 + 9.0 * along + script.about(2.5));
+            script.stroke("flat", &bowed(at, -0.1, 0.25, 10.0), 0.45);
+        }
+    }
+}
+
+/// Bushes at the foot of the trees and by the house.
+pub(crate) fn bushes(script: &mut ScriptBuilder) {
+    for (cx, cy, wide, high) in [
+        (172.0, 103.0, 26.0, 7.0),
+        (62.0, 61.0, 7.0, 5.0),
+        (96.0, 61.0, 8.0, 4.0),
+        (8.0, 60.0, 12.0, 4.0),
+        (128.0, 61.0, 10.0, 3.0),
+    ] {
+        for (recipe, count, lift) in
+            [("V2P1K1Y1", 18, 0.0), ("Y5P1V1W1", 11, 0.25), ("E1Y3W1", 8, 0.55)]
+        {
+            script.fresh("filbert", recipe, 0.0, 0.3);
+            for _ in 0..count {
+                script.load("filbert", recipe, 0.0, 0.1);
+                let turn = script.about(PI);
+                let out = script.about(1.0).abs().sqrt();
+                let at =
+                    (cx + out * wide * turn.cos(), cy + high * (0.8 * out * turn.sin() - lift));
+                let bend = script.about(1.5);
+                script.stroke(
+                    "filbert",
+                    &[at, (at.0 + bend, at.1 - 1.6), (at.0 + 1.5 * bend, at.1 - 4.0)],
+                    0.5,
+                );
+            }
+        }
+    }
+}
+
+/// Ears of wheat in thick paint, and stalks by the rigger.
+pub(crate) fn wheat(script: &mut ScriptBuilder) {
+    for number in 0..150_usize {
+        let near = 0.65 + script.about(0.35);
+        let y = HORIZON + near * (HEIGHT - HORIZON) + script.about(3.0);
+        let x = 100.0 + script.about(104.0);
+        let (middle, half) = path(y);
+        if (x - middle).abs() < half + 3.0 {
+            continue;
+        }
+        let light = ["W5Y1", "W9Y1", "Y1W1", "W16Y1"][number / 38];
+        script.fresh("small", light, 0.0, 0.4);
+        let length = 3.0 + 4.0 * near;
+        script.stroke(
+            "small",
+            &[(x, y), (x + 0.25 * length, y - 0.6 * length), (x + 0.7 * length, y - length)],
+            0.5,
+        );
+    }
+    for number in 0..90_usize {
+        let recipe = ["Y8R2K1", "V2Y2K1", "W12Y1"][number / 30];
+        let y = 118.0 + script.about(22.0);
+        let x = 100.0 + script.about(102.0);
+        let (middle, half) = path(y);
+        if (x - middle).abs() < half + 2.0 {
+            continue;
+        }
+        script.fresh("rigger", recipe, 0.3, 0.22);
+        let lean = 5.0 + script.about(3.0);
+        let tall = 11.0 + script.about(4.0);
+        script.even(
+            "rigger",
+            &[(x, y), (x + 0.3 * lean, y - 0.6 * tall), (x + lean, y - tall)],
+            0.6,
+        );
+    }
+}
+
+pub(crate) fn poppies(script: &mut ScriptBuilder) {
+    for number in 0..46_usize {
+        let near = 0.67 + script.about(0.33);
+        let y = HORIZON + near * (HEIGHT - HORIZON) - 3.0 + script.about(2.0);
+        let (middle, half) = path(y);
+        let side = if number % 3 == 0 { 1.0 } else { -1.0 };
+        let x = middle + side * (half + 3.0 + (8.0 + 44.0 * near) * script.about(1.0).powi(2));
+        script.fresh("round", ["R4Y0.5", "R4W1", "R3Y1W1"][number / 16], 0.0, 0.4);
+        for _ in 0..3 {
+            let at = (x + script.about(0.9), y + script.about(0.7));
+            script.dab("round", at, 0.35 + 0.45 * near, 0.0);
+        }
+    }
+}
+
+/// Width of the canvas in mm.
+pub(crate) const WIDTH: f64 = 200.0;
+/// Height of the canvas in mm.
+pub(crate) const HEIGHT: f64 = 140.0;
+
+/// Distance of the horizon from the top in mm. The field begins there.
+pub(crate) const HORIZON: f64 = 62.0;
+
+/// Middle and half width of the path in mm, `y` mm below the top.
+pub(crate) fn path(y: f64) -> (f64, f64) {
+    let near = ((y - HORIZON) / (HEIGHT - HORIZON)).clamp(0.0, 1.2);
+    (92.0 - 8.0 * (near * 3.6).sin() + 34.0 * near * near, 1.2 + 13.0 * near.powf(1.4))
 }

@@ -1,11 +1,9 @@
-//! Writes the stroke scripts of `paintings/`; the output is deterministic:
+//! Writes the stroke scripts of `paintings/`. The output is deterministic:
 //! `cargo run -p impasto-render --example paintings -- paintings`.
 
 mod script_builder;
 mod color_study;
 mod glaze;
-mod field_path;
-mod growth;
 mod landscape;
 
 use std::path::PathBuf;

@@ -28,7 +28,7 @@ pub(crate) struct ScriptBuilder {
 }
 
 impl ScriptBuilder {
-    /// Starts with an empty canvas. `seed` is that of the random variations.
+    /// Starts with an empty canvas. `seed` seeds the random variations.
     pub(crate) fn new(title: &str, canvas: Canvas, pigments: &[(&str, &str)], seed: u64) -> Self {
         let mut script = StrokeScript::new(title, "CC0-1.0", canvas, palette(pigments));
         script.library = Some("Van Gogh's oils".to_owned());
@@ -90,8 +90,8 @@ impl ScriptBuilder {
         self.built.actions.push(Action::Palette(palette(pigments)));
     }
 
-    /// Paints a stroke through `places`. The brush lies across the path and leans forward;
-    /// its pressure rises from 60 % of `pressure` and falls back to it.
+    /// Paints a stroke through `places`. The brush lies across the path and leans forward.
+    /// Its pressure rises from 60 % of `pressure` and falls back to it.
     pub(crate) fn stroke(&mut self, brush: &str, places: &[Place], pressure: f64) {
         let last = places.len() - 1;
         self.pull(brush, places, |i| if i == 0 || i == last { 0.6 * pressure } else { pressure });

@@ -10,7 +10,8 @@ use paint::session::PaintingSession;
 use paint::strokes::StrokeScript;
 use pigment::PigmentLibrary;
 
-/// Digest of the paint on the canvas after the first `actions` of a script, which paints with the shipped oils.
+/// Digest of the paint on the canvas after the first `actions` of a script, which paints with the
+/// shipped oils.
 pub(crate) fn digest(script: &[u8], actions: usize) -> Result<String, Box<dyn Error>> {
     let mut script = StrokeScript::from_json("script", script)?;
     script.actions.truncate(actions);

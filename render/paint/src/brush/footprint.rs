@@ -1,13 +1,27 @@
-//! Rasterisation of the facets near the canvas.
+//! The contact of a bent head with the canvas: the facets near the canvas, drawn cell by cell.
+//!
+//! Drawing does not change the head, so several sub-steps can be drawn side by side.
+//!
+//! A pressed head squeezes paint to its sides, where it stands up as a lip. The flow takes place
+//! between the hairs, below the size of a cell, so we do not compute it: the coat is thicker near
+//! the sides of the contact.
+//!
+//! A side that crosses the rows of cells at a small angle takes one cell after another. Over the
+//! last cell the velocity therefore falls to 0. Otherwise the paint that is dragged along would
+//! stay as a bead in each cell that the side leaves.
 
 use std::ops::Range;
 
-use super::locks::Lock;
-use super::net::Point;
-use super::surface::LimitSurface;
-use crate::contact::{Contact, Touch};
 use graphics::lanes::{greater, lesser};
 use graphics::tile::Rect;
+use pulp::{Simd, WithSimd};
+
+use super::locks::Lock;
+use super::relief::Relief;
+use super::spines::Grip;
+use super::surface::{LimitSurface, Net, Point};
+use crate::amount::QUANTA_PER_CELL;
+use crate::contact::{Contact, Touch};
 
 /// The number 1 in fixed point with 16 fractional bits, the format of values interpolated
 /// along a row.
@@ -28,7 +42,7 @@ const ALONG: usize = 5;
 /// weight, these three times 65536.
 #[derive(Debug, Clone)]
 pub(super) struct Footprint {
-    /// Whether each facet has hair; empty if all have.
+    /// Whether each facet has hair. Empty if all have.
     hair: Vec<bool>,
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
@@ -55,8 +69,8 @@ impl Footprint {
     }
 
     /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
-    /// of `bounds`, in coordinates from the cell `origin`. `locks` are those of each column of
-    /// paint cells.
+    /// of `bounds`, in coordinates from the cell `origin`. `locks` has the lock of each column
+    /// of paint cells.
     #[inline(always)]
     pub(super) fn draw(
         &mut self,
@@ -161,7 +175,6 @@ impl Footprint {
     #[inline(always)]
     fn count(&mut self, contact: &mut Contact) {
         let Self { sharers, spans, .. } = self;
-        let touching = |touch: &&Touch| touch.height != Touch::NONE.height;
         for touch in within(&contact.touches, contact.rect.width, spans).filter(touching) {
             let sharers = &mut sharers[touch.brush_cell as usize];
             *sharers = sharers.saturating_add(1);
@@ -176,6 +189,11 @@ impl Footprint {
             sharers[touch.brush_cell as usize] = 0;
         }
     }
+}
+
+#[inline(always)]
+fn touching(touch: &&Touch) -> bool {
+    touch.height != Touch::NONE.height
 }
 
 /// The touches of the `spans` of the rows, which are `width` long.
@@ -241,7 +259,7 @@ struct Canvas<'a> {
 
 impl Canvas<'_> {
     /// Rasterises a triangle whose corners follow each other in the direction from the x axis
-    /// to the y axis; others are skipped. A cell centre on an edge belongs
+    /// to the y axis. Others are skipped. A cell centre on an edge belongs
     /// to the triangle right of it or below it.
     #[inline(always)]
     fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
@@ -261,7 +279,8 @@ impl Canvas<'_> {
         let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
         let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
         let step = whole(&right);
-        // The slopes of a sliver are inaccurate, so heights are clamped to those of its corners.
+        // The slopes of a sliver are inaccurate, so heights are clamped to the heights of its
+        // corners.
         let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
         let lowest = lesser(lesser(heights[0], heights[1]), heights[2]);
         let highest = greater(greater(heights[0], heights[1]), heights[2]);
@@ -338,13 +357,13 @@ impl Edge {
     fn new(from: &Corner, to: &Corner) -> Self {
         let side = to.y - from.y;
         let (upper, lower) = if side > 0.0 { (from, to) } else { (to, from) };
-        // Horizontal edges bound no row; their slope is never used.
+        // Horizontal edges bound no row. Their slope is never used.
         let slope = (lower.x - upper.x) / (lower.y - upper.y);
         Self { x: upper.x, y: upper.y, slope, side }
     }
 }
 
-/// First cell, up to `end`, whose centre is at `place` or beyond.
+/// First cell, up to `end`, with its centre at `place` or beyond.
 #[inline(always)]
 fn first_middle(place: f32, end: usize) -> usize {
     let cells = lesser(greater(place - 0.5, 0.0), end as f32);
@@ -369,4 +388,355 @@ fn nearest(value: f32) -> i32 {
     /// 1.5 * 2^52: near this number, neighbouring f64 values are 1 apart.
     const UNIT: f64 = 6_755_399_441_055_744.0;
     (f64::from(value) + UNIT).to_bits() as i32
+}
+
+/// Height above the highest relief nearby up to which the surface of the head is drawn, in mm.
+/// Wet paint above that height is not touched.
+const HIGHEST_PAINT_MM: f64 = 2.0;
+
+/// Distance from the tip in mm over which the hair loses its grasp of the paint, so that a
+/// film does not depend on where in a cell the tip ends.
+const TIP_MM: f64 = 0.8;
+
+/// Height over the crests in mm up to which hair counts as touching.
+const TOUCHING_MM: f32 = 0.1;
+
+/// How a bent head is held in one sub-step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hold {
+    pub(super) grip: Grip,
+    /// Motion of the pen since the sub-step before, in cells.
+    pub(super) moved: (f32, f32),
+    /// Cells by which the sides of the mark move as the pressure changes.
+    pub(super) pressed: f32,
+    /// Distance in cells from the pen beyond which the head does not reach.
+    pub(super) reach: f32,
+}
+
+/// The surface of a head and its contact, for one sub-step after another.
+#[derive(Debug, Clone)]
+pub(super) struct Imprint {
+    surface: LimitSurface,
+    footprint: Footprint,
+    cell_mm: f64,
+    /// Height in quanta up to which the surface is drawn.
+    ceiling: f32,
+    /// Extent of the contact across the stroke. `None` if the head hardly moved.
+    extent: Option<Extent>,
+}
+
+impl Imprint {
+    /// Buffers for a head with this surface and, unless it is empty, hair on these facets only.
+    pub(super) fn new(surface: LimitSurface, hair: Vec<bool>, cell_mm: f64) -> Self {
+        let (around, along) = surface.cells();
+        let footprint = Footprint::new(around, along, hair);
+        Self { surface, footprint, cell_mm, ceiling: 0.0, extent: None }
+    }
+
+    /// Number of paint cells of the head, around and along.
+    pub(super) fn paint_grid(&self) -> (usize, usize) {
+        self.surface.cells()
+    }
+
+    /// Evaluates the surface of `net` near the canvas.
+    pub(super) fn evaluate(&mut self, net: &Net, hold: &Hold, relief: &Relief) {
+        graphics::lanes::vectorized(Evaluate { imprint: self, net, hold, relief });
+    }
+
+    /// Extent across the stroke of the contact evaluated last.
+    pub(super) fn extent(&self) -> Option<Extent> {
+        self.extent
+    }
+
+    /// Fills `out` with the contact evaluated last. `locks` has the lock of each column of
+    /// paint cells. `border` is where its sides are, if the head moved.
+    pub(super) fn draw(
+        &mut self,
+        locks: &[Lock],
+        hold: &Hold,
+        border: Option<Border>,
+        bounds: Rect,
+        out: &mut Contact,
+    ) {
+        graphics::lanes::vectorized(Draw { imprint: self, locks, hold, border, bounds, out });
+    }
+
+    #[inline(always)]
+    fn find_surface(&mut self, net: &Net, hold: &Hold, relief: &Relief) {
+        let view = relief.seen_from(hold.grip.origin);
+        let (lowest, highest) = view.range(hold.grip.tip, hold.reach);
+        let ceiling = highest + (HIGHEST_PAINT_MM / self.cell_mm) as f32;
+        let plane = lowest == highest;
+        let mut extent = Extent::new(hold.grip.tip, hold.moved);
+        let touching = (highest + TOUCHING_MM / self.cell_mm as f32) * QUANTA_PER_CELL as f32;
+        let facets = self.surface.facets().1;
+        let cells = self.surface.cells_of_facet().1;
+        let row_mm = cells as f64 * self.cell_mm;
+        let fade = (row_mm / TIP_MM) as f32;
+        let pressed = hold.pressed;
+        self.surface.evaluate(
+            net,
+            ceiling,
+            #[inline(always)]
+            |row, vertex| {
+                let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
+                let grasp = lesser((facets - row) as f32 * fade, 1.0);
+                *vertex = finished(vertex, relief, grasp, pressed);
+                if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
+                    extent.include(vertex[0], vertex[1]);
+                }
+            },
+        );
+        (self.ceiling, self.extent) = (ceiling * QUANTA_PER_CELL as f32, extent);
+    }
+}
+
+/// The work of a sub-step that pulp compiles once per instruction set.
+struct Evaluate<'a> {
+    imprint: &'a mut Imprint,
+    net: &'a Net,
+    hold: &'a Hold,
+    relief: &'a Relief,
+}
+
+struct Draw<'a> {
+    imprint: &'a mut Imprint,
+    locks: &'a [Lock],
+    hold: &'a Hold,
+    border: Option<Border>,
+    bounds: Rect,
+    out: &'a mut Contact,
+}
+
+impl WithSimd for Evaluate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.imprint.find_surface(self.net, self.hold, self.relief);
+    }
+}
+
+impl WithSimd for Draw<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { imprint, locks, hold, border, bounds, out } = self;
+        let Imprint { surface, footprint, cell_mm, ceiling, .. } = imprint;
+        let origin = hold.grip.origin;
+        footprint.draw(surface, locks, *ceiling, origin, bounds, out);
+        if let Some(border) = border {
+            border.shape((out, footprint.spans()), origin, *cell_mm as f32);
+        }
+    }
+}
+
+/// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
+/// 0.2 cells per sub-step, full from 0.3, and at least the weight at a speed of `pressed`), both
+/// times
+/// `grasp`. Where the surface would be below the relief, it is raised to it.
+#[inline(always)]
+fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
+    let &[x, y, z, _, dx, dy, dz, _] = vertex;
+    let height = greater(z, relief);
+    let speed = greater((dx * dx + dy * dy + dz * dz).sqrt(), pressed);
+    let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
+    [
+        x,
+        y,
+        height * QUANTA_PER_CELL as f32,
+        fixed(grasp * dx),
+        fixed(grasp * dy),
+        grasp * t * t * (3.0 - 2.0 * t) * (256.0 * 65536.0),
+        0.0,
+        0.0,
+    ]
+}
+
+#[inline(always)]
+fn fixed(cells: f32) -> f32 {
+    (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0
+}
+
+/// Increase of the coat at the sides (chosen by measured lips).
+const THICKER: f32 = 1.1;
+
+/// Distance from a side in mm over which the coat falls to its usual thickness.
+const REACH_MM: f32 = 0.7;
+
+/// Share of a change of the sides that is followed in a sub-step, so that the sides do not
+/// jump from cell to cell.
+const FOLLOWED: f32 = 0.2;
+
+/// Where the sides of the contact are, seen from the pen.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sides {
+    /// Lowest and highest distance in cells across the stroke. `None` before its first contact.
+    extent: Option<(f32, f32)>,
+}
+
+/// Extent of a contact across the stroke, in cells from the pen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    pen: (f32, f32),
+    across: (f32, f32),
+    low: f32,
+    high: f32,
+}
+
+impl Extent {
+    /// An empty extent around `pen`, which moved by `moved` cells. `None` if it hardly moved.
+    pub(super) fn new(pen: (f32, f32), (x, y): (f32, f32)) -> Option<Self> {
+        let length = libm::hypotf(x, y);
+        let across = (-y / length, x / length);
+        (length >= 0.2).then_some(Self { pen, across, low: f32::INFINITY, high: f32::NEG_INFINITY })
+    }
+
+    #[inline(always)]
+    fn at(&self, x: f32, y: f32) -> f32 {
+        (x - self.pen.0) * self.across.0 + (y - self.pen.1) * self.across.1
+    }
+
+    /// Extends it to a point of the head that touches.
+    #[inline(always)]
+    pub(super) fn include(&mut self, x: f32, y: f32) {
+        let at = self.at(x, y);
+        self.low = lesser(at, self.low);
+        self.high = greater(at, self.high);
+    }
+}
+
+impl Sides {
+    /// Ends a stroke.
+    pub(super) fn lift(&mut self) {
+        self.extent = None;
+    }
+
+    /// Follows the extent `now` of a contact. Returns where its sides are. `None` if the head
+    /// hardly moved or does not touch.
+    pub(super) fn follow(&mut self, now: Option<Extent>) -> Option<Border> {
+        let now = now.filter(|now| now.low <= now.high)?;
+        let (before_low, before_high) = self.extent.unwrap_or((now.low, now.high));
+        let low = before_low + (now.low - before_low) * FOLLOWED;
+        let high = before_high + (now.high - before_high) * FOLLOWED;
+        self.extent = Some((low, high));
+        Some(Border { across: Extent { low, high, ..now } })
+    }
+}
+
+/// The sides of one contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Border {
+    across: Extent,
+}
+
+impl Border {
+    /// Thickens the coat near the sides of `contact`, and slows the cells at the very sides.
+    /// Positions in it count from the cell `origin`. `spans` are the columns of its rows that may
+    /// have touches.
+    #[inline(always)]
+    pub(super) fn shape(
+        &self,
+        (contact, spans): (&mut Contact, &[Range<usize>]),
+        origin: (i64, i64),
+        cell_mm: f32,
+    ) {
+        let across = &self.across;
+        let low = across.low;
+        let high = across.high;
+        let reach = (REACH_MM / cell_mm).min(0.25 * (high - low)).max(1.0);
+        let left = (contact.rect.x as i64 - origin.0) as f32 + 0.5;
+        let top = (contact.rect.y as i64 - origin.1) as f32 + 0.5;
+        let width = contact.rect.width.max(1);
+        let rows = contact.touches.chunks_exact_mut(width).zip(spans);
+        for (row, (touches, span)) in rows.enumerate() {
+            let start = across.at(left, top + row as f32);
+            for (column, touch) in
+                span.clone().zip(touches.get_mut(span.clone()).unwrap_or_default())
+            {
+                let at = start + column as f32 * across.across.0;
+                let inside = lesser(at - low, high - at);
+                if inside >= reach || touch.height == Touch::NONE.height {
+                    continue;
+                }
+                let near = 1.0 - greater(inside / reach, 0.0);
+                let release = touch.release() as f32 * (1.0 + THICKER * near * near);
+                touch.set_release(lesser(release, 127.0) as u32);
+                if inside < 1.0 {
+                    touch.slow(greater(inside, 0.0));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use graphics::tile::Rect;
+
+    /// Coats across a contact of 40 x 3 cells after a head moved by `moved` cells over it.
+    fn coats(moved: (f32, f32)) -> Vec<u32> {
+        touches(moved, 10.0).iter().map(Touch::release).collect()
+    }
+
+    /// Touches of the middle row of such a contact. The head reaches from `side` to 50 cells along
+    /// x.
+    fn touches(moved: (f32, f32), side: f32) -> Vec<Touch> {
+        let rect = Rect { x: 10, y: 20, width: 40, height: 3 };
+        let touch = Touch::new(0, 0, (200, -100), 256, 1);
+        let mut contact = Contact { rect, touches: vec![touch; 120], ..Contact::default() };
+        let mut extent = Extent::new((30.0, 21.5), moved);
+        for x in [side, 50.0] {
+            extent.iter_mut().for_each(|extent| extent.include(x, 21.5));
+        }
+        let whole = [0..40, 0..40, 0..40];
+        if let Some(border) = Sides::default().follow(extent) {
+            border.shape((&mut contact, &whole), (0, 0), 0.1);
+        }
+        contact.touches[40..80].to_vec()
+    }
+
+    #[test]
+    fn the_coat_is_thicker_at_both_sides_of_the_way_only() {
+        for moved in [(0.0, 0.9), (0.0, -0.9)] {
+            let across = coats(moved);
+            let mirrored: Vec<u32> = across.iter().rev().copied().collect();
+            assert_eq!(across, mirrored);
+            assert!(across[0] > 48 && across[0] > across[3] && across[3] > 32, "{across:?}");
+            assert!(across[10..30].iter().all(|&coat| coat == 32), "{across:?}");
+        }
+        assert_eq!(coats((0.0, 0.1)), [32; 40], "a head that hardly moves has no sides");
+    }
+
+    #[test]
+    fn the_velocity_falls_to_nothing_over_the_last_cell() {
+        for (side, shares) in [(10.0, [0.5, 1.0]), (10.4, [0.1, 1.0]), (10.6, [0.0, 0.9])] {
+            let across = touches((0.0, 0.9), side);
+            for (touch, share) in across.iter().zip(shares) {
+                let (right, down) = touch.velocity();
+                let far = (f64::from(right) - share * 200.0).abs();
+                assert!(far.max((f64::from(down) + share * 100.0).abs()) <= 1.0, "{across:?}");
+            }
+            assert!(across[2..38].iter().all(|touch| touch.velocity() == (200, -100)));
+        }
+    }
+
+    #[test]
+    fn the_sides_follow_a_change_slowly_within_a_stroke() {
+        let mut sides = Sides::default();
+        let mut reach = |half: f32| {
+            let mut extent = Extent::new((0.0, 0.0), (1.0, 0.0)).unwrap();
+            extent.include(0.0, -half);
+            extent.include(0.0, half);
+            sides.follow(Some(extent));
+            sides.extent.unwrap().1
+        };
+        assert_eq!(reach(10.0), 10.0);
+        let second = reach(20.0);
+        assert!(second > 10.5 && second < 19.0, "{second}");
+        sides.lift();
+        assert_eq!(sides.extent, None);
+    }
 }

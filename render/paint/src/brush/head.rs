@@ -2,19 +2,12 @@
 
 use std::ops::Range;
 
-use super::error::BrushError;
-use super::grip::Grip;
-use super::imprint::{Hold, Imprint};
-use super::locks::Locks;
-use super::mesh::HeadMesh;
-use super::net::{Net, columns};
+use super::footprint::{Hold, Imprint, Sides};
+use super::locks::{Locks, rates, rows_with_paint, wicking};
 use super::relief::Relief;
-use super::shape::HeadShape;
-use super::sides::Sides;
-use super::spines::Spines;
-use super::surface::LimitSurface;
-use super::uptake::{rates, rows_with_paint, wicking};
-use super::vector::Vector;
+use super::spines::{Grip, Spines, Vector};
+use super::surface::{HeadMesh, LimitSurface, Net, columns};
+use super::{BrushError, HeadShape};
 use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
 use graphics::tile::Rect;
@@ -29,11 +22,11 @@ const WIDEST: f64 = 2048.0;
 /// and touch none.
 const NARROWEST: f32 = 1.5;
 
-/// Maximum distance in cells along x or y that a head is dragged in a sub-step; after a longer
+/// Maximum distance in cells along x or y that a head is dragged in a sub-step. After a longer
 /// move it is set down anew.
 const FARTHEST_DRAG: i64 = 64;
 
-/// The head of one brush. Its paint is a grid of cells in the engine; the head computes the
+/// The head of one brush. Its paint is a grid of cells in the engine. The head computes the
 /// position of each cell.
 #[derive(Debug, Clone)]
 pub struct Head {
@@ -180,7 +173,7 @@ impl Head {
         self.hovering = Some(grip.origin);
     }
 
-    /// Surface of the head as it is bent now; `None` while it is lifted. Takes about 30 us.
+    /// Surface of the head as it is bent now. `None` while it is lifted. Takes about 30 us.
     #[must_use]
     pub fn mesh(&self) -> Option<HeadMesh> {
         let origin = self.origin.or(self.hovering)?;
@@ -210,8 +203,8 @@ impl Head {
 
     /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. The
     /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are not
-    /// finite; over no canvas, paint may still flow along the hair. A lifted head comes down from
-    /// just above the canvas; a head that is more than 64 cells away is set down anew.
+    /// finite. Over no canvas, paint may still flow along the hair. A lifted head comes down from
+    /// just above the canvas. A head that is more than 64 cells away is set down anew.
     ///
     /// The speed that governs transfer includes the surface's vertical motion and the change of
     /// pressure, so that a head that is pressed straight down leaves paint too.
@@ -267,7 +260,7 @@ impl Head {
         self.spines.advance(&grip, &view);
         self.net.follow(&self.spines, &grip);
         if turned_over {
-            // Its edge stays where it is; the blade does not sweep over the paint.
+            // Its edge stays where it is, so the blade does not sweep over the paint.
             self.net.rest();
         }
         let before = self.last.map_or(0.0, |last| last.pressure) as f32;
@@ -285,8 +278,8 @@ impl Head {
         (lifted, Some(hold))
     }
 
-    /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is pressed
-    /// or lifted on the spot, which drags no paint along.
+    /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is
+    /// pressed or lifted on the spot, which drags no paint along.
     fn travelled(&self, pose: &Pose) -> f64 {
         let Some(last) = self.last else { return 0.0 };
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();
@@ -300,19 +293,20 @@ impl Head {
 fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
     let (around, along) = surface.facets();
     let in_span = surface.facets_of_span();
-    let hair = |i: usize| {
-        let column = i % around;
-        let down = (i / around) as f32 / along as f32;
-        // Columns of the net lie on spines, so a gap is between two columns.
-        let span = column / in_span;
-        if span == 0 || span == spines || span == spines + 1 || span == 2 * spines + 1 {
-            return true;
-        }
-        if in_span < 3 {
-            return span.is_multiple_of(2) || down < 0.6;
-        }
-        let off = ((column % in_span) as f32 + 0.5) / in_span as f32 - 0.5;
-        off.abs() >= 0.35 * ((down - 0.45) / 0.55).max(0.0)
-    };
-    (0..around * along).map(hair).collect()
+    (0..around * along)
+        .map(|i: usize| {
+            let column = i % around;
+            let down = (i / around) as f32 / along as f32;
+            // Columns of the net lie on spines, so a gap is between two columns.
+            let span = column / in_span;
+            if span == 0 || span == spines || span == spines + 1 || span == 2 * spines + 1 {
+                return true;
+            }
+            if in_span < 3 {
+                return span.is_multiple_of(2) || down < 0.6;
+            }
+            let off = ((column % in_span) as f32 + 0.5) / in_span as f32 - 0.5;
+            off.abs() >= 0.35 * ((down - 0.45) / 0.55).max(0.0)
+        })
+        .collect()
 }

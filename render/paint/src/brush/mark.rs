@@ -1,14 +1,14 @@
 //! The mark of a head that is pressed straight down on a plane.
 
-use super::error::BrushError;
+use graphics::field::Field;
+use graphics::tile::Rect;
+
 use super::head::Head;
 use super::relief::Relief;
-use super::shape::HeadShape;
+use super::{BrushError, HeadShape};
 use crate::contact::{Contact, Touch};
 use crate::motion::press::{NO_CONTACT, coat, penetration};
 use crate::pose::Pose;
-use graphics::field::Field;
-use graphics::tile::Rect;
 
 /// Number of sub-steps after which a resting head has settled.
 const SETTLED: usize = 8;
@@ -20,7 +20,7 @@ const REACH: f64 = 4.0;
 /// Cells that a clean head touches on a plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactMark {
-    /// Whether the hair touches each cell. The field holds the touched cells and no margin; it is
+    /// Whether the hair touches each cell. The field holds the touched cells and no margin. It is
     /// empty if nothing is touched.
     pub cells: Field<bool>,
     /// Position of the pen in mm from the upper left corner of `cells`.
@@ -59,7 +59,7 @@ impl ContactMark {
         Ok(Self::cut(&contact, at, cell_mm))
     }
 
-    /// The touched cells of a contact whose pen is at `at` cells along x and y.
+    /// The touched cells of a contact with the pen at `at` cells along x and y.
     fn cut(contact: &Contact, at: f64, cell_mm: f64) -> Self {
         let Rect { x: left, y: top, width, .. } = contact.rect;
         let held: Vec<bool> = contact
@@ -91,6 +91,189 @@ impl ContactMark {
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         [self.cells.width(), self.cells.height()].map(|cells| cells as f64 * self.cell_mm)
+    }
+}
+
+#[cfg(test)]
+mod mark_tests {
+    //! Tests of the marks of dragged heads: how wide, where, and how even, however the hand leans.
+
+    use crate::brush::{Head, HeadShape, Relief};
+    use crate::contact::{Contact, ExchangeRates, Touch};
+    use crate::motion::press::{NO_CONTACT, coat, penetration};
+    use crate::pose::Pose;
+    use graphics::tile::Rect;
+
+    const CELL_MM: f64 = 0.2;
+    const BOUNDS: Rect = Rect { x: 0, y: 0, width: 600, height: 600 };
+    /// Way of a stroke, and the part of it after which the mark is measured, in cells.
+    const WAY: (u32, u32) = (150, 100);
+    /// Leans, with the heading of the stroke.
+    const HOLDS_DEG: [(f64, f64); 7] = [
+        (0.0, 0.0),
+        (0.0, 127.0),
+        (10.0, 127.0),
+        (20.0, 0.0),
+        (35.0, 127.0),
+        (45.0, 0.0),
+        (60.0, 127.0),
+    ];
+
+    /// Heads with their sizes in mm.
+    const HEADS: [(HeadShape, f64); 9] = [
+        (HeadShape::Round, 6.0),
+        (HeadShape::Flat, 10.0),
+        (HeadShape::Flat, 25.0),
+        (HeadShape::Filbert, 8.0),
+        (HeadShape::Bright, 10.0),
+        (HeadShape::Fan, 12.0),
+        (HeadShape::Rigger, 2.0),
+        (HeadShape::Mop, 20.0),
+        (HeadShape::Knife, 15.0),
+    ];
+
+    /// How a hand holds a brush and which way it goes, in degrees from x towards y.
+    #[derive(Debug, Clone, Copy)]
+    struct Hand {
+        lean_deg: f64,
+        towards_deg: f64,
+        heading_deg: f64,
+        pressure: f64,
+    }
+
+    /// The mark of a straight stroke over a plane, across which the head lies.
+    #[derive(Debug, Clone, Copy)]
+    struct Mark {
+        width_mm: f64,
+        /// From the way of the pen to the middle of the mark.
+        offset_mm: f64,
+        /// From the middle of the contact to the pen, along the way.
+        behind_mm: f64,
+        /// Largest distance along the way from the middle of a contact to the pen.
+        farthest_mm: f64,
+        /// Standard deviation of the contact's area over its mean.
+        unsteadiness: f64,
+    }
+
+    /// Whether a dry head touches the bare plane.
+    fn touches(rates: &ExchangeRates, touch: &Touch) -> bool {
+        penetration(rates, *touch, (0, 0), 0, coat(rates, *touch, 0)) != NO_CONTACT
+    }
+
+    fn mark(shape: HeadShape, size_mm: f64, hand: Hand) -> Mark {
+        let mut head = Head::new(shape, size_mm, CELL_MM).unwrap();
+        let relief = Relief::flat(BOUNDS.width, BOUNDS.height, CELL_MM);
+        let mut contact = Contact::default();
+        let (sin, cos) = hand.heading_deg.to_radians().sin_cos();
+        let steep = hand.lean_deg.to_radians().tan();
+        let (towards_y, towards_x) = hand.towards_deg.to_radians().sin_cos();
+        let pose = |step: u32| {
+            let way = f64::from(step) - f64::from(WAY.0) * 0.5;
+            Pose {
+                x: 300.3 + cos * way,
+                y: 300.4 + sin * way,
+                pressure: hand.pressure,
+                tilt_x_deg: (steep * towards_x).atan().to_degrees(),
+                tilt_y_deg: (steep * towards_y).atan().to_degrees(),
+                twist_deg: hand.heading_deg + 90.0,
+            }
+        };
+        head.set_down(&pose(0), (cos, sin), &relief);
+        let mut left = f64::INFINITY;
+        let mut right = f64::NEG_INFINITY;
+        let mut behind = Vec::new();
+        let mut areas = Vec::new();
+        for step in 0..=WAY.0 {
+            let pose = pose(step);
+            head.advance(&pose, &relief, BOUNDS, &mut contact);
+            if step < WAY.1 {
+                continue;
+            }
+            let mut along = 0.0;
+            let mut count = 0.0;
+            for (i, touch) in contact.touches.iter().enumerate() {
+                if touches(&contact.rates, touch) {
+                    let x = (contact.rect.x + i % contact.rect.width) as f64 + 0.5 - pose.x;
+                    let y = (contact.rect.y + i / contact.rect.width) as f64 + 0.5 - pose.y;
+                    let across = y * cos - x * sin;
+                    (left, right) = (left.min(across), right.max(across));
+                    along += x * cos + y * sin;
+                    count += 1.0;
+                }
+            }
+            behind.push(-along / count * CELL_MM);
+            areas.push(count);
+        }
+        let area = mean(&areas);
+        let spread =
+            mean(&areas.iter().map(|a| (a - area) * (a - area)).collect::<Vec<_>>()).sqrt();
+        Mark {
+            width_mm: (right - left + 1.0) * CELL_MM,
+            offset_mm: 0.5 * (left + right) * CELL_MM,
+            behind_mm: mean(&behind),
+            farthest_mm: behind.iter().fold(0.0, |most, b| b.abs().max(most)),
+            unsteadiness: spread / area,
+        }
+    }
+
+    fn mean(of: &[f64]) -> f64 {
+        of.iter().sum::<f64>() / of.len() as f64
+    }
+
+    /// The mark of `hand`, and its worst figures over all eight directions of its lean: widths, and
+    /// for the others the farthest from 0.
+    fn worst(shape: HeadShape, size_mm: f64, hand: Hand) -> [f64; 6] {
+        let mut worst = [f64::INFINITY, 0.0, 0.0, 0.0, 0.0, 0.0];
+        for octant in 0..8 {
+            let hand = Hand { towards_deg: 45.0 * f64::from(octant), ..hand };
+            let found = mark(shape, size_mm, hand);
+            worst[0] = worst[0].min(found.width_mm);
+            worst[1] = worst[1].max(found.width_mm);
+            let others = [found.offset_mm, found.behind_mm, found.farthest_mm, found.unsteadiness];
+            for (worst, found) in worst[2..].iter_mut().zip(others) {
+                *worst = if found.abs() > worst.abs() || found.is_nan() { found } else { *worst };
+            }
+        }
+        worst
+    }
+
+    #[test]
+    fn a_leaning_hand_paints_with_the_whole_head_at_the_pen() {
+        println!("head      size lean   width (mm)    offset  behind (most)  unsteady");
+        let mut outside = Vec::new();
+        for (shape, size_mm) in HEADS {
+            for (lean_deg, heading_deg) in HOLDS_DEG {
+                let hand = Hand { lean_deg: 0.0, towards_deg: 0.0, heading_deg, pressure: 0.5 };
+                let upright_mm = mark(shape, size_mm, hand).width_mm;
+                let found = worst(shape, size_mm, Hand { lean_deg, ..hand });
+                let [least, most, offset, behind, farthest, unsteady] = found;
+                let line = format!(
+                    "{:8} {size_mm:5.1} {lean_deg:4.0}  {least:5.1} .. {most:5.1}  {offset:6.2}  \
+                 {behind:6.2} ({farthest:5.2})  {unsteady:.3}",
+                    shape.name()
+                );
+                println!("{line}");
+                let wide = |of_mm: f64| least >= 0.85 * of_mm && most <= 1.15 * of_mm;
+                let there = offset.abs() < 1.0 && farthest < 1.0;
+                if !(wide(size_mm) && wide(upright_mm) && there && unsteady < 0.03) {
+                    outside.push(line);
+                }
+            }
+        }
+        assert!(outside.is_empty(), "{}", outside.join("\n"));
+    }
+
+    #[test]
+    fn a_firmer_hand_paints_wider() {
+        for (shape, size_mm) in HEADS {
+            let mut before = 0.0;
+            for pressure in [0.1, 0.3, 0.5, 0.7, 0.9] {
+                let hand = Hand { lean_deg: 20.0, towards_deg: 45.0, heading_deg: 0.0, pressure };
+                let width_mm = mark(shape, size_mm, hand).width_mm;
+                assert!(width_mm >= before - CELL_MM, "{shape} at {pressure}: {width_mm}");
+                before = width_mm;
+            }
+        }
     }
 }
 

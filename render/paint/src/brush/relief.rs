@@ -19,8 +19,8 @@ pub struct Relief {
 }
 
 impl Relief {
-    /// Relief of `floor`, heights in quanta over the plane of the canvas, whose cells are
-    /// `cell_mm` mm wide.
+    /// Relief of `floor`, heights in quanta over the plane of the canvas, with cells of
+    /// `cell_mm` mm.
     ///
     /// # Panics
     /// If there is no cell.
@@ -98,7 +98,7 @@ pub(super) struct ReliefView<'a> {
 }
 
 impl ReliefView<'_> {
-    /// Height at `(x, y)` in cells; outside the canvas that of its edge.
+    /// Height at `(x, y)` in cells. Outside the canvas, the height of its edge.
     #[inline(always)]
     pub(super) fn height(&self, x: f32, y: f32) -> f32 {
         let x = x * (1.0 / BLOCK as f32) + self.shift.0;
@@ -123,7 +123,6 @@ impl ReliefView<'_> {
 
     /// Lowest and highest value that the interpolation uses within `reach` cells of `(x, y)`.
     pub(super) fn range(&self, (x, y): (f32, f32), reach: f32) -> (f32, f32) {
-        let block = |at: f32, shift: f32| i64::from(floor_of(at / BLOCK as f32 + shift));
         let columns = block(x - reach, self.shift.0)..=block(x + reach, self.shift.0) + 1;
         let rows = block(y - reach, self.shift.1)..=block(y + reach, self.shift.1) + 1;
         let within = |range: std::ops::RangeInclusive<i64>, first: i64, count: usize| {
@@ -141,7 +140,12 @@ impl ReliefView<'_> {
     }
 }
 
-/// Largest whole number not above the argument; `f32::floor` is slow without SSE 4.1.
+#[inline(always)]
+fn block(at: f32, shift: f32) -> i64 {
+    i64::from(floor_of(at / BLOCK as f32 + shift))
+}
+
+/// Largest whole number not above the argument. `f32::floor` is slow without SSE 4.1.
 #[inline(always)]
 fn floor_of(value: f32) -> i32 {
     let cut = value as i32;

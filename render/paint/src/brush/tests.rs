@@ -2,8 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 
-use super::shape::NODES;
-use super::{BrushError, Head, HeadShape, Relief, SideBySide, StrokeTool};
+use super::{BrushError, Head, HeadShape, NODES, Relief, SideBySide, StrokeTool};
 use crate::amount::QUANTA_PER_CELL;
 use crate::contact::Contact;
 use crate::contact::Touch;
@@ -100,17 +99,20 @@ fn the_tip_trails_behind_the_motion() {
         for way in [1.0, -1.0] {
             let mut head = head(shape);
             let mut contact = nothing();
-            // The head is set down bent for the opposite motion.
-            let pose = |step: f64| Pose { x: 160.0 + way * (step - 90.0), twist_deg: 90.0, ..POSE };
-            head.set_down(&pose(0.0), (-way, 0.0), &plane());
+            head.set_down(&pose_at(0.0, way), (-way, 0.0), &plane());
             for step in 0..=90 {
-                head.advance(&pose(f64::from(step)), &plane(), BOUNDS, &mut contact);
+                head.advance(&pose_at(f64::from(step), way), &plane(), BOUNDS, &mut contact);
             }
             let behind = f64::from(head.spines.node(0, 0).x - head.spines.node(0, NODES - 1).x);
             assert!(behind * way > 5.0, "{shape}, {way}: {behind}");
             // The pen leads the place where the hair touches.
             let middle = mean_x(&under(&contact, 0.0));
             assert!((middle - 160.0).abs() < 5.0, "{shape}, {way}: {middle}");
+        }
+
+        /// The head is set down bent for the opposite motion.
+        fn pose_at(step: f64, way: f64) -> Pose {
+            Pose { x: 160.0 + way * (step - 90.0), twist_deg: 90.0, ..POSE }
         }
     }
 }

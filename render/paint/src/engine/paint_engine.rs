@@ -1,21 +1,24 @@
-//! The paint engine: one set of operations over both backends.
+//! The paint engine: one set of operations over both backends, for brushes, masks, tiles saved for
+//! undo, dry layers and pictures.
+
+use graphics::field::Field;
+use graphics::gpu::{BackendChoice, Device, DeviceError, choose};
+use graphics::tile::{Rect, Tile, TileSet};
 
 use super::cpu::CpuPaint;
 use super::gpu::GpuPaint;
-use super::ids::{BrushId, View};
+use super::{BrushId, UndoSlot, View};
 use crate::contact::Contact;
 use crate::layer::Layer;
+use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::optics::Scene;
-use graphics::field::Field;
-use graphics::gpu::{BackendChoice, Device, DeviceError, choose};
-use graphics::tile::{Rect, TileSet};
 
 /// The paint of one painting: the wet layer, dry layers, the paint on each brush, and
 /// pictures of the canvas.
 ///
 /// Every change is exact integer arithmetic, so both backends hold the same bits after
-/// the same calls. On the processor no operation fails; on a graphics device each
+/// the same calls. On the processor no operation fails. On a graphics device each
 /// returns [`DeviceError`] if the device is lost, and those that allocate also if it has
 /// no memory left.
 ///
@@ -34,7 +37,7 @@ pub enum PaintEngine {
 pub struct OpenedEngine {
     /// The engine, without paint.
     pub engine: PaintEngine,
-    /// Why the processor is used although a device was found; `None` if the device is
+    /// Why the processor is used although a device was found. `None` if the device is
     /// used or there was none.
     pub device_error: Option<DeviceError>,
 }
@@ -86,7 +89,7 @@ impl PaintEngine {
         }
     }
 
-    /// The graphics device that computes; `None` on the processor.
+    /// The graphics device that computes. `None` on the processor.
     #[must_use]
     pub fn device(&self) -> Option<&Device> {
         match self {
@@ -116,7 +119,7 @@ impl PaintEngine {
         }
     }
 
-    /// Applies one sub-step of `brush` for each contact, in order; see
+    /// Applies one sub-step of `brush` for each contact, in order. See
     /// [`crate::motion`].
     ///
     /// # Errors
@@ -262,7 +265,7 @@ impl PaintEngine {
         }
     }
 
-    /// Downloads the first view as last rendered; see [`PaintEngine::picture_in`].
+    /// Downloads the first view as last rendered. See [`PaintEngine::picture_in`].
     ///
     /// # Errors
     /// [`DeviceError`] of the device.
@@ -271,7 +274,7 @@ impl PaintEngine {
     }
 
     /// Downloads a view in `rect` as last rendered: linear sRGB with white at 1, and 1 as
-    /// the fourth component; black where nothing was rendered. Where paint changed since, either
+    /// the fourth component. Black where nothing was rendered. Where paint changed since, either
     /// the earlier or the present paint is seen. Time is proportional to the
     /// area of `rect`.
     ///
@@ -289,6 +292,175 @@ impl PaintEngine {
         match self {
             Self::Cpu(paint) => paint.forget_view(view),
             Self::Gpu(paint) => paint.forget_view(view),
+        }
+    }
+}
+
+impl PaintEngine {
+    /// Covers cells of the canvas, or none: the contacts that follow change no paint of covered
+    /// cells.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    ///
+    /// # Panics
+    /// If the mask is of another canvas.
+    pub fn set_mask(&mut self, mask: Option<&Mask>) -> Result<(), DeviceError> {
+        let bounds = self.bounds();
+        assert!(mask.is_none_or(|mask| mask.bounds() == bounds), "a mask must cover {bounds:?}");
+        match self {
+            Self::Cpu(paint) => {
+                paint.set_mask(mask);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.set_mask(mask),
+        }
+    }
+
+    /// Notes the surface of the paint in a tile as it is now: loaded hair rides on it in the
+    /// contacts that follow, until the tile is noted again. See [`bed`](crate::motion::bed). Before
+    /// the first time it is unknown and bears nothing.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    ///
+    /// # Panics
+    /// If the tile lies outside the canvas.
+    pub fn note_bed(&mut self, tile: Tile) -> Result<(), DeviceError> {
+        let rect = tile.rect(self.bounds());
+        match self {
+            Self::Cpu(paint) => {
+                paint.note_bed(rect);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.note_bed(rect),
+        }
+    }
+
+    /// Copies the wet paint of a tile to `slot`, within the engine's memory.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn save_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
+        match self {
+            Self::Cpu(paint) => {
+                paint.save_tile(tile, slot);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.save_tile(tile, slot),
+        }
+    }
+
+    /// Swaps the wet paint of a tile with that saved in `slot`.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
+        match self {
+            Self::Cpu(paint) => {
+                paint.swap_tile(tile, slot);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.swap_tile(tile, slot),
+        }
+    }
+}
+
+impl PaintEngine {
+    /// Dries a share of all wet paint, 0 to 65536 in parts of 65536. It becomes a new dry
+    /// layer on top, and the floor rises by its height.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn dry(&mut self, share: u32) -> Result<(), DeviceError> {
+        match self {
+            Self::Cpu(paint) => {
+                paint.dry(share);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.dry(share),
+        }
+    }
+
+    /// Number of dry layers.
+    #[must_use]
+    pub fn dry_layer_count(&self) -> usize {
+        match self {
+            Self::Cpu(paint) => paint.dry_layer_count(),
+            Self::Gpu(paint) => paint.dry_layer_count(),
+        }
+    }
+
+    /// Downloads a dry layer, counted from the lowest, which is 0.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
+        self.dry_layer_in(index, self.bounds())
+    }
+
+    /// Downloads the paint of a dry layer in `rect`. Time is proportional to the area of
+    /// `rect`.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn dry_layer_in(&mut self, index: usize, rect: Rect) -> Result<Layer, DeviceError> {
+        match self {
+            Self::Cpu(paint) => Ok(paint.dry_layer_in(index, rect)),
+            Self::Gpu(paint) => paint.dry_layer_in(index, rect),
+        }
+    }
+
+    /// Adds a dry layer on top. The floor rises by its height.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn push_dry_layer(&mut self, layer: &Layer) -> Result<(), DeviceError> {
+        self.insert_dry_layer(self.dry_layer_count(), layer)
+    }
+
+    /// Removes the topmost dry layer and returns it. The floor falls by its height.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn pop_dry_layer(&mut self) -> Result<Layer, DeviceError> {
+        let top = self.dry_layer_count().checked_sub(1);
+        self.remove_dry_layer(top.expect("the caller checks that there is a dry layer"))
+    }
+
+    /// Adds a dry layer at `index`. Those from there on move up by one. The floor rises by its
+    /// height.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn insert_dry_layer(&mut self, index: usize, layer: &Layer) -> Result<(), DeviceError> {
+        match self {
+            Self::Cpu(paint) => {
+                paint.insert_dry_layer(index, layer);
+                Ok(())
+            }
+            Self::Gpu(paint) => paint.insert_dry_layer(index, layer),
+        }
+    }
+
+    /// Removes a dry layer and returns it. Those above it move down by one. The floor falls by
+    /// its height.
+    ///
+    /// # Errors
+    /// [`DeviceError`] of the device.
+    pub fn remove_dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
+        match self {
+            Self::Cpu(paint) => Ok(paint.remove_dry_layer(index)),
+            Self::Gpu(paint) => paint.remove_dry_layer(index),
+        }
+    }
+
+    /// Moves a dry layer from one index to another. The layers between move by one. The floor
+    /// stays, as heights add up in any order.
+    pub fn move_dry_layer(&mut self, from: usize, to: usize) {
+        match self {
+            Self::Cpu(paint) => paint.move_dry_layer(from, to),
+            Self::Gpu(paint) => paint.move_dry_layer(from, to),
         }
     }
 }

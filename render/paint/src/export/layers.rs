@@ -1,36 +1,50 @@
-//! The layers of a painting as an OpenRaster file.
+//! The layers of a painting as an OpenRaster file: films as colours with opacity, for programs that
+//! know nothing else.
+//!
+//! Light passes through a film of paint twice and is scattered on its way. The film does not blend
+//! with the colour below by one share of opacity. But at one pixel, over one colour, every colour
+//! can be reached: with `b` the colour below and `c` the colour with the film, both as stored
+//! (encoded sRGB, 0 to 1), programs show
+//! ```text
+//! c = a f + (1 - a) b
+//! ```
+//! for opacity a and colour f. f lies within 0..1 if a is at least the share by which some channel
+//! of b is moved towards black or white,
+//! ```text
+//! least = max over channels of (b - c) / b and (c - b) / (1 - b)
+//! ```
+//! We take the greater of this share and the film's own hiding power, and solve for f. No value is
+//! ever clipped, and the stack of layers shows the painting to the rounding of 16 bits.
 
+use graphics::export::{ExportError, OpenRaster, PictureFile, srgb16};
+use graphics::field::Field;
 use rayon::prelude::*;
+use spectra::color::{Rgb, RgbSpace};
 
-use super::alpha::over;
 use crate::composite::composite_row;
 use crate::document::{Document, Slots};
-use crate::dry_layer::layer_label;
-use crate::layer::Layer;
+use crate::layer::{Layer, layer_label};
 use crate::light::Light;
 use crate::optics::{LayerOptics, NODES, Scene};
 use crate::scene::{Appearance, picture_of_lowest, scene};
 use crate::shade::color_row;
-use graphics::export::{ExportError, OpenRaster, PictureFile, srgb16};
-use graphics::field::Field;
-use spectra::color::{Rgb, RgbSpace};
 
 /// Encodes the layers of `document` under `light` as OpenRaster: the ground, each dry layer, and
 /// the wet layer, with one pixel a cell and 16 bits a channel.
 ///
 /// Films of paint do not blend by opacity. Each pixel of a layer gets the opacity by which its
 /// film hides what lies below, or the least with which a program that composites stored values by
-/// `svg:src-over` shows exactly the painting up to this layer; its colour is solved for that. So
+/// `svg:src-over` shows exactly the painting up to this layer. Its colour is solved for that. So
 /// the layers together show the merged picture to the rounding of 16 bits, and without its upper
 /// layers the file shows the painting before they were painted. In another order, or over other
 /// colours, they show what such a program makes of them, which paint would not.
 ///
-/// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer is
-/// listed as hidden, with the pixels that it would have if it were shown; those above it are made
-/// without its colour. The relief that it keeps is part of the next layer that is shown.
+/// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer
+/// is listed as hidden, with the pixels that it would have if it were shown. Those above it are
+/// made without its colour. The relief that it keeps is part of the next layer that is shown.
 ///
 /// Shadows and light of a layer's relief are part of the layer. After each layer `go_on` is called
-/// with the number of layers done; if it returns `false`, the result is `None`.
+/// with the number of layers done. If it returns `false`, the result is `None`.
 ///
 /// # Errors
 /// [`ExportError`] for a painting without cells, cells of a size out of range, and colours that are
@@ -180,21 +194,81 @@ fn luminance(weights: &[f64; 3], color: &[f32; 4]) -> f64 {
     Rgb([relative.clamp(0.0, 1.0); 3]).encoded().0[1]
 }
 
+/// Greatest value of a channel.
+const FULL: f64 = 65535.0;
+
+/// Colour and opacity that show `above` over `below`, all in 16 bits. The opacity is `hiding`, 0 to
+/// 1, or more where that cannot reach the colour.
+#[must_use]
+pub(super) fn over(below: [u16; 3], above: [u16; 3], hiding: f64) -> [u16; 4] {
+    let pairs = [0, 1, 2].map(|i| (f64::from(below[i]) / FULL, f64::from(above[i]) / FULL));
+    let least = pairs.map(|(b, c)| if c < b { (b - c) / b } else { (c - b) / (1.0 - b).max(1e-9) });
+    let alpha = least.into_iter().fold(hiding.clamp(0.0, 1.0), f64::max).min(1.0);
+    // Rounded up, so that the colour stays within its range.
+    let stored = (alpha * FULL).ceil();
+    if stored == 0.0 {
+        return [0; 4];
+    }
+    let share = stored / FULL;
+    let [r, g, b] = pairs.map(|(b, c)| {
+        let color = (c - (1.0 - share) * b) / share;
+        (color.clamp(0.0, 1.0) * FULL).round() as u16
+    });
+    [r, g, b, stored as u16]
+}
+
+#[cfg(test)]
+mod alpha_tests {
+    use super::*;
+
+    fn composited(below: [u16; 3], layer: [u16; 4]) -> [f64; 3] {
+        let share = f64::from(layer[3]) / FULL;
+        [0, 1, 2].map(|i| share * f64::from(layer[i]) + (1.0 - share) * f64::from(below[i]))
+    }
+
+    #[test]
+    fn every_colour_is_reached_over_every_other() {
+        let values = [0_u16, 1, 2, 300, 20_000, 32_768, 65_000, 65_534, 65_535];
+        let mut clear = 0;
+        for below in values {
+            for above in values {
+                for hiding in [0.0, 1e-6, 0.02, 0.5, 0.99, 1.0] {
+                    let below = [below, 9000, 65_535];
+                    let above = [above, 9000, 60_000];
+                    let layer = over(below, above, hiding);
+                    for (found, wanted) in composited(below, layer).into_iter().zip(above) {
+                        let error = (found - f64::from(wanted)).abs();
+                        assert!(error <= 0.5 + 1e-6, "{below:?} {above:?} {hiding}: {layer:?}");
+                    }
+                    assert!(f64::from(layer[3]) >= hiding * FULL, "{layer:?} hides {hiding}");
+                    clear += usize::from(layer[3] < 65_535);
+                }
+            }
+        }
+        assert!(clear > 200, "most are not opaque: {clear}");
+    }
+
+    #[test]
+    fn nothing_that_changes_nothing_is_clear() {
+        assert_eq!(over([5, 6, 7], [5, 6, 7], 0.0), [0; 4]);
+        let [.., alpha] = over([5, 6, 7], [5, 6, 7], 0.25);
+        assert_eq!(alpha, 16_384);
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use std::io::{Cursor, Read};
-
-    use image::{ImageBuffer, Rgb as Pixel, Rgba};
-    use pigment::PigmentLibrary;
-
     use super::*;
     use crate::brush::HeadShape;
-    use crate::canvas::Canvas;
+    use crate::document::Canvas;
     use crate::pose::Sample;
     use crate::scene::picture;
     use crate::session::PaintingSession;
     use crate::strokes::{Action, BrushSpec};
     use graphics::export::png16;
+    use image::{ImageBuffer, Rgb as Pixel, Rgba};
+    use pigment::PigmentLibrary;
+    use std::io::{Cursor, Read};
 
     /// A painting with two dry layers and wet paint, crossed by thin and thick strokes.
     fn painted() -> (Document, Light) {
@@ -208,7 +282,6 @@ mod tests {
             session.apply(&Action::Wash { brush: "flat".to_owned() }).unwrap();
             session.load("flat", [(pigment, 1.0)], amount_mm).unwrap();
             let y_mm = 4.0 + 3.0 * index as f64;
-            let at = |seconds, x_mm, y_mm| Sample::upright(seconds, x_mm, y_mm, 0.6);
             session.stroke("flat", &[at(0.0, 2.0, y_mm), at(1.0, 22.0, y_mm)]).unwrap();
             session.stroke("flat", &[at(0.0, 9.0, 2.0), at(1.0, 9.0, 14.0)]).unwrap();
             if index < 2 {
@@ -219,6 +292,10 @@ mod tests {
         let document = session.documents().unwrap().0;
         assert_eq!(document.dry.len(), 2, "two layers dried");
         (document, Light::clone(&light))
+    }
+
+    fn at(seconds: f64, x_mm: f64, y_mm: f64) -> Sample {
+        Sample::upright(seconds, x_mm, y_mm, 0.6)
     }
 
     fn entry(file: &[u8], name: &str) -> Vec<u8> {
@@ -265,7 +342,7 @@ mod tests {
         for count in 0..4 {
             let picture = picture_of_lowest(&document, &scene, count);
             let error = worst(&composited(&layers[..=count]), &picture);
-            // Half a step for each layer; a step of 8 bits is 257.
+            // Half a step for each layer. A step of 8 bits is 257.
             assert!(error <= 2.0, "{count} layers: {error}");
         }
         assert!(picture(&document, &scene) == picture_of_lowest(&document, &scene, 3));
@@ -303,7 +380,6 @@ mod tests {
         document.dry[1].visible = false;
         let file = layers_file(&document, &light, |_| true).unwrap().unwrap();
         let stack = String::from_utf8(entry(&file.bytes, "stack.xml")).unwrap();
-        let hidden = |line: &&str| line.contains("visibility=\"hidden\"");
         let hidden: Vec<&str> = stack.lines().filter(hidden).collect();
         assert!(hidden.len() == 1 && hidden[0].contains("layer002.png"), "{stack}");
         let layer = |index| layer(&file.bytes, index);
@@ -321,5 +397,9 @@ mod tests {
     fn an_export_can_be_cancelled() {
         let (document, light) = painted();
         assert_eq!(layers_file(&document, &light, |done| done < 2), Ok(None));
+    }
+
+    fn hidden(line: &&str) -> bool {
+        line.contains("visibility=\"hidden\"")
     }
 }

@@ -1,17 +1,268 @@
 //! Exports of a painting for other programs: pictures, layers, spectral OpenEXR and pigment maps.
 //!
-//! [`PaintingExports`] writes the files of a painting in progress. The other functions
-//! encode a document in memory; the same document always gives the same bytes.
+//! [`PaintingExports`] writes the files of a painting in progress. The other functions encode a
+//! document in memory. The same document always gives the same bytes.
 
 mod pigment_maps;
-mod spectral_exr;
-mod painting;
-mod alpha;
 mod layers;
-mod save;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use documents::file::{FileAction, FileError, write_whole};
+use documents::hint::{Explain, Fault, Hint};
+use graphics::export::{ExportError, OutsideGamut, PictureFormat, picture_file};
+use graphics::field::Field;
+
+use crate::amount::mm_from_quanta;
+use crate::document::{Document, Slots};
+use crate::file::{PaintingFileError, write};
+use crate::layer::{Layer, SLOTS};
+use crate::light::Light;
+use crate::painting::{Painting, PaintingError};
+use crate::scene::{PixelsPerCell, SpectralDocument};
 
 pub use layers::layers_file;
-pub use painting::{SpectralBands, painting_maps, spectral_file};
-pub use pigment_maps::{NamedFile, PigmentMap, pigment_maps};
-pub use save::{PaintingExportError, PaintingExports, PutFile, save_files};
-pub use spectral_exr::spectral_exr;
+pub use pigment_maps::{NamedFile, PigmentMap, pigment_maps, spectral_exr};
+
+/// Start of the names of pigment maps.
+const STEM: &str = "painting";
+
+/// Function that takes path and content of a file.
+pub type PutFile<'a> = dyn FnMut(&Path, &[u8]) -> Result<(), FileError> + 'a;
+
+/// Files to make of a painting. `None` skips a file. Each is written whole or not at all.
+///
+/// ```no_run
+/// use paint::export::PaintingExports;
+/// use graphics::export::PictureFormat;
+///
+/// # fn example(painting: &mut paint::painting::Painting) -> Result<(), Box<dyn std::error::Error>>
+/// { let exports = PaintingExports {
+///     picture: Some(("wheat.png".into(), PictureFormat::Png16)),
+///     painting: Some("wheat.exr".into()),
+///     ..PaintingExports::default()
+/// };
+/// if let Some(outside) = exports.write(painting)? {
+///     eprintln!("{outside}");
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PaintingExports {
+    /// Path and format of the picture.
+    pub picture: Option<(PathBuf, PictureFormat)>,
+    /// Pixels of the picture along a cell's width.
+    pub pixels_per_cell: PixelsPerCell,
+    /// Path of an OpenRaster file with the layers, see [`layers_file`].
+    pub layers: Option<PathBuf>,
+    /// Path and wavelengths of a spectral OpenEXR: the reflectance of every cell, without
+    /// relief and gloss.
+    pub spectral: Option<(PathBuf, SpectralBands)>,
+    /// Folder for a map of each pigment, created if needed. See [`pigment_maps`] for the
+    /// files.
+    pub pigment_maps: Option<PathBuf>,
+    /// Path of the painting itself, see [`crate::file`].
+    pub painting: Option<PathBuf>,
+}
+
+impl PaintingExports {
+    /// Makes and writes the files. Returns a note if colours of the picture were outside its gamut.
+    ///
+    /// # Errors
+    /// [`PaintingExportError`] if the painting cannot be computed or a file cannot be encoded
+    /// or written. Files before it have been written.
+    pub fn write(
+        &self,
+        painting: &mut Painting,
+    ) -> Result<Option<OutsideGamut>, PaintingExportError> {
+        self.write_with(painting, &mut |path, bytes| write_whole(path, bytes))
+    }
+
+    /// Makes the files and hands path and content of each to `put`, as [`Self::write`] hands them
+    /// to [`write_whole`]. For programs that send some of them elsewhere.
+    ///
+    /// # Errors
+    /// Those of [`Self::write`], and of `put`.
+    pub fn write_with(
+        &self,
+        painting: &mut Painting,
+        put: &mut PutFile<'_>,
+    ) -> Result<Option<OutsideGamut>, PaintingExportError> {
+        let cell_mm = painting.cell_mm();
+        let mut outside = None;
+        if let Some((path, format)) = &self.picture {
+            let file = picture_file(
+                &painting.fine_picture(self.pixels_per_cell)?,
+                cell_mm / self.pixels_per_cell.count() as f64,
+                *format,
+            )?;
+            put(path, &file.bytes)?;
+            outside = file.outside_gamut();
+        }
+        let rest = [&self.layers, &self.pigment_maps, &self.painting];
+        if self.spectral.is_none() && rest.iter().all(|path| path.is_none()) {
+            return Ok(outside);
+        }
+        let document = painting.document()?;
+        if let Some(path) = &self.layers
+            && let Some(file) = layers_file(&document, painting.light(), |_| true)?
+        {
+            put(path, &file.bytes)?;
+            outside = outside.or(file.outside_gamut());
+        }
+        if let Some((path, bands)) = &self.spectral {
+            let picture = painting.picture()?;
+            let file = spectral_file(&document, painting.light(), &picture, *bands, |_| true)?;
+            put(path, &file.unwrap_or_default())?;
+        }
+        if let Some(folder) = &self.pigment_maps {
+            make_folder(folder)?;
+            for file in pigment_maps(STEM, &painting_maps(&document), cell_mm)? {
+                put(&folder.join(&file.name), &file.bytes)?;
+            }
+        }
+        if let Some(path) = &self.painting {
+            put(path, &write(&document)?)?;
+        }
+        Ok(outside)
+    }
+}
+
+/// Writes `files` into `folder`, which is created if needed. Each file is written whole or
+/// not at all.
+///
+/// # Errors
+/// [`FileError`] with the path of the file, or of the folder if it cannot be created.
+pub fn save_files(folder: &Path, files: &[NamedFile]) -> Result<(), FileError> {
+    make_folder(folder)?;
+    files.iter().try_for_each(|file| write_whole(&folder.join(&file.name), &file.bytes))
+}
+
+fn make_folder(folder: &Path) -> Result<(), FileError> {
+    documents::file::disk::create_dir_all(folder).map_err(|reason| FileError {
+        path: folder.to_owned(),
+        action: FileAction::Write,
+        reason: Arc::new(reason),
+    })
+}
+
+/// A painting cannot be exported.
+#[derive(Debug, thiserror::Error)]
+pub enum PaintingExportError {
+    /// The state of the painting cannot be computed.
+    #[error(transparent)]
+    Painting(#[from] PaintingError),
+    /// A picture, spectrum or map cannot be encoded.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// The painting cannot be encoded.
+    #[error(transparent)]
+    PaintingFile(#[from] PaintingFileError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl Explain for PaintingExportError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Painting(error) => error.hint(),
+            Self::Export(error) => error.hint(),
+            Self::PaintingFile(error) => error.hint(),
+            Self::File(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Painting(error) => error.fault(),
+            Self::Export(error) => error.fault(),
+            Self::PaintingFile(error) => error.fault(),
+            Self::File(error) => error.fault(),
+        }
+    }
+}
+
+/// Wavelengths of a spectral picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum SpectralBands {
+    /// The eight wavelengths that the picture was computed with.
+    #[default]
+    Nodes,
+    /// All wavelengths of the library, computed in double precision.
+    Full,
+}
+
+/// Encodes a spectral OpenEXR of `document`: the reflectance of every cell without relief
+/// and gloss, and `picture` (computed under `light`) for programs that show colours. After
+/// each row `go_on` is called with the number of rows done. If it returns `false`, the
+/// result is `None`.
+///
+/// # Errors
+/// [`ExportError`] in the cases of [`spectral_exr`].
+pub fn spectral_file(
+    document: &Document,
+    light: &Light,
+    picture: &Field<[f32; 4]>,
+    bands: SpectralBands,
+    go_on: impl FnMut(usize) -> bool,
+) -> Result<Option<Vec<u8>>, ExportError> {
+    let (wavelengths_nm, spectral) = match bands {
+        SpectralBands::Nodes => {
+            let spectral = SpectralDocument::at_nodes(document, &light.quadrature);
+            (light.quadrature.rule.nodes_nm.clone(), spectral)
+        }
+        SpectralBands::Full => {
+            let wavelengths_nm = document.library.grid.wavelengths_nm().collect();
+            (wavelengths_nm, SpectralDocument::full(document))
+        }
+    };
+    let Some(planes) = spectral.planes(go_on) else { return Ok(None) };
+    spectral_exr(picture, &wavelengths_nm, &planes, document.cell_mm).map(Some)
+}
+
+/// Makes a map of each pigment: the height of its paint in mm, summed over all layers. The
+/// vehicle comes last. Pigments in no slot of any layer are left out.
+#[must_use]
+pub fn painting_maps(document: &Document) -> Vec<PigmentMap> {
+    let width = document.wet.width();
+    let height = document.wet.height();
+    let mut sums: Vec<Option<Vec<u64>>> = vec![None; document.library.pigments.len() + 1];
+    let vehicle = sums.len() - 1;
+    let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
+    for (slots, paint) in dry.chain([(&document.slots, &document.wet)]) {
+        add(&mut sums, vehicle, slots, paint);
+    }
+    let mut found = Vec::new();
+    for (index, sum) in sums.into_iter().enumerate() {
+        let Some(sum) = sum else { continue };
+        let height_mm = Field::from_values(
+            width,
+            height,
+            sum.iter()
+                .map(|&quanta: &u64| (quanta as f64 * mm_from_quanta(1, document.cell_mm)) as f32)
+                .collect(),
+        );
+        let name = document.library.pigments.get(index).map_or("vehicle", |p| &p.name).to_owned();
+        found.push(PigmentMap { name, height_mm });
+    }
+    found
+}
+
+fn add(sums: &mut [Option<Vec<u64>>], vehicle: usize, slots: &Slots, paint: &Layer) {
+    let cells = paint.vehicle.values().len();
+    for slot in 0..=SLOTS {
+        let target = match slots.get(slot) {
+            Some(Some(pigment)) => pigment.index(),
+            Some(None) => continue,
+            None => vehicle,
+        };
+        let sum = sums[target].get_or_insert_with(|| vec![0; cells]);
+        for (index, total) in sum.iter_mut().enumerate() {
+            let cell = paint.cell(index);
+            *total += u64::from(cell.pigments.get(slot).copied().unwrap_or(cell.vehicle));
+        }
+    }
+}

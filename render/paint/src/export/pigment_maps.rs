@@ -1,11 +1,18 @@
-//! Maps of the amount of each pigment, for reproducing a painting by other means:
-//! printer, plotter or hand.
+//! Maps of the amount of each pigment, for reproducing a painting by printer, plotter or hand, and
+//! spectral OpenEXR files.
+//!
+//! The layout of spectral files is the one of A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR
+//! Layout for Spectral Images" (Journal of Computer Graphics Techniques 10(3), 2021): a channel
+//! `T.550,000000nm` per wavelength of a reflective image (with a decimal comma, since a dot
+//! separates layers), R, G and B for programs that know no spectra, and attribute
+//! `spectralLayoutVersion` "1.0". Reflectance has no unit, so other attributes are not needed.
 
-use serde_json::json;
-
-use graphics::export::grey16;
-use graphics::export::{ExportError, check_cell, check_size};
+use exr::image::FlatSamples;
+use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::header::LayerAttributes;
+use graphics::export::{ExportError, check_cell, check_size, exr_file, grey16, rgb_channels};
 use graphics::field::Field;
+use serde_json::json;
 
 /// Amounts of one pigment.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +38,7 @@ pub struct NamedFile {
 ///
 /// All PNGs have one scale, so that they can be compared: the value 65535 is the greatest
 /// height in mm of all paint together in one cell (`mm_at_65535`). Cells are `cell_mm`
-/// wide; the PNGs store that in `pHYs`.
+/// wide. The PNGs store that in `pHYs`.
 ///
 /// # Errors
 /// [`ExportError`] for maps of different sizes or without cells, a cell size out of
@@ -58,8 +65,6 @@ pub fn pigment_maps(
     let mut names = FileNames::default();
     let mut files = Vec::new();
     let mut listed = Vec::new();
-    let scaled =
-        |mm: f64| if thickest > 0.0 { (mm / thickest * 65535.0).round() as u16 } else { 0 };
     let mut picture = |title: &str, name: String, values: Field<u16>| {
         let scale = format!("{thickest} mm at 65535");
         let bytes = grey16(&values, cell_mm, &[("Title", title), ("Description", &scale)])?;
@@ -68,14 +73,15 @@ pub fn pigment_maps(
     };
     for map in maps {
         let name = format!("{stem}.{}.png", names.name(&map.name));
-        let values = map.height_mm.values().iter().map(|&mm| scaled(f64::from(mm))).collect();
+        let values =
+            map.height_mm.values().iter().map(|&mm| scaled(f64::from(mm), thickest)).collect();
         let values = Field::from_values(bounds.width, bounds.height, values);
         listed.push(json!({"pigment": map.name, "file": name}));
         picture(&map.name, name, values)?;
     }
     let name = format!("{stem}.{}.png", names.name("thickness"));
     let total = json!({"file": name});
-    let values = thickness.values().iter().map(|&mm| scaled(mm)).collect();
+    let values = thickness.values().iter().map(|&mm| scaled(mm, thickest)).collect();
     picture("thickness", name, Field::from_values(bounds.width, bounds.height, values))?;
 
     let sidecar = json!({
@@ -93,6 +99,10 @@ pub fn pigment_maps(
     let recipe = recipe(maps, cell_mm);
     files.push(NamedFile { name: format!("{stem}.recipe.csv"), bytes: recipe.into_bytes() });
     Ok(files)
+}
+
+fn scaled(mm: f64, thickest: f64) -> u16 {
+    if thickest > 0.0 { (mm / thickest * 65535.0).round() as u16 } else { 0 }
 }
 
 fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), ExportError> {
@@ -116,8 +126,10 @@ fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), Export
 
 /// CSV table with a row per pigment: total, mean and greatest height, and coverage.
 fn recipe(maps: &[PigmentMap], cell_mm: f64) -> String {
-    let sum_mm = |map: &PigmentMap| map.height_mm.values().iter().map(|&mm| f64::from(mm)).sum();
-    let sums: Vec<f64> = maps.iter().map(sum_mm).collect();
+    let sums: Vec<f64> = maps
+        .iter()
+        .map(|map: &PigmentMap| map.height_mm.values().iter().map(|&mm| f64::from(mm)).sum())
+        .collect();
     let all: f64 = sums.iter().sum();
     let mut table =
         "pigment,volume_mm3,share,mean_height_mm,greatest_height_mm,covered_share\n".to_owned();
@@ -172,5 +184,67 @@ impl FileNames {
         let name = names.find(|name| !self.taken.contains(name)).unwrap_or(plain);
         self.taken.push(name.clone());
         name
+    }
+}
+
+/// Encodes `planes` of reflectance (0..1) at `wavelengths_nm` with 32 bits each, and
+/// `picture` (linear sRGB) as R, G and B. A cell is `cell_mm` wide.
+///
+/// # Errors
+/// [`ExportError`] unless wavelengths rise, there is one per plane, all planes have the
+/// picture's size, and every value is finite.
+pub fn spectral_exr(
+    picture: &Field<[f32; 4]>,
+    wavelengths_nm: &[f64],
+    planes: &[Field<f32>],
+    cell_mm: f64,
+) -> Result<Vec<u8>, ExportError> {
+    let width = picture.width();
+    let height = picture.height();
+    if wavelengths_nm.len() != planes.len() {
+        let found = format!("{} wavelengths", wavelengths_nm.len());
+        return Err(ExportError::Wavelength { plane: planes.len(), found });
+    }
+    let mut channels = rgb_channels(picture)?;
+    let mut before = 0.0;
+    for (index, (&nm, plane)) in wavelengths_nm.iter().zip(planes).enumerate() {
+        let name = channel_name(nm);
+        if !(nm.is_finite() && nm > before) || channels.iter().any(|(other, _)| *other == name) {
+            return Err(ExportError::Wavelength { plane: index, found: nm.to_string() });
+        }
+        before = nm;
+        if plane.bounds() != picture.bounds() {
+            return Err(ExportError::Differs { plane: name, width, height });
+        }
+        if let Some(at) = plane.values().iter().position(|value| !value.is_finite()) {
+            let x = at % width;
+            let y = at / width;
+            let found = plane.values()[at];
+            let what = format!("the reflectance at {nm} nm");
+            return Err(ExportError::NotFinite { what, x, y, found });
+        }
+        channels.push((name, FlatSamples::F32(plane.values().to_vec())));
+    }
+    let mut attributes = LayerAttributes::default();
+    // Add at most one custom attribute: the encoder does not keep the order of several, so
+    // the bytes of the file would vary.
+    let version = AttributeValue::Text("1.0".into());
+    attributes.other.insert(Text::from("spectralLayoutVersion"), version);
+    exr_file((width, height), cell_mm, channels, attributes)
+}
+
+/// Channel name for a wavelength of a reflective image.
+fn channel_name(nm: f64) -> String {
+    format!("T.{}nm", format!("{nm:.6}").replace('.', ","))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_are_named_as_published() {
+        assert_eq!(channel_name(550.0), "T.550,000000nm");
+        assert_eq!(channel_name(412.345_678_9), "T.412,345679nm");
     }
 }

@@ -1,14 +1,21 @@
-//! The description of a painting in its file: JSON in attribute `impasto`.
+//! The description of a painting in its file: JSON in ASCII in attributes of OpenEXR.
+//!
+//! Attribute `impasto` describes the painting. Each dry layer has an attribute with its identity,
+//! name and visibility, which other programs and older versions leave alone. Palette and brushes
+//! are a file of their own in an attribute of part `wet`.
 
+use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::header::Header;
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::ascii::ascii_json;
-use super::error::PaintingFileError;
-use super::names::{LAYER_CHANNELS, WET, brush_part, dry_part};
-use super::pigments::{PigmentChannel, channels_of_slots, slots_of_channels};
-use crate::document::{Document, Lighting, Medium, Slots};
+use super::PaintingFileError;
+use super::channels::{
+    LAYER_CHANNELS, PigmentChannel, WET, brush_part, channels_of_slots, dry_part, slots_of_channels,
+};
+use crate::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
+use crate::layer::layer_name_violation;
 use crate::optics::Gloss;
 use crate::strokes::{BrushSpec, KeptBrush, MAX_NAMES, SurfaceId};
 
@@ -33,7 +40,7 @@ pub(super) struct FileHeader {
     pub(super) lighting: Lighting,
     /// The wet layer, then the dry layers from the lowest.
     pub(super) layers: Vec<LayerHeader>,
-    /// Brushes beside a palette; none beside a canvas.
+    /// Brushes beside a palette. None beside a canvas.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) brushes: Vec<BrushHeader>,
     library: Value,
@@ -108,7 +115,6 @@ impl FileHeader {
         document: &Document,
         brushes: &[KeptBrush],
     ) -> Result<Self, PaintingFileError> {
-        let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
         let dry = document.dry.iter().enumerate();
         let dry = dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots));
         let layers = std::iter::once((WET.to_owned(), 1.0, &document.slots)).chain(dry);
@@ -116,7 +122,9 @@ impl FileHeader {
             let pigments = channels_of_slots(&document.library, slots, &LAYER_CHANNELS);
             let pigments = pigments.ok_or_else(|| {
                 let count = document.library.pigments.len();
-                unwritable(format!("part `{part}` has a pigment beyond the library's {count}"))
+                PaintingFileError::unwritable(format!(
+                    "part `{part}` has a pigment beyond the library's {count}"
+                ))
             })?;
             Ok::<_, PaintingFileError>(LayerHeader { part, opacity, pigments })
         });
@@ -148,15 +156,19 @@ impl FileHeader {
             lighting: document.lighting.clone(),
             layers: layers.collect::<Result<_, _>>()?,
             brushes: brushes.collect(),
-            library: library.map_err(|error| unwritable(error.to_string()))?,
+            library: library.map_err(|error| PaintingFileError::unwritable(error.to_string()))?,
         };
         // JSON has no notation for NaN and infinity. Such numbers are found by parsing the
         // text again.
         match Self::from_json("", &header.to_json()?) {
             Ok((back, library)) if back == header && library == document.library => Ok(header),
-            Ok(_) => Err(unwritable("its header does not come back as it was".to_owned())),
-            Err(PaintingFileError::Header { reason, .. }) => Err(unwritable(reason)),
-            Err(error) => Err(unwritable(error.to_string())),
+            Ok(_) => Err(PaintingFileError::unwritable(
+                "its header does not come back as it was".to_owned(),
+            )),
+            Err(PaintingFileError::Header { reason, .. }) => {
+                Err(PaintingFileError::unwritable(reason))
+            }
+            Err(error) => Err(PaintingFileError::unwritable(error.to_string())),
         }
     }
 
@@ -166,13 +178,13 @@ impl FileHeader {
             .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
     }
 
-    /// Parses and checks a description; returns it with the library that it holds.
+    /// Parses and checks a description. Returns it with the library that it holds.
     pub(super) fn from_json(
         file: &str,
         json: &str,
     ) -> Result<(Self, PigmentLibrary), PaintingFileError> {
-        let fault = |reason: String| PaintingFileError::Header { file: file.to_owned(), reason };
-        let value: Value = serde_json::from_str(json).map_err(|error| fault(error.to_string()))?;
+        let value: Value = serde_json::from_str(json)
+            .map_err(|error| PaintingFileError::header(file, error.to_string()))?;
         if value["format"] != FORMAT {
             let reason = format!("`format` must be \"{FORMAT}\", found `{}`", value["format"]);
             return Err(PaintingFileError::Format { file: file.to_owned(), reason });
@@ -185,11 +197,11 @@ impl FileHeader {
                 newest: VERSION,
             });
         }
-        let header: Self =
-            serde_json::from_value(value).map_err(|error| fault(error.to_string()))?;
+        let header: Self = serde_json::from_value(value)
+            .map_err(|error| PaintingFileError::header(file, error.to_string()))?;
         let library =
             PigmentLibrary::from_json(&format!("{file}: library"), &header.library.to_string())?;
-        header.check(&library).map_err(fault)?;
+        header.check(&library).map_err(|reason| PaintingFileError::header(file, reason))?;
         Ok((header, library))
     }
 
@@ -242,5 +254,131 @@ impl LayerHeader {
     pub(super) fn slots(&self, library: &PigmentLibrary) -> Result<Slots, String> {
         slots_of_channels(&self.pigments, library, &LAYER_CHANNELS)
             .map_err(|reason| format!("layer `{}`: {reason}", self.part))
+    }
+}
+
+/// Attribute of the part of a dry layer.
+pub(super) const LAYER_ATTRIBUTE: &str = "impasto.layer";
+
+/// Content of the attribute.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct LayerAttribute {
+    pub(super) id: LayerId,
+    /// Identity of the next layer of the painting.
+    pub(super) next: LayerId,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) name: String,
+    #[serde(default = "shown", skip_serializing_if = "is_shown")]
+    pub(super) visible: bool,
+}
+
+fn shown() -> bool {
+    true
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_shown(visible: &bool) -> bool {
+    *visible
+}
+
+impl LayerAttribute {
+    /// Description of `layer` in a painting whose next layer has the identity `next`.
+    pub(super) fn of(layer: &DryLayer, next: LayerId) -> Self {
+        Self { id: layer.id, next, name: layer.name.clone(), visible: layer.visible }
+    }
+
+    /// Encodes the description.
+    pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
+        if let Some(wanted) = layer_name_violation(&self.name) {
+            let reason = format!("layer {} has no {wanted}", self.id);
+            return Err(PaintingFileError::Unwritable { reason });
+        }
+        ascii_json(self)
+            .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
+    }
+
+    /// Description of the layer at `index`, from 0, whose part is `part`. A file without the
+    /// attribute has an unnamed, visible layer, whose identity is its place.
+    pub(super) fn from_part(
+        file: &str,
+        part: &Header,
+        name: &str,
+        index: usize,
+    ) -> Result<Self, PaintingFileError> {
+        let fault = |reason: String| PaintingFileError::Part {
+            file: file.to_owned(),
+            part: name.to_owned(),
+            reason: format!("has a malformed attribute `{LAYER_ATTRIBUTE}`: {reason}"),
+        };
+        let id = LayerId::by_place(index);
+        match part.own_attributes.other.get(&Text::from(LAYER_ATTRIBUTE)) {
+            None => Ok(Self { id, next: id.next(), name: String::new(), visible: true }),
+            Some(AttributeValue::Text(text)) => {
+                let text: String = text.chars().collect();
+                let found: Self =
+                    serde_json::from_str(&text).map_err(|error| fault(error.to_string()))?;
+                match layer_name_violation(&found.name) {
+                    Some(wanted) => Err(fault(format!("expected {wanted}"))),
+                    None => Ok(found),
+                }
+            }
+            Some(_) => Err(fault("it is no text".to_owned())),
+        }
+    }
+}
+
+/// Attribute of part `wet` with the bytes of the file of palette and brushes.
+pub(super) const TABLE_ATTRIBUTE: &str = "impasto.table";
+
+/// Type of the attribute. Programs that do not know it keep its bytes or drop them.
+const KIND: &str = "impasto-table";
+
+/// The attribute with these bytes.
+pub(super) fn table_attribute(bytes: Vec<u8>) -> AttributeValue {
+    AttributeValue::Custom { kind: Text::from(KIND), bytes: bytes.into() }
+}
+
+/// Bytes of the file of palette and brushes, if one of the parts holds it.
+pub(super) fn table_bytes(parts: &[Header]) -> Option<&[u8]> {
+    let key = Text::from(TABLE_ATTRIBUTE);
+    parts.iter().find_map(|part| match part.own_attributes.other.get(&key) {
+        Some(AttributeValue::Custom { kind, bytes }) if kind.eq(KIND) => Some(&bytes[..]),
+        _ => None,
+    })
+}
+
+/// Attribute of files of impasto that holds their description.
+pub const ATTRIBUTE: &str = "impasto";
+
+/// Encodes a value as JSON in ASCII: other characters are escaped.
+///
+/// # Errors
+/// If serialisation fails, as for a map whose keys are no texts.
+pub fn ascii_json(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    let text = serde_json::to_string(value)?;
+    let mut ascii = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_ascii() {
+            ascii.push(letter);
+        } else {
+            for unit in letter.encode_utf16(&mut [0; 2]) {
+                ascii.push_str(&format!("\\u{unit:04x}"));
+            }
+        }
+    }
+    Ok(ascii)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_beyond_ascii_come_back() {
+        let words = ["R\u{f6}tel", "\u{1f3a8} 2"];
+        let json = ascii_json(&words).unwrap();
+        assert_eq!(json, r#"["R\u00f6tel","\ud83c\udfa8 2"]"#);
+        let back: Vec<String> = serde_json::from_str(&json).unwrap();
+        assert_eq!(back, words);
     }
 }

@@ -1,24 +1,29 @@
-//! Encoding of a painting's file.
+//! Encoding of a painting's file, and documents opened and saved by path.
 
 use std::io::Cursor;
+use std::path::Path;
 
 use exr::block::writer::ChunksWriter;
+use exr::block::{BlockIndex, UncompressedBlock};
 use exr::math::Vec2;
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{
     AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text,
 };
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
+use graphics::field::Field;
+use graphics::tile::Rect;
 use rayon::prelude::*;
 
-use super::ascii::ATTRIBUTE;
-use super::error::PaintingFileError;
-use super::header::FileHeader;
-use super::layer_attribute::{LAYER_ATTRIBUTE, LayerAttribute};
-use super::millimetres::Millimetres;
-use super::names::{BASE, WET, dry_part};
-use super::parts::{Part, parts};
-use super::table_attribute::{TABLE_ATTRIBUTE, table_attribute};
+use super::PaintingFileError;
+use super::channels::{
+    BASE, Channel, Content, INEXACT_FROM, Millimetres, WET, dry_part, inexact_slots, of_ground,
+    of_layer,
+};
+use super::header::{
+    ATTRIBUTE, FileHeader, LAYER_ATTRIBUTE, LayerAttribute, TABLE_ATTRIBUTE, table_attribute,
+};
+use super::read::read;
 use crate::amount::MAX_COLUMN;
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
@@ -41,8 +46,8 @@ pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
 /// leaves out and [`read_table`](super::read_table) reads.
 ///
 /// # Errors
-/// [`PaintingFileError::Unwritable`] in the cases of [`write()`], for the palette and the brushes as
-/// well.
+/// [`PaintingFileError::Unwritable`] in the cases of [`write()`], for the palette and the brushes
+/// as well.
 pub fn write_with_table(
     document: &Document,
     palette: &Document,
@@ -92,7 +97,7 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// Attribute of the part `name`, if it is that of a dry layer.
+/// Attribute of the part `name`, if it is the part of a dry layer.
 fn layer_attribute<'a>(
     document: &Document,
     name: &str,
@@ -126,10 +131,12 @@ fn exr_header(
 }
 
 fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileError> {
-    let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
     let bounds = document.ground.height.bounds();
     if bounds.width.max(bounds.height) > i32::MAX as usize / 4 {
-        return Err(unwritable(format!("a side has `{}` cells", bounds.width.max(bounds.height))));
+        return Err(PaintingFileError::unwritable(format!(
+            "a side has `{}` cells",
+            bounds.width.max(bounds.height)
+        )));
     }
     let dry = document.dry.iter().enumerate();
     let dry = dry.map(|(i, layer)| (dry_part(i), &layer.slots, &layer.paint));
@@ -140,19 +147,24 @@ fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileE
             let width = size.width;
             let height = size.height;
             let canvas = format!("{} x {}", bounds.width, bounds.height);
-            return Err(unwritable(format!(
+            return Err(PaintingFileError::unwritable(format!(
                 "layer `{name}` has `{width} x {height}` cells, the canvas {canvas}"
             )));
         }
-        check_paint(slots, paint).map_err(|what| unwritable(format!("layer `{name}` {what}")))?;
+        check_paint(slots, paint)
+            .map_err(|what| PaintingFileError::unwritable(format!("layer `{name}` {what}")))?;
     }
     for brush in brushes {
         let Some(paint) = &brush.paint else { continue };
         if paint.pigments.bounds() != paint.vehicle.bounds() || paint.vehicle.values().is_empty() {
-            return Err(unwritable(format!("brush `{}` has no cells", brush.name)));
+            return Err(PaintingFileError::unwritable(format!(
+                "brush `{}` has no cells",
+                brush.name
+            )));
         }
-        check_paint(&document.slots, paint)
-            .map_err(|what| unwritable(format!("brush `{}` {what}", brush.name)))?;
+        check_paint(&document.slots, paint).map_err(|what| {
+            PaintingFileError::unwritable(format!("brush `{}` {what}", brush.name))
+        })?;
     }
     Ok(())
 }
@@ -173,4 +185,131 @@ fn check_paint(slots: &Slots, paint: &Layer) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// A part to be written.
+#[derive(Debug)]
+pub(super) struct Part<'a> {
+    pub(super) name: String,
+    /// Cells of the canvas that the part covers.
+    pub(super) window: Rect,
+    pub(super) channels: Vec<Channel>,
+    source: Source<'a>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Source<'a> {
+    Ground(&'a Field<i32>),
+    Paint(&'a Layer),
+}
+
+/// All parts of `document` and of the `brushes` beside it, in the order of the file.
+pub(super) fn parts<'a>(
+    document: &'a Document,
+    brushes: &'a [KeptBrush],
+    header: &FileHeader,
+) -> Vec<Part<'a>> {
+    let ground = &document.ground.height;
+    let inexact = ground.values().iter().any(|height| height.unsigned_abs() >= INEXACT_FROM);
+    let base = Part {
+        name: BASE.to_owned(),
+        window: ground.bounds(),
+        channels: of_ground(inexact),
+        source: Source::Ground(ground),
+    };
+    let paints =
+        std::iter::once(&document.wet).chain(document.dry.iter().map(|layer| &layer.paint));
+    let paints = paints.chain(brushes.iter().filter_map(|brush| brush.paint.as_ref()));
+    let layers = header.paints().into_iter().zip(paints).map(|(layer, paint)| Part {
+        name: layer.part.to_owned(),
+        window: covered(paint),
+        channels: of_layer(layer.pigments, inexact_slots(paint)),
+        source: Source::Paint(paint),
+    });
+    std::iter::once(base).chain(layers).collect()
+}
+
+/// Smallest rectangle that contains all paint. One cell if there is none, since a data
+/// window cannot be empty.
+fn covered(paint: &Layer) -> Rect {
+    let width = paint.width();
+    let height = paint.height();
+    let painted = |index: usize| {
+        paint.vehicle.values()[index] > 0 || paint.pigments.values()[index] != [0; SLOTS]
+    };
+    let rows = (0..height).into_par_iter().filter_map(|y| {
+        let first = (0..width).find(|x| painted(y * width + x))?;
+        let last = (0..width).rfind(|x| painted(y * width + x))?;
+        Some((y, first, last))
+    });
+    type Bounds = (usize, usize, usize, usize);
+    match rows.map(|(y, first, last)| (y, y, first, last)).reduce_with(|a: Bounds, b: Bounds| {
+        (a.0.min(b.0), a.1.max(b.1), a.2.min(b.2), a.3.max(b.3))
+    }) {
+        Some((top, bottom, left, right)) => {
+            Rect { x: left, y: top, width: right - left + 1, height: bottom - top + 1 }
+        }
+        None => Rect { x: 0, y: 0, width: 1, height: 1 },
+    }
+}
+
+impl Part<'_> {
+    /// Samples of the rows in block `index`, channel by channel within each row.
+    pub(super) fn block(&self, index: BlockIndex, scale: Millimetres) -> UncompressedBlock {
+        let rows = index.pixel_size.height();
+        let width = index.pixel_size.width();
+        let mut data = Vec::with_capacity(rows * width * self.channels.len() * size_of::<f32>());
+        for row in 0..rows {
+            let y = self.window.y + index.pixel_position.y() + row;
+            for channel in &self.channels {
+                let values = self.values(channel.content, y, scale);
+                data.extend(values.flat_map(f32::to_ne_bytes));
+            }
+        }
+        UncompressedBlock { index, data }
+    }
+
+    /// One row of a channel, in mm.
+    fn values(
+        &self,
+        content: Content,
+        y: usize,
+        scale: Millimetres,
+    ) -> impl Iterator<Item = f32> + '_ {
+        let Rect { x, width, .. } = self.window;
+        let residue = matches!(content, Content::HeightResidue | Content::AmountResidue(_));
+        let quanta = move |i: usize| match (self.source, content) {
+            (Source::Ground(height), _) => f64::from(height[(x + i, y)]),
+            (Source::Paint(paint), Content::Amount(slot) | Content::AmountResidue(slot)) => {
+                f64::from(match paint.pigments[(x + i, y)].get(slot) {
+                    Some(&amount) => amount,
+                    None => paint.vehicle[(x + i, y)],
+                })
+            }
+            (Source::Paint(paint), _) => f64::from(paint.cell(y * paint.width() + x + i).volume()),
+        };
+        (0..width).map(move |i| match residue {
+            true => scale.residue(quanta(i)),
+            false => scale.mm(quanta(i)),
+        })
+    }
+}
+
+impl Document {
+    /// Reads a painting from its file (OpenEXR, see [`crate::file`]).
+    ///
+    /// # Errors
+    /// [`PaintingFileError`] if the file cannot be read or is not a valid painting.
+    pub fn open(path: &Path) -> Result<Self, PaintingFileError> {
+        read(&path.display().to_string(), &documents::file::read(path)?)
+    }
+
+    /// Writes the painting to a file (OpenEXR, see [`crate::file`]), which is replaced as a
+    /// whole or not at all.
+    ///
+    /// # Errors
+    /// [`PaintingFileError`] if the document is inconsistent or the file cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), PaintingFileError> {
+        Ok(documents::file::write_whole(path, &write(self)?)?)
+    }
 }

@@ -6,14 +6,9 @@ use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::bare_surface::Ground;
-use super::error::GroundError;
-use super::linen::Linen;
-use super::panel::Panel;
-use super::paper::Paper;
-use super::picture_relief::PictureRelief;
 use super::primer::Primer;
-use super::wood::Wood;
+use super::relief::{Linen, Panel, Paper, PictureRelief, Wood};
+use super::{Ground, GroundError};
 use crate::amount::QUANTA_PER_CELL;
 use crate::optics::Gloss;
 use graphics::field::Field;
@@ -26,10 +21,10 @@ pub struct GroundSpec {
     /// Kind of ground and its relief.
     #[serde(flatten)]
     pub relief: GroundRelief,
-    /// Colour of the priming. By default the library's white; of wood, walnut brown.
+    /// Colour of the priming. By default the library's white. Of wood, walnut brown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reflectance: Option<Primer>,
-    /// Gloss of the bare ground. By default matt; of wood, varnished.
+    /// Gloss of the bare ground. By default matt. Of wood, varnished.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gloss: Option<Gloss>,
 }
@@ -67,7 +62,7 @@ pub enum GroundKind {
 /// Gloss of a ground that does not shine.
 const MATT: Gloss = Gloss { strength: 0.0, exponent: 10.0 };
 
-/// Greatest height of a ground, in cell widths; the rest of the range of heights is left
+/// Greatest height of a ground, in cell widths. The rest of the range of heights is left
 /// for paint.
 const HIGHEST_CELLS: f64 = 256.0;
 
@@ -87,7 +82,7 @@ impl GroundKind {
     }
 
     /// Description of a ground of this kind with default relief, colour and gloss. The
-    /// seed decides the details of its relief; 1 is the default of a script.
+    /// seed decides the details of its relief. 1 is the default of a script.
     #[must_use]
     pub fn spec(self, seed: u64) -> GroundSpec {
         match self {
@@ -100,7 +95,7 @@ impl GroundKind {
     }
 }
 
-/// A name is not that of a kind of ground.
+/// A name does not belong to a kind of ground.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("a ground is linen, paper, panel or wood, found `{0}`")]
 pub struct ParseGroundKindError(pub String);
@@ -204,7 +199,7 @@ impl GroundRelief {
     }
 }
 
-/// Rounds heights in mm to whole quanta; [`GroundError::TooHigh`] above [`HIGHEST_CELLS`].
+/// Rounds heights in mm to whole quanta. [`GroundError::TooHigh`] above [`HIGHEST_CELLS`].
 fn quanta(heights_mm: &Field<f32>, cell_mm: f64) -> Result<Vec<i32>, GroundError> {
     let highest_mm = HIGHEST_CELLS * cell_mm;
     let quanta_per_mm = f64::from(QUANTA_PER_CELL) / cell_mm;

@@ -5,7 +5,7 @@
 //! x and y, it covers four cells: its own, the neighbours in x and in y, and the diagonal
 //! neighbour.
 
-use super::constants::MotionConstants;
+use super::MotionConstants;
 use crate::amount::{ratio_of_65536, share_of_65536};
 
 /// Shares of a column that leave it in one sub-step, by destination, in parts of 65536.

@@ -4,7 +4,7 @@
 //! [`BLOCK`] x [`BLOCK`] cells, the mean of their tops, and between the middles of four blocks the
 //! bilinear mean of their heights.
 
-/// Width and height of a block in cells; those of a tile are a multiple.
+/// Width and height of a block in cells. The sides of a tile are a multiple.
 pub const BLOCK: usize = 8;
 
 /// Height, in units of 256 quanta, of a block that was never noted: below all paint.
@@ -29,8 +29,9 @@ pub fn between(place: usize, blocks: usize) -> (usize, usize, i32) {
     (second.saturating_sub(1), second.min(blocks - 1), 2 * cell as i32 + 1)
 }
 
-/// Mean of two heights, times 16, with the `share` of the second one in parts of 16. That of the
-/// blocks above each other, and of those means side by side, is the height of the bed in quanta.
+/// Mean of two heights, times 16, with the `share` of the second one in parts of 16. The mean of
+/// the blocks above each other, and then of these means side by side, is the height of the bed in
+/// quanta.
 #[inline(always)]
 #[must_use]
 pub fn weighted((first, second): (i32, i32), share: i32) -> i32 {

@@ -1,8 +1,8 @@
 //! The motion of paint in one sub-step, cell by cell and in whole numbers: the
 //! specification that both backends follow.
 //!
-//! After Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in quanta), times
-//! in sub-steps; the head moves by at most one cell in a sub-step. [`MotionConstants`] and the
+//! After Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in quanta), times in
+//! sub-steps. The head moves by at most one cell in a sub-step. [`MotionConstants`] and the
 //! [`ExchangeRates`](crate::contact::ExchangeRates) of a head are made from lengths in mm, so that
 //! a stroke hardly depends on the size of the cells.
 //!
@@ -12,20 +12,20 @@
 //! 1. If the contact has [`wicking`](crate::contact::Contact::wicking), paint flows along the
 //!    hair of the head, and the mean volume of each hair is taken anew: see [`wick`].
 //!    [`press::penetration`] of each touched cell, from the floor, the wet volume, the [`bed`] of
-//!    the stroke and the [`press::coat`] of the head at the start; [`press::NO_CONTACT`]
+//!    the stroke and the [`press::coat`] of the head at the start, and [`press::NO_CONTACT`]
 //!    everywhere else.
 //! 2. [`press::flow`] between each cell of the rectangle grown by one and its neighbours in x
-//!    and y; beyond the reach, the nearest cell of the reach counts. [`press::velocity`] of
+//!    and y. Beyond the reach, the nearest cell of the reach counts. [`press::velocity`] of
 //!    each of these cells from its flows and from [`press::dragged`]. A component that would
-//!    carry paint off the canvas is set to 0; near crowded columns
+//!    carry paint off the canvas is set to 0. Near crowded columns
 //!    [`press::avoid_crowded_columns`] applies. Unless [`MotionConstants::everywhere`] is 1, only
-//!    cells move that have a penetration or one of whose eight neighbours has.
+//!    cells move that have a penetration or have a neighbour, of eight, with one.
 //! 3. [`advect::outflow`] of each of these cells, from the amounts at the start, for all
 //!    cells at once.
 //! 4. [`transfer::exchange`] for every cell that was in contact in step 1, with that
 //!    penetration: between the cell of the canvas as step 3 left it and the cell of the
 //!    head as it was at the start, for all cells at once. The transfers of several cells
-//!    with one cell of the head add up; as none takes more than half of its share, the
+//!    with one cell of the head add up. As none takes more than half of its share, the
 //!    head's amounts never fall below zero.
 //!
 //! A cell that a [mask](crate::mask) covers is never in contact, and counts as crowded: its paint
@@ -34,11 +34,93 @@
 //! A column receives paint from at most eight neighbours, none of them crowded, so
 //! advection leaves every column below [`crate::amount::MAX_COLUMN`].
 
-mod constants;
 pub mod bed;
 pub mod press;
 pub mod advect;
 pub mod transfer;
 pub mod wick;
 
-pub use constants::{MotionConstants, levelling_sub_steps};
+use crate::amount::{QUANTA_PER_CELL, quanta_from_mm};
+
+/// The constants of motion of a paint on cells of one size. They are uniforms of the shaders
+/// as well.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct MotionConstants {
+    /// Share of a difference in pressure between two columns, one of them under the head,
+    /// that flows in a sub-step, in parts of 65536. Up to 8192.
+    pub push_share: u32,
+    /// Pressure under a head that has penetrated 1 mm, relative to that under 1 mm of paint, in
+    /// parts of 65536.
+    pub squeeze_share: u32,
+    /// Difference in height between two columns, in quanta, that the paint bears without
+    /// flowing: its yield.
+    pub yield_quanta: u32,
+    /// Share of a kink of single cells that is levelled in a sub-step, in parts of 65536. Up
+    /// to 8192.
+    pub levelling_share: u32,
+    /// Height in quanta that always stays behind when a column moves. Below 65536.
+    pub adhesion_quanta: u32,
+    /// 0 if paint moves in contact with the head and next to it only. 1 if it moves everywhere, as
+    /// after a stroke.
+    pub everywhere: u32,
+    /// Unused. Pads the uniforms of the shaders.
+    pub padding: [u32; 2],
+}
+
+/// Flow under the head: mm2 of paint that leaves under a pressure of 1 mm of paint, for each mm
+/// that the head moves (chosen by measured lips).
+const PUSH_MM: f64 = 0.002;
+
+/// Slope that the stiffest paint bears.
+const STEEPEST: f64 = 1.5;
+
+/// Slope that the most fluid paint bears.
+const FLATTEST: f64 = 0.01;
+
+/// Height in mm that stays behind when a column moves (chosen by eye).
+const ADHESION_MM: f64 = 0.0002;
+
+impl MotionConstants {
+    /// Constants for cells of `cell_mm` mm and a paint of this `stiffness`: 0 is stand oil,
+    /// which levels by itself, 1 is putty, which stays as it is laid.
+    #[must_use]
+    pub fn new(cell_mm: f64, stiffness: f64) -> Self {
+        let slope = FLATTEST * libm::pow(STEEPEST / FLATTEST, stiffness.clamp(0.0, 1.0));
+        Self {
+            push_share: parts((PUSH_MM / cell_mm).min(0.125)),
+            squeeze_share: parts(1.0),
+            yield_quanta: (slope * f64::from(QUANTA_PER_CELL)) as u32,
+            levelling_share: parts(1.0 / 16.0),
+            adhesion_quanta: quanta_from_mm(ADHESION_MM, cell_mm).min(65535),
+            everywhere: 0,
+            padding: [0; 2],
+        }
+    }
+
+    /// These constants for paint that moves everywhere.
+    #[must_use]
+    pub fn everywhere(self) -> Self {
+        Self { everywhere: 1, ..self }
+    }
+}
+
+fn parts(share: f64) -> u32 {
+    (share * 65536.0).round() as u32
+}
+
+/// Stiffness below which paint levels after a stroke.
+const LEVELS_BELOW: f64 = 0.5;
+
+/// Sub-steps of levelling of the most fluid paint on cells of 0.1 mm. A wave of 1 mm then falls
+/// to a hundredth.
+const MOST_LEVELLING: f64 = 96.0;
+
+/// Number of sub-steps without a head after a stroke in which paint of this `stiffness` levels,
+/// on cells of `cell_mm` mm: at most 256, none for paint from the tube.
+#[must_use]
+pub fn levelling_sub_steps(cell_mm: f64, stiffness: f64) -> usize {
+    let fluid = (1.0 - stiffness / LEVELS_BELOW).max(0.0);
+    // Diffusion over a distance takes a time that grows with its square.
+    (MOST_LEVELLING * fluid * (0.1 / cell_mm).powi(2)).ceil().min(256.0) as usize
+}

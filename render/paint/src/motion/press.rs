@@ -6,7 +6,7 @@
 //! pressure to low: the pressure is the height of the surface plus that of the head. Away
 //! from the head, paint is a Bingham fluid: it flows only where its slope exceeds its yield.
 
-use super::constants::MotionConstants;
+use super::MotionConstants;
 use crate::amount::{MAX_COLUMN, ratio_of_65536, share_of_65536};
 use crate::contact::{ExchangeRates, Touch};
 
@@ -38,14 +38,14 @@ pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
 }
 
 /// Penetration of the head in quanta: how far its hair is below the top of the paint, but
-/// never below the floor. Negative if it is above; [`NO_CONTACT`] if not even its `coat`
-/// reaches the paint. `floor` is the height of ground and dry paint, `volume` that of the wet
-/// paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless its
-/// coat is thick enough to bear it, so a thick film hides a weave.
+/// never below the floor. Negative if it is above. [`NO_CONTACT`] if not even its `coat`
+/// reaches the paint. `floor` is the height of ground and dry paint, `volume` the height of
+/// the wet paint on it, both in quanta. Pressed hair sinks between the crests of the ground unless
+/// its coat is thick enough to bear it, so a thick film hides a weave.
 ///
 /// A loaded head rides on a share of the paint that was there before the stroke, from the ground
 /// under the hair up to `bed`, the height of that paint in quanta, as far as twice its coat, and
-/// lays its coat on that; a clean head digs in. It is never borne higher than its coat above the
+/// lays its coat on that. A clean head digs in. It is never borne higher than its coat above the
 /// paint that is there now.
 #[inline(always)]
 #[must_use]
@@ -87,7 +87,7 @@ fn lowered(height: i32, by: u32) -> i32 {
 pub struct Column {
     /// Height of its surface over the plane of the canvas, in quanta.
     pub top: i32,
-    /// Pressure of the head in quanta of paint, or [`NO_CONTACT`]; see [`pressure`].
+    /// Pressure of the head in quanta of paint, or [`NO_CONTACT`]. See [`pressure`].
     pub pressure: i32,
 }
 
@@ -100,7 +100,7 @@ pub fn pressure(motion: &MotionConstants, penetration: i32) -> i32 {
     if penetration == NO_CONTACT { NO_CONTACT } else { pressed }
 }
 
-/// Paint that flows from the column `here` to `next` in one sub-step, in quanta; negative if it
+/// Paint that flows from the column `here` to `next` in one sub-step, in quanta. Negative if it
 /// flows back. `before` is the top of the column on the other side of `here`, `beyond` that
 /// after `next`.
 ///
@@ -129,8 +129,8 @@ fn with_sign_of(sign: i32, size: i32) -> i32 {
 }
 
 /// Velocity of a column of `volume` quanta along one axis, in 1/16384 cell a sub-step, at most
-/// a cell: that of the head, 0 without contact, and the larger of its outflows. `before` is the
-/// flow from the neighbour before it, `after` that to the neighbour after it, in quanta.
+/// a cell: the head's velocity, 0 without contact, and the larger of its outflows. `before` is the
+/// flow from the neighbour before it, `after` the flow to the neighbour after it, in quanta.
 #[inline(always)]
 #[must_use]
 pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {
@@ -192,8 +192,7 @@ mod tests {
 
     /// Flow between the middle two of four tops, away from the head.
     fn alone([before, here, next, beyond]: [i32; 4], motion: &MotionConstants) -> i32 {
-        let column = |top: i32| Column { top, pressure: NO_CONTACT };
-        flow(motion, before, column(here), column(next), beyond)
+        flow(motion, before, free_column(here), free_column(next), beyond)
     }
 
     #[test]
@@ -214,6 +213,10 @@ mod tests {
             // Halves and shares are rounded.
             assert!((there + back).abs() <= 2, "{there}, {back}: {tops:?}");
         }
+    }
+
+    fn free_column(top: i32) -> Column {
+        Column { top, pressure: NO_CONTACT }
     }
 
     #[test]
@@ -238,10 +241,12 @@ mod tests {
     #[test]
     fn under_the_head_paint_flows_below_its_yield_to_where_the_head_is_less_deep() {
         let motion = MotionConstants::new(0.1, 1.0);
-        let column = |pressure: i32| Column { top: CELL, pressure };
-        let out = flow(&motion, CELL, column(CELL / 2), column(0), CELL);
+        let out = flow(&motion, CELL, pressed_column(CELL / 2), pressed_column(0), CELL);
         assert!(out > 0, "{out}");
-        assert_eq!(flow(&motion, CELL, column(CELL / 2), column(CELL / 2), CELL), 0);
+        assert_eq!(
+            flow(&motion, CELL, pressed_column(CELL / 2), pressed_column(CELL / 2), CELL),
+            0
+        );
     }
 
     #[test]
@@ -252,6 +257,10 @@ mod tests {
                 assert_eq!(lowered(height, by), height.saturating_sub_unsigned(by));
             }
         }
+    }
+
+    fn pressed_column(pressure: i32) -> Column {
+        Column { top: CELL, pressure }
     }
 
     #[test]

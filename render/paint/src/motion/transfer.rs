@@ -7,7 +7,7 @@
 //! counts. Where several cells of the canvas lie under one cell of the head, each may take an
 //! equal share of the head's paint, or of the room that it has below [`MAX_COLUMN`].
 //!
-//! In a sub-step a head takes at most half of what it has penetrated; one that does not mix, as a
+//! In a sub-step a head takes at most half of what it has penetrated. One that does not mix, as a
 //! blade that only scrapes, may take all of it.
 
 use crate::amount::{MAX_COLUMN, quotient, ratio_of_65536, share_of_256, share_of_65536};
@@ -26,8 +26,9 @@ pub struct Exchange {
 
 /// Computes the transfer of one sub-step.
 ///
-/// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are those
-/// at the start of the sub-step, in quanta; the volumes are those of the two cells now, in quanta.
+/// `penetration` (nothing moves at [`NO_CONTACT`](super::press::NO_CONTACT)) and `coat` are the
+/// values at the start of the sub-step, in quanta. The volumes are the volumes of the two cells
+/// now, in quanta.
 /// `leaving` is the velocity of the head over the edge of the canvas, in 1/256 cell: paint that
 /// would leave with half of it goes onto the head.
 #[inline(always)]
@@ -64,7 +65,7 @@ pub fn exchange(
     }
 }
 
-/// Velocity in 1/256 cell of the head above the cell `(x, y)` over an edge of the canvas `bounds`;
+/// Velocity in 1/256 cell of the head above the cell `(x, y)` over an edge of the canvas `bounds`.
 /// 0 away from the edges.
 #[inline(always)]
 #[must_use]
@@ -85,7 +86,7 @@ mod tests {
     const TOUCH: Touch = Touch { height: 0, brush_cell: 0, velocity: 0, weights: 256 | 1 << 16 };
 
     /// Film after 60 sub-steps on a flat ground, from `film` quanta, and the paint that the head
-    /// has won. All in quanta; the head's coat is `coat` quanta thick and does not change.
+    /// has won. All in quanta. The head's coat is `coat` quanta thick and does not change.
     fn painted(rates: &ExchangeRates, coat: u32, film: u32) -> (u32, i64) {
         let mut canvas = film;
         let mut brush = 50_000_000_u32;
@@ -138,9 +139,11 @@ mod tests {
         let shared = Touch { weights: 256 | 3 << 16, ..TOUCH };
         let canvas = 80_000_000;
         let room = 30_000_000;
-        let found = |brush: u32| exchange(&rates, shared, canvas as i32, 0, canvas, brush, 256);
-        assert_eq!(found(MAX_COLUMN).up, 0);
-        let taken = share_of_65536(canvas, found(MAX_COLUMN - room).up);
+        assert_eq!(exchange(&rates, shared, canvas as i32, 0, canvas, MAX_COLUMN, 256).up, 0);
+        let taken = share_of_65536(
+            canvas,
+            exchange(&rates, shared, canvas as i32, 0, canvas, MAX_COLUMN - room, 256).up,
+        );
         assert!(taken <= room / 3 && taken + 10_000 > room / 3, "{taken} of a third of {room}");
     }
 

@@ -1,7 +1,7 @@
 //! Errors of a painting.
 
 use crate::brush::{BrushError, ToolError};
-use crate::dry_layer::LayerId;
+use crate::layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
 use documents::counted;

@@ -1,13 +1,29 @@
-//! Layers: drying, pigments and opacity.
+//! Layers of a painting: drying, pigments, opacity, names, order, merging, and masks.
+//!
+//! Dry layers are films, and one can be laid under another. Wet paint is above all of them. Heights
+//! add up in any order, so moving a layer changes what covers what, not the relief. When two layers
+//! merge, their paint mixes. A factor on the optical thickness of one of them becomes part of its
+//! paint: clear vehicle replaces the pigment that the factor takes away, so that heights stay.
+//!
+//! A mask is film over cells that keeps paint from getting on or off them.
 
+use std::fmt;
+use std::sync::Arc;
+
+use graphics::field::Field;
 use pigment::PigmentId;
+use serde::de::{self, Deserializer, MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Serialize, Serializer};
+use spectra::color::{Lab, Matrix3, RgbSpace, delta_e_ciede2000};
 
 use super::brushes::share_of_65536_parts;
 use super::failure::PaintingError;
-use super::layer_ref::LayerRef;
 use super::state::{DryLayerState, HIGHEST, Painting};
 use crate::brush::Relief;
 use crate::document::Slots;
+use crate::layer::{Layer, LayerId, SLOTS, layer_name_violation};
+use crate::mask::Mask;
 
 impl Painting {
     /// Dries the fraction `fraction` (0 to 1) of all wet paint, from the bottom, as a new
@@ -43,7 +59,7 @@ impl Painting {
     /// Sets the pigments of the palette. Pigments that stay keep their slots.
     ///
     /// # Errors
-    /// The errors of [`Painting::slots_with`]; nothing is changed then.
+    /// The errors of [`Painting::slots_with`]. Nothing is changed then.
     ///
     /// # Panics
     /// If a stroke is open.
@@ -162,7 +178,7 @@ impl Painting {
         })
     }
 
-    /// Index of a dry layer from the lowest, which is 0; `None` for the wet one.
+    /// Index of a dry layer from the lowest, which is 0. `None` for the wet one.
     ///
     /// # Errors
     /// [`PaintingError::NoLayer`] or [`PaintingError::UnknownLayer`] if there is no such layer.
@@ -214,5 +230,450 @@ impl Painting {
         self.dry_changes += 1;
         self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
         Ok(())
+    }
+}
+
+/// One layer of a painting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LayerRef {
+    /// The wet layer.
+    Wet,
+    /// A dry layer by its index. 0 is the lowest.
+    Dry(usize),
+    /// A dry layer by its identity, wherever it lies.
+    Id(LayerId),
+}
+
+/// A layer is `"wet"`, the index of a dry layer from 0, the lowest, or `{"id": 3}`.
+impl Serialize for LayerRef {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Wet => serializer.serialize_str("wet"),
+            Self::Dry(index) => serializer.serialize_u64(*index as u64),
+            Self::Id(id) => {
+                let mut map = serializer.serialize_map(Some(1))?;
+                map.serialize_entry("id", id)?;
+                map.end()
+            }
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for LayerRef {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Name;
+
+        impl<'de> Visitor<'de> for Name {
+            type Value = LayerRef;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str(
+                    "\"wet\", the number of a dry layer, from 0, or its identity, {\"id\": 1}",
+                )
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<LayerRef, E> {
+                match text {
+                    "wet" => Ok(LayerRef::Wet),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
+                }
+            }
+
+            fn visit_u64<E: de::Error>(self, index: u64) -> Result<LayerRef, E> {
+                let dry = usize::try_from(index).map(LayerRef::Dry);
+                dry.map_err(|_| E::invalid_value(de::Unexpected::Unsigned(index), &self))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<LayerRef, A::Error> {
+                let mut id = None;
+                while let Some(key) = map.next_key::<String>()? {
+                    match key.as_str() {
+                        "id" if id.is_none() => id = Some(map.next_value()?),
+                        "id" => return Err(de::Error::duplicate_field("id")),
+                        other => return Err(de::Error::unknown_field(other, &["id"])),
+                    }
+                }
+                id.map(LayerRef::Id).ok_or_else(|| de::Error::missing_field("id"))
+            }
+        }
+
+        deserializer.deserialize_any(Name)
+    }
+}
+
+impl Painting {
+    /// Names a dry layer. An empty name takes its name away.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for the wet layer, a layer that does not exist, or a name that is not one
+    /// line of at most 80 characters.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn name_layer(&mut self, layer: LayerRef, name: &str) -> Result<(), PaintingError> {
+        let index = self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what: "name" })?;
+        if let Some(wanted) = layer_name_violation(name) {
+            return Err(PaintingError::LayerName { wanted });
+        }
+        self.apply_action(|painting| {
+            name.clone_into(&mut painting.state.dry[index].name);
+            Ok(())
+        })
+    }
+
+    /// Shows or hides a dry layer. Its opacity and its height stay.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for the wet layer, or a layer that does not exist.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn show_layer(&mut self, layer: LayerRef, visible: bool) -> Result<(), PaintingError> {
+        let index = self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what: "visibility" })?;
+        self.apply_action(|painting| {
+            painting.state.dry[index].visible = visible;
+            painting.views.mark_all();
+            Ok(())
+        })
+    }
+
+    /// Moves a dry layer to place `to` of the stack. 0 is the lowest. The layers between move by
+    /// one place. Returns whether it lay elsewhere before.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for the wet layer, a layer that does not exist, and a place above the
+    /// topmost dry layer.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn move_layer(&mut self, layer: LayerRef, to: usize) -> Result<bool, PaintingError> {
+        let from = self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what: "place" })?;
+        self.dry_index(LayerRef::Dry(to))?;
+        if from == to {
+            return Ok(false);
+        }
+        self.apply_action(|painting| {
+            painting.history.move_dry_layer(&mut painting.engine, from, to);
+            let moved = painting.state.dry.remove(from);
+            painting.state.dry.insert(to, moved);
+            painting.floor_changed()
+        })?;
+        Ok(true)
+    }
+}
+
+/// A change of the mask.
+///
+/// In a script it is one of `{"polygon_mm": [[x, y], ..]}`, `{"layer": 0}` (or `"wet"`),
+/// `{"painted": {}}`, `{"inverse": true}` and `{"clear": {}}`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum MaskChange {
+    /// Leaves the inside of a polygon open, by the even-odd rule, and covers the rest. Its points
+    /// are in mm from the upper left corner.
+    PolygonMm(Vec<[f64; 2]>),
+    /// Leaves the cells open that have paint of a layer now.
+    Layer(LayerRef),
+    /// Leaves the cells open that have paint now, wet or dry.
+    Painted {},
+    /// Exchanges what is covered and what is open. Always true.
+    Inverse(bool),
+    /// Takes the mask off.
+    Clear {},
+}
+
+impl Painting {
+    /// The mask, if one is set. It is not part of the document: a file does not hold it.
+    #[must_use]
+    pub fn mask(&self) -> Option<&Arc<Mask>> {
+        self.mask.as_ref()
+    }
+
+    /// Changes the mask. Strokes, heaps and scraping change no paint of covered cells, and nothing
+    /// flows over the border. Light and drying go through the film. Returns whether there was
+    /// anything to change: without a mask there is none to invert or to take off.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if there is no such layer, or if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn change_mask(&mut self, change: &MaskChange) -> Result<bool, PaintingError> {
+        let bounds = self.bounds();
+        let next = match (change, &self.mask) {
+            (MaskChange::Inverse(_) | MaskChange::Clear {}, None) => return Ok(false),
+            (MaskChange::Clear {}, Some(_)) => None,
+            (MaskChange::Inverse(_), Some(mask)) => Some(mask.inverse()),
+            (MaskChange::PolygonMm(points_mm), _) => {
+                let points: Vec<_> =
+                    points_mm.iter().map(|&[x, y]| (x / self.cell_mm, y / self.cell_mm)).collect();
+                Some(Mask::with_open_polygon(bounds, &points))
+            }
+            (&MaskChange::Layer(layer), _) => {
+                let paint = match self.dry_index(layer)? {
+                    None => self.wet()?,
+                    Some(index) => self.dry_in(index, bounds)?,
+                };
+                Some(Mask::with_open(bounds, |cell| paint.cell(cell).volume() > 0))
+            }
+            (MaskChange::Painted {}, _) => {
+                let mut layers = vec![self.wet()?];
+                for index in 0..self.state.dry.len() {
+                    layers.push(self.dry_in(index, bounds)?);
+                }
+                Some(Mask::with_open(bounds, |cell| {
+                    layers.iter().any(|layer| layer.cell(cell).volume() > 0)
+                }))
+            }
+        };
+        self.apply_action(|painting| painting.hold_mask(next.map(Arc::new)))?;
+        Ok(true)
+    }
+
+    /// Gives the engine this mask, if it has another.
+    pub(crate) fn hold_mask(&mut self, mask: Option<Arc<Mask>>) -> Result<(), PaintingError> {
+        if mask != self.mask {
+            self.engine.set_mask(mask.as_deref())?;
+            self.mask = mask;
+        }
+        Ok(())
+    }
+}
+
+/// Largest colour difference that a merge may make, in CIEDE2000.
+pub const MERGE_TOLERANCE: f64 = 0.1;
+
+/// A merge that was found possible.
+struct Merge {
+    /// Index of the lower layer.
+    lower: usize,
+    /// Index of the upper layer.
+    upper: usize,
+    /// Index of the merged layer, once both are taken out.
+    place: usize,
+    state: DryLayerState,
+    paint: Layer,
+}
+
+impl Painting {
+    /// Merges two dry layers. The merged layer has the identity of the lower one, and its name
+    /// unless that is empty. It lies where the lower was, or, if the films between overlap that
+    /// one, where the upper was.
+    ///
+    /// The paints mix, so that films of different paint over each other would change colour. Such
+    /// a merge is refused. So is one with a film between that overlaps both.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if a colour would change by more than [`MERGE_TOLERANCE`], if a film lies
+    /// between, if the two have more than eight pigments, if only one of them is visible, and if
+    /// there are no two such layers. Nothing is changed then.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn merge(&mut self, a: LayerRef, b: LayerRef) -> Result<(), PaintingError> {
+        let merge = self.possible_merge(a, b)?;
+        self.refuse_visible(&merge)?;
+        self.apply_action(|painting| {
+            let Merge { lower, upper, place, state, paint } = merge;
+            for index in [upper, lower] {
+                painting.history.remove_dry_layer(&mut painting.engine, index)?;
+                painting.state.dry.remove(index);
+            }
+            painting.history.insert_dry_layer(&mut painting.engine, place, &paint)?;
+            painting.state.dry.insert(place, state);
+            painting.floor_changed()
+        })
+    }
+
+    /// The merge of two layers, if films between and pigments allow it.
+    fn possible_merge(&mut self, a: LayerRef, b: LayerRef) -> Result<Merge, PaintingError> {
+        let wet = PaintingError::WetLayer { what: "layer to merge with" };
+        let (Some(a), Some(b)) = (self.dry_index(a)?, self.dry_index(b)?) else { return Err(wet) };
+        let lower = a.min(b);
+        let upper = a.max(b);
+        if lower == upper {
+            return Err(PaintingError::SameLayer);
+        }
+        let [below, above] = [lower, upper].map(|index| self.state.dry[index].clone());
+        if below.visible != above.visible {
+            return Err(PaintingError::UnlikeVisibility);
+        }
+        let mut paint = self.engine.dry_layer(lower)?;
+        let mut over = self.engine.dry_layer(upper)?;
+        let place = self.merged_place((lower, &paint), (upper, &over))?;
+        let used = [used_slots(&below.slots, &paint), used_slots(&above.slots, &over)];
+        let (slots, places) = united(used[0], used[1]).map_err(|all| {
+            let pigments = all.into_iter().map(|pigment| self.pigment_name(pigment)).collect();
+            PaintingError::MergedPigments { pigments }
+        })?;
+        let opacity = below.opacity.max(above.opacity);
+        if opacity > 0.0 {
+            thin(&mut paint, below.opacity / opacity);
+            thin(&mut over, above.opacity / opacity);
+        }
+        add(&mut paint, &over, &places);
+        let name = if below.name.is_empty() { above.name } else { below.name };
+        let state = DryLayerState { name, slots, opacity, ..below };
+        Ok(Merge { lower, upper, place, state, paint })
+    }
+
+    /// Index of the merged layer, once both are taken out: it may lie at the place of the lower if
+    /// no film between overlaps the upper, and at the place of the upper if none overlaps the
+    /// lower.
+    fn merged_place(
+        &mut self,
+        (lower, below): (usize, &Layer),
+        (upper, above): (usize, &Layer),
+    ) -> Result<usize, PaintingError> {
+        let mut down = None;
+        let mut up = None;
+        for index in lower + 1..upper {
+            let film = self.engine.dry_layer(index)?;
+            down = down.or_else(|| overlap(&film, above).then_some(index));
+            up = up.or_else(|| overlap(&film, below).then_some(index));
+        }
+        match (down, up) {
+            (None, _) => Ok(lower),
+            (_, None) => Ok(upper - 1),
+            (Some(index), Some(_)) => {
+                Err(PaintingError::FilmBetween { label: self.state.dry[index].label() })
+            }
+        }
+    }
+
+    /// Tries a merge on pictures without a trace in the history, with both layers shown, and
+    /// refuses it if it changes a colour.
+    fn refuse_visible(&mut self, merge: &Merge) -> Result<(), PaintingError> {
+        let Merge { lower, upper, place, state, paint } = merge;
+        let dry = self.state.dry.clone();
+        for index in [*lower, *upper] {
+            self.state.dry[index].visible = true;
+        }
+        self.views.mark_all();
+        let before = self.picture()?;
+        let over = self.engine.remove_dry_layer(*upper)?;
+        let below = self.engine.remove_dry_layer(*lower)?;
+        self.engine.insert_dry_layer(*place, paint)?;
+        self.state.dry.remove(*upper);
+        self.state.dry.remove(*lower);
+        self.state.dry.insert(*place, DryLayerState { visible: true, ..state.clone() });
+        self.views.mark_all();
+        let (delta_e, x, y) = farthest(&before, &self.picture()?);
+        self.engine.remove_dry_layer(*place)?;
+        self.engine.insert_dry_layer(*lower, &below)?;
+        self.engine.insert_dry_layer(*upper, &over)?;
+        self.state.dry = dry;
+        self.views.mark_all();
+        if delta_e > MERGE_TOLERANCE {
+            return Err(PaintingError::MergeShows { delta_e, x, y });
+        }
+        Ok(())
+    }
+}
+
+/// Whether two layers have paint in the same cell.
+fn overlap(a: &Layer, b: &Layer) -> bool {
+    let cells = 0..a.vehicle.values().len();
+    cells.into_iter().any(|index| a.cell(index).volume() > 0 && b.cell(index).volume() > 0)
+}
+
+/// The slots of a layer that hold paint.
+fn used_slots(slots: &Slots, paint: &Layer) -> Slots {
+    let totals = paint.totals();
+    std::array::from_fn(|slot| slots[slot].filter(|_| totals[slot] > 0))
+}
+
+/// Slots of both layers merged, and the slot of each pigment of the upper layer in them. If they
+/// have more than eight pigments, the error lists all of these.
+fn united(lower: Slots, upper: Slots) -> Result<(Slots, [usize; SLOTS]), Vec<PigmentId>> {
+    let mut slots = lower;
+    let mut place = [0; SLOTS];
+    let mut lacking = Vec::new();
+    for (slot, pigment) in upper.iter().enumerate() {
+        let Some(pigment) = *pigment else { continue };
+        let found = slots.iter().position(|&other| other == Some(pigment));
+        match found.or_else(|| slots.iter().position(Option::is_none)) {
+            Some(free) => {
+                slots[free] = Some(pigment);
+                place[slot] = free;
+            }
+            None => lacking.push(pigment),
+        }
+    }
+    if lacking.is_empty() {
+        return Ok((slots, place));
+    }
+    Err(slots.into_iter().flatten().chain(lacking).collect())
+}
+
+/// Keeps a share of each pigment, 0 to 1, and replaces the rest by clear vehicle.
+fn thin(paint: &mut Layer, share: f64) {
+    if share == 1.0 {
+        return;
+    }
+    for index in 0..paint.vehicle.values().len() {
+        let mut cell = paint.cell(index);
+        for amount in &mut cell.pigments {
+            let kept = (f64::from(*amount) * share).round() as u32;
+            cell.vehicle += *amount - kept.min(*amount);
+            *amount = kept.min(*amount);
+        }
+        paint.set_cell(index, cell);
+    }
+}
+
+/// Adds `upper` to `lower`. Slot `i` of `upper` is slot `place[i]` of `lower`.
+fn add(lower: &mut Layer, upper: &Layer, place: &[usize; SLOTS]) {
+    for index in 0..lower.vehicle.values().len() {
+        let mut cell = lower.cell(index);
+        let more = upper.cell(index);
+        for (slot, amount) in more.pigments.iter().enumerate() {
+            cell.pigments[place[slot]] += amount;
+        }
+        cell.vehicle += more.vehicle;
+        lower.set_cell(index, cell);
+    }
+}
+
+/// Largest colour difference between two pictures in CIEDE2000, with its column and row.
+fn farthest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> (f64, usize, usize) {
+    let matrix = RgbSpace::Srgb.xyz_from_linear();
+    let mut largest = (0.0, 0, 0);
+    let width = a.width();
+    for (cell, (a, b)) in a.values().iter().zip(b.values()).enumerate() {
+        let delta_e =
+            if a == b { 0.0 } else { delta_e_ciede2000(lab(a, &matrix), lab(b, &matrix)) };
+        if delta_e > largest.0 {
+            largest = (delta_e, cell % width, cell / width);
+        }
+    }
+    largest
+}
+
+fn lab(rgb: &[f32; 4], matrix: &Matrix3) -> Lab {
+    let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
+    Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_are_named_wet_by_place_or_by_identity() {
+        let all = [
+            (LayerRef::Wet, "\"wet\""),
+            (LayerRef::Dry(2), "2"),
+            (LayerRef::Id(LayerId(3)), "{\"id\":3}"),
+        ];
+        for (layer, text) in all {
+            assert_eq!(serde_json::to_string(&layer).unwrap(), text);
+            assert_eq!(serde_json::from_str::<LayerRef>(text).unwrap(), layer);
+        }
+        for wrong in
+            ["\"dry\"", "-1", "1.5", "{}", "{\"id\":-1}", "{\"id\":1,\"id\":2}", "{\"no\":1}"]
+        {
+            assert!(serde_json::from_str::<LayerRef>(wrong).is_err(), "{wrong}");
+        }
     }
 }

@@ -6,36 +6,17 @@
 //! as it is painted.
 
 mod failure;
-mod layer_ref;
-mod views;
 mod state;
-mod undo;
 mod brushes;
-mod tip_load;
-mod batch;
-mod taken;
-mod clean_head;
 mod open_stroke;
-mod strokes;
-mod heaps;
 mod layers;
-mod stack;
-mod merging;
-mod masking;
-mod lights;
 mod pictures;
 
-#[cfg(test)]
-mod layer_tests;
-
+pub use brushes::TipLoad;
 pub use failure::PaintingError;
-pub use layer_ref::LayerRef;
-pub use masking::MaskChange;
-pub use merging::MERGE_TOLERANCE;
-pub use open_stroke::{OpenStroke, StrokeReport};
+pub use layers::{LayerRef, MERGE_TOLERANCE, MaskChange};
+pub use open_stroke::{OpenStroke, StrokeReport, TakenPaint};
 pub use state::{Brush, DryLayerState, Painting, State, UNDO_BYTES};
-pub use taken::TakenPaint;
-pub use tip_load::TipLoad;
 
 #[cfg(test)]
 mod tests;

@@ -1,21 +1,24 @@
-//! The open stroke: one state machine from the first sample to the last sub-step.
+//! The open stroke: one state machine from the first sample to the last sub-step, and whole
+//! strokes.
+//!
+//! The head bends through sub-steps in batches while others are painted. A tool works with a clean
+//! head: the paint of the brush is set aside, and the paint that the tool takes off is counted.
 
-use super::batch::Batch;
-use super::clean_head::CleanHead;
+use graphics::gpu::DeviceError;
+use graphics::tile::{Rect, Tile, TileSet};
+
 use super::failure::PaintingError;
 use super::state::Painting;
-use super::taken::TakenPaint;
-use crate::brush::{Head, Relief, StrokeTool};
+use crate::amount::mm_from_quanta;
+use crate::brush::{Head, Relief, SideBySide, StrokeTool};
 use crate::contact::{Contact, Touch};
 use crate::engine::{BrushId, PaintEngine};
 use crate::history::CommitOutcome;
-use crate::layer::Layer;
+use crate::layer::{Layer, SLOTS};
 use crate::motion::bed::BLOCK;
 use crate::motion::levelling_sub_steps;
-use crate::pose::Sample;
+use crate::pose::{Pose, Sample};
 use crate::stroke::{Path, StrokeError};
-use graphics::gpu::DeviceError;
-use graphics::tile::{Rect, Tile, TileSet};
 
 /// Work done for a finished stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,7 +38,7 @@ pub struct StrokeReport {
 /// The caller owns it, adds samples with [`OpenStroke::extend`] as they come, paints in
 /// portions with [`OpenStroke::advance`], so that pictures can be shown in between, and
 /// closes the action with [`OpenStroke::finish`]. Paint and undo are the same to the bit
-/// as those of [`Painting::stroke`] with all samples, for any portions.
+/// as with [`Painting::stroke`] with all samples, for any portions.
 ///
 /// Until it is finished, the painting refuses all other actions (they panic).
 #[derive(Debug)]
@@ -130,7 +133,7 @@ impl OpenStroke {
         self.brush.is_some()
     }
 
-    /// Adds samples; [`OpenStroke::advance`] paints them. If one is refused, those before
+    /// Adds samples. [`OpenStroke::advance`] paints them. If one is refused, those before
     /// it are kept, and the stroke can continue with others.
     ///
     /// # Errors
@@ -180,7 +183,7 @@ impl OpenStroke {
     /// `most_substeps` 0 it only counts.
     ///
     /// The paint lags one sample behind, as the path to a sample depends on the one after
-    /// it; a dab is painted once the brush is lifted.
+    /// it. A dab is painted once the brush is lifted.
     ///
     /// While the backend moves the paint of 32 sub-steps, the head bends through the next
     /// 32 on another thread, so multiples of 32 are fastest.
@@ -262,10 +265,10 @@ impl OpenStroke {
     }
 
     /// Paints the rest of the stroke and closes it, as one action. A stroke without
-    /// samples is no action; its brush keeps its paint.
+    /// samples is no action. Its brush keeps its paint.
     ///
     /// # Errors
-    /// [`PaintingError`] if the device was lost; the part that was painted is closed as an
+    /// [`PaintingError`] if the device was lost. The part that was painted is closed as an
     /// action.
     ///
     /// # Panics
@@ -320,12 +323,15 @@ impl OpenStroke {
             return Ok(());
         }
         let id = painting.brushes[brush.0].id;
-        let resting = |tile: Tile| {
-            let rect = tile.rect(bounds);
-            let touches = vec![Touch::NONE; rect.width * rect.height];
-            Contact { rect, touches, ..Contact::default() }
-        };
-        let contacts: Vec<Contact> = self.touched.iter().map(resting).collect();
+        let contacts: Vec<Contact> = self
+            .touched
+            .iter()
+            .map(|tile: Tile| {
+                let rect = tile.rect(bounds);
+                let touches = vec![Touch::NONE; rect.width * rect.height];
+                Contact { rect, touches, ..Contact::default() }
+            })
+            .collect();
         for contact in &contacts {
             let reach = contact.rect.grown(2, bounds);
             painting.history.save_tiles(&mut painting.engine, reach)?;
@@ -359,4 +365,254 @@ fn note_bed(engine: &mut PaintEngine, noted: &mut TileSet, rect: Rect) -> Result
         }
     }
     Ok(())
+}
+
+impl Painting {
+    /// Paints a whole stroke. One undo takes it back, including the paint that moved
+    /// between brush and canvas.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for impossible samples, before anything is painted, or if the
+    /// device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn stroke(
+        &mut self,
+        brush: BrushId,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, PaintingError> {
+        self.stroke_as(StrokeTool::Paint, brush, samples)
+    }
+
+    /// Works the paint with the head of a brush as `tool`, like [`Painting::stroke`]. The paint on
+    /// the brush stays as it is.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for impossible samples and tools, before anything is changed, or if the
+    /// device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn stroke_as(
+        &mut self,
+        tool: StrokeTool,
+        brush: BrushId,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, PaintingError> {
+        if samples.is_empty() {
+            return Err(StrokeError::Empty.into());
+        }
+        let size_mm = self.brushes[brush.0].head.size_mm();
+        let mut stroke = OpenStroke::new(self.cell_mm, size_mm, tool)?;
+        stroke.extend(samples)?;
+        stroke.open(self, brush, None)?;
+        stroke.finish(self)
+    }
+
+    /// Begins a stroke whose samples come later.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn begin_stroke(&mut self, brush: BrushId) -> Result<OpenStroke, PaintingError> {
+        self.begin_stroke_as(StrokeTool::Paint, brush)
+    }
+
+    /// Begins a stroke of a brush as `tool` whose samples come later.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a tool out of range, or if the device was lost.
+    ///
+    /// # Panics
+    /// If there is no such brush, or a stroke is open.
+    pub fn begin_stroke_as(
+        &mut self,
+        tool: StrokeTool,
+        brush: BrushId,
+    ) -> Result<OpenStroke, PaintingError> {
+        let size_mm = self.brushes[brush.0].head.size_mm();
+        let mut stroke = OpenStroke::new(self.cell_mm, size_mm, tool)?;
+        stroke.open(self, brush, None)?;
+        Ok(stroke)
+    }
+
+    /// Whether a stroke is open.
+    #[must_use]
+    pub fn stroke_open(&self) -> bool {
+        self.stroke_brush.is_some()
+    }
+}
+
+/// Most sub-steps that go to the backend together: enough to hide the cost of a call.
+const BATCH: usize = 32;
+
+/// Number of cells of contacts after which no more sub-steps are added to a batch, so that they
+/// stay in the cache (chosen by timing).
+const BATCH_CELLS: usize = 80_000;
+
+/// Number of cells of a contact from which on sub-steps are drawn side by side, if there are
+/// threads for it: below, handing them over takes longer.
+const WIDE_CELLS: usize = 6_000;
+
+/// Maximum number of sub-steps drawn side by side.
+const SIDE_BY_SIDE: usize = 4;
+
+/// Number of sub-steps after one whose contact has `cells` cells that are drawn side by side on
+/// `threads` threads, of which one or more move the paint.
+fn abreast(cells: usize, threads: usize) -> usize {
+    if cells < WIDE_CELLS { 1 } else { (threads / 2).clamp(1, SIDE_BY_SIDE) }
+}
+
+/// Sub-steps that the head has bent through.
+#[derive(Debug, Clone)]
+pub(super) struct Batch {
+    pub(super) contacts: Vec<Contact>,
+    /// Number of contacts in use.
+    pub(super) count: usize,
+    /// Number of samples that the head had reached after them.
+    pub(super) reached: usize,
+    /// Poses of the sub-steps that are drawn next.
+    poses: Vec<Pose>,
+    side_by_side: SideBySide,
+}
+
+impl Batch {
+    pub(super) fn empty() -> Self {
+        let nothing = Contact::default();
+        Self {
+            contacts: vec![nothing; BATCH],
+            count: 0,
+            reached: 0,
+            poses: Vec::new(),
+            side_by_side: SideBySide::default(),
+        }
+    }
+
+    /// Bends `head` through the next poses of `path`, as `tool`.
+    pub(super) fn bend(
+        &mut self,
+        path: &mut Path,
+        (head, tool): (&mut Head, StrokeTool),
+        relief: &Relief,
+        bounds: Rect,
+    ) {
+        self.count = 0;
+        let mut cells = 0;
+        let mut last = 0;
+        while self.count < BATCH && cells < BATCH_CELLS {
+            let rest = &mut self.contacts[self.count..];
+            let count = abreast(last, rayon::current_num_threads()).min(rest.len());
+            self.poses.clear();
+            self.poses.extend(path.by_ref().take(count));
+            match self.poses.as_slice() {
+                [] => break,
+                [pose] => head.advance_as(tool, pose, relief, bounds, &mut rest[0]),
+                poses => self.side_by_side.advance_as((head, tool), poses, relief, bounds, rest),
+            }
+            let drawn = &rest[..self.poses.len()];
+            cells += drawn.iter().map(|contact| contact.touches.len()).sum::<usize>();
+            last = drawn.last().map_or(0, |contact| contact.touches.len());
+            self.count += drawn.len();
+        }
+        self.reached = path.reached();
+    }
+}
+
+/// Paint that a tool took off a surface: what went onto the clean head and was wiped off it. It is
+/// exactly what the surface has lost. None for a stroke that paints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TakenPaint {
+    /// Quanta of each slot and, last, of the vehicle, summed over cells. See [`crate::amount`].
+    pub quanta: [u64; SLOTS + 1],
+}
+
+impl TakenPaint {
+    /// Volume in mm3 of each slot and, last, of the vehicle, on cells of `cell_mm` mm.
+    #[must_use]
+    pub fn volumes_mm3(&self, cell_mm: f64) -> [f64; SLOTS + 1] {
+        let mm3 = mm_from_quanta(1, cell_mm) * cell_mm * cell_mm;
+        self.quanta.map(|quanta| quanta as f64 * mm3)
+    }
+
+    /// Volume in mm3 of all of it, on cells of `cell_mm` mm.
+    #[must_use]
+    pub fn volume_mm3(&self, cell_mm: f64) -> f64 {
+        self.volumes_mm3(cell_mm).iter().sum()
+    }
+
+    /// Adds the paint of a head.
+    pub(super) fn add(&mut self, paint: &Layer) {
+        for (sum, more) in self.quanta.iter_mut().zip(paint.totals()) {
+            *sum += more;
+        }
+    }
+}
+
+/// Number of sub-steps after which a head that only takes paint is emptied, so that no column of it
+/// is ever full.
+const EMPTIED_EVERY: usize = 128;
+
+/// A head while it works as a tool: the paint of its brush is set aside.
+#[derive(Debug)]
+pub(super) struct CleanHead {
+    brush: BrushId,
+    /// Paint of the brush.
+    kept: Layer,
+    taken: TakenPaint,
+    /// Number of sub-steps since the head was emptied. `None` if it lays its paint again.
+    since: Option<usize>,
+}
+
+impl CleanHead {
+    /// Sets the paint of `brush` aside, if `tool` needs a clean head.
+    pub(super) fn of(
+        tool: StrokeTool,
+        engine: &mut PaintEngine,
+        brush: BrushId,
+    ) -> Result<Option<Self>, DeviceError> {
+        let since = match tool {
+            StrokeTool::Paint => return Ok(None),
+            StrokeTool::Blend { .. } => None,
+            StrokeTool::Scrape { .. } | StrokeTool::Erase { .. } => Some(0),
+        };
+        let kept = engine.brush_paint(brush)?;
+        engine.set_brush_paint(brush, &Layer::empty(kept.width(), kept.height()))?;
+        Ok(Some(Self { brush, kept, taken: TakenPaint::default(), since }))
+    }
+
+    /// Number of sub-steps that may be painted before the head is emptied.
+    pub(super) fn left(&self) -> usize {
+        self.since.map_or(usize::MAX, |since| EMPTIED_EVERY - since)
+    }
+
+    /// Counts sub-steps, at most those of [`CleanHead::left`], and empties the head when it is
+    /// time. The count does not depend on the portions of a stroke.
+    pub(super) fn painted(
+        &mut self,
+        engine: &mut PaintEngine,
+        count: usize,
+    ) -> Result<(), DeviceError> {
+        let Some(since) = &mut self.since else { return Ok(()) };
+        *since += count;
+        if *since >= EMPTIED_EVERY {
+            *since = 0;
+            self.empty(engine)?;
+        }
+        Ok(())
+    }
+
+    fn empty(&mut self, engine: &mut PaintEngine) -> Result<(), DeviceError> {
+        self.taken.add(&engine.brush_paint(self.brush)?);
+        engine.set_brush_paint(self.brush, &Layer::empty(self.kept.width(), self.kept.height()))
+    }
+
+    /// Wipes the head, gives the brush its paint back and returns all paint that was taken.
+    pub(super) fn finish(mut self, engine: &mut PaintEngine) -> Result<TakenPaint, DeviceError> {
+        self.taken.add(&engine.brush_paint(self.brush)?);
+        engine.set_brush_paint(self.brush, &self.kept)?;
+        Ok(self.taken)
+    }
 }

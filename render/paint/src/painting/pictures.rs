@@ -1,14 +1,19 @@
 //! Pictures and reflectances of a painting.
+//!
+//! Lights of a painting, gloss and stiffness of its paint.
 
-use super::failure::PaintingError;
-use super::state::Painting;
-use super::views::PendingTiles;
-use crate::document::{Lighting, Slots};
-use crate::engine::View;
-use crate::optics::Scene;
-use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
+use std::sync::Arc;
+
 use graphics::field::Field;
 use graphics::tile::{Rect, TileSet};
+
+use super::failure::PaintingError;
+use super::state::{Painting, PendingTiles, SecondLight};
+use crate::document::{Lighting, Slots};
+use crate::engine::View;
+use crate::light::Light;
+use crate::optics::{Gloss, Scene};
+use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
 
 impl Painting {
     /// Renders the parts of the picture that are out of date, and returns the tiles rendered
@@ -53,7 +58,7 @@ impl Painting {
         Ok(self.engine.picture()?)
     }
 
-    /// The picture in linear sRGB with several pixels a cell, see [`fine_picture`]; with one
+    /// The picture in linear sRGB with several pixels a cell, see [`fine_picture`]. With one
     /// pixel a cell it is [`Painting::picture`].
     ///
     /// # Errors
@@ -168,11 +173,147 @@ fn view(second: bool) -> View {
     if second { View::Second } else { View::First }
 }
 
+impl Painting {
+    /// Shows the painting under another light, given by name.
+    ///
+    /// # Errors
+    /// [`PaintingError::Light`] if the light is unknown.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn relight(&mut self, lighting: Lighting) -> Result<(), PaintingError> {
+        let light = if same_light(&self.state.lighting, &lighting) {
+            None
+        } else {
+            Some(Light::named(&self.library, &lighting.illuminant, &lighting.observer)?)
+        };
+        self.apply_action(|painting| {
+            painting.state.lighting = lighting;
+            match light {
+                Some(light) => {
+                    painting.light = Arc::new(light);
+                    painting.views.first.mark_all(painting.engine.bounds());
+                }
+                None => painting.views.first.wet = TileSet::all(painting.engine.bounds()),
+            }
+            Ok(())
+        })
+    }
+
+    /// Sets the gloss of wet and of dry paint.
+    ///
+    /// # Errors
+    /// [`PaintingError::Gloss`] if a strength is outside 0 to 100 or an exponent outside 0 to
+    /// 1e6.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn set_gloss(&mut self, wet: Gloss, dry: Gloss) -> Result<(), PaintingError> {
+        for Gloss { strength, exponent } in [wet, dry] {
+            if !((0.0..=100.0).contains(&strength) && (0.0..=1e6).contains(&exponent)) {
+                return Err(PaintingError::Gloss { strength, exponent });
+            }
+        }
+        self.apply_action(|painting| {
+            let medium = &mut painting.state.medium;
+            (medium.wet, medium.dry) = (wet, dry);
+            painting.views.mark_all_wet();
+            Ok(())
+        })
+    }
+
+    /// Sets the stiffness of the wet paint ([`stiffness`](crate::document::Medium::stiffness)).
+    /// Paint levels by it after the next stroke.
+    ///
+    /// # Errors
+    /// [`PaintingError::Stiffness`] outside 0 to 1.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn set_stiffness(&mut self, stiffness: f64) -> Result<(), PaintingError> {
+        if !(0.0..=1.0).contains(&stiffness) {
+            return Err(PaintingError::Stiffness { stiffness });
+        }
+        self.apply_action(|painting| {
+            painting.state.medium.stiffness = stiffness;
+            Ok(())
+        })
+    }
+
+    /// Also keeps a picture under a second light, for a view that is split between the two.
+    /// `None` frees its memory. Not an action of the history.
+    ///
+    /// # Errors
+    /// [`PaintingError::Light`] if the light is unknown. The second light stays unchanged.
+    pub fn set_second_light(&mut self, lighting: Option<Lighting>) -> Result<(), PaintingError> {
+        let Some(lighting) = lighting else {
+            self.views.second = None;
+            self.engine.forget_view(View::Second);
+            return Ok(());
+        };
+        let known = self.views.second.as_ref();
+        let known = known.map(|second| (&second.lighting, &second.light));
+        let known = known.into_iter().chain([(&self.state.lighting, &self.light)]);
+        let light = match known.into_iter().find(|(known, _)| same_light(known, &lighting)) {
+            Some((_, light)) => Arc::clone(light),
+            None => {
+                let Lighting { illuminant, observer, .. } = &lighting;
+                Arc::new(Light::named(&self.library, illuminant, observer)?)
+            }
+        };
+        self.replace_second_light(lighting, light);
+        Ok(())
+    }
+
+    fn replace_second_light(&mut self, lighting: Lighting, light: Arc<Light>) {
+        let bounds = self.engine.bounds();
+        let pending = match self.views.second.take() {
+            Some(SecondLight { light: before, mut pending, .. })
+                if Arc::ptr_eq(&before, &light) =>
+            {
+                pending.wet = TileSet::all(bounds);
+                pending
+            }
+            _ => PendingTiles::all(bounds),
+        };
+        self.views.second = Some(SecondLight { lighting, light, pending });
+    }
+
+    /// The second light, if there is one.
+    #[must_use]
+    pub fn second_light(&self) -> Option<&Lighting> {
+        self.views.second.as_ref().map(|second| &second.lighting)
+    }
+
+    /// Shows the painting under the light of another painting of the same library.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub fn relight_as(&mut self, other: &Self) -> Result<(), PaintingError> {
+        self.apply_action(|painting| {
+            painting.state.lighting = other.state.lighting.clone();
+            let bounds = painting.engine.bounds();
+            if Arc::ptr_eq(&painting.light, &other.light) {
+                painting.views.first.wet = TileSet::all(bounds);
+            } else {
+                painting.light = Arc::clone(&other.light);
+                painting.views.first.mark_all(bounds);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Whether both name the same illuminant and observer.
+fn same_light(a: &Lighting, b: &Lighting) -> bool {
+    (&a.illuminant, &a.observer) == (&b.illuminant, &b.observer)
+}
+
 #[cfg(test)]
 mod tests {
-    use pigment::PigmentId;
-    use pigment::library::PigmentLibrary;
-
     use super::*;
     use crate::brush::HeadShape;
     use crate::document::{Document, Medium};
@@ -180,6 +321,8 @@ mod tests {
     use crate::ground::GroundSpec;
     use crate::layer::SLOTS;
     use crate::pose::Sample;
+    use pigment::PigmentId;
+    use pigment::library::PigmentLibrary;
 
     fn opened(document: Document) -> Painting {
         let engine = PaintEngine::on_cpu(document.ground.height.clone());
@@ -195,7 +338,7 @@ mod tests {
         opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
     }
 
-    /// Asserts that the picture equals that of the same painting opened anew.
+    /// Asserts that the picture equals the picture of the same painting opened anew.
     fn assert_picture(painting: &mut Painting, after: &str) {
         let shown = painting.picture().unwrap();
         let whole = opened(painting.document().unwrap()).picture().unwrap();
@@ -207,15 +350,6 @@ mod tests {
         let mut painting = bare();
         assert_picture(&mut painting, "nothing");
         let brush = painting.add_brush(HeadShape::Flat, 3.0).unwrap();
-        let sample = |seconds: f64, x_mm: f64| Sample {
-            seconds,
-            x_mm,
-            y_mm: 6.0,
-            pressure: 0.7,
-            tilt_x_deg: 10.0,
-            tilt_y_deg: 0.0,
-            twist_deg: 90.0,
-        };
         for end_mm in [14.0, 25.0] {
             painting.load(brush, &[1.0; SLOTS], 0.1, 0.3).unwrap();
             painting.stroke(brush, &[sample(0.0, 3.0), sample(1.0, end_mm)]).unwrap();
@@ -229,6 +363,18 @@ mod tests {
         for undone in ["the lamp", "the drying", "the stroke", "the first drying"] {
             assert!(painting.undo().unwrap(), "{undone}");
             assert_picture(&mut painting, &format!("undoing {undone}"));
+        }
+    }
+
+    fn sample(seconds: f64, x_mm: f64) -> Sample {
+        Sample {
+            seconds,
+            x_mm,
+            y_mm: 6.0,
+            pressure: 0.7,
+            tilt_x_deg: 10.0,
+            tilt_y_deg: 0.0,
+            twist_deg: 90.0,
         }
     }
 }

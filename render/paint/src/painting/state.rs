@@ -1,30 +1,30 @@
-//! State of a painting while it is worked on.
+//! State of a painting while it is worked on, its undo and redo, and the parts of its pictures that
+//! are out of date.
 
 use std::sync::Arc;
 
+use graphics::tile::{Rect, Tile, TileSet};
 use pigment::library::PigmentLibrary;
 
 use super::failure::PaintingError;
-use super::views::Views;
 use crate::amount::{MAX_COLUMN, mm_from_quanta};
 use crate::brush::{Head, Relief};
 use crate::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
-use crate::dry_layer::{distinct_ids, layer_label, shown_opacity};
 use crate::engine::{BrushId, PaintEngine};
 use crate::ground::Ground;
-use crate::history::History;
-use crate::layer::{Layer, SLOTS};
+use crate::history::{History, Restored};
+use crate::layer::{Layer, SLOTS, distinct_ids, layer_label, shown_opacity};
 use crate::light::Light;
 use crate::mask::Mask;
 use crate::motion::MotionConstants;
-use graphics::tile::Rect;
+use crate::shade::reach;
 
 /// Properties of a dry layer that can be changed later.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DryLayerState {
     /// Its identity within the painting.
     pub id: LayerId,
-    /// Its name; empty if it has none.
+    /// Its name. Empty if it has none.
     pub name: String,
     /// Whether it is shown.
     pub visible: bool,
@@ -111,7 +111,7 @@ pub struct Painting {
     pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<UndoState>,
-    /// Covered cells; see [`Painting::change_mask`].
+    /// Covered cells. See [`Painting::change_mask`].
     pub(super) mask: Option<Arc<Mask>>,
     /// Brush of the open stroke, if one is open.
     pub(super) stroke_brush: Option<BrushId>,
@@ -346,4 +346,251 @@ fn check_heights(document: &Document) -> Result<(), PaintingError> {
         }
     }
     Ok(())
+}
+
+/// Tiles of one picture that are out of date or were not reported.
+#[derive(Debug, Default)]
+pub(super) struct PendingTiles {
+    /// Tiles whose ground and dry paint must be baked again.
+    pub(super) dry: TileSet,
+    /// Tiles whose wet paint must be rendered.
+    pub(super) wet: TileSet,
+    /// Tiles rendered since changes were last reported.
+    pub(super) unreported: TileSet,
+}
+
+/// A second light and the state of its picture.
+#[derive(Debug)]
+pub(super) struct SecondLight {
+    pub(super) lighting: Lighting,
+    pub(super) light: Arc<Light>,
+    pub(super) pending: PendingTiles,
+}
+
+/// State of the pictures of a painting.
+#[derive(Debug)]
+pub(super) struct Views {
+    bounds: Rect,
+    /// How far shading looks, in cells.
+    reach: usize,
+    pub(super) first: PendingTiles,
+    pub(super) second: Option<SecondLight>,
+}
+
+impl PendingTiles {
+    /// All tiles of a canvas of `bounds`.
+    pub(super) fn all(bounds: Rect) -> Self {
+        let all = TileSet::all(bounds);
+        Self { dry: all.clone(), wet: all, unreported: TileSet::default() }
+    }
+
+    /// Marks dry and wet paint of all tiles.
+    pub(super) fn mark_all(&mut self, bounds: Rect) {
+        self.dry = TileSet::all(bounds);
+        self.wet = TileSet::all(bounds);
+    }
+}
+
+impl Views {
+    /// One picture that was not rendered yet.
+    pub(super) fn new(bounds: Rect, cell_mm: f64) -> Self {
+        Self { bounds, reach: reach(cell_mm), first: PendingTiles::all(bounds), second: None }
+    }
+
+    fn each(&mut self) -> impl Iterator<Item = &mut PendingTiles> {
+        let second = self.second.as_mut().map(|second| &mut second.pending);
+        std::iter::once(&mut self.first).chain(second)
+    }
+
+    /// Marks `rect` after its wet paint changed.
+    pub(super) fn mark_wet(&mut self, rect: Rect) {
+        let reach = rect.grown(self.reach, self.bounds);
+        self.each().for_each(|pending| pending.wet.insert(reach));
+    }
+
+    /// Marks `tile` after its wet paint changed.
+    pub(super) fn mark_wet_tile(&mut self, tile: Tile) {
+        self.mark_wet(tile.rect(self.bounds));
+    }
+
+    /// Marks `tile` after its dry paint changed.
+    pub(super) fn mark_dry_tile(&mut self, tile: Tile) {
+        self.each().for_each(|pending| _ = pending.dry.insert_tile(tile));
+    }
+
+    /// Marks all tiles after dry paint or a pigment changed everywhere.
+    pub(super) fn mark_all(&mut self) {
+        let bounds = self.bounds;
+        self.each().for_each(|pending| pending.mark_all(bounds));
+    }
+
+    /// Marks the wet paint of all tiles after the gloss changed.
+    pub(super) fn mark_all_wet(&mut self) {
+        let bounds = self.bounds;
+        self.each().for_each(|pending| pending.wet = TileSet::all(bounds));
+    }
+}
+
+impl Painting {
+    /// Undoes the last action. Returns whether there was one.
+    ///
+    /// Loading, wiping and washing are not actions of their own: the undo of a stroke
+    /// restores the paint that its brush held before. If the undo changes the palette,
+    /// brushes that were added since are washed, as their paint is of the other palette.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke or an adjustment is open.
+    pub fn undo(&mut self) -> Result<bool, PaintingError> {
+        self.assert_idle("an undo");
+        let now = self.undo_state();
+        match self.history.undo(&mut self.engine, now)? {
+            Some(restored) => self.restore(restored).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Repeats the action that was undone last. Returns whether there was one.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    ///
+    /// # Panics
+    /// If a stroke or an adjustment is open.
+    pub fn redo(&mut self) -> Result<bool, PaintingError> {
+        self.assert_idle("a redo");
+        let now = self.undo_state();
+        match self.history.redo(&mut self.engine, now)? {
+            Some(restored) => self.restore(restored).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Begins an adjustment, for example when a slider is dragged. All actions until
+    /// [`Painting::end_adjusting`] count as one action in the history, but each takes effect at
+    /// once. Without any, the history stays unchanged.
+    ///
+    /// # Panics
+    /// If a stroke or an adjustment is open.
+    pub fn begin_adjusting(&mut self) {
+        self.assert_idle("an adjustment");
+        self.adjusting = Some(Adjusting::Unchanged);
+    }
+
+    /// Ends the adjustment.
+    ///
+    /// # Panics
+    /// If none is open.
+    pub fn end_adjusting(&mut self) {
+        if let Adjusting::Changed = self.adjusting.take().expect("an adjustment is open") {
+            self.history.commit();
+        }
+    }
+
+    /// Number of actions that can be undone.
+    #[must_use]
+    pub fn undo_count(&self) -> usize {
+        self.history.undo_count()
+    }
+
+    /// Number of actions that can be repeated.
+    #[must_use]
+    pub fn redo_count(&self) -> usize {
+        self.history.redo_count()
+    }
+
+    /// Memory that undo takes now, and its limit, both in bytes.
+    #[must_use]
+    pub fn undo_bytes(&self) -> (u64, u64) {
+        (self.history.bytes(), self.history.limit_bytes())
+    }
+
+    /// Sets the limit of the memory for undo, in bytes. The actions furthest from the present
+    /// are dropped until the rest fits.
+    pub fn set_undo_bytes(&mut self, limit: u64) {
+        self.history.set_limit_bytes(limit);
+    }
+
+    /// Forgets all but the last `undo` actions that can be undone, and all but the next `redo`
+    /// that can be repeated, to use their memory for others.
+    pub fn keep_actions(&mut self, undo: usize, redo: usize) {
+        self.history.keep_only(undo, redo);
+    }
+
+    /// Applies `change` as one action of the history, or as part of the open adjustment. A
+    /// change that fails half way can be undone as well.
+    ///
+    /// # Panics
+    /// If a stroke is open.
+    pub(super) fn apply_action<T>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T, PaintingError>,
+    ) -> Result<T, PaintingError> {
+        assert!(self.stroke_brush.is_none(), "a stroke is open; it ends before another action");
+        if let Some(Adjusting::Changed) = self.adjusting {
+            return change(self);
+        }
+        self.history.begin(self.undo_state());
+        let result = change(self);
+        match &mut self.adjusting {
+            Some(adjusting) => *adjusting = Adjusting::Changed,
+            None => _ = self.history.commit(),
+        }
+        result
+    }
+
+    /// Panics if a stroke or an adjustment is open. `what` names the next action.
+    pub(super) fn assert_idle(&self, what: &str) {
+        assert!(self.stroke_brush.is_none(), "a stroke is open; it ends before {what}");
+        assert!(self.adjusting.is_none(), "an adjustment is open; it ends before {what}");
+    }
+
+    /// State for the next entry of the history.
+    pub(super) fn undo_state(&self) -> UndoState {
+        UndoState {
+            state: self.state.clone(),
+            light: Arc::clone(&self.light),
+            brushes: self.brushes.len(),
+            mask: self.mask.clone(),
+        }
+    }
+
+    fn restore(&mut self, restored: Restored<UndoState>) -> Result<(), PaintingError> {
+        let UndoState { state, light, brushes, mask } = restored.caller;
+        self.hold_mask(mask)?;
+        let palette_changed = state.slots != self.state.slots;
+        let look = |state: &State| -> Vec<_> {
+            state.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect()
+        };
+        let paint_changed = palette_changed || look(&state) != look(&self.state);
+        let light_changed = !Arc::ptr_eq(&light, &self.light);
+        let lighting_changed = state.lighting != self.state.lighting;
+        let medium_changed = state.medium != self.state.medium;
+        (self.state, self.light) = (state, light);
+        if palette_changed {
+            for brush in &self.brushes[brushes.min(self.brushes.len())..] {
+                let clean = Layer::empty(brush.cells.0, brush.cells.1);
+                self.engine.set_brush_paint(brush.id, &clean)?;
+            }
+        }
+        if restored.dry_changed {
+            self.floor_changed()?;
+        }
+        let bounds = self.engine.bounds();
+        if paint_changed {
+            self.views.mark_all();
+        }
+        if medium_changed {
+            self.views.mark_all_wet();
+        }
+        if light_changed {
+            self.views.first.mark_all(bounds);
+        } else if lighting_changed {
+            self.views.first.wet = TileSet::all(bounds);
+        }
+        restored.tiles.iter().for_each(|tile| self.views.mark_wet_tile(tile));
+        Ok(())
+    }
 }

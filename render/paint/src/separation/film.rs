@@ -118,7 +118,7 @@ impl PaintFilm {
         Lab::from_xyz(self.xyz_from_rgb.apply(rgb.map(f64::from)).into(), self.white)
     }
 
-    /// Linear sRGB of the film of these heights (in mm, by slot) over the ground; outside
+    /// Linear sRGB of the film of these heights (in mm, by slot) over the ground. Outside
     /// 0..1 beyond the sRGB gamut.
     #[must_use]
     pub fn rgb(&self, heights_mm: &[f32; SLOTS]) -> [f32; 3] {

@@ -1,5 +1,5 @@
 //! Search for the film nearest to a colour: least squares over the amounts of a palette's
-//! pigments.
+//! pigments, from sampled films of one to three pigments, thin and thick.
 //!
 //! Colours have three dimensions and palettes up to eight, so many films match. The cost
 //! therefore has further terms. One prefers pigments near the colour: the sum over pigments
@@ -9,6 +9,7 @@
 //! prefer films that hide the ground, and thin films.
 
 use pigment::matching::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
+use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_cie76};
 
 use super::film::PaintFilm;
@@ -121,7 +122,7 @@ impl FilmSearch {
         0.5 * self.ground_residual(mixed).powi(2) + pull
     }
 
-    /// Weighted difference between a film over the ground and over black (CIE 1976); 0 if the
+    /// Weighted difference between a film over the ground and over black (CIE 1976). 0 if the
     /// ground may show.
     pub(super) fn ground_residual(&self, mixed: &FilmMix) -> f64 {
         if self.hiding == 0.0 {
@@ -292,4 +293,108 @@ impl Sum<'_> {
             }
         }
     }
+}
+
+/// Two pigments are mixed in ratios of `PAIR_RATIO` to the powers -8 to 8, from a trace to
+/// nearly all.
+const PAIR_RATIO: f64 = 1.9;
+const PAIR_STEPS: i32 = 8;
+/// Three pigments are mixed in ratios of `TRIPLE_RATIO` to the powers -2 to 2.
+const TRIPLE_RATIO: f64 = 4.0;
+const TRIPLE_STEPS: i32 = 2;
+
+/// Sampled films with their colours.
+#[derive(Debug, Clone)]
+pub(super) struct SampledFilms {
+    films: Vec<SampledFilm>,
+}
+
+#[derive(Debug, Clone)]
+struct SampledFilm {
+    mixed: FilmMix,
+    lab: [f64; 3],
+    /// Bit set of the slots in use.
+    set: u32,
+    /// Cost of the ground showing through and of the height.
+    showing: f64,
+}
+
+impl SampledFilms {
+    /// Samples films as starting points of `search`.
+    pub(super) fn new(search: &FilmSearch) -> Self {
+        let (least, most) = search.heights_mm();
+        let heights =
+            if least < most { vec![least, (least * most).sqrt(), most] } else { vec![most] };
+        let all = shares(&search.film);
+        let films = all
+            .par_iter()
+            .flat_map_iter(|shares| {
+                heights.iter().map(|&height_mm| {
+                    let mixed = FilmMix { shares: *shares, height_mm };
+                    let set = (0..SLOTS).filter(|&i| shares[i] > 0.0).map(|i| 1 << i).sum();
+                    let lab = search.film.lab(&mixed.heights_mm()).to_array();
+                    SampledFilm { mixed, lab, set, showing: search.ground_cost(&mixed) }
+                })
+            })
+            .collect();
+        Self { films }
+    }
+
+    /// The film of least cost for each of the `count` best sets of pigments, best first.
+    pub(super) fn nearest_to(&self, target: &TargetColor, count: usize) -> Vec<FilmMix> {
+        let mut best: Vec<(f64, &SampledFilm)> = Vec::with_capacity(count + 1);
+        for film in &self.films {
+            let worst = if best.len() < count { f64::INFINITY } else { best[count - 1].0 };
+            // The colour term alone excludes most films.
+            let distance = 0.5 * target.distance_squared(film.lab);
+            if distance >= worst {
+                continue;
+            }
+            let cost = distance + film.showing + target.nearness_cost(&film.mixed.shares);
+            if cost >= worst {
+                continue;
+            }
+            match best.iter().position(|(_, other)| other.set == film.set) {
+                Some(place) if best[place].0 <= cost => continue,
+                Some(place) => {
+                    best.remove(place);
+                }
+                None => {}
+            }
+            let place = best.partition_point(|(other, _)| *other <= cost);
+            best.insert(place, (cost, film));
+            best.truncate(count);
+        }
+        best.into_iter().map(|(_, film)| film.mixed).collect()
+    }
+}
+
+/// Shares by slot of all sampled mixtures of one, two and three pigments.
+fn shares(film: &PaintFilm) -> Vec<[f64; SLOTS]> {
+    let used = film.used();
+    let mut all = Vec::new();
+    for (a, &first) in used.iter().enumerate() {
+        all.push(shares_of(&[(first, 1.0)]));
+        for (b, &second) in used.iter().enumerate().skip(a + 1) {
+            for step in -PAIR_STEPS..=PAIR_STEPS {
+                all.push(shares_of(&[(first, PAIR_RATIO.powi(step)), (second, 1.0)]));
+            }
+            for &third in &used[b + 1..] {
+                for i in -TRIPLE_STEPS..=TRIPLE_STEPS {
+                    for j in -TRIPLE_STEPS..=TRIPLE_STEPS {
+                        let parts = [TRIPLE_RATIO.powi(i), TRIPLE_RATIO.powi(j)];
+                        all.push(shares_of(&[(first, parts[0]), (second, parts[1]), (third, 1.0)]));
+                    }
+                }
+            }
+        }
+    }
+    all
+}
+
+fn shares_of(parts: &[(usize, f64)]) -> [f64; SLOTS] {
+    let total: f64 = parts.iter().map(|(_, part)| part).sum();
+    let mut shares = [0.0; SLOTS];
+    parts.iter().for_each(|&(slot, part)| shares[slot] = part / total);
+    shares
 }

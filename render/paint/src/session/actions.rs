@@ -1,11 +1,10 @@
-//! Applying actions to a session.
+//! Applying actions to a session: single actions, adjustments by a slider that count as one, and
+//! undo and redo over both surfaces.
 
 use pigment::PigmentId;
 
-use super::failure::SessionError;
-use super::label::label;
-use super::layers::change_stack;
-use super::state::{Outcome, PaintingSession};
+use super::history::Entry;
+use super::state::{Adjusting, Control, Outcome, PaintingSession, SessionError};
 use crate::engine::BrushId;
 use crate::layer::SLOTS;
 use crate::painting::{LayerRef, Painting, PaintingError};
@@ -22,11 +21,11 @@ const NONE: PerSurface<bool> = PerSurface { canvas: false, palette: false };
 
 impl PaintingSession {
     /// Applies one action. Any open stroke or adjustment is finished first. Drying, layers and
-    /// merging concern the canvas; light, gloss, stiffness, pigments and a swap in the wet layer
+    /// merging concern the canvas. Light, gloss, stiffness, pigments and a swap in the wet layer
     /// concern both surfaces.
     ///
     /// # Errors
-    /// [`SessionError`] for an action that cannot be done; nothing is changed then. If the
+    /// [`SessionError`] for an action that cannot be done. Nothing is changed then. If the
     /// backend fails half way, history and recording end there.
     pub fn apply(&mut self, action: &Action) -> Result<Outcome, SessionError> {
         self.finish_open()?;
@@ -42,7 +41,7 @@ impl PaintingSession {
             _ => {}
         }
         let (action, pigments) = self.rounded(action)?;
-        let label = label(&action, &pigments, &self.canvas);
+        let label = action.label(&pigments, &self.canvas);
         let Some(on) = self.perform(&action, &pigments)? else { return Ok(Outcome::Nothing) };
         self.record_done(&action, &pigments, (label, on));
         Ok(Outcome::Done)
@@ -70,7 +69,7 @@ impl PaintingSession {
         Ok((action, pigments))
     }
 
-    /// Applies an action to the surfaces. Returns the surfaces whose histories have it; `None`
+    /// Applies an action to the surfaces. Returns the surfaces whose histories have it. `None`
     /// if there was nothing to do.
     pub(super) fn perform(
         &mut self,
@@ -102,7 +101,6 @@ impl PaintingSession {
         pigments: &ActionPigments,
     ) -> Result<Option<PerSurface<bool>>, SessionError> {
         let both = PerSurface { canvas: true, palette: self.palette.is_some() };
-        let only = |on| PerSurface::from_fn(|surface| surface == on);
         let on = match (action, pigments) {
             (Action::Load(load), ActionPigments::Recipe(parts)) => {
                 let recipe = recipe(&self.canvas, parts)?;
@@ -131,9 +129,8 @@ impl PaintingSession {
                 if let Some(palette) = &mut self.palette {
                     palette.slots_with(&pigments)?;
                 }
-                self.canvas.set_palette(&pigments)?;
-                if let Some(palette) = &mut self.palette {
-                    palette.set_palette(&pigments)?;
+                for painting in self.paintings_mut() {
+                    painting.set_palette(&pigments)?;
                 }
                 both
             }
@@ -145,16 +142,14 @@ impl PaintingSession {
                 both
             }
             (Action::Gloss { wet, dry }, _) => {
-                self.canvas.set_gloss(*wet, *dry)?;
-                if let Some(palette) = &mut self.palette {
-                    palette.set_gloss(*wet, *dry)?;
+                for painting in self.paintings_mut() {
+                    painting.set_gloss(*wet, *dry)?;
                 }
                 both
             }
             (Action::Stiffness { value }, _) => {
-                self.canvas.set_stiffness(*value)?;
-                if let Some(palette) = &mut self.palette {
-                    palette.set_stiffness(*value)?;
+                for painting in self.paintings_mut() {
+                    painting.set_stiffness(*value)?;
                 }
                 both
             }
@@ -172,29 +167,36 @@ impl PaintingSession {
                     _ => CANVAS,
                 }
             }
-            (
-                Action::Name { .. }
-                | Action::Visible { .. }
-                | Action::Order { .. }
-                | Action::Merge { .. },
-                _,
-            ) => {
-                if !change_stack(&mut self.canvas, action)? {
+            (Action::Name { layer, name }, _) => {
+                self.canvas.name_layer(*layer, name)?;
+                CANVAS
+            }
+            (Action::Visible { layer, value }, _) => {
+                self.canvas.show_layer(*layer, *value)?;
+                CANVAS
+            }
+            (Action::Order { layer, to }, _) => {
+                if !self.canvas.move_layer(*layer, *to)? {
                     return Ok(None);
                 }
+                CANVAS
+            }
+            (Action::Merge { layer, with }, _) => {
+                let with = with.map_or_else(|| below(&self.canvas, *layer), Ok)?;
+                self.canvas.merge(*layer, with)?;
                 CANVAS
             }
             (Action::Squeeze(squeeze), ActionPigments::Recipe(parts)) => {
                 let recipe = recipe(&self.canvas, parts)?;
                 let Squeeze { on, vehicle, x_mm, y_mm, volume_mm3, .. } = *squeeze;
                 self.surface_mut(on)?.squeeze(&recipe, vehicle, x_mm, y_mm, volume_mm3)?;
-                only(on)
+                PerSurface::from_fn(|surface| surface == on)
             }
             (Action::Scrape { on }, _) => {
                 if !self.surface_mut(*on)?.scrape()? {
                     return Ok(None);
                 }
-                only(*on)
+                PerSurface::from_fn(|surface| surface == *on)
             }
             (Action::Mask(change), _) => {
                 if !self.canvas.change_mask(change)? {
@@ -242,7 +244,7 @@ impl PaintingSession {
         Ok(())
     }
 
-    /// Id of a head in the painting of a surface; it is added there if it is new.
+    /// Id of a head in the painting of a surface. It is added there if it is new.
     pub(super) fn brush_id(&mut self, tool: usize, on: SurfaceId) -> Result<BrushId, SessionError> {
         if let Some(id) = self.brushes.tools[tool].ids[on] {
             return Ok(id);
@@ -323,4 +325,226 @@ fn recipe(painting: &Painting, parts: &[(PigmentId, f64)]) -> Result<[f64; SLOTS
         recipe[painting.slot_of(pigment)?] = part;
     }
     Ok(recipe)
+}
+
+impl Control {
+    fn of(action: &Action) -> Result<Self, SessionError> {
+        match action {
+            Action::Light(_) => Ok(Self::Light),
+            Action::Gloss { .. } => Ok(Self::Gloss),
+            Action::Stiffness { .. } => Ok(Self::Stiffness),
+            Action::Opacity { layer, .. } => Ok(Self::Opacity(*layer)),
+            _ => Err(SessionError::NoControl { kind: action.kind() }),
+        }
+    }
+}
+
+impl PaintingSession {
+    /// Applies an action of light, gloss, stiffness or opacity while its slider is dragged. All
+    /// changes of one property until [`PaintingSession::end_adjustment`] count as one action,
+    /// which is recorded with its last values. A change of another property begins another
+    /// action.
+    ///
+    /// # Errors
+    /// [`SessionError`] for other actions, and the errors of [`PaintingSession::apply`].
+    pub fn adjust(&mut self, action: &Action) -> Result<(), SessionError> {
+        let control = Control::of(action)?;
+        if self.adjusting.as_ref().is_none_or(|adjusting| adjusting.control != control) {
+            self.finish_open()?;
+        }
+        let (action, pigments) = self.rounded(action)?;
+        if self.adjusting.is_none() {
+            self.paintings_mut().for_each(Painting::begin_adjusting);
+        }
+        match self.perform(&action, &pigments) {
+            Ok(on) => {
+                let on = on.unwrap_or_default();
+                self.adjusting = Some(Adjusting { control, action, on });
+                Ok(())
+            }
+            Err(error) => {
+                if self.adjusting.is_none() {
+                    self.end_adjusting();
+                }
+                Err(error)
+            }
+        }
+    }
+
+    /// Ends the open adjustment. Does nothing if none is open.
+    pub fn end_adjustment(&mut self) {
+        let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
+        self.end_adjusting();
+        let label = action.label(&ActionPigments::None, &self.canvas);
+        self.record_done(&action, &ActionPigments::None, (label, on));
+    }
+
+    /// Finishes the open stroke or adjustment, if there is one.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub fn finish_open(&mut self) -> Result<(), SessionError> {
+        self.end_adjustment();
+        if self.stroke.is_some() {
+            self.end_stroke()?;
+        }
+        Ok(())
+    }
+
+    fn end_adjusting(&mut self) {
+        self.paintings_mut().for_each(Painting::end_adjusting);
+    }
+}
+
+/// The dry layer below another.
+fn below(canvas: &Painting, layer: LayerRef) -> Result<LayerRef, PaintingError> {
+    match canvas.dry_index(layer)? {
+        Some(0) => Err(PaintingError::NothingBelow),
+        Some(index) => Ok(LayerRef::Dry(index - 1)),
+        None => Err(PaintingError::WetLayer { what: "layer to merge with" }),
+    }
+}
+
+/// Share of the memory, as a divisor, that is kept for the surface that uses less.
+const RESERVED: u64 = 8;
+
+impl PaintingSession {
+    /// Undoes the last action on either surface. Returns whether there was one. An open stroke
+    /// or adjustment is finished first, and is then the last action.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub fn undo(&mut self) -> Result<bool, SessionError> {
+        self.finish_open()?;
+        let Some(entry) = self.history.done.pop() else { return Ok(false) };
+        let exchanged = self.exchange(&entry, Painting::undo);
+        self.follow_failure(exchanged)?;
+        if let Some(carried) = entry.carried {
+            self.brushes.tools[carried.tool].at = carried.from;
+        }
+        self.history.undone.push(entry);
+        self.limit_history();
+        self.note(Action::Undo {});
+        Ok(true)
+    }
+
+    /// Repeats the action that was undone last. Returns whether there was one.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub fn redo(&mut self) -> Result<bool, SessionError> {
+        self.finish_open()?;
+        let Some(entry) = self.history.undone.pop() else { return Ok(false) };
+        let exchanged = self.exchange(&entry, Painting::redo);
+        self.follow_failure(exchanged)?;
+        if let Some(carried) = entry.carried {
+            self.brushes.tools[carried.tool].at = carried.to;
+        }
+        self.history.done.push(entry);
+        self.limit_history();
+        self.note(Action::Redo {});
+        Ok(true)
+    }
+
+    /// Undoes or repeats actions until `done` actions of [`PaintingSession::history`] are done,
+    /// or as near as can be reached.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub fn go_to(&mut self, done: usize) -> Result<(), SessionError> {
+        self.finish_open()?;
+        let (_, now) = self.history();
+        for _ in done..now {
+            self.undo()?;
+        }
+        for _ in now..done {
+            if !self.redo()? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Labels of all actions, the oldest first, and the number of those that are done. The
+    /// others were undone. Actions that can no longer be reached are left out.
+    #[must_use]
+    pub fn history(&self) -> (Vec<&str>, usize) {
+        (self.history.labels(), self.history.done.len())
+    }
+
+    /// Number of the state before the actions of [`PaintingSession::history`], then of the state
+    /// after each. Each action of the session has a number of its own, rising from 1, which it
+    /// keeps while others are dropped. The state before the first has 0.
+    #[must_use]
+    pub fn history_numbers(&self) -> Vec<u64> {
+        self.history.numbers()
+    }
+
+    /// Memory that undo takes now, and its limit, both in bytes for both surfaces.
+    #[must_use]
+    pub fn undo_bytes(&self) -> (u64, u64) {
+        let used = PerSurface::from_fn(|surface| self.used_bytes(surface));
+        (used.iter().sum(), self.undo_limit)
+    }
+
+    /// Sets the limit of the memory for undo, in bytes, which canvas and palette share: each may
+    /// take what the other leaves, except for an eighth. Actions that do not fit are dropped.
+    pub fn set_undo_bytes(&mut self, bytes: u64) {
+        self.undo_limit = bytes;
+        self.limit_history();
+    }
+
+    /// Drops the actions that cannot be reached any more, as a painting has dropped one after them
+    /// (or, of undone ones, before them), and shares the memory out anew.
+    pub(super) fn limit_history(&mut self) {
+        self.drop_unreachable();
+        let reserved = if self.palette.is_some() { self.undo_limit / RESERVED } else { 0 };
+        let canvas = self.used_bytes(SurfaceId::Canvas);
+        let palette = self.used_bytes(SurfaceId::Palette);
+        let for_canvas = self.undo_limit.saturating_sub(palette.max(reserved));
+        let for_palette = self.undo_limit.saturating_sub(canvas.max(reserved));
+        self.canvas.set_undo_bytes(for_canvas);
+        if let Some(palette) = &mut self.palette {
+            palette.set_undo_bytes(for_palette);
+        }
+        self.drop_unreachable();
+    }
+
+    fn drop_unreachable(&mut self) {
+        let count = |of: fn(&Painting) -> usize| {
+            PerSurface::from_fn(|surface| self.painting(surface).map_or(0, of))
+        };
+        let undo = count(Painting::undo_count);
+        let redo = count(Painting::redo_count);
+        self.history.limit_to(undo, redo);
+        if self.stroke.is_some() {
+            // The move of its brush is in a painting's history already, and in this one later.
+            return;
+        }
+        let (undo, redo) = self.history.counts();
+        for surface in SurfaceId::ALL {
+            if let Some(painting) = self.painting_mut(surface) {
+                painting.keep_actions(undo[surface], redo[surface]);
+            }
+        }
+    }
+
+    fn used_bytes(&self, surface: SurfaceId) -> u64 {
+        self.painting(surface).map_or(0, |painting| painting.undo_bytes().0)
+    }
+
+    /// Undoes or repeats an action on the surfaces whose histories have it.
+    fn exchange(
+        &mut self,
+        entry: &Entry,
+        exchange: impl Fn(&mut Painting) -> Result<bool, PaintingError>,
+    ) -> Result<(), SessionError> {
+        for surface in SurfaceId::ALL {
+            if entry.on[surface] {
+                let done = exchange(self.surface_mut(surface)?)?;
+                assert!(done, "the history of the painting has `{}`", entry.label);
+            }
+        }
+        Ok(())
+    }
 }

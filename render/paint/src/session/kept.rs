@@ -1,19 +1,25 @@
-//! State of a session besides its documents, from which another session can go on.
+//! How a session goes on elsewhere: its state besides its documents, its brushes in the file of a
+//! painting, and scripts played on it.
 //!
 //! A session restored from its documents and a [`KeptSession`] paints the same bits as the session
 //! itself would have: its brushes are the same heads with the same paint, and its recording goes
-//! on. Its history is empty; a recording that goes on undoes nothing older.
+//! on. Its history is empty. A recording that goes on undoes nothing older.
 
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::brushes::Tool;
-use super::failure::SessionError;
-use super::record::Record;
-use super::state::PaintingSession;
+use documents::hint::{Explain, Fault, Hint};
+
+use super::history::Record;
+use super::state::{Outcome, PaintingSession, SessionError, Tool};
+use crate::amount::MAX_COLUMN;
 use crate::layer::Layer;
 use crate::mask::Mask;
-use crate::painting::Painting;
-use crate::strokes::{Action, BrushSpec, PerSurface, StrokeScript, SurfaceId};
+use crate::painting::{Painting, StrokeReport};
+use crate::strokes::{
+    Action, BrushSpec, KeptBrush, PerSurface, ScriptError, StrokeScript, SurfaceId,
+};
 
 /// A head of a session.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,13 +30,13 @@ pub struct KeptHead {
     pub recorded: String,
     /// Shape and size.
     pub spec: BrushSpec,
-    /// Whether it has its name now; another head may have taken it.
+    /// Whether it has its name now. Another head may have taken it.
     pub named: bool,
     /// Surface that its paint belongs to.
     pub at: SurfaceId,
     /// Its number among the heads used on each surface, from 0, if it was used there.
     pub numbers: PerSurface<Option<usize>>,
-    /// The paint on it, by slots of the palette; `None` if it is clean.
+    /// The paint on it, by slots of the palette. `None` if it is clean.
     pub paint: Option<Layer>,
 }
 
@@ -39,7 +45,7 @@ pub struct KeptHead {
 pub struct RecordingTail {
     /// The recording without its actions, with all its brushes.
     pub header: StrokeScript,
-    /// Number of actions before those of this end.
+    /// Number of actions before this end.
     pub from: usize,
     /// The actions from there.
     pub actions: Vec<Action>,
@@ -53,7 +59,7 @@ pub struct RecordingTail {
 pub struct KeptSession {
     /// All heads, in the order in which they were added.
     pub brushes: Vec<KeptHead>,
-    /// The whole recording; `None` if the session records nothing.
+    /// The whole recording. `None` if the session records nothing.
     pub recording: Option<StrokeScript>,
     /// The mask of the canvas, if one is set.
     pub mask: Option<Arc<Mask>>,
@@ -90,7 +96,7 @@ impl PaintingSession {
         Ok(kept)
     }
 
-    /// The recording from action `from` on; `None` if the session records nothing or the recording
+    /// The recording from action `from` on. `None` if the session records nothing or the recording
     /// ended early. While a stroke is open, nothing known of it may wait (see
     /// [`PaintingSession::advance`]), so that the end agrees with the documents.
     #[must_use]
@@ -161,5 +167,188 @@ impl PaintingSession {
         }
         self.brushes.restore(Tool { name, recorded, spec, ids, at }, named);
         Ok(())
+    }
+}
+
+/// Most paint in a cell of a brush that is taken up, in quanta: half of what a cell can hold, so
+/// that it still fits into one of the canvas.
+const MOST: u32 = MAX_COLUMN / 2;
+
+impl PaintingSession {
+    /// All brushes in the order of their names, with the paint that they hold.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the device was lost.
+    pub fn kept_brushes(&mut self) -> Result<Vec<KeptBrush>, SessionError> {
+        let names: Vec<String> = self.brushes.names().map(|(name, _)| name.to_owned()).collect();
+        let mut kept = Vec::with_capacity(names.len());
+        for name in names {
+            let paint = self.brush_paint(&name)?;
+            let paint = paint.filter(|paint| paint.totals().iter().any(|total| *total > 0));
+            let Some(tool) = self.brushes.find(&name) else { continue };
+            let tool = &self.brushes.tools[tool];
+            kept.push(KeptBrush { spec: tool.spec.clone(), at: tool.at, paint, name });
+        }
+        Ok(kept)
+    }
+
+    /// Adds brushes with the paint that they held when they were kept, under the pigments of this
+    /// session, before anything else is done in it. Returns the names of those that are left clean:
+    /// their heads have other cells than in the version that kept them, or hold more than a brush
+    /// can.
+    ///
+    /// It is no action of history and recording: a recording of such a session replays on a
+    /// session that has taken up the same brushes.
+    ///
+    /// # Errors
+    /// [`SessionError`] for a head that cannot be made on cells of this width, or if the device was
+    /// lost.
+    pub fn take_up(&mut self, brushes: &[KeptBrush]) -> Result<Vec<String>, SessionError> {
+        let mut left = Vec::new();
+        for KeptBrush { name, spec, at, paint } in brushes {
+            self.set_brush(name, spec)?;
+            let (Some(tool), Some(paint)) = (self.brushes.find(name), paint) else { continue };
+            let at = if self.palette.is_some() { *at } else { SurfaceId::Canvas };
+            let id = self.brush_id(tool, at)?;
+            let painting = self.surface_mut(at)?;
+            let fits = painting.head(id).paint_grid() == (paint.width(), paint.height());
+            let cells = 0..paint.vehicle.values().len();
+            let most = cells.map(|index| paint.cell(index).volume()).max().unwrap_or(0);
+            if fits && most <= MOST {
+                painting.set_brush_paint(id, paint)?;
+                self.brushes.tools[tool].at = at;
+            } else {
+                left.push(name.clone());
+            }
+        }
+        Ok(left)
+    }
+}
+
+/// Counts of a replay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ReplayReport {
+    /// Number of actions played.
+    pub actions: u64,
+    /// Number of strokes among them.
+    pub strokes: u64,
+    /// Number of sub-steps of all strokes in which the head was over the canvas.
+    pub substeps: u64,
+    /// Number of cells of the rectangles of these sub-steps.
+    pub cells: u64,
+    /// Number of undo and redo actions without anything to undo or redo.
+    pub idle: u64,
+    /// Number of strokes too large for undo.
+    pub not_undoable: u64,
+}
+
+/// Why a replay failed. `E` is the error of the function that saves.
+#[derive(Debug, thiserror::Error)]
+pub enum ReplayError<E: std::error::Error + 'static> {
+    /// The script is invalid.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// The session refuses an action.
+    #[error("action {index} ({kind})")]
+    Action {
+        /// Index of the action, from 0.
+        index: usize,
+        /// Key of the action in the file.
+        kind: &'static str,
+        /// Error of the session.
+        #[source]
+        error: Box<SessionError>,
+    },
+    /// A file cannot be saved.
+    #[error("action {index} (save)")]
+    Save {
+        /// Index of the action, from 0.
+        index: usize,
+        /// Error of the function that saves.
+        #[source]
+        error: E,
+    },
+}
+
+impl<E: Explain + 'static> Explain for ReplayError<E> {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Script(error) => error.hint(),
+            Self::Action { error, .. } => error.hint(),
+            Self::Save { error, .. } => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Script(error) => error.fault(),
+            Self::Action { error, .. } => error.fault(),
+            Self::Save { error, .. } => error.fault(),
+        }
+    }
+}
+
+impl StrokeScript {
+    /// Plays all actions on `session`, which must have the surfaces of this script (see
+    /// [`StrokeScript::surfaces`]). Brushes that the session has under the same name are used
+    /// as they are.
+    ///
+    /// `save` is called with path and canvas for each action that saves a file. `step` is
+    /// called after each action and can end the replay.
+    ///
+    /// # Errors
+    /// [`ReplayError`] before the first action if the script is invalid (see
+    /// [`StrokeScript::resolve`]), else at the first action that fails.
+    pub fn replay<E: std::error::Error + 'static>(
+        &self,
+        session: &mut PaintingSession,
+        mut save: impl FnMut(&str, &mut Painting) -> Result<(), E>,
+        mut step: impl FnMut() -> ControlFlow<()>,
+    ) -> Result<ReplayReport, ReplayError<E>> {
+        self.resolve(session.canvas().library())?;
+        session.add_names_of(&self.palette).map_err(ScriptError::from)?;
+        let mut report = ReplayReport::default();
+        let mut used = BTreeSet::new();
+        for (index, action) in self.actions.iter().enumerate() {
+            let failed = |error| {
+                let error = Box::new(error);
+                ReplayError::Action { index, kind: action.kind(), error }
+            };
+            if let Action::Save { path } = action {
+                session.finish_open().map_err(failed)?;
+                let canvas = session.canvas_mut();
+                save(path, canvas).map_err(|error| ReplayError::Save { index, error })?;
+            } else {
+                // Brushes are added when they are first used.
+                if let Some(name) = action.brush()
+                    && used.insert(name)
+                {
+                    session.set_brush(name, &self.brushes[name]).map_err(failed)?;
+                }
+                report.count(action, session.apply(action).map_err(failed)?);
+            }
+            report.actions += 1;
+            if step().is_break() {
+                break;
+            }
+        }
+        Ok(report)
+    }
+}
+
+impl ReplayReport {
+    fn count(&mut self, action: &Action, outcome: Outcome) {
+        match outcome {
+            Outcome::Painted(StrokeReport { substeps, cells, undoable, .. }) => {
+                self.strokes += 1;
+                self.substeps += substeps;
+                self.cells += cells;
+                self.not_undoable += u64::from(!undoable);
+            }
+            Outcome::Nothing if matches!(action, Action::Undo {} | Action::Redo {}) => {
+                self.idle += 1;
+            }
+            Outcome::Nothing | Outcome::Done => {}
+        }
     }
 }

@@ -1,9 +1,7 @@
 //! The open stroke of a session.
 
-use super::failure::SessionError;
 use super::history::Carried;
-use super::label::label;
-use super::state::{PaintingSession, SessionStroke};
+use super::state::{PaintingSession, SessionError, SessionStroke};
 use crate::painting::{OpenStroke, Painting, PaintingError, StrokeReport};
 use crate::pose::Sample;
 use crate::stroke::{Path, SampleDecimals};
@@ -23,7 +21,7 @@ impl PaintingSession {
         Ok((open, painting))
     }
 
-    /// Sets a brush down on a surface; samples follow. Any open stroke or adjustment is
+    /// Sets a brush down on a surface. Samples follow. Any open stroke or adjustment is
     /// finished first. Samples are rounded to [`SampleDecimals::RECORDING`].
     ///
     /// # Errors
@@ -33,7 +31,7 @@ impl PaintingSession {
     }
 
     /// Sets a brush down like [`PaintingSession::begin_stroke`], for samples that are rounded
-    /// to `decimals`, at most those of a recording.
+    /// to `decimals`, at most the decimals of a recording.
     ///
     /// # Errors
     /// [`SessionError`] if there is no such brush or surface, or if the device was lost.
@@ -69,13 +67,12 @@ impl PaintingSession {
             let stroke = OpenStroke::new(self.canvas.cell_mm(), size_mm, working)?;
             let samples = Vec::new();
             let from = None;
-            self.stroke =
-                Some(SessionStroke { on, tool, decimals, working, samples, from, stroke });
+            self.stroke = Some(SessionStroke { on, tool, decimals, samples, from, stroke });
         }
         Ok(())
     }
 
-    /// Rounds samples and adds them to the open stroke; [`PaintingSession::advance`] paints
+    /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints
     /// them. If one is refused, those before it count, and the stroke stays open.
     ///
     /// # Errors
@@ -157,7 +154,7 @@ impl PaintingSession {
         self.stroke.as_ref().map(|open| &open.stroke)
     }
 
-    /// Paints a whole stroke; one that is `cut` is not lifted at its end. A stroke that is too long
+    /// Paints a whole stroke. One that is `cut` is not lifted at its end. A stroke that is too long
     /// is refused before any of it is painted.
     pub(super) fn apply_stroke(
         &mut self,
@@ -178,13 +175,13 @@ impl PaintingSession {
     }
 
     /// The open stroke as the action that paints what is painted of it, once nothing known waits
-    /// (see [`PaintingSession::advance`]), with the recorded name of its brush; `None` without a
+    /// (see [`PaintingSession::advance`]), with the recorded name of its brush. `None` without a
     /// sample.
     pub(super) fn cut_so_far(&self) -> Option<Action> {
-        let SessionStroke { on, tool, working, samples, from, .. } = self.stroke.as_ref()?;
+        let SessionStroke { on, tool, samples, from, stroke, .. } = self.stroke.as_ref()?;
         from.as_ref()?;
         let brush = self.brushes.tools[*tool].recorded.clone();
-        Some(Action::Cut(Stroke { brush, on: *on, tool: *working, samples: samples.clone() }))
+        Some(Action::Cut(Stroke { brush, on: *on, tool: stroke.tool(), samples: samples.clone() }))
     }
 
     /// Paints the rest of the open stroke and closes it, as one action. Returns `None` if it
@@ -198,10 +195,10 @@ impl PaintingSession {
 
     fn close_stroke(&mut self, cut: bool) -> Result<Option<StrokeReport>, SessionError> {
         let open = self.stroke.take().ok_or(SessionError::NoStroke)?;
-        let SessionStroke { on, tool, working, samples, from: Some(from), stroke, .. } = open
-        else {
+        let SessionStroke { on, tool, samples, from: Some(from), stroke, .. } = open else {
             return Ok(None);
         };
+        let working = stroke.tool();
         let painting = self.surface_mut(on)?;
         let finished = if cut { stroke.cut(painting) } else { stroke.finish(painting) };
         let report = self.follow_failure(finished.map_err(SessionError::from))?;
@@ -210,7 +207,7 @@ impl PaintingSession {
         let action = if cut { Action::Cut(stroke) } else { Action::Stroke(stroke) };
         let mut touched = PerSurface::default();
         (touched[on], touched[from]) = (true, true);
-        let label = label(&action, &ActionPigments::None, &self.canvas);
+        let label = action.label(&ActionPigments::None, &self.canvas);
         let carried = Some(Carried { tool, from, to: on });
         self.history.add(label, touched, carried);
         self.limit_history();

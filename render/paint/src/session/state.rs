@@ -1,19 +1,25 @@
-//! State of a painting session.
+//! A painting session: its surfaces, its brushes by name, its errors, and a short interface for
+//! programs.
 
-use super::brushes::{Added, Brushes};
-use super::failure::SessionError;
-use super::history::SharedHistory;
-use super::record::Record;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use documents::hint::{Explain, Fault, Hint};
+use pigment::library::PigmentLibrary;
+
+use super::history::{Record, SharedHistory};
 use crate::brush::Head;
-use crate::document::{Document, Medium};
-use crate::engine::BrushId;
+use crate::document::{Canvas, Document, Medium};
+use crate::engine::{BrushId, PaintEngine};
+use crate::file::PaintingFileError;
 use crate::layer::Layer;
-use crate::painting::{LayerRef, OpenStroke, Painting, PaintingError, StrokeReport};
+use crate::painting::{LayerRef, OpenStroke, Painting, PaintingError, StrokeReport, UNDO_BYTES};
 use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 use crate::strokes::{
-    Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, PaletteSpec, PerSurface,
-    PigmentNames, StrokeScript, StrokeTool, SurfaceId, check_size, pigment_names, six_digits,
+    Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, Load, PaletteSpec, PerSurface,
+    PigmentNames, Recipe, ScriptError, ScriptStartError, Stroke, StrokeScript, StrokeTool,
+    SurfaceId, check_size, pigment_names, six_digits,
 };
 
 /// The open stroke of a session.
@@ -24,11 +30,9 @@ pub(super) struct SessionStroke {
     pub(super) tool: usize,
     /// Decimals that samples are rounded to.
     pub(super) decimals: SampleDecimals,
-    /// The tool that the head is used as.
-    pub(super) working: StrokeTool,
     /// Rounded samples that were accepted.
     pub(super) samples: Vec<Sample>,
-    /// Surface that the brush came from; `None` before the first sample.
+    /// Surface that the brush came from. `None` before the first sample.
     pub(super) from: Option<SurfaceId>,
     pub(super) stroke: OpenStroke,
 }
@@ -85,7 +89,7 @@ impl PaintingSession {
     /// same library, the same pigments in the same slots, the same light and medium, and
     /// cells of the same width. Nothing is recorded.
     ///
-    /// Both share the memory that they were opened with for the history; see
+    /// Both share the memory that they were opened with for the history. See
     /// [`PaintingSession::set_undo_bytes`].
     ///
     /// # Errors
@@ -105,8 +109,8 @@ impl PaintingSession {
         }
         let own = PaletteSpec::from_names(pigment_names(&canvas.state().slots, canvas.library()));
         let (scope, _) = PigmentNames::new(&own, canvas.library())?;
-        let limit = |painting: &Painting| painting.undo_bytes().1;
-        let undo_limit = limit(&canvas).saturating_add(palette.as_ref().map_or(0, limit));
+        let undo_limit =
+            undo_limit_of(&canvas).saturating_add(palette.as_ref().map_or(0, undo_limit_of));
         Ok(Self {
             canvas,
             palette,
@@ -176,6 +180,11 @@ impl PaintingSession {
         }
     }
 
+    /// The paintings of canvas and palette.
+    pub(super) fn paintings_mut(&mut self) -> impl Iterator<Item = &mut Painting> {
+        [Some(&mut self.canvas), self.palette.as_mut()].into_iter().flatten()
+    }
+
     /// Painting of the canvas.
     #[must_use]
     pub fn canvas(&self) -> &Painting {
@@ -188,7 +197,7 @@ impl PaintingSession {
     }
 
     /// Adds a clean brush under a name. If the name belongs to another head, that one is
-    /// washed and replaced; if it belongs to the same head, nothing changes. Any open stroke
+    /// washed and replaced. If it belongs to the same head, nothing changes. Any open stroke
     /// or adjustment is finished first.
     ///
     /// # Errors
@@ -216,7 +225,7 @@ impl PaintingSession {
         self.brushes.names().map(|(name, tool)| (name, &tool.spec))
     }
 
-    /// Paint on a brush; `None` if there is no such brush, or if it was never used.
+    /// Paint on a brush. `None` if there is no such brush, or if it was never used.
     ///
     /// # Errors
     /// [`SessionError`] if the device was lost.
@@ -245,7 +254,7 @@ impl PaintingSession {
         Ok((canvas, palette))
     }
 
-    /// The recording so far, without an open stroke or adjustment; `None` if the session
+    /// The recording so far, without an open stroke or adjustment. `None` if the session
     /// records nothing.
     #[must_use]
     pub fn recording(&self) -> Option<&StrokeScript> {
@@ -270,18 +279,14 @@ impl PaintingSession {
 
     /// Sizes of the surfaces, for the checks of actions.
     pub(super) fn surfaces(&self) -> ActionLimits {
-        let side_mm = |painting: &Painting| {
-            let bounds = painting.bounds();
-            bounds.width.max(bounds.height) as f64 * painting.cell_mm()
-        };
         let own = ActionLimits {
-            canvas_mm: side_mm(&self.canvas),
-            palette_mm: self.palette.as_ref().map(side_mm),
+            canvas_mm: longer_side_mm(&self.canvas),
+            palette_mm: self.palette.as_ref().map(longer_side_mm),
         };
         self.recording().map_or(own, StrokeScript::limits)
     }
 
-    /// Painting of a surface; an error if the session does not have it.
+    /// Painting of a surface. An error if the session does not have it.
     pub(super) fn surface_mut(
         &mut self,
         surface: SurfaceId,
@@ -291,5 +296,315 @@ impl PaintingSession {
             (SurfaceId::Palette, Some(palette)) => palette,
             _ => &mut self.canvas,
         })
+    }
+}
+
+fn longer_side_mm(painting: &Painting) -> f64 {
+    let bounds = painting.bounds();
+    bounds.width.max(bounds.height) as f64 * painting.cell_mm()
+}
+
+fn undo_limit_of(painting: &Painting) -> u64 {
+    painting.undo_bytes().1
+}
+
+impl PaintingSession {
+    /// Starts a session on a bare canvas, painted on the processor and recorded. The
+    /// palette holds the reference white of `library` or, if there is none, another of its
+    /// pigments. [`PaintingSession::load`] adds pigments as they are needed.
+    ///
+    /// The documentation of the crate has an example.
+    ///
+    /// # Errors
+    /// [`SessionError`] for a canvas that cannot be made, or a library without a pigment.
+    pub fn on_canvas(library: &PigmentLibrary, canvas: &Canvas) -> Result<Self, SessionError> {
+        let pigments = &library.pigments;
+        let known = pigments.iter().find(|pigment| pigment.identified).or(pigments.first());
+        let first = library.reference.as_deref().or(known.map(|pigment| pigment.name.as_str()));
+        let palette = PaletteSpec::from_names(first);
+        let script = StrokeScript::new("untitled", "", canvas.clone(), palette);
+        let (document, _) = script.surfaces(library, None)?;
+        let engine = PaintEngine::on_cpu(document.ground.height.clone());
+        let painting = Painting::open(document, engine, UNDO_BYTES)?;
+        Self::recorded(painting, None, &script)
+    }
+
+    /// Adds paint to a brush, `amount_mm` mm high on every cell of its head. `recipe` lists
+    /// pigments by their names in the library, with their parts by volume. Pigments that
+    /// are not on the palette are added to it.
+    ///
+    /// # Errors
+    /// [`SessionError`] for an unknown brush or pigment, for more than eight pigments on the
+    /// palette, and if the brush cannot hold that much.
+    pub fn load<'a>(
+        &mut self,
+        brush: &str,
+        recipe: impl IntoIterator<Item = (&'a str, f64)>,
+        amount_mm: f64,
+    ) -> Result<(), SessionError> {
+        let parts: Vec<(&str, f64)> = recipe.into_iter().collect();
+        let library = self.canvas.library();
+        let slots = self.canvas.state().slots;
+        let mut names = pigment_names(&slots, library);
+        let before = names.len();
+        for (name, _) in &parts {
+            let pigment = library.pigments.iter().find(|pigment| pigment.name == *name);
+            if let Some(pigment) = pigment.filter(|pigment| !names.contains(&pigment.name.as_str()))
+            {
+                names.push(&pigment.name);
+            }
+        }
+        if names.len() > before {
+            let palette = Action::Palette(PaletteSpec::from_names(names));
+            self.apply(&palette)?;
+        }
+        let recipe: Recipe =
+            parts.into_iter().map(|(name, part)| (name.to_owned(), part)).collect();
+        self.apply(&Action::Load(Load {
+            brush: brush.to_owned(),
+            recipe,
+            vehicle: 0.0,
+            amount_mm,
+        }))?;
+        Ok(())
+    }
+
+    /// Paints a stroke on the canvas. An undo takes it back.
+    ///
+    /// # Errors
+    /// [`SessionError`] for an unknown brush and for impossible samples. Nothing is painted
+    /// then.
+    pub fn stroke(
+        &mut self,
+        brush: &str,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, SessionError> {
+        self.stroke_as(StrokeTool::Paint, brush, samples)
+    }
+
+    /// Works the wet paint of the canvas with the head of a brush as `tool`. An undo takes it back.
+    ///
+    /// # Errors
+    /// [`SessionError`] for an unknown brush, and for impossible samples and tools. Nothing is
+    /// changed then.
+    pub fn stroke_as(
+        &mut self,
+        tool: StrokeTool,
+        brush: &str,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, SessionError> {
+        let samples = samples.to_vec();
+        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, tool, samples };
+        Ok(match self.apply(&Action::Stroke(stroke))? {
+            Outcome::Painted(report) => report,
+            Outcome::Done | Outcome::Nothing => StrokeReport::default(),
+        })
+    }
+
+    /// Saves the canvas as a painting file (OpenEXR, see [`crate::file`]).
+    ///
+    /// # Errors
+    /// [`SessionError`] if the file cannot be written.
+    pub fn save(&mut self, path: impl AsRef<Path>) -> Result<(), SessionError> {
+        self.finish_open()?;
+        Ok(self.canvas.document()?.save(path.as_ref())?)
+    }
+}
+
+/// A head that was added under a name.
+#[derive(Debug)]
+pub(super) struct Tool {
+    /// Name under which it was added.
+    pub(super) name: String,
+    /// Its name in the recording, unique among all heads.
+    pub(super) recorded: String,
+    pub(super) spec: BrushSpec,
+    /// Its id in the painting of each surface, once it was used there.
+    pub(super) ids: PerSurface<Option<BrushId>>,
+    /// Surface whose painting holds its paint. In the other one it is clean.
+    pub(super) at: SurfaceId,
+}
+
+impl Tool {
+    pub(super) fn used(&self) -> bool {
+        self.ids.iter().any(Option::is_some)
+    }
+}
+
+/// State of a head after it was added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Added {
+    /// The head is new, or had the name already.
+    Ready,
+    /// The head had the name before and was used. It may have paint on it.
+    Used,
+}
+
+/// All brushes of a session.
+#[derive(Debug, Default)]
+pub(super) struct Brushes {
+    /// All heads, including those whose name now belongs to another: undo needs them.
+    pub(super) tools: Vec<Tool>,
+    names: BTreeMap<String, usize>,
+}
+
+impl Brushes {
+    /// Adds a brush under a name, in place of the one with that name.
+    pub(super) fn add(&mut self, name: &str, spec: &BrushSpec) -> Added {
+        if let Some(&now) = self.names.get(name) {
+            if self.tools[now].spec == *spec {
+                return Added::Ready;
+            }
+            let again = self.tools.iter().position(|t| t.name == name && t.spec == *spec);
+            if let Some(again) = again {
+                self.names.insert(name.to_owned(), again);
+                return if self.tools[again].used() { Added::Used } else { Added::Ready };
+            }
+            if !self.tools[now].used() {
+                self.tools[now].spec = spec.clone();
+                return Added::Ready;
+            }
+        }
+        self.tools.push(Tool {
+            name: name.to_owned(),
+            recorded: self.free_name(name),
+            spec: spec.clone(),
+            ids: PerSurface::default(),
+            at: SurfaceId::Canvas,
+        });
+        self.names.insert(name.to_owned(), self.tools.len() - 1);
+        Added::Ready
+    }
+
+    /// Adds a head that an earlier session had, after all those that it was added after. The last
+    /// one of a name that is `named` has the name now.
+    pub(super) fn restore(&mut self, tool: Tool, named: bool) {
+        if named {
+            self.names.insert(tool.name.clone(), self.tools.len());
+        }
+        self.tools.push(tool);
+    }
+
+    /// Index of the head that has a name now.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        self.names.get(name).copied()
+    }
+
+    /// Names with the heads that have them now.
+    pub(super) fn names(&self) -> impl Iterator<Item = (&str, &Tool)> + Clone {
+        self.names.iter().map(|(name, &tool)| (name.as_str(), &self.tools[tool]))
+    }
+
+    /// Heads whose name now belongs to another.
+    pub(super) fn replaced(&self) -> Vec<usize> {
+        let named: BTreeSet<usize> = self.names.values().copied().collect();
+        (0..self.tools.len()).filter(|tool| !named.contains(tool)).collect()
+    }
+
+    /// `name`, with a number appended if another head was recorded under it.
+    fn free_name(&self, name: &str) -> String {
+        let used: BTreeSet<&str> = self.tools.iter().map(|tool| &*tool.recorded).collect();
+        let numbered = (2_usize..).map(|number| format!("{name} {number}"));
+        let mut names = std::iter::once(name.to_owned()).chain(numbered);
+        names.find(|name| !used.contains(name.as_str())).unwrap_or_default()
+    }
+}
+
+/// Why a session refuses an action. Nothing is changed then, unless the device failed.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    /// A surface refuses the action, or its device failed.
+    #[error(transparent)]
+    Painting(#[from] PaintingError),
+    /// A number is out of range, or a name is unknown.
+    #[error(transparent)]
+    Invalid(#[from] Box<InvalidValue>),
+    /// The header of a recording is invalid.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A canvas cannot be made.
+    #[error(transparent)]
+    Start(#[from] ScriptStartError),
+    /// The painting cannot be saved.
+    #[error(transparent)]
+    File(#[from] PaintingFileError),
+    /// Canvas and palette do not go together.
+    #[error("canvas and palette have different {what}")]
+    Unlike {
+        /// Name of what differs.
+        what: &'static str,
+    },
+    /// The action saves a file. Sessions do not write files, their owner does.
+    #[error("a session saves nothing")]
+    Save,
+    /// There is no open stroke, or it was lifted.
+    #[error("no stroke is open")]
+    NoStroke,
+    /// An action other than light, gloss and opacity was adjusted.
+    #[error("`{kind}` cannot be adjusted bit by bit")]
+    NoControl {
+        /// Key of the action in a script.
+        kind: &'static str,
+    },
+}
+
+impl Explain for SessionError {
+    fn hint(&self) -> Option<Hint> {
+        let hint = match self {
+            Self::Painting(error) => return error.hint(),
+            Self::Invalid(invalid) => return invalid.hint(),
+            Self::Script(error) => return error.hint(),
+            Self::Start(error) => return error.hint(),
+            Self::File(error) => return error.hint(),
+            Self::Unlike { .. } => "set the palette up after the canvas",
+            Self::Save => "write the documents of the session",
+            Self::NoStroke => "set the brush down first",
+            Self::NoControl { .. } => "light, gloss, stiffness and opacity can be",
+        };
+        Some(Hint::new(hint))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Painting(error) => error.fault(),
+            Self::File(error) => error.fault(),
+            _ => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::brush::HeadShape;
+
+    fn spec(size_mm: f64) -> BrushSpec {
+        BrushSpec { shape: HeadShape::Round, size_mm }
+    }
+
+    fn now(brushes: &Brushes, name: &str) -> (usize, String) {
+        let tool = brushes.find(name).expect("it was added");
+        (tool, brushes.tools[tool].recorded.clone())
+    }
+
+    #[test]
+    fn a_used_head_keeps_its_recorded_name_and_others_get_their_own() {
+        let mut brushes = Brushes::default();
+        assert_eq!(brushes.add("round", &spec(6.0)), Added::Ready);
+        // The brush is not used yet, so its entry is replaced.
+        brushes.add("round", &spec(7.0));
+        assert_eq!((now(&brushes, "round"), brushes.tools.len()), ((0, "round".to_owned()), 1));
+        brushes.tools[0].ids[SurfaceId::Canvas] = Some(BrushId(0));
+        brushes.add("round", &spec(8.0));
+        assert_eq!(now(&brushes, "round"), (1, "round 2".to_owned()));
+        brushes.add("round 2", &spec(8.0));
+        assert_eq!(now(&brushes, "round 2"), (2, "round 2 2".to_owned()));
+        assert_eq!(brushes.add("round", &spec(7.0)), Added::Used, "the first again");
+        assert_eq!(brushes.add("round", &spec(7.0)), Added::Ready, "it is in hand");
+        assert_eq!(now(&brushes, "round"), (0, "round".to_owned()));
+        assert_eq!(brushes.add("round", &spec(8.0)), Added::Ready, "it was never used");
+        assert_eq!(brushes.replaced(), [0], "`round` is the second again");
+        let names: Vec<&str> = brushes.names().map(|(name, _)| name).collect();
+        assert_eq!(names, ["round", "round 2"]);
     }
 }

@@ -1,16 +1,26 @@
-//! Actions of a script: single steps of work on a painting.
+//! Actions of a script: single steps of work on a painting, as they stand in its JSON.
+//!
+//! Samples are rows of numbers: `[seconds, x, y, pressure, tilt x, tilt y, twist]`. Zeros at the
+//! end may be left out. Objects with free names refuse duplicate keys.
 
 use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::{Index, IndexMut};
 
+use pigment::PigmentId;
+use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::ser::{SerializeMap, SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
 
-use super::names::distinct_keys;
-use super::palette::PaletteSpec;
-use super::stroke_action::Stroke;
-use super::surface_id::SurfaceId;
-use crate::document::Lighting;
+use super::MAX_NAMES;
+use crate::brush::StrokeTool;
+use crate::document::{Lighting, Slots};
+use crate::layer::SLOTS;
 use crate::optics::Gloss;
 use crate::painting::{LayerRef, MaskChange};
+use crate::pose::Sample;
+use crate::stroke::SampleDecimals;
 
 /// Parts by volume of each pigment, by its name in the library or a short name of a
 /// palette.
@@ -42,7 +52,7 @@ pub enum Action {
     },
     /// Dries wet paint of the canvas, from the bottom up, into a new dry layer.
     Dry {
-        /// Share of the wet paint that dries, above 0 to 1; 1 by default.
+        /// Share of the wet paint that dries, above 0 to 1. 1 by default.
         #[serde(default = "whole")]
         fraction: f64,
     },
@@ -65,7 +75,7 @@ pub enum Action {
     Name {
         /// The layer, which must be dry.
         layer: LayerRef,
-        /// One line of at most 80 characters; empty takes the name away.
+        /// One line of at most 80 characters. Empty takes the name away.
         name: String,
     },
     /// Shows or hides a dry layer, which keeps its opacity.
@@ -95,7 +105,7 @@ pub enum Action {
     Merge {
         /// One of the two, which must be dry.
         layer: LayerRef,
-        /// The other one; the layer below by default.
+        /// The other one. The layer below by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         with: Option<LayerRef>,
     },
@@ -103,7 +113,7 @@ pub enum Action {
     Squeeze(Squeeze),
     /// Removes all wet paint of a surface.
     Scrape {
-        /// The surface; the canvas by default.
+        /// The surface. The canvas by default.
         #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
         on: SurfaceId,
     },
@@ -197,6 +207,25 @@ fn whole() -> f64 {
     1.0
 }
 
+/// The pigments that an action names.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ActionPigments {
+    /// The action names no pigment.
+    None,
+    /// Pigments and parts of a load or a heap, in the order of the library. Parts are
+    /// above 0.
+    Recipe(Vec<(PigmentId, f64)>),
+    /// Pigments of a palette by slot.
+    Palette(Slots),
+    /// Pigments of a swap.
+    Swap {
+        /// Pigment to replace.
+        from: PigmentId,
+        /// Pigment that takes its place.
+        to: PigmentId,
+    },
+}
+
 /// Paint that a brush takes up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -206,7 +235,7 @@ pub struct Load {
     /// Parts of each pigment.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
-    /// Share of clear vehicle in the paint, 0 to 1; 0 by default.
+    /// Share of clear vehicle in the paint, 0 to 1. 0 by default.
     #[serde(default)]
     pub vehicle: f64,
     /// Height of the paint on the head in mm.
@@ -217,13 +246,13 @@ pub struct Load {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Squeeze {
-    /// The surface; the canvas by default.
+    /// The surface. The canvas by default.
     #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
     pub on: SurfaceId,
     /// Parts of each pigment.
     #[serde(deserialize_with = "distinct_keys")]
     pub recipe: Recipe,
-    /// Share of clear vehicle in the paint, 0 to 1; 0 by default.
+    /// Share of clear vehicle in the paint, 0 to 1. 0 by default.
     #[serde(default)]
     pub vehicle: f64,
     /// Distance of the heap's centre from the left edge of the surface, in mm.
@@ -232,4 +261,421 @@ pub struct Squeeze {
     pub y_mm: f64,
     /// Volume in cubic millimetres.
     pub volume_mm3: f64,
+}
+
+/// Strength of blending and erasing where a script names none.
+const STRENGTH: f64 = 0.5;
+
+/// A stroke of a brush.
+///
+/// In a script the tool is `"tool": "blend"`, `"scrape"` or `"erase"`, left out for painting.
+/// Blending and erasing have a `"strength"` above 0 to 1, 0.5 by default. Scraping has a
+/// `"height_mm"` of 0 to
+/// 10 over the ground, 0 by default.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Keys", into = "Keys")]
+pub struct Stroke {
+    /// Name of the brush.
+    pub brush: String,
+    /// The surface. The canvas by default.
+    pub on: SurfaceId,
+    /// The tool that the head is used as. It paints by default.
+    pub tool: StrokeTool,
+    /// Samples of the pen in order of time.
+    pub samples: Vec<Sample>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum ToolName {
+    #[default]
+    Paint,
+    Blend,
+    Scrape,
+    Erase,
+}
+
+impl ToolName {
+    fn is_paint(&self) -> bool {
+        *self == Self::Paint
+    }
+}
+
+/// The keys of a stroke in a file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Keys {
+    brush: String,
+    #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
+    on: SurfaceId,
+    #[serde(default, skip_serializing_if = "ToolName::is_paint")]
+    tool: ToolName,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    strength: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    height_mm: Option<f64>,
+    #[serde(serialize_with = "write_samples", deserialize_with = "read_samples")]
+    samples: Vec<Sample>,
+}
+
+impl TryFrom<Keys> for Stroke {
+    type Error = &'static str;
+
+    fn try_from(keys: Keys) -> Result<Self, Self::Error> {
+        let Keys { brush, on, tool, strength, height_mm, samples } = keys;
+        let stray = match tool {
+            ToolName::Paint => strength.or(height_mm),
+            ToolName::Blend | ToolName::Erase => height_mm,
+            ToolName::Scrape => strength,
+        };
+        if stray.is_some() {
+            return Err("`strength` belongs to the tools blend and erase, `height_mm` to scrape");
+        }
+        let strength = strength.unwrap_or(STRENGTH);
+        let tool = match tool {
+            ToolName::Paint => StrokeTool::Paint,
+            ToolName::Blend => StrokeTool::Blend { strength },
+            ToolName::Scrape => StrokeTool::Scrape { height_mm: height_mm.unwrap_or(0.0) },
+            ToolName::Erase => StrokeTool::Erase { strength },
+        };
+        Ok(Self { brush, on, tool, samples })
+    }
+}
+
+impl From<Stroke> for Keys {
+    fn from(Stroke { brush, on, tool, samples }: Stroke) -> Self {
+        let (tool, strength, height_mm) = match tool {
+            StrokeTool::Paint => (ToolName::Paint, None, None),
+            StrokeTool::Blend { strength } => (ToolName::Blend, Some(strength), None),
+            StrokeTool::Scrape { height_mm } => (ToolName::Scrape, None, Some(height_mm)),
+            StrokeTool::Erase { strength } => (ToolName::Erase, Some(strength), None),
+        };
+        Self { brush, on, tool, strength, height_mm, samples }
+    }
+}
+
+/// A surface of a painting session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceId {
+    /// The canvas that is painted on.
+    #[default]
+    Canvas,
+    /// The palette that paint is mixed on.
+    Palette,
+}
+
+impl SurfaceId {
+    /// Both surfaces, the canvas first.
+    pub const ALL: [Self; 2] = [Self::Canvas, Self::Palette];
+
+    /// Whether this is the canvas.
+    #[must_use]
+    pub fn is_canvas(&self) -> bool {
+        *self == Self::Canvas
+    }
+}
+
+/// One value for each surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PerSurface<T> {
+    /// Value of the canvas.
+    pub canvas: T,
+    /// Value of the palette.
+    pub palette: T,
+}
+
+impl<T> PerSurface<T> {
+    /// The value `of` each surface.
+    #[must_use]
+    pub fn from_fn(mut of: impl FnMut(SurfaceId) -> T) -> Self {
+        Self { canvas: of(SurfaceId::Canvas), palette: of(SurfaceId::Palette) }
+    }
+
+    /// References to both values.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        [&self.canvas, &self.palette].into_iter()
+    }
+}
+
+impl<T> Index<SurfaceId> for PerSurface<T> {
+    type Output = T;
+
+    fn index(&self, surface: SurfaceId) -> &T {
+        match surface {
+            SurfaceId::Canvas => &self.canvas,
+            SurfaceId::Palette => &self.palette,
+        }
+    }
+}
+
+impl<T> IndexMut<SurfaceId> for PerSurface<T> {
+    fn index_mut(&mut self, surface: SurfaceId) -> &mut T {
+        match surface {
+            SurfaceId::Canvas => &mut self.canvas,
+            SurfaceId::Palette => &mut self.palette,
+        }
+    }
+}
+
+/// Fewest numbers of a row: seconds, x, y, pressure.
+const SHORTEST: usize = 4;
+/// Most numbers of a row: also tilt x, tilt y and twist.
+const LONGEST: usize = 7;
+
+/// The numbers of a sample in the order of a row.
+pub(super) fn numbers(sample: &Sample) -> [f64; LONGEST] {
+    let Sample { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg } = *sample;
+    [seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg]
+}
+
+struct Row(Sample);
+
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let numbers = numbers(&SampleDecimals::RECORDING.round(&self.0));
+        let used = numbers.iter().rposition(|number| *number != 0.0).map_or(0, |last| last + 1);
+        numbers[..used.max(SHORTEST)].serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Row {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Numbers;
+
+        impl<'de> Visitor<'de> for Numbers {
+            type Value = Row;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter
+                    .write_str("4 to 7 numbers: seconds, x, y, pressure, tilt x, tilt y, twist")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Row, A::Error> {
+                let mut numbers = [0.0; LONGEST];
+                let mut count = 0;
+                while let Some(number) = list.next_element::<f64>()? {
+                    match numbers.get_mut(count) {
+                        Some(place) => *place = number,
+                        None => return Err(de::Error::invalid_length(count + 1, &self)),
+                    }
+                    count += 1;
+                }
+                if count < SHORTEST {
+                    return Err(de::Error::invalid_length(count, &self));
+                }
+                let [seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg] = numbers;
+                Ok(Row(Sample { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg }))
+            }
+        }
+
+        deserializer.deserialize_seq(Numbers)
+    }
+}
+
+fn write_samples<S: Serializer>(samples: &[Sample], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut list = serializer.serialize_seq(Some(samples.len()))?;
+    for sample in samples {
+        list.serialize_element(&Row(*sample))?;
+    }
+    list.end()
+}
+
+fn read_samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Sample>, D::Error> {
+    struct Samples;
+
+    impl<'de> Visitor<'de> for Samples {
+        type Value = Vec<Sample>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+            formatter.write_str("a list of samples")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Sample>, A::Error> {
+            let mut samples = Vec::new();
+            while let Some(Row(sample)) = list.next_element()? {
+                samples.push(sample);
+            }
+            Ok(samples)
+        }
+    }
+
+    deserializer.deserialize_seq(Samples)
+}
+
+/// Up to eight pigments in the order of their slots: a list of names, or an object of
+/// short names (`{"W": "Zinc White"}`).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PaletteSpec {
+    /// Short name, where there is one, and name in the library.
+    pub pigments: Vec<(Option<String>, String)>,
+}
+
+impl PaletteSpec {
+    /// A palette of pigments by their names in the library, without short names.
+    pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        Self { pigments: names.into_iter().map(|name| (None, name.to_owned())).collect() }
+    }
+
+    /// Library name of the pigment with this short name.
+    #[must_use]
+    pub fn library_name(&self, short: &str) -> Option<&str> {
+        let found = self.pigments.iter().find(|(own, _)| own.as_deref() == Some(short));
+        found.map(|(_, name)| name.as_str())
+    }
+}
+
+impl Serialize for PaletteSpec {
+    /// Writes a list, unless every pigment has a short name.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let short: Option<Vec<&String>> =
+            self.pigments.iter().map(|(short, _)| short.as_ref()).collect();
+        match short {
+            Some(short) if !short.is_empty() => {
+                let mut map = serializer.serialize_map(Some(short.len()))?;
+                for (short, (_, name)) in short.into_iter().zip(&self.pigments) {
+                    map.serialize_entry(short, name)?;
+                }
+                map.end()
+            }
+            _ => {
+                let mut list = serializer.serialize_seq(Some(self.pigments.len()))?;
+                for (_, name) in &self.pigments {
+                    list.serialize_element(name)?;
+                }
+                list.end()
+            }
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for PaletteSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Pigments;
+
+        fn push<E: de::Error>(
+            palette: &mut PaletteSpec,
+            short: Option<String>,
+            name: String,
+        ) -> Result<(), E> {
+            if palette.pigments.len() == SLOTS {
+                return Err(E::custom(format!("more than {SLOTS} pigments, at `{name}`")));
+            }
+            if short.as_ref().is_some_and(|short| palette.library_name(short).is_some()) {
+                let short = short.unwrap_or_default();
+                return Err(E::custom(format!("duplicate key `{short}`")));
+            }
+            palette.pigments.push((short, name));
+            Ok(())
+        }
+
+        impl<'de> Visitor<'de> for Pigments {
+            type Value = PaletteSpec;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(formatter, "a list or an object of up to {SLOTS} pigments")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<PaletteSpec, A::Error> {
+                let mut palette = PaletteSpec::default();
+                while let Some(name) = list.next_element()? {
+                    push(&mut palette, None, name)?;
+                }
+                Ok(palette)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PaletteSpec, A::Error> {
+                let mut palette = PaletteSpec::default();
+                while let Some((short, name)) = map.next_entry()? {
+                    push(&mut palette, Some(short), name)?;
+                }
+                Ok(palette)
+            }
+        }
+
+        deserializer.deserialize_any(Pigments)
+    }
+}
+
+/// Deserializes an object and refuses duplicate keys, of which a plain map would silently
+/// keep the last. At most [`MAX_NAMES`] keys.
+pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, T>, D::Error> {
+    struct Entries<T>(PhantomData<T>);
+
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
+        type Value = BTreeMap<String, T>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+            formatter.write_str("an object")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut entries = BTreeMap::new();
+            while let Some(key) = map.next_key::<String>()? {
+                if entries.contains_key(&key) {
+                    return Err(de::Error::custom(format!("duplicate key `{key}`")));
+                }
+                if entries.len() == MAX_NAMES {
+                    return Err(de::Error::custom(format!(
+                        "more than {MAX_NAMES} keys, at `{key}`"
+                    )));
+                }
+                entries.insert(key, map.next_value()?);
+            }
+            Ok(entries)
+        }
+    }
+
+    deserializer.deserialize_map(Entries(PhantomData))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(keys: &str) -> Result<Stroke, String> {
+        let text = format!("{{\"brush\": \"a\", {keys}\"samples\": [[0, 1, 2, 0.5]]}}");
+        serde_json::from_str(&text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_stroke_without_a_tool_paints_and_is_written_as_before() {
+        let stroke = read("").unwrap();
+        assert_eq!(stroke.tool, StrokeTool::Paint);
+        let text = serde_json::to_string(&stroke).unwrap();
+        assert_eq!(text, r#"{"brush":"a","samples":[[0.0,1.0,2.0,0.5]]}"#);
+    }
+
+    #[test]
+    fn tools_are_read_with_their_numbers_and_defaults_and_written_whole() {
+        for (keys, tool) in [
+            (r#""tool": "erase", "#, StrokeTool::Erase { strength: 0.5 }),
+            (r#""tool": "erase", "strength": 1, "#, StrokeTool::Erase { strength: 1.0 }),
+            (r#""tool": "blend", "strength": 0.2, "#, StrokeTool::Blend { strength: 0.2 }),
+            (r#""tool": "scrape", "#, StrokeTool::Scrape { height_mm: 0.0 }),
+            (r#""tool": "scrape", "height_mm": 0.1, "#, StrokeTool::Scrape { height_mm: 0.1 }),
+            (r#""tool": "paint", "#, StrokeTool::Paint),
+        ] {
+            let stroke = read(keys).unwrap();
+            assert_eq!(stroke.tool, tool);
+            let text = serde_json::to_string(&stroke).unwrap();
+            assert_eq!(serde_json::from_str::<Stroke>(&text).unwrap(), stroke);
+        }
+    }
+
+    #[test]
+    fn unknown_tools_and_numbers_of_other_tools_are_refused() {
+        for (keys, reason) in [
+            (r#""tool": "smudge", "#, "unknown variant `smudge`, expected one of `paint`"),
+            (r#""strength": 0.5, "#, "`strength` belongs to the tools blend and erase"),
+            (r#""tool": "erase", "height_mm": 0, "#, "`height_mm` to scrape"),
+            (r#""tool": "scrape", "strength": 1, "#, "`strength` belongs to"),
+            (r#""tool": "erase", "force": 1, "#, "unknown field `force`"),
+        ] {
+            let error = read(keys).unwrap_err();
+            assert!(error.contains(reason), "{error}");
+        }
+    }
 }

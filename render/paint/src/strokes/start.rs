@@ -1,20 +1,21 @@
-//! The surfaces that a script starts on: bare ones, or a painting to continue.
+//! What a script starts on: bare surfaces or a painting to continue, its pigment library, and the
+//! pictures of its grounds.
 
-use pigment::PigmentId;
-use pigment::digits::rounded;
-use pigment::library::PigmentLibrary;
+use std::path::{Path, PathBuf};
 
-use super::check_context::{CheckContext, Checked};
-use super::error::ScriptError;
-use super::palette::PaletteSpec;
-use super::resolve::Resolved;
-use super::script::StrokeScript;
-use super::side_table::{KeptBrush, SideTable};
-use crate::canvas::{Canvas, covering_cells};
-use crate::document::{Document, Medium, Slots};
-use crate::ground::{Ground, GroundError, GroundSpec};
 use documents::hint::{Explain, Hint};
 use graphics::tile::Rect;
+use pigment::PigmentId;
+use pigment::digits::rounded;
+use pigment::library::{LibraryError, PigmentLibrary, RecipeError};
+
+use super::action::{Action, ActionPigments, Load, PaletteSpec, Recipe, Squeeze};
+use super::script::{KeptBrush, SideTable, StrokeScript};
+use super::table::{CheckContext, Checked, did_you_mean};
+use super::{InvalidValue, ScriptError};
+use crate::document::{Canvas, Document, Medium, Slots, covering_cells};
+use crate::ground::{Ground, GroundError, GroundRelief, GroundSpec};
+use crate::layer::SLOTS;
 
 /// Why the surfaces of a script cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,7 +55,7 @@ impl StrokeScript {
     /// The canvas before the first action, and the palette if the script has one. Numbers
     /// are rounded to the digits of a file.
     ///
-    /// `start` is the painting that the script continues, if it names one; pigments are
+    /// `start` is the painting that the script continues, if it names one. Pigments are
     /// then those of its library, and `library` is not used.
     ///
     /// # Errors
@@ -148,7 +149,7 @@ impl StrokeScript {
     }
 
     /// Checks that the script describes a painting with cells `bounds` of width `cell_mm`
-    /// and the pigments `own` of `library`; `slots` are the pigments that the script starts
+    /// and the pigments `own` of `library`. `slots` are the pigments that the script starts
     /// with.
     pub(crate) fn check_painting(
         &self,
@@ -170,12 +171,7 @@ impl StrokeScript {
             let hint = Some(Hint::new(format!("\"cell_mm\": {cell_mm}")));
             return Err(at.invalid("canvas.cell_mm", &wanted, &self.canvas.cell_mm, hint));
         }
-        let sorted = |slots: &Slots| {
-            let mut pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
-            pigments.sort_unstable();
-            pigments
-        };
-        if sorted(slots) != sorted(own) {
+        if sorted_pigments(slots) != sorted_pigments(own) {
             let wanted =
                 format!("that of the painting, {}", pigment_names(own, library).join(", "));
             let named: Vec<&str> = self.palette.pigments.iter().map(|(_, name)| &**name).collect();
@@ -220,7 +216,207 @@ impl StrokeScript {
     }
 }
 
+fn sorted_pigments(slots: &Slots) -> Vec<PigmentId> {
+    let mut pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
+    pigments.sort_unstable();
+    pigments
+}
+
 /// The names of the pigments of `slots`, in the order of the slots.
 pub(crate) fn pigment_names<'a>(slots: &Slots, library: &'a PigmentLibrary) -> Vec<&'a str> {
     slots.iter().flatten().map(|&pigment| library[pigment].name.as_str()).collect()
+}
+
+/// The pigments of a script.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolved {
+    /// Pigments of the wet layer before the first action.
+    pub slots: Slots,
+    /// Pigments that each action names, in the order of the actions.
+    pub actions: Vec<ActionPigments>,
+}
+
+impl StrokeScript {
+    /// Checks the script and looks its pigments up in `library`. A short name means the
+    /// pigment of the latest palette that has it.
+    ///
+    /// A recipe may only name pigments of the first palette or of a palette that an
+    /// earlier action sets. Whether that palette is still set depends on what was undone,
+    /// so it is checked when the action is applied.
+    ///
+    /// # Errors
+    /// [`ScriptError::Invalid`] for values out of range (see [`StrokeScript::check`]),
+    /// names that match no pigment or several, a pigment named twice in a palette or a
+    /// recipe, and recipes with pigments of no palette.
+    pub fn resolve(&self, library: &PigmentLibrary) -> Result<Resolved, ScriptError> {
+        self.check()?;
+        let (mut names, slots) = PigmentNames::new(&self.palette, library)?;
+        let mut actions = Vec::with_capacity(self.actions.len());
+        for (index, action) in self.actions.iter().enumerate() {
+            let at = CheckContext::action(index, action.kind());
+            let pigments = names.pigments_of(&at, action, library)?;
+            names.add_palette_of(action, &pigments);
+            actions.push(pigments);
+        }
+        Ok(Resolved { slots, actions })
+    }
+}
+
+/// Meaning of pigment names at one action of a script.
+#[derive(Debug)]
+pub(crate) struct PigmentNames {
+    /// Palettes set so far, with their slots.
+    palettes: Vec<(PaletteSpec, Slots)>,
+}
+
+impl PigmentNames {
+    /// The names before the first action, and the slots of `palette`.
+    pub(crate) fn new(
+        palette: &PaletteSpec,
+        library: &PigmentLibrary,
+    ) -> Result<(Self, Slots), Box<InvalidValue>> {
+        let slots = slots(&CheckContext::default(), palette, library)?;
+        Ok((Self { palettes: vec![(palette.clone(), slots)] }, slots))
+    }
+
+    /// Adds the palette that an action sets, if it sets one.
+    pub(crate) fn add_palette_of(&mut self, action: &Action, pigments: &ActionPigments) {
+        if let (Action::Palette(palette), ActionPigments::Palette(slots)) = (action, pigments) {
+            self.palettes.push((palette.clone(), *slots));
+        }
+    }
+
+    /// Looks up the pigments that an action names.
+    pub(crate) fn pigments_of(
+        &self,
+        at: &CheckContext,
+        action: &Action,
+        library: &PigmentLibrary,
+    ) -> Result<ActionPigments, Box<InvalidValue>> {
+        Ok(match action {
+            Action::Load(Load { recipe, .. }) | Action::Squeeze(Squeeze { recipe, .. }) => {
+                ActionPigments::Recipe(self.recipe(at, recipe, library)?)
+            }
+            Action::Palette(palette) => ActionPigments::Palette(slots(at, palette, library)?),
+            Action::Swap { from, to, .. } => ActionPigments::Swap {
+                from: self.pigment(at, "from", from, library)?,
+                to: self.pigment(at, "to", to, library)?,
+            },
+            _ => ActionPigments::None,
+        })
+    }
+
+    fn recipe(
+        &self,
+        at: &CheckContext,
+        recipe: &Recipe,
+        library: &PigmentLibrary,
+    ) -> Result<Vec<(PigmentId, f64)>, Box<InvalidValue>> {
+        let mut parts: Vec<(PigmentId, f64)> = Vec::new();
+        for (name, &part) in recipe {
+            let index = self.pigment(at, "recipe", name, library)?;
+            if !self.palettes.iter().any(|(_, slots)| slots.contains(&Some(index))) {
+                let known = self.palettes.iter().flat_map(|(palette, _)| &palette.pigments);
+                let known: Vec<_> = known.map(|(_, name)| name.as_str()).collect();
+                let hint = Hint::new(format!("the palette has {}", known.join(", ")));
+                return Err(at.invalid("recipe", "pigments of the palette", name, Some(hint)));
+            }
+            if parts.iter().any(|(other, _)| *other == index) {
+                return Err(at.invalid("recipe", "each pigment once", name, None));
+            }
+            if part > 0.0 {
+                parts.push((index, part));
+            }
+        }
+        parts.sort_by_key(|(index, _)| *index);
+        Ok(parts)
+    }
+
+    /// Pigment with a short name or a name of the library.
+    fn pigment(
+        &self,
+        at: &CheckContext,
+        field: &str,
+        name: &str,
+        library: &PigmentLibrary,
+    ) -> Result<PigmentId, Box<InvalidValue>> {
+        let short = self.palettes.iter().rev().find_map(|(palette, _)| palette.library_name(name));
+        find_pigment(at, field, short.unwrap_or(name), library)
+    }
+}
+
+fn slots(
+    at: &CheckContext,
+    palette: &PaletteSpec,
+    library: &PigmentLibrary,
+) -> Result<Slots, Box<InvalidValue>> {
+    let mut slots = [None; SLOTS];
+    for (slot, (_, name)) in palette.pigments.iter().enumerate() {
+        let index = find_pigment(at, "palette", name, library)?;
+        if slots.contains(&Some(index)) {
+            return Err(at.invalid("palette", "each pigment once", name, None));
+        }
+        slots[slot] = Some(index);
+    }
+    Ok(slots)
+}
+
+fn find_pigment(
+    at: &CheckContext,
+    field: &str,
+    name: &str,
+    library: &PigmentLibrary,
+) -> Result<PigmentId, Box<InvalidValue>> {
+    library.find(name).map_err(|error| {
+        let known = library.pigments.iter().map(|pigment| pigment.name.as_str());
+        let hint = match &error {
+            RecipeError::UnknownPigment { .. } => {
+                did_you_mean(name, known).or_else(|| error.hint())
+            }
+            _ => error.hint(),
+        };
+        at.invalid(field, "a pigment of the library", &name, hint)
+    })
+}
+
+/// The pigment library of a script.
+#[derive(Debug, Clone)]
+pub struct ScriptLibrary {
+    /// The library that the script names, or the shipped oils.
+    pub library: PigmentLibrary,
+    /// Name in the script of a library that does not exist. `library` then holds the shipped
+    /// oils.
+    pub missing: Option<String>,
+}
+
+impl StrokeScript {
+    /// Opens the library of the script: the shipped oils if it names no library or gives
+    /// their title, else a file relative to `folder`, the folder of the script.
+    ///
+    /// # Errors
+    /// [`LibraryError`] if the file exists and is not a valid library.
+    pub fn open_library(&self, folder: &Path) -> Result<ScriptLibrary, LibraryError> {
+        let shipped = PigmentLibrary::van_gogh_oils();
+        let Some(name) = self.library.as_ref().filter(|name| **name != shipped.title) else {
+            return Ok(ScriptLibrary { library: shipped, missing: None });
+        };
+        let path = folder.join(name);
+        if documents::file::disk::is_file(&path) {
+            return Ok(ScriptLibrary { library: PigmentLibrary::open(path)?, missing: None });
+        }
+        Ok(ScriptLibrary { library: shipped, missing: Some(name.clone()) })
+    }
+
+    /// Joins `folder` and the relative paths of ground pictures, and returns the complete paths.
+    pub fn complete_picture_paths(&mut self, folder: &Path) -> Vec<PathBuf> {
+        let mut paths = Vec::new();
+        for surface in std::iter::once(&mut self.canvas).chain(&mut self.mixing) {
+            if let GroundRelief::Image(picture) = &mut surface.ground.relief {
+                let path = folder.join(&picture.path);
+                picture.path = path.display().to_string();
+                paths.push(path);
+            }
+        }
+        paths
+    }
 }

@@ -6,7 +6,7 @@ use pigment::PigmentLibrary;
 
 use super::*;
 use crate::brush::HeadShape;
-use crate::canvas::Canvas;
+use crate::document::Canvas;
 use crate::painting::LayerRef;
 use crate::pose::Sample;
 use crate::session::PaintingSession;
@@ -27,11 +27,12 @@ fn recorded() -> (StrokeScript, Frame) {
     session.set_brush("round", &spec).unwrap();
     session.load("round", [("Prussian Blue", 1.0)], 0.3).unwrap();
     for y_mm in [2.0, 5.0, 8.0] {
-        let sample = |index: i32| {
-            let share = f64::from(index) / 10.0;
-            Sample::upright(share, 2.0 + 12.0 * share, y_mm, 0.6)
-        };
-        let samples: Vec<Sample> = (0..=10).map(sample).collect();
+        let samples: Vec<Sample> = (0..=10)
+            .map(|index: i32| {
+                let share = f64::from(index) / 10.0;
+                Sample::upright(share, 2.0 + 12.0 * share, y_mm, 0.6)
+            })
+            .collect();
         session.stroke("round", &samples).unwrap();
         if y_mm == 5.0 {
             session.undo().unwrap();
@@ -49,13 +50,17 @@ fn frames(script: &StrokeScript, settings: TimelapseSettings) -> Vec<Frame> {
     let timelapse = Timelapse::new(script, settings).unwrap();
     let wanted: Vec<usize> = (0..timelapse.frames()).collect();
     let mut found = Vec::new();
-    let step = |_| ControlFlow::Continue(());
     let _ = timelapse
-        .play(&mut blank(), &wanted, step, |index, frame| {
-            assert_eq!(index, found.len(), "in their order");
-            found.push(frame);
-            Ok(())
-        })
+        .play(
+            &mut blank(),
+            &wanted,
+            |_| ControlFlow::Continue(()),
+            |index, frame| {
+                assert_eq!(index, found.len(), "in their order");
+                found.push(frame);
+                Ok(())
+            },
+        )
         .unwrap();
     found
 }
@@ -117,24 +122,27 @@ fn files(folder: &Path, name: &str) -> TimelapseFiles {
 fn an_interrupted_run_continues_to_the_same_file() {
     let (script, _) = recorded();
     let timelapse = Timelapse::new(&script, settings(Interval::Frames(6))).unwrap();
-    let go = |_| ControlFlow::Continue(());
     for name in ["whole.gif", "whole.png"] {
         let folder = tempfile::tempdir().unwrap();
         let whole = files(folder.path(), name);
-        assert_eq!(timelapse.write(&mut blank(), &whole, go).unwrap(), Some(0));
+        assert_eq!(timelapse.write(&mut blank(), &whole, go_on).unwrap(), Some(0));
         assert!(!whole.frames.exists(), "the frames are removed");
         let again = files(folder.path(), &format!("again-{name}"));
-        let half = |done| if done > 0.4 { ControlFlow::Break(()) } else { go(done) };
+        let half = |done| if done > 0.4 { ControlFlow::Break(()) } else { go_on(done) };
         assert_eq!(timelapse.write(&mut blank(), &again, half).unwrap(), None);
         assert!(!folder.path().join(format!("again-{name}")).exists());
         assert!(!again.frames.exists(), "nothing is left");
         let again = TimelapseFiles { keep_frames: true, ..again };
         assert_eq!(timelapse.write(&mut blank(), &again, half).unwrap(), None);
-        let kept = timelapse.write(&mut blank(), &again, go).unwrap();
+        let kept = timelapse.write(&mut blank(), &again, go_on).unwrap();
         assert!(kept.is_some_and(|kept| (1..6).contains(&kept)), "{kept:?} frames existed");
         let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
         assert!(read(name) == read(&format!("again-{name}")), "{name}: the same bytes");
     }
+}
+
+fn go_on(_: f64) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }
 
 #[test]

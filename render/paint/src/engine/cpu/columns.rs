@@ -1,10 +1,15 @@
-//! Paint with the volume of every cell stored beside it, so that computing the
-//! penetration of the head need not sum the pigments.
+//! Paint as the processor stores it: columns with their volume beside them, sparse dry layers,
+//! tiles saved for undo, and the paint on a head.
+//!
+//! The volume of every cell is stored, so that the penetration of the head need not sum the
+//! pigments.
+
+use graphics::field::Field;
+use graphics::tile::{Rect, TILE, Tile, TileSet};
 
 use crate::layer::{Cell, Layer, SLOTS};
-use graphics::tile::{Rect, TILE, TileSet};
 
-/// A layer and the volume of each of its cells; 40 bytes a cell.
+/// A layer and the volume of each of its cells. 40 bytes a cell.
 #[derive(Debug, Clone)]
 pub(super) struct Columns {
     layer: Layer,
@@ -47,8 +52,11 @@ impl Columns {
         for tile in covered.iter() {
             let inside = tile.rect(bounds).intersection(rect);
             let mut rows = inside.y..inside.y + inside.height;
-            let row = |y: usize| &self.volume[y * self.width() + inside.x..][..inside.width];
-            if rows.any(|y| row(y).iter().any(|&volume| volume > 0)) {
+            if rows.any(|y| {
+                self.volume[y * self.width() + inside.x..][..inside.width]
+                    .iter()
+                    .any(|&volume| volume > 0)
+            }) {
                 let at = (inside.x - rect.x, inside.y - rect.y);
                 part.put(at, &self.layer.part(inside));
             }
@@ -152,12 +160,140 @@ impl Rows<'_> {
     }
 }
 
-/// Consecutive cells of one row; the three slices have the same length.
+/// Consecutive cells of one row. The three slices have the same length.
 #[derive(Debug)]
 pub(super) struct Row<'a> {
     pub(super) pigments: &'a mut [[u32; SLOTS]],
     pub(super) vehicle: &'a mut [u32],
     pub(super) volume: &'a mut [u32],
+}
+
+/// A layer stored by tiles. Tiles without paint are not stored.
+#[derive(Debug, Clone)]
+pub(super) struct SparseLayer {
+    bounds: Rect,
+    /// Number of tiles in a row of tiles.
+    tile_columns: usize,
+    /// Row by row. `None` without paint.
+    tiles: Vec<Option<Layer>>,
+}
+
+impl SparseLayer {
+    /// A layer without paint over `bounds`.
+    pub(super) fn empty(bounds: Rect) -> Self {
+        let tile_columns = bounds.width.div_ceil(TILE);
+        let tiles = vec![None; tile_columns * bounds.height.div_ceil(TILE)];
+        Self { bounds, tile_columns, tiles }
+    }
+
+    pub(super) fn from_layer(layer: &Layer) -> Self {
+        let mut sparse = Self::empty(layer.vehicle.bounds());
+        for tile in TileSet::all(sparse.bounds).iter() {
+            sparse.set_tile(tile, layer.part(tile.rect(sparse.bounds)));
+        }
+        sparse
+    }
+
+    /// The paint in `rect`, which must lie within the bounds.
+    pub(super) fn part(&self, rect: Rect) -> Layer {
+        let mut layer = Layer::empty(rect.width, rect.height);
+        let mut covered = TileSet::default();
+        covered.insert(rect);
+        for tile in covered.iter() {
+            let (whole, Some(part)) = (tile.rect(self.bounds), self.tile(tile)) else { continue };
+            let both = whole.intersection(rect);
+            let inside = Rect { x: both.x - whole.x, y: both.y - whole.y, ..both };
+            layer.put((both.x - rect.x, both.y - rect.y), &part.part(inside));
+        }
+        layer
+    }
+
+    /// The tiles that have paint, row by row.
+    pub(super) fn tiles(&self) -> impl Iterator<Item = (Tile, &Layer)> {
+        self.tiles.iter().enumerate().filter_map(|(index, part)| {
+            let tile = Tile { row: index / self.tile_columns, column: index % self.tile_columns };
+            Some((tile, part.as_ref()?))
+        })
+    }
+
+    /// The paint of one tile. `None` if the tile has no paint.
+    pub(super) fn tile(&self, tile: Tile) -> Option<&Layer> {
+        self.tiles[tile.row * self.tile_columns + tile.column].as_ref()
+    }
+
+    /// Stores `part` as the paint of `tile`, or nothing if `part` is empty.
+    pub(super) fn set_tile(&mut self, tile: Tile, part: Layer) {
+        let painted = part.totals().iter().any(|&total| total > 0);
+        self.tiles[tile.row * self.tile_columns + tile.column] = painted.then_some(part);
+    }
+
+    /// Sets each cell of `heights` to `change(height, volume)`, with the volume of
+    /// this layer's paint in that cell. Cells of tiles without paint are left alone.
+    pub(super) fn for_each_column(
+        &self,
+        heights: &mut Field<i32>,
+        change: impl Fn(i32, u32) -> i32,
+    ) {
+        for (tile, part) in self.tiles() {
+            let rect = tile.rect(self.bounds);
+            for y in 0..rect.height {
+                for (x, cell) in
+                    heights.row_mut(rect.y + y, rect.x, rect.width).iter_mut().enumerate()
+                {
+                    *cell = change(*cell, part.cell(y * rect.width + x).volume());
+                }
+            }
+        }
+    }
+}
+
+/// Paint of a tile, one list of amounts for each slot and, last, for the vehicle. A list without
+/// paint is left out.
+#[derive(Debug, Clone)]
+pub(super) struct SavedTile {
+    width: usize,
+    height: usize,
+    amounts: [Option<Box<[u32]>>; SLOTS + 1],
+}
+
+impl SavedTile {
+    /// Keeps the paint of a tile.
+    pub(super) fn of(paint: &Layer) -> Self {
+        let totals = paint.totals();
+        let amounts = std::array::from_fn(|slot| {
+            (totals[slot] > 0).then(|| match slot {
+                SLOTS => paint.vehicle.values().into(),
+                _ => paint.pigments.values().iter().map(|cell| cell[slot]).collect(),
+            })
+        });
+        Self { width: paint.width(), height: paint.height(), amounts }
+    }
+
+    /// Columns and rows of cells.
+    pub(super) fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// The paint in the cell with this index, counted row by row.
+    pub(super) fn cell(&self, index: usize) -> Cell {
+        let amount = |slot: usize| self.amounts[slot].as_ref().map_or(0, |list| list[index]);
+        Cell { pigments: std::array::from_fn(amount), vehicle: amount(SLOTS) }
+    }
+}
+
+/// Paint on a head, and the means that its coat follows.
+#[derive(Debug, Clone)]
+pub(super) struct HeadPaint {
+    pub(super) cells: Columns,
+    /// Mean volume in quanta of the hair of each cell when paint last flowed along it.
+    pub(super) means: Vec<u32>,
+}
+
+impl HeadPaint {
+    pub(super) fn new(layer: Layer) -> Self {
+        let cells = Columns::new(layer);
+        Self { means: vec![0; cells.volume().len()], cells }
+    }
 }
 
 #[cfg(test)]
@@ -188,5 +324,23 @@ mod tests {
                 assert_eq!(columns.volume()[index], wanted.volume(), "({x}, {y})");
             }
         }
+    }
+
+    #[test]
+    fn a_saved_tile_has_every_amount_and_no_list_without_paint() {
+        let mut paint = Layer::empty(5, 3);
+        for index in 0..15 {
+            let mut cell = Cell { vehicle: index as u32, ..Cell::default() };
+            cell.pigments[2] = 7 * index as u32;
+            cell.pigments[7] = u32::from(index == 14);
+            paint.set_cell(index, cell);
+        }
+        let saved = SavedTile::of(&paint);
+        assert_eq!(saved.size(), (5, 3));
+        for index in 0..15 {
+            assert_eq!(saved.cell(index), paint.cell(index), "cell {index}");
+        }
+        let lists = saved.amounts.iter().filter(|list| list.is_some()).count();
+        assert_eq!(lists, 3, "two pigments and the vehicle");
     }
 }

@@ -1,20 +1,23 @@
 //! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
 //! specification in [`crate::motion`], row by row.
+//!
+//! A head that lies across the rows fills little of the rectangle around it, so each row is worked
+//! on only between its ends. The surface below the wet paint comes block by block from
+//! [`crate::motion::bed`].
 
 use std::ops::Range;
 
-use super::below::Below;
-use super::columns::Columns;
-use super::head_paint::HeadPaint;
-use super::spans::{Spans, joined};
+use graphics::field::Field;
+use graphics::tile::Rect;
+
+use super::columns::{Columns, HeadPaint};
 use crate::contact::{Contact, Touch};
 use crate::mask::Mask;
 use crate::motion::MotionConstants;
+use crate::motion::bed::{BLOCK, NO_BED, between, block_height, weighted};
 use crate::motion::press::{
     CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration, pressure,
 };
-use graphics::field::Field;
-use graphics::tile::Rect;
 
 /// Cells on every side of the reach that repeat the nearest cell of the reach, so that flows
 /// need no bounds checks.
@@ -36,13 +39,13 @@ pub(super) struct PenetrationMap {
     changing: Spans,
     /// Columns whose tops are computed, as flows depend on them.
     seen: Spans,
-    /// Coats in quanta of the cells in contact, with the same rim; of no meaning elsewhere.
+    /// Coats in quanta of the cells in contact, with the same rim, undefined elsewhere.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
     /// Mean volumes of the hair over the cells of one row of the contact.
     means: Vec<u32>,
-    /// Whether each column is crowded or covered, with the same rim; empty if none is, which is
+    /// Whether each column is crowded or covered, with the same rim. Empty if none is, which is
     /// nearly always so without a mask.
     crowded: Vec<bool>,
 }
@@ -111,7 +114,6 @@ impl PenetrationMap {
         let rates = contact.rates;
         let Below { floor, bed, mask } = below;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
-            let below_head = |touch: &Touch| touch.height != Touch::NONE.height;
             let Some(from) = touches.iter().position(below_head) else { continue };
             let touches = &touches[from..];
             let count = touches.iter().rposition(below_head).map_or(0, |last| last + 1);
@@ -143,7 +145,6 @@ impl PenetrationMap {
                     *here = if mask.covers(cell) { NO_CONTACT } else { *here };
                 }
             }
-            let touching = |penetration: &i32| *penetration != NO_CONTACT;
             let Some(first) = found.iter().position(touching) else { continue };
             let end = found.iter().rposition(touching).map_or(first, |last| last + 1);
             self.contact.set(y, x + first..x + end);
@@ -152,9 +153,19 @@ impl PenetrationMap {
                 *pressed = pressure(motion, penetration);
             }
         }
+
+        #[inline(always)]
+        fn touching(penetration: &i32) -> bool {
+            *penetration != NO_CONTACT
+        }
+
+        #[inline(always)]
+        fn below_head(touch: &Touch) -> bool {
+            touch.height != Touch::NONE.height
+        }
     }
 
-    /// Computes the tops of the columns that are seen, and those of the rim beside them.
+    /// Computes the tops of the columns that are seen, and of the rim beside them.
     #[inline(always)]
     fn find_tops(&mut self, floor: &Field<i32>, wet: &Columns) {
         let reach = self.reach;
@@ -213,16 +224,20 @@ impl PenetrationMap {
         let row = self.row_length();
         let count = found.len();
         let middle = self.start(y) + x - self.reach.x;
-        // Nine rows of pressures; those without contact are the lowest.
+        // Nine rows of pressures. Those without contact are the lowest.
         let beside = |place: usize| {
             let at = |place: usize| &self.pressures[place..][..count];
             at(place - 1).iter().zip(at(place)).zip(at(place + 1))
         };
         let rows = beside(middle - row).zip(beside(middle)).zip(beside(middle + row));
         for (found, ((above, here), below)) in found.iter_mut().zip(rows) {
-            let highest = |((&a, &b), &c): ((&i32, &i32), &i32)| a.max(b).max(c);
             let highest = highest(above).max(highest(here)).max(highest(below));
             *found = if highest == NO_CONTACT { 0 } else { u32::MAX };
+        }
+
+        #[inline(always)]
+        fn highest(((&a, &b), &c): ((&i32, &i32), &i32)) -> i32 {
+            a.max(b).max(c)
         }
     }
 
@@ -233,14 +248,14 @@ impl PenetrationMap {
         let reach = self.reach;
         self.crowded.clear();
         let rows = reach.y..reach.y + reach.height;
-        let row = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
-        let highest = rows.clone().map(|y| highest(row(y))).max().unwrap_or(0);
+        let volumes = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
+        let highest = rows.clone().map(|y| highest(volumes(y))).max().unwrap_or(0);
         if highest > CROWDED_VOLUME || mask.is_some() {
             self.crowded.resize(self.row_length() * (reach.height + 2 * RIM), false);
             for y in rows {
                 let start = self.start(y);
                 let first = y * wet.width() + reach.x;
-                let columns = self.crowded[start..].iter_mut().zip(row(y));
+                let columns = self.crowded[start..].iter_mut().zip(volumes(y));
                 for (cell, (crowded, &volume)) in (first..).zip(columns) {
                     *crowded =
                         volume > CROWDED_VOLUME || mask.is_some_and(|mask| mask.covers(cell));
@@ -318,15 +333,18 @@ impl PenetrationMap {
         let motion = *motion;
         let count = found.len();
         let tops = |first: usize| &self.tops[first..][..count];
-        let pressures = |first: usize| &self.pressures[first..][..count];
         let before = tops(place - 2 * stride).iter();
-        let here = tops(place - stride).iter().zip(pressures(place - stride));
-        let next = tops(place).iter().zip(pressures(place));
+        let here = tops(place - stride).iter().zip(&self.pressures[place - stride..][..count]);
+        let next = tops(place).iter().zip(&self.pressures[place..][..count]);
         let beyond = tops(place + stride);
         let columns = before.zip(here).zip(next).zip(beyond);
         for (found, (((&before, here), next), &beyond)) in found.iter_mut().zip(columns) {
-            let column = |(&top, &pressure): (&i32, &i32)| Column { top, pressure };
             *found = flow(&motion, before, column(here), column(next), beyond);
+        }
+
+        #[inline(always)]
+        fn column((&top, &pressure): (&i32, &i32)) -> Column {
+            Column { top, pressure }
         }
     }
 }
@@ -338,4 +356,166 @@ fn highest(volumes: &[u32]) -> u32 {
         highest = highest.max(volume);
     }
     highest
+}
+
+/// One range of columns of the canvas for each row of a contact's reach. Empty where a row has
+/// none.
+#[derive(Debug, Default)]
+pub(super) struct Spans {
+    /// First row.
+    first: usize,
+    ranges: Vec<Range<usize>>,
+}
+
+impl Spans {
+    /// Makes the spans of the rows of `reach` empty.
+    pub(super) fn clear(&mut self, reach: Rect) {
+        self.first = reach.y;
+        self.ranges.clear();
+        self.ranges.resize(reach.height, 0..0);
+    }
+
+    /// The rows.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.first..self.first + self.ranges.len()
+    }
+
+    /// Columns of row `y`. None of rows beyond the reach.
+    #[inline(always)]
+    pub(super) fn of(&self, y: usize) -> Range<usize> {
+        let row = y.checked_sub(self.first).and_then(|row| self.ranges.get(row));
+        row.cloned().unwrap_or_default()
+    }
+
+    /// Sets the columns of row `y`, which is one of the reach.
+    #[inline(always)]
+    pub(super) fn set(&mut self, y: usize, columns: Range<usize>) {
+        self.ranges[y - self.first] = columns;
+    }
+
+    /// Sets the columns of the rows of `rect` to the columns of `rect`.
+    pub(super) fn fill(&mut self, rect: Rect) {
+        for y in rect.y..rect.y + rect.height {
+            self.set(y, rect.x..rect.x + rect.width);
+        }
+    }
+
+    /// Sets each span to the columns within `limit` that have a neighbour in `inner`, be it aside,
+    /// above, below or diagonal, and those between them.
+    pub(super) fn surround(&mut self, inner: &Self, limit: Rect) {
+        for y in limit.y..limit.y + limit.height {
+            let near =
+                joined(&joined(&inner.of(y.wrapping_sub(1)), &inner.of(y)), &inner.of(y + 1));
+            if !near.is_empty() {
+                let start = near.start.saturating_sub(1).max(limit.x);
+                self.set(y, start..(near.end + 1).min(limit.x + limit.width));
+            }
+        }
+    }
+}
+
+/// The columns of both ranges and those between them.
+#[inline(always)]
+pub(super) fn joined(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+    if a.is_empty() {
+        b.clone()
+    } else if b.is_empty() {
+        a.clone()
+    } else {
+        a.start.min(b.start)..a.end.max(b.end)
+    }
+}
+
+/// Heights of the bed of a stroke.
+#[derive(Debug, Clone)]
+pub(super) struct Bed {
+    /// By block, in units of 256 quanta.
+    blocks: Field<i32>,
+}
+
+impl Bed {
+    /// A bed over `bounds` that was never noted.
+    pub(super) fn unknown(bounds: Rect) -> Self {
+        let width = bounds.width.div_ceil(BLOCK);
+        let height = bounds.height.div_ceil(BLOCK);
+        Self { blocks: Field::filled(width, height, NO_BED) }
+    }
+
+    /// Records the current surface height under `rect` (corner aligned to a block).
+    pub(super) fn note(&mut self, rect: Rect, floor: &Field<i32>, wet: &Columns) {
+        for y in (rect.y..rect.y + rect.height).step_by(BLOCK) {
+            for x in (rect.x..rect.x + rect.width).step_by(BLOCK) {
+                let width = BLOCK.min(rect.x + rect.width - x);
+                let rows = y..(y + BLOCK).min(rect.y + rect.height);
+                let mut sum = 0;
+                for row in rows.clone() {
+                    let volume = &wet.volume()[row * floor.width() + x..][..width];
+                    let tops = floor.row(row, x, width).iter().zip(volume);
+                    sum += tops.map(|(&floor, &wet)| (floor + wet as i32) >> 8).sum::<i32>();
+                }
+                self.blocks[(x / BLOCK, y / BLOCK)] =
+                    block_height(sum, (width * rows.len()) as i32);
+            }
+        }
+    }
+
+    /// Writes the heights in quanta of the cells of row `y` from `x` on to `out`.
+    #[inline(always)]
+    pub(super) fn row(&self, (mut x, y): (usize, usize), mut out: &mut [i32]) {
+        let (upper, lower, down) = between(y, self.blocks.height());
+        let row = |block: usize| self.blocks.row(block, 0, self.blocks.width());
+        let upper = row(upper);
+        let lower = row(lower);
+        while !out.is_empty() {
+            let (left, right, share) = between(x, upper.len());
+            let column = |block: usize| weighted((upper[block], lower[block]), down);
+            let columns = (column(left), column(right));
+            // The cells up to the middle of the right block.
+            let count = (BLOCK - (x + BLOCK / 2) % BLOCK).min(out.len());
+            let (cells, rest) = out.split_at_mut(count);
+            for (i, out) in (0..).zip(cells) {
+                *out = weighted(columns, share + 2 * i);
+            }
+            (x, out) = (x + count, rest);
+        }
+    }
+
+    /// Height in quanta at a cell.
+    #[cfg(test)]
+    pub(super) fn at(&self, cell: (usize, usize)) -> i32 {
+        let mut height = [0];
+        self.row(cell, &mut height);
+        height[0]
+    }
+}
+
+/// Floor, bed and mask of a canvas.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Below<'a> {
+    /// Height of ground and dry paint in quanta.
+    pub(super) floor: &'a Field<i32>,
+    /// Surface before the stroke.
+    pub(super) bed: &'a Bed,
+    /// Covered cells. `None` if all are open.
+    pub(super) mask: Option<&'a Mask>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_around_spans_hold_all_neighbours_within_the_limit() {
+        let reach = Rect { x: 3, y: 10, width: 20, height: 6 };
+        let mut inner = Spans::default();
+        let mut around = Spans::default();
+        inner.clear(reach);
+        inner.set(12, 5..7);
+        inner.set(13, 20..23);
+        around.clear(reach);
+        around.surround(&inner, reach);
+        let found: Vec<_> = around.rows().map(|y| around.of(y)).collect();
+        assert_eq!(found, [0..0, 4..8, 4..23, 4..23, 19..23, 0..0]);
+        assert_eq!([around.of(9), around.of(16)], [0..0, 0..0]);
+    }
 }

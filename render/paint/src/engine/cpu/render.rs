@@ -1,18 +1,19 @@
 //! Rendering on the processor: the reflectance of ground and dry layers is baked, and where a
 //! picture is read, the wet paint is composited over it and shaded.
+//!
+//! The baked reflectance is stored only where there is dry paint. Everywhere else it is the
+//! ground's.
 
 use std::ops::Range;
 
+use graphics::field::Field;
+use graphics::tile::{Rect, TILE, Tile, TileSet};
 use rayon::prelude::*;
 
-use super::baked_tiles::BakedTiles;
-use super::columns::Columns;
-use super::sparse::SparseLayer;
+use super::columns::{Columns, SparseLayer};
 use crate::composite::composite_row;
 use crate::optics::{NODES, Scene};
 use crate::shade::{TopMaterial, Tops, shade_row};
-use graphics::field::Field;
-use graphics::tile::{Rect, TILE, TileSet};
 
 /// The layers to be rendered.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +31,7 @@ pub(super) struct PaintLayers<'a> {
 /// 16 bytes a cell and is read once after it changed. Allocated when first rendered.
 #[derive(Debug, Default)]
 pub(super) struct RenderedView {
-    /// The scene of the last rendering; `None` before the first.
+    /// The scene of the last rendering. `None` before the first.
     scene: Option<Scene>,
     /// Internal reflectance of ground and dry layers.
     baked: BakedTiles,
@@ -73,11 +74,14 @@ impl RenderedView {
         let end = ((lowest.row + 1) * TILE).min(bounds.height);
         let spans = spans(&both, bounds);
         let PaintLayers { floor, wet, .. } = *layers;
-        let top = |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32;
-        self.tops.set(first..end, |y| &spans[y / TILE], top);
+        self.tops.set(
+            first..end,
+            |y| &spans[y / TILE],
+            |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32,
+        );
     }
 
-    /// The picture in `rect`: linear sRGB, with 1 as the fourth component; black before the first
+    /// The picture in `rect`: linear sRGB, with 1 as the fourth component. Black before the first
     /// rendering. Rows are distributed over all cores.
     pub(super) fn picture_in(&self, layers: &PaintLayers<'_>, rect: Rect) -> Field<[f32; 4]> {
         let mut picture = Field::filled(rect.width, rect.height, BLACK);
@@ -118,7 +122,7 @@ impl RenderedView {
     }
 }
 
-/// The ranges of cell columns that `tiles` cover, for each row of tiles; adjacent
+/// The ranges of cell columns that `tiles` cover, for each row of tiles. Adjacent
 /// tiles are merged.
 fn spans(tiles: &TileSet, bounds: Rect) -> Vec<Vec<Range<usize>>> {
     let mut rows: Vec<Vec<Range<usize>>> = vec![Vec::new(); bounds.height.div_ceil(TILE)];
@@ -138,4 +142,71 @@ fn spans(tiles: &TileSet, bounds: Rect) -> Vec<Vec<Range<usize>>> {
 struct Buffers {
     internal: Vec<[f32; NODES]>,
     materials: Vec<TopMaterial>,
+}
+
+/// Reflectances of one tile, row by row.
+type TileReflectance = Vec<[f32; NODES]>;
+
+/// Baked reflectances by tile.
+#[derive(Debug, Default)]
+pub(super) struct BakedTiles {
+    /// Width of the canvas in cells.
+    width: usize,
+    /// Number of tiles in a row of tiles.
+    tile_columns: usize,
+    /// Row by row. `None` without dry paint.
+    tiles: Vec<Option<TileReflectance>>,
+}
+
+impl BakedTiles {
+    /// Bakes `tiles` of a canvas of `bounds` anew.
+    pub(super) fn bake(
+        &mut self,
+        scene: &Scene,
+        dry: &[SparseLayer],
+        bounds: Rect,
+        tiles: &TileSet,
+    ) {
+        self.width = bounds.width;
+        self.tile_columns = bounds.width.div_ceil(TILE);
+        self.tiles.resize_with(self.tile_columns * bounds.height.div_ceil(TILE), || None);
+        let tiles: Vec<Tile> = tiles.iter().collect();
+        let baked: Vec<_> = tiles
+            .par_iter()
+            .map(|&tile: &Tile| (tile, baked(scene, dry, tile, tile.rect(bounds))))
+            .collect();
+        for (tile, reflectance) in baked {
+            self.tiles[tile.row * self.tile_columns + tile.column] = reflectance;
+        }
+    }
+
+    /// Copies the reflectances of row `y` from column `x` on to `row`, where there is dry paint.
+    /// Other cells of `row` are left alone.
+    pub(super) fn copy_row(&self, y: usize, x: usize, row: &mut [[f32; NODES]]) {
+        let end = x + row.len();
+        for column in x / TILE..end.div_ceil(TILE) {
+            let tile = self.tiles.get((y / TILE) * self.tile_columns + column);
+            let Some(Some(tile)) = tile else { continue };
+            let left = column * TILE;
+            let right = ((column + 1) * TILE).min(self.width);
+            let from = left.max(x);
+            let to = right.min(end);
+            let first = (y % TILE) * (right - left) + from - left;
+            row[from - x..to - x].copy_from_slice(&tile[first..][..to - from]);
+        }
+    }
+}
+
+/// Internal reflectance of ground and dry layers in `tile`, which covers `rect`. `None` if no
+/// layer has paint there.
+fn baked(scene: &Scene, dry: &[SparseLayer], tile: Tile, rect: Rect) -> Option<TileReflectance> {
+    let mut backing: Option<TileReflectance> = None;
+    for (layer, optics) in dry.iter().zip(&scene.dry) {
+        let Some(part) = layer.tile(tile) else { continue };
+        let backing = backing.get_or_insert_with(|| vec![scene.ground; rect.width * rect.height]);
+        for (y, row) in backing.chunks_mut(rect.width).enumerate() {
+            composite_row(optics, part.pigments.row(y, 0, rect.width), row);
+        }
+    }
+    backing
 }

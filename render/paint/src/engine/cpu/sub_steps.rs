@@ -1,18 +1,23 @@
-//! Runs sub-steps in order, each on a number of threads that suits its contact's size.
+//! Runs sub-steps in order, each on as many threads as suit the size of its contact.
+//!
+//! Each thread moves some rows of the contact. The transfers between a row and the head above it
+//! are step 4 of the specification in [`crate::motion`]. Their loop has no branches, so that the
+//! compiler makes vector instructions of it.
 
-use pulp::{Simd, WithSimd};
+use std::ops::Range;
 
-use super::band::Band;
-use super::below::Below;
-use super::columns::{Columns, Rows};
-use super::head_paint::HeadPaint;
-use super::penetration::PenetrationMap;
-use super::step::SubStep;
-use super::wick::Wick;
-use crate::contact::{Contact, Wicking};
-use crate::motion::MotionConstants;
 use graphics::lanes::vectorized;
 use graphics::tile::Rect;
+use pulp::{Simd, WithSimd};
+
+use super::columns::{Columns, HeadPaint, Row, Rows};
+use super::penetration::{Below, PenetrationMap};
+use super::velocities::{Cells, Inflow, SubStep, Velocities};
+use super::wick::Wick;
+use crate::contact::{Contact, Wicking};
+use crate::layer::Cell;
+use crate::motion::MotionConstants;
+use crate::motion::transfer::{Exchange, exchange, leaving};
 
 /// Minimum number of cells of a contact's reach per thread: a contact of 26 x 26 cells
 /// stays on one thread, one of 88 x 88 cells may use three.
@@ -92,8 +97,11 @@ impl SubStepRunner {
         self.bands.resize_with(self.bands.len().max(count), Band::default);
         let bands = &mut self.bands[..count];
         for (i, band) in bands.iter_mut().enumerate() {
-            let edge = |i: usize| reach.y + reach.height * i / count;
-            band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
+            band.begin(
+                reach.y + reach.height * i / count..reach.y + reach.height * (i + 1) / count,
+                reach,
+                head.cells.volume().len(),
+            );
         }
         let penetration = &mut self.penetration;
         vectorized(MeasurePenetration { penetration, motion, contact, reach, below, wet, head });
@@ -212,5 +220,158 @@ impl WithSimd for AddBrushGains<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         self.band.add_brush_gains(self.head);
+    }
+}
+
+/// Rows of the canvas and the buffers of the thread that works on them. Buffers are
+/// all zero between sub-steps and are reused, so that no sub-step allocates.
+#[derive(Debug, Default)]
+pub(super) struct Band {
+    /// Rows of the canvas.
+    pub(super) rows: Range<usize>,
+    /// Paint that flows into these rows and into one row above and below.
+    inflow: Inflow,
+    /// Paint that each cell of the head gains from this band, modulo 2^32.
+    gains: Cells,
+    /// Indices of the head's cells that may gain or lose paint, possibly repeated or beyond the
+    /// head.
+    changed: Vec<u32>,
+    velocities: Velocities,
+    exchanges: Exchanges,
+}
+
+impl Band {
+    /// Assigns `rows` of `reach` to this band and makes its buffers large enough.
+    pub(super) fn begin(&mut self, rows: Range<usize>, reach: Rect, brush_cells: usize) {
+        self.inflow.begin(reach.width, rows.len() + 2);
+        self.rows = rows;
+        self.gains.grow(brush_cells);
+    }
+
+    /// Steps 2 and 3 of the specification. Paint that flows in is added later, by
+    /// [`Band::add_inflow_and_transfer`].
+    #[inline(always)]
+    pub(super) fn advect(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
+        self.velocities.begin(step, self.rows.start);
+        for y in self.rows.clone() {
+            let columns = step.penetration.moving(y);
+            let mut row = rows.row(y, columns.start, columns.len());
+            self.velocities.of_row(step, row.volume, y);
+            if !columns.is_empty() {
+                let place = (columns.start - step.reach.x, y + 1 - self.rows.start);
+                self.inflow.scatter(&self.velocities, &mut row, place);
+            }
+        }
+    }
+
+    /// Moves the inflow that this band and the band `below` computed for each other's
+    /// border rows to the band that owns the row.
+    pub(super) fn exchange_border_rows(&mut self, below: &mut Self) {
+        self.inflow.exchange_border_rows(&mut below.inflow);
+    }
+
+    /// The rest of step 3, and step 4 for the canvas. The head's cells are changed
+    /// later, by [`Band::add_brush_gains`].
+    #[inline(always)]
+    pub(super) fn add_inflow_and_transfer(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
+        for y in self.rows.clone() {
+            let inflow_row = y + 1 - self.rows.start;
+            let changing = step.penetration.changing(y);
+            if self.inflow.has_flow(inflow_row) && !changing.is_empty() {
+                let row = rows.row(y, changing.start, changing.len());
+                let from = changing.start - step.reach.x;
+                self.inflow.pour(from..from + changing.len(), inflow_row, row);
+            }
+            let columns = step.penetration.in_contact(y);
+            if !columns.is_empty() {
+                self.transfer(step, rows.row(y, columns.start, columns.len()), y);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn transfer(&mut self, step: &SubStep<'_>, row: Row<'_>, y: usize) {
+        self.exchanges.of_row(step, row.volume, y);
+        let head = step.head.cells.layer();
+        let cells = head.vehicle.values().len();
+        // Slices of one length, so that one check of an index is enough.
+        let above = (&head.pigments.values()[..cells], &head.vehicle.values()[..cells]);
+        let gains = (&mut self.gains.pigments[..cells], &mut self.gains.vehicle[..cells]);
+        let touches = step.touches(y);
+        self.changed.extend(touches.iter().map(|touch| touch.brush_cell));
+        let paint = row.pigments.iter_mut().zip(row.vehicle).zip(row.volume);
+        let exchanges = touches.iter().zip(&self.exchanges.found);
+        for (((pigments, vehicle), volume), (touch, &Exchange { down, up })) in paint.zip(exchanges)
+        {
+            if down | up == 0 {
+                continue;
+            }
+            let at = touch.brush_cell as usize;
+            let laid = Cell { pigments: above.0[at], vehicle: above.1[at] }.share_of_65536(down);
+            let canvas = Cell { pigments: *pigments, vehicle: *vehicle };
+            let taken = canvas.share_of_65536(up);
+            let canvas = canvas.minus(&taken).plus(&laid);
+            (*pigments, *vehicle, *volume) = (canvas.pigments, canvas.vehicle, canvas.volume());
+            let gained = Cell { pigments: gains.0[at], vehicle: gains.1[at] };
+            let gained = gained.wrapping_plus(&taken).wrapping_minus(&laid);
+            (gains.0[at], gains.1[at]) = (gained.pigments, gained.vehicle);
+        }
+    }
+
+    /// Adds the gains of this band to the head's paint and clears them.
+    #[inline(always)]
+    pub(super) fn add_brush_gains(&mut self, head: &mut HeadPaint) {
+        for at in self.changed.drain(..) {
+            let at = at as usize;
+            if let Some(gain) = self.gains.take(at) {
+                head.cells.set_cell(at, head.cells.cell(at).wrapping_plus(&gain));
+            }
+        }
+    }
+}
+
+/// Exchanges of one row after another. Holds its buffers, so that no sub-step allocates.
+#[derive(Debug, Default)]
+pub(super) struct Exchanges {
+    /// One for each cell in contact of a row, and those between them.
+    pub(super) found: Vec<Exchange>,
+    brush_volumes: Vec<u32>,
+    leaving: Vec<u32>,
+}
+
+impl Exchanges {
+    /// Computes the transfers of the cells in contact of row `y`. `volumes` holds the heights of
+    /// its columns in quanta.
+    #[inline(always)]
+    pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
+        let columns = step.penetration.in_contact(y);
+        let bounds = step.bounds;
+        let touches = step.touches(y);
+        let above = step.head.cells.volume();
+        self.brush_volumes.resize(columns.len(), 0);
+        for (volume, touch) in self.brush_volumes.iter_mut().zip(touches) {
+            *volume = above.get(touch.brush_cell as usize).copied().unwrap_or_default();
+        }
+        self.leaving.clear();
+        self.leaving.resize(columns.len(), 0);
+        let at_side = columns.start == 0 || columns.end == bounds.width;
+        if at_side || y == 0 || y + 1 == bounds.height {
+            for (x, (out, &touch)) in columns.clone().zip(self.leaving.iter_mut().zip(touches)) {
+                *out = leaving(touch, (x, y), bounds);
+            }
+        }
+        self.found.resize(columns.len(), Exchange { down: 0, up: 0 });
+        let penetrations = step.penetration.row(y, columns.start, columns.len());
+        let coats = step.penetration.coats(y, columns.start, columns.len());
+        // A copy, which the loop need not load again after each store.
+        let rates = step.contact.rates;
+        let heads = penetrations.iter().zip(coats);
+        let volumes = volumes.iter().zip(&self.brush_volumes).zip(&self.leaving);
+        let inputs = touches.iter().zip(heads).zip(volumes);
+        for (found, ((&touch, (&penetration, &coat)), volumes)) in self.found.iter_mut().zip(inputs)
+        {
+            let ((&canvas, &brush), &leaving) = volumes;
+            *found = exchange(&rates, touch, penetration, coat, canvas, brush, leaving);
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! Flow of paint over a head, along its hairs and between them.
 
-use super::columns::Columns as Paint;
-use super::head_paint::HeadPaint;
+use super::columns::{Columns as Paint, HeadPaint};
 use crate::contact::Wicking;
 use crate::layer::{Cell, SLOTS};
 use crate::motion::wick::{UNIT_BITS, dealt_share, flowing, given_share, lack, mean};
@@ -39,7 +38,8 @@ struct Columns {
     lacks: Vec<u32>,
     /// Volumes in quanta of all cells, row by row.
     volumes: Vec<u32>,
-    /// Shares in parts of 65536 of the cells of one row that are given, or of the pot that they get.
+    /// Shares in parts of 65536 of the cells of one row that are given, or of the pot that they
+    /// get.
     shares: Vec<u32>,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Wick {
 }
 
 impl Wick {
-    /// Moves paint within each group of hairs of `head`; see [`crate::motion::wick`].
+    /// Moves paint within each group of hairs of `head`. See [`crate::motion::wick`].
     #[inline(always)]
     pub(super) fn apply(&mut self, wicking: Wicking, head: &mut HeadPaint) {
         let width = head.cells.width();
@@ -285,11 +285,6 @@ mod tests {
 
     #[test]
     fn level_hair_does_not_mix() {
-        let cell = |index: usize| {
-            let mut cell = Cell::default();
-            cell.pigments[index % SLOTS] = 5_000_000;
-            cell
-        };
         let mut paint = head(4, 30, cell);
         Wick::default().apply(along(65536), &mut paint);
         assert!((0..120).all(|index| paint.cells.cell(index) == cell(index)), "paint moved");
@@ -307,6 +302,12 @@ mod tests {
         }
         let lowest = paint.cells.volume().iter().min();
         assert!(lowest > Some(&(MAX_COLUMN / 4)), "{lowest:?}");
+    }
+
+    fn cell(index: usize) -> Cell {
+        let mut cell = Cell::default();
+        cell.pigments[index % SLOTS] = 5_000_000;
+        cell
     }
 
     #[test]
@@ -333,7 +334,6 @@ mod tests {
     fn hairs_flow_in_turns() {
         let mut paint =
             head(12, 5, |index: usize| Cell { vehicle: 6_000_000 * (index / 12) as u32, ..EMPTY });
-        let volumes = |paint: &HeadPaint| paint.cells.volume().to_vec();
         let mut whole = paint.clone();
         Wick::default().apply(along(9000), &mut whole);
         for turn in 0..4 {
@@ -346,5 +346,9 @@ mod tests {
             }
         }
         assert_eq!(volumes(&paint), volumes(&whole));
+    }
+
+    fn volumes(paint: &HeadPaint) -> Vec<u32> {
+        paint.cells.volume().to_vec()
     }
 }

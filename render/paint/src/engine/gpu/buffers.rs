@@ -9,7 +9,7 @@ use graphics::tile::Rect;
 /// Bytes of a cell's pigment amounts.
 pub(super) const PIGMENT_BYTES: u64 = 4 * SLOTS as u64;
 
-/// A layer of paint on the device; the handles are cheap to clone.
+/// A layer of paint on the device. The handles are cheap to clone.
 #[derive(Debug, Clone)]
 pub(super) struct PaintBuffers {
     /// Eight u32 amounts per cell, by slot.
@@ -19,7 +19,7 @@ pub(super) struct PaintBuffers {
 }
 
 impl PaintBuffers {
-    /// Allocates `cells` cells without paint; `label` names them in errors.
+    /// Allocates `cells` cells without paint. `label` names them in errors.
     pub(super) fn empty(
         device: &Device,
         label: &'static str,
@@ -77,7 +77,7 @@ impl BrushBuffers {
         Ok(Self { size, paint: PaintBuffers { pigments, vehicle } })
     }
 
-    /// Uploads the paint of all cells; the means are 0 until paint flows along the hair.
+    /// Uploads the paint of all cells. The means are 0 until paint flows along the hair.
     pub(super) fn upload(&self, device: &mut Device, paint: &Layer) -> Result<(), DeviceError> {
         self.paint.upload(device, self.all_cells(), paint)?;
         let cells = self.size.0 * self.size.1;

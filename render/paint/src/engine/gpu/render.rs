@@ -1,15 +1,16 @@
-//! Rendering on the device: dry layers are baked, the wet layer is composited over
-//! them and shaded.
+//! Rendering on the device: dry layers are baked, the wet layer is composited over them and shaded.
 //!
-//! Twins of [`crate::composite`] and [`crate::shade`] in f32; tests state how close
-//! the two backends agree.
+//! These are twins of [`crate::composite`] and [`crate::shade`] in f32. Tests state how close the
+//! two backends agree. Shading reads the heights of the surface around every cell. They are
+//! computed again only where the paint changed, and serve all views.
+
+use graphics::gpu::{Buffer, Device, DeviceError, Kernel, Layout, Recording, Storage, layout};
+use graphics::tile::{Rect, TILE, TileSet};
 
 use super::buffers::PaintBuffers;
 use crate::layer::SLOTS;
 use crate::optics::{Gloss, NODES, Scene};
 use crate::shade::{MOST, ReliefLamp, SOFT, Tap};
-use graphics::gpu::{Buffer, Device, DeviceError, Kernel, Layout, Recording, Storage, layout};
-use graphics::tile::{TILE, TileSet};
 
 /// Number of cells that an invocation of [`BAKE`] or [`SHOW`] computes.
 const CELLS_AT_ONCE: u32 = 4;
@@ -121,7 +122,7 @@ pub(super) static SHOW: Kernel = Kernel {
         include_str!("../../amount.wgsl"),
         include_str!("../../layer.wgsl"),
         include_str!("../../composite.wgsl"),
-        include_str!("../../shade/shade.wgsl"),
+        include_str!("../../shade.wgsl"),
         include_str!("passes/show_tiles.wgsl"),
     ),
     parameters: layout!(ShowParams {
@@ -172,7 +173,7 @@ pub(super) struct CanvasBuffers<'a> {
     pub(super) dry: &'a [PaintBuffers],
 }
 
-/// The buffers of one view; the handles are cheap to clone.
+/// The buffers of one view. The handles are cheap to clone.
 #[derive(Debug, Clone)]
 pub(super) struct ViewBuffers {
     /// Internal reflectance of ground and dry layers at the eight wavelengths.
@@ -192,24 +193,28 @@ impl From<&crate::optics::LayerOptics> for LayerOptics {
 impl From<ReliefLamp> for LampParams {
     fn from(lamp: ReliefLamp) -> Self {
         let [x, y, z] = lamp.halfway;
-        let gloss = |(Gloss { strength, exponent }, level)| [strength, exponent, level, 0.0];
-        let tap = |tap: Tap| {
-            let [x, y] = tap.offset.map(|cells| cells as f32);
-            [x, y, tap.per_quantum, tap.less]
-        };
         Self {
             towards_lamp: lamp.towards_lamp,
             ambient: lamp.ambient,
             slope: lamp.slope,
             halfway: [x, y, z, 0.0],
-            gloss: lamp.gloss.map(gloss),
-            shadow: lamp.shadow.map(tap),
-            around: lamp.around.map(tap),
+            gloss: lamp.gloss.map(gloss_uniform),
+            shadow: lamp.shadow.map(tap_uniform),
+            around: lamp.around.map(tap_uniform),
             soft: SOFT,
             most: MOST,
             padding: [0.0; 2],
         }
     }
+}
+
+fn gloss_uniform((Gloss { strength, exponent }, level): (Gloss, f32)) -> [f32; 4] {
+    [strength, exponent, level, 0.0]
+}
+
+fn tap_uniform(tap: Tap) -> [f32; 4] {
+    let [x, y] = tap.offset.map(|cells| cells as f32);
+    [x, y, tap.per_quantum, tap.less]
 }
 
 impl ViewBuffers {
@@ -313,4 +318,81 @@ pub(super) fn columns_and_rows(tiles: &TileSet) -> Vec<[u32; 2]> {
 /// invocation.
 pub(super) fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
     [1, TILE as u32 / cells, tiles.len() as u32]
+}
+
+/// Uniforms of [`RAISE`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct RaiseParams {
+    /// Width and height of the canvas in cells.
+    canvas: [u32; 2],
+    /// Index of the first tile in the batch.
+    first_tile: u32,
+    padding: u32,
+}
+
+/// Adds up the heights of floor and wet paint.
+pub(super) static RAISE: Kernel = Kernel {
+    name: "raise_tiles",
+    source: concat!(
+        include_str!("../../amount.wgsl"),
+        include_str!("../../layer.wgsl"),
+        include_str!("passes/raise_tiles.wgsl"),
+    ),
+    parameters: PARAMS,
+    structs: &[],
+    storage: &[Storage::Batch, Storage::Read, Storage::Read, Storage::Read, Storage::Write],
+};
+
+const PARAMS: Layout = layout!(RaiseParams { canvas, first_tile, padding });
+
+/// Height of the surface of each cell in quanta.
+#[derive(Debug)]
+pub(super) struct Tops {
+    bounds: Rect,
+    /// Allocated when first rendered.
+    heights: Option<Buffer>,
+    /// Tiles whose paint changed since their heights were computed.
+    stale: TileSet,
+}
+
+impl Tops {
+    /// Heights of a canvas of `bounds`, none of which is computed yet.
+    pub(super) fn new(bounds: Rect) -> Self {
+        Self { bounds, heights: None, stale: TileSet::all(bounds) }
+    }
+
+    /// Notes that the paint in `rect` changes.
+    pub(super) fn change(&mut self, rect: Rect) {
+        self.stale.insert(rect);
+    }
+
+    /// Notes that the paint may change everywhere.
+    pub(super) fn change_all(&mut self) {
+        self.stale = TileSet::all(self.bounds);
+    }
+
+    /// Records the computation of changed heights from wet paint and floor, and returns all
+    /// heights. The handle is cheap to clone.
+    pub(super) fn record(
+        &mut self,
+        device: &Device,
+        recording: &mut Recording,
+        wet: &PaintBuffers,
+        floor: &Buffer,
+    ) -> Result<Buffer, DeviceError> {
+        let cells = self.bounds.width * self.bounds.height;
+        let heights = match self.heights.take() {
+            Some(heights) => heights,
+            None => device.buffer("the surface of the paint", 4 * cells as u64)?,
+        };
+        self.heights = Some(heights.clone());
+        let canvas = [self.bounds.width as u32, self.bounds.height as u32];
+        for tiles in columns_and_rows(&self.stale.take()).chunks(MAX_TILES) {
+            let params = RaiseParams { canvas, first_tile: recording.batch(tiles), padding: 0 };
+            let buffers = [&wet.pigments, &wet.vehicle, floor, &heights];
+            recording.dispatch(&RAISE, &params, &buffers, workgroups(tiles, 1));
+        }
+        Ok(heights)
+    }
 }

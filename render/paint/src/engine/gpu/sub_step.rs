@@ -1,12 +1,14 @@
-//! A sub-step on the device: four kernels over the contact grown by 2 cells, and one
-//! along the hair of the head.
+//! Kernels that change the paint on the device: a sub-step, drying, and tiles saved for undo.
 //!
-//! The kernels compute the same as [`crate::motion`], bit for bit.
+//! A sub-step is four kernels over the contact grown by 2 cells, and one along the hair of the
+//! head. They compute the same as [`crate::motion`], bit for bit.
 
+use graphics::gpu::{Device, DeviceError, Kernel, Layout, Storage, layout};
+use graphics::tile::{Rect, TILE};
+
+use super::buffers::PaintBuffers;
 use crate::contact::{Contact, ExchangeRates, Touch};
 use crate::motion::MotionConstants;
-use graphics::gpu::{Kernel, Layout, Storage, layout};
-use graphics::tile::Rect;
 
 /// Uniforms of the four kernels. Rectangles are x, y, width, height in cells.
 #[repr(C)]
@@ -53,7 +55,7 @@ const STRUCTS: &[Layout] = &[
     layout!(Touch { height, brush_cell, velocity, weights }),
 ];
 
-/// Joins the sources that all four kernels share with those of one kernel.
+/// Joins the sources that all four kernels share with the sources of one kernel.
 macro_rules! sub_step_source {
     ($($part:literal),*) => {
         concat!(
@@ -167,7 +169,7 @@ pub(super) struct WickParams {
     pub(super) turn: u32,
 }
 
-/// Lets paint flow over a head; an invocation a group of hairs.
+/// Lets paint flow over a head. One invocation computes a group of hairs.
 pub(super) static WICK: Kernel = Kernel {
     name: "wick_hairs",
     source: concat!(
@@ -189,4 +191,100 @@ pub(super) fn check_contact(contact: &Contact, bounds: Rect, brush_cells: u32) {
     let outside = |touch: &&Touch| touch.brush_cell >= brush_cells && touch.height < i32::MAX;
     let outside = touches.iter().find(outside);
     assert!(outside.is_none(), "a touch must lie within the head's {brush_cells}: {outside:?}");
+}
+
+/// Uniforms of [`DRY`] and [`MOVE_FLOOR`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct DryParams {
+    /// Width and height of the canvas in cells.
+    pub(super) canvas: [u32; 2],
+    /// Share of the wet paint that dries, in parts of 65536.
+    pub(super) share: u32,
+    /// 1 when a dry layer is added, -1 when it is removed.
+    pub(super) rise: i32,
+}
+
+const DRY_PARAMS: Layout = layout!(DryParams { canvas, share, rise });
+
+const SOURCE: &str = concat!(
+    include_str!("../../amount.wgsl"),
+    include_str!("../../layer.wgsl"),
+    include_str!("passes/dry.wgsl"),
+);
+
+const STORAGE: &[Storage] = &[Storage::Write; 5];
+
+/// Moves a share of the wet paint to a new dry layer and raises the floor.
+pub(super) static DRY: Kernel = Kernel {
+    name: "dry_cells",
+    source: SOURCE,
+    parameters: DRY_PARAMS,
+    structs: &[],
+    storage: STORAGE,
+};
+
+/// Raises or lowers the floor by the height of a dry layer.
+pub(super) static MOVE_FLOOR: Kernel = Kernel {
+    name: "move_floor",
+    source: SOURCE,
+    parameters: DRY_PARAMS,
+    structs: &[],
+    storage: STORAGE,
+};
+
+/// Number of cells of a tile.
+const TILE_CELLS: usize = TILE * TILE;
+
+/// Number of tiles in one block of memory.
+const TILES_PER_BLOCK: usize = 64;
+
+/// Uniforms of [`UNDO_TILE`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct UndoTileParams {
+    /// x, y, width and height in cells of the canvas.
+    pub(super) tile: [u32; 4],
+    /// Width and height of the canvas in cells.
+    pub(super) canvas: [u32; 2],
+    /// Index of the slot's first cell in its block.
+    pub(super) first_cell: u32,
+    /// 0 to save the tile, 1 to swap it with the saved one.
+    pub(super) swap: u32,
+}
+
+/// Saves a tile to its slot, or swaps the two.
+pub(super) static UNDO_TILE: Kernel = Kernel {
+    name: "undo_tile",
+    source: concat!(
+        include_str!("../../amount.wgsl"),
+        include_str!("../../layer.wgsl"),
+        include_str!("passes/undo_tile.wgsl"),
+    ),
+    parameters: layout!(UndoTileParams { tile, canvas, first_cell, swap }),
+    structs: &[],
+    storage: &[Storage::Write; 4],
+};
+
+/// Memory for saved tiles, allocated in blocks as slots come into use.
+#[derive(Debug, Default)]
+pub(super) struct UndoTiles {
+    blocks: Vec<PaintBuffers>,
+}
+
+impl UndoTiles {
+    /// The block that holds slot number `slot`, and the index of the slot's first cell
+    /// in it. Allocates the block if needed.
+    pub(super) fn place(
+        &mut self,
+        device: &Device,
+        slot: usize,
+    ) -> Result<(PaintBuffers, u32), DeviceError> {
+        while self.blocks.len() <= slot / TILES_PER_BLOCK {
+            let cells = TILES_PER_BLOCK * TILE_CELLS;
+            self.blocks.push(PaintBuffers::empty(device, "the undo history", cells)?);
+        }
+        let first_cell = slot % TILES_PER_BLOCK * TILE_CELLS;
+        Ok((self.blocks[slot / TILES_PER_BLOCK].clone(), first_cell as u32))
+    }
 }
