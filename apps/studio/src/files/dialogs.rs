@@ -1,17 +1,24 @@
 //! Small dialogs: questions, export, new painting, preferences.
+//!
+//! Enter as the default button of a dialog. Enter in a field only ends the field; a second
+//! Enter, or Ctrl+Enter at any time, presses the button.
+//!
+//! The dialogs that can be open.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use eframe::egui::{Align, Context, DragValue, Grid, Id, Layout, Modal, RichText, Ui};
+use eframe::egui::{Align, Context, DragValue, Event, Grid, Id, Key, Layout, Modal, RichText, Ui};
 use graphics::export::PictureFormat;
 use paint::export::SpectralBands;
 use paint::scene::PixelsPerCell;
+use session::brushes::BrushSet;
 
-use super::default_button;
-use super::drawing::DrawnFile;
-use super::exporting::{Export, ExportKind};
+use super::browser::Browser;
+use super::exporting::{Export, ExportKind, ScenePurpose, TimelapseExport};
+use super::new_dialog::{CanvasPicture, NewDialog};
 use super::preferences::{Backend, Preferences};
-use super::timelapse::TimelapseExport;
+use super::request::{Drawing, DrawingKind, DrawnFile, SwatchFormat};
+use super::work::PendingAction;
 use crate::language::{Language, english, tr, tr_format};
 use crate::pen::PenSettings;
 use crate::theme::ThemeChoice;
@@ -39,7 +46,7 @@ pub(super) fn dialog(
     content: impl FnOnce(&mut Ui),
 ) -> Option<Choice> {
     let mut choice = None;
-    let taken = default_button::keyboard_taken(ctx);
+    let taken = keyboard_taken(ctx);
     let modal = Modal::new(Id::unique(("dialog", title))).show(ctx, |ui| {
         ui.set_width(380.0);
         ui.heading(title);
@@ -60,7 +67,7 @@ pub(super) fn dialog(
             }
         });
     });
-    if choice.is_none() && default_button::pressed(ctx, taken) {
+    if choice.is_none() && pressed(ctx, taken) {
         choice = Some(Choice::Yes);
     }
     choice.or_else(|| modal.should_close().then_some(Choice::Cancelled))
@@ -276,4 +283,82 @@ pub(super) fn grid_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.label(name);
     ui.horizontal(content);
     ui.end_row();
+}
+
+/// Whether a field or button has the keyboard. Ask before the dialog is drawn: a field gives
+/// the keyboard back in the frame of its Enter.
+pub(crate) fn keyboard_taken(ctx: &Context) -> bool {
+    ctx.egui_wants_keyboard_input()
+}
+
+/// Whether the default button was pressed with the keyboard in this frame. A held key counts
+/// once. `taken` is the answer of [`keyboard_taken`] before the dialog was drawn.
+pub(crate) fn pressed(ctx: &Context, taken: bool) -> bool {
+    ctx.input(|input| {
+        input.events.iter().any(|event| match event {
+            Event::Key { key: Key::Enter, pressed: true, repeat: false, modifiers, .. } => {
+                modifiers.command || (!taken && modifiers.is_none())
+            }
+            _ => false,
+        })
+    })
+}
+
+/// A dialog that asks the user.
+#[derive(Debug)]
+pub(super) enum OpenDialog {
+    /// Asks for a file.
+    Browser(Box<Browser>, FilePurpose),
+    /// Asks if unsaved changes should be saved before the action is carried out.
+    Unsaved(PendingAction),
+    /// Asks if drawings should be saved before the action is carried out.
+    UnsavedDrawings(PendingAction),
+    /// Asks if the revision in this file should be deleted.
+    DeleteRevision(PathBuf),
+    /// Asks what to export.
+    Export(Export),
+    /// Asks what to export of the painting that a scene makes.
+    ExportOfScene(Export),
+    /// Asks for the settings of a timelapse.
+    Timelapse(TimelapseExport),
+    /// Asks for the canvas of a new painting.
+    New(Box<NewDialog>),
+    /// Shows the preferences.
+    Preferences,
+}
+
+/// The purpose of a file that the painter is asked for.
+#[derive(Debug)]
+pub(super) enum FilePurpose {
+    /// Opens the dialog.
+    Open,
+    /// Saves the painting in it, keeps a revision if `keep_revision` is set, then carries
+    /// out `next`.
+    Save { next: Option<PendingAction>, keep_revision: bool },
+    /// Exports to it.
+    Export(Export),
+    /// Writes a timelapse of the recording to it.
+    Timelapse(TimelapseExport),
+    /// Saves the recording in it.
+    Recording,
+    /// Pins the picture in it beside the canvas.
+    Reference,
+    /// Gives it to the canvas of a new painting.
+    Canvas(CanvasPicture),
+    /// Lights the painting with the lamp measured in it.
+    Lamp,
+    /// Saves the drawing in it, then carries out `next`.
+    SaveDrawing { drawing: Box<Drawing>, next: Option<PendingAction> },
+    /// Reads a drawing from it.
+    OpenDrawing(DrawingKind),
+    /// Takes the brushes in it over.
+    ImportBrushes,
+    /// Writes a set of brushes to it.
+    ExportBrushes(Box<BrushSet>),
+    /// Adds the mixtures or colours in it to those that are kept.
+    ImportSwatches,
+    /// Writes the kept mixtures to it.
+    ExportSwatches(SwatchFormat),
+    /// Opens or writes a file of a scene.
+    Scene(ScenePurpose),
 }

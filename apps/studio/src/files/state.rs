@@ -1,30 +1,39 @@
 //! State of the files of the painting, and the basic steps on it.
+//!
+//! State of the kept mixtures.
+//!
+//! Entry points for the window: worker events, the update and drawing of each frame,
+//! requests of menus and panels, and the end of the session.
+//!
+//! Shows messages, lost sessions and running jobs over the window.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
-use web_time::Instant;
 
-use eframe::egui::{Context, ViewportCommand};
+use eframe::egui::{
+    Align, Align2, Area, Context, Frame, Id, Layout, Order, ProgressBar, RichText, Spinner, Ui,
+    ViewportCommand, vec2,
+};
+use session::swatches::SwatchBook;
+use session::{Autosave, Command, Event, LostSession, Pace, PaintingState};
+use spectra::swatch_file::SwatchFile;
+use web_time::{Duration, Instant, SystemTime};
 
 use super::browser::Thumbnails;
 use super::desk::Desk;
-use super::drawing::DrawnFile;
-use super::home::Home;
+use super::dialogs::OpenDialog;
+use super::exporting::SceneFiles;
 use super::job::{Job, JobError, Progress};
-use super::notice::{Notice, StatusNote};
-use super::open_dialog::OpenDialog;
-use super::own_brushes::BrushSets;
-use super::pending::{FileOrigin, PendingAction, Replacement};
-use super::preferences::Preferences;
-use super::problem::Problem;
-use super::reference_change::ReferenceChange;
-use super::revision_list::RevisionList;
-use super::scene_files::SceneFiles;
-use super::swatch_list::SwatchList;
-use super::work::{Finished, JobKind, Purpose, RunningJob};
-use crate::language::tr;
-use session::{Autosave, Command, LostSession, Pace, PaintingState};
+use super::opened::RevisionList;
+use super::preferences::{Home, Preferences};
+use super::problem::{Problem, ago};
+use super::request::{DrawnFile, FileRequest, ReferenceChange};
+use super::work::{
+    BrushSets, FileOrigin, Finished, JobKind, Notice, PendingAction, Purpose, Replacement,
+    RunningJob, StatusNote,
+};
+use crate::language::{tr, tr_format};
 
 /// The files of the painting: opening, saving, exports, autosave, preferences and their
 /// dialogs.
@@ -342,4 +351,404 @@ impl Files {
             PendingAction::Reference(change) => self.reference.push_back(change),
         }
     }
+}
+
+/// The kept mixtures, and what of them is in their file.
+#[derive(Debug, Default)]
+pub(super) struct SwatchList {
+    /// Mixtures as the painter sees them.
+    pub(super) book: SwatchBook,
+    /// Mixtures in the file; `None` until it was read.
+    pub(super) written: Option<SwatchBook>,
+    /// Whether reading has begun.
+    pub(super) asked: bool,
+    /// Colours that were imported and not taken yet.
+    pub(super) colors: Option<SwatchFile>,
+}
+
+impl Files {
+    /// Handles an event of the worker.
+    pub fn handle_event(&mut self, event: &Event) {
+        match event {
+            Event::Opened(state) => self.opened(state),
+            Event::State(state) => {
+                self.painting = Some(state.clone());
+                self.settle_sample();
+            }
+            Event::Snapshot(snapshot) => {
+                if let Some(purpose) = self.take_purpose(snapshot.number) {
+                    self.start_with_snapshot(purpose, snapshot);
+                }
+            }
+            Event::Kept(kept) => {
+                if let Some(Purpose::Autosave) = self.take_purpose(kept.snapshot.number) {
+                    self.start_autosave(kept);
+                }
+            }
+            Event::Recording { number, script } => {
+                if let Some(purpose) = self.take_purpose(*number) {
+                    self.start_with_recording(purpose, script.clone());
+                }
+            }
+            Event::Progress { done, of } => self.replay = Some((*done, *of)),
+            Event::Replayed => {
+                self.replay = None;
+                self.sample_played();
+            }
+            Event::Message { failed: true, .. } => self.opening = None,
+            _ => {}
+        }
+    }
+
+    /// The worker has opened a painting.
+    fn opened(&mut self, state: &Arc<PaintingState>) {
+        let FileOrigin { path, lost, start, sample, changed } =
+            self.opening.take().unwrap_or_default();
+        (self.sample, self.sample_settles) = (sample, false);
+        self.epoch += 1;
+        self.start = start;
+        self.saved_revision = (!changed).then_some(state.revision);
+        self.painting = Some(state.clone());
+        self.autosaved_revision = None;
+        (self.recorded, self.autosaved_desk) = (0, None);
+        if let Some(path) = &path
+            && lost.is_none()
+        {
+            self.preferences.remember(path);
+        }
+        self.path = path;
+        if let Some(lost) = &lost {
+            let desk = lost.meta.desk.clone();
+            self.recovered_desk = desk.and_then(|desk| serde_json::from_value(desk).ok());
+        }
+        if lost.is_some() {
+            // The painting is not saved yet. This makes an autosave due now; the lost
+            // session is deleted once that is written.
+            self.last_autosave = None;
+            self.recovered = lost;
+        } else if changed {
+            // The autosaves of before stay until one holds the change.
+            self.last_autosave = None;
+        } else {
+            self.clear_autosaves();
+        }
+        self.list_revisions();
+    }
+
+    /// Applies results of jobs, starts autosaves, and keeps the window open while changes
+    /// would be lost. Returns commands for the worker. To be called every frame, also
+    /// while the window is hidden.
+    pub fn update(&mut self, ctx: &Context) -> Vec<Command> {
+        self.collect_results();
+        self.close_when_saved();
+        self.read_brush_sets_once();
+        self.autosave_when_due();
+        self.write_changed_preferences();
+        self.write_changed_brush_sets();
+        self.keep_swatches();
+        if ctx.input(|input| input.viewport().close_requested()) && !self.may_close() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+        }
+        std::mem::take(&mut self.commands)
+    }
+
+    /// Whether the window may close now. If changes would be lost, the painter is asked,
+    /// unless they are already being saved.
+    fn may_close(&mut self) -> bool {
+        if self.closing {
+            return true;
+        }
+        let writes = self.jobs.iter().any(|job| job.kind == JobKind::Saving);
+        // Asked for again while the worker has not even answered, the painter is asked instead.
+        let asked_again = std::mem::take(&mut self.closes_when_saved) && !writes;
+        if self.is_saving() && !asked_again {
+            self.closes_when_saved = true;
+            let text =
+                tr("what is being saved is finished first, then the program closes").to_owned();
+            self.status = Some(StatusNote { text, hint: None });
+            return false;
+        }
+        if !self.has_unsaved_changes() && self.unsaved_drawings.is_empty() {
+            return true;
+        }
+        if !self.dialogs.iter().any(|dialog: &OpenDialog| match dialog {
+            OpenDialog::Unsaved(action) | OpenDialog::UnsavedDrawings(action) => {
+                matches!(action, PendingAction::Close { .. })
+            }
+            _ => false,
+        }) {
+            self.carry_out_safely(PendingAction::Close { drawings_given_up: false });
+        }
+        false
+    }
+
+    /// Closes the window if that was asked for while the painting was being saved.
+    fn close_when_saved(&mut self) {
+        if self.closes_when_saved && !self.is_saving() && !self.closing {
+            self.closes_when_saved = false;
+            self.carry_out_safely(PendingAction::Close { drawings_given_up: false });
+        }
+    }
+
+    /// Shows messages and the topmost dialog.
+    pub fn show(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        self.show_notices(&ctx);
+        self.show_dialog(ui);
+    }
+
+    /// Handles a request of a menu or panel.
+    pub fn request(&mut self, request: FileRequest, state: &PaintingState) {
+        match request {
+            FileRequest::Open(Some(path)) => self.read(path),
+            FileRequest::Open(None) => self.ask_for_file(),
+            FileRequest::Save => match self.path.clone() {
+                Some(path) => self.save(path, None),
+                None => self.ask_where_to_save(None, false),
+            },
+            FileRequest::SaveAs => self.ask_where_to_save(None, false),
+            FileRequest::KeepRevision => match self.path.clone() {
+                Some(path) => self.request_snapshot(Purpose::Revision { path }),
+                None => self.ask_where_to_save(None, true),
+            },
+            FileRequest::OpenRevision(path) => self.read_revision(path),
+            FileRequest::DeleteRevision(path) => {
+                self.dialogs.push(OpenDialog::DeleteRevision(path));
+            }
+            FileRequest::Export => self.ask_what_to_export(),
+            FileRequest::ExportTimelapse => self.ask_for_timelapse(),
+            FileRequest::SaveRecording => self.ask_where_to_record(),
+            FileRequest::OpenReference(Some(path)) => {
+                self.change_reference(ReferenceChange::Open(path));
+            }
+            FileRequest::OpenReference(None) => self.ask_for_reference(),
+            FileRequest::CloseReference => self.change_reference(ReferenceChange::Close),
+            FileRequest::SaveDrawing(drawn) => self.ask_where_to_draw(drawn, None),
+            FileRequest::OpenDrawing(kind, picture) => self.ask_for_drawing(kind, &picture),
+            FileRequest::OpenLamp => self.ask_for_lamp(),
+            FileRequest::Swatches(change) => self.change_swatches(change),
+            FileRequest::ImportSwatches => self.ask_for_swatches(),
+            FileRequest::ExportSwatches(format) => self.ask_where_to_keep_swatches(format),
+            FileRequest::Crop(rect) => self.request_snapshot(Purpose::Crop(rect)),
+            FileRequest::New => self.ask_for_new(state),
+            FileRequest::Sample => self.open_sample(),
+            FileRequest::ImportBrushes => self.ask_for_brushes(),
+            FileRequest::ExportBrushes => self.ask_where_to_export_brushes(),
+            FileRequest::Preferences => self.dialogs.push(OpenDialog::Preferences),
+        }
+    }
+
+    /// Ends the session when the window closes: waits for running jobs and writes the
+    /// preferences. Autosaves of unsaved changes stay for the next start, unless the
+    /// painter discarded them.
+    pub fn finish(&mut self) {
+        for job in std::mem::take(&mut self.jobs) {
+            let saves = job.kind == JobKind::Saving;
+            if let Some(finished) = job.finish().filter(|_| saves) {
+                self.apply(finished);
+            }
+        }
+        if self.preferences != self.written_preferences {
+            let _ = self.preferences.write(&self.home.preferences());
+        }
+        self.finish_brush_sets();
+        self.finish_swatches();
+        self.scenes.end();
+        let keeps = self.has_unsaved_changes() && !self.closing;
+        let autosave = self.autosave.lock().ok().and_then(|mut autosave| autosave.take());
+        if !keeps {
+            if let Some(autosave) = autosave {
+                autosave.end();
+            }
+            if let Some(lost) = self.recovered.take() {
+                lost.discard();
+            }
+        }
+    }
+}
+
+/// A job is shown after it has run for this time; a shorter one would only flicker.
+const JOB_SHOWN_AFTER: Duration = Duration::from_millis(300);
+
+/// Width of a message, in points.
+const WIDTH: f32 = 480.0;
+/// Width of the buttons of a message, in points.
+const BUTTONS_WIDTH: f32 = 140.0;
+
+/// Maximum number of messages shown at a time.
+const MAX_NOTICES: usize = 4;
+
+/// Bottom of the messages in the last frame, in points; `None` without messages.
+pub(crate) fn bottom_of_notices(ctx: &Context) -> Option<f32> {
+    let shown = ctx.memory(|memory| memory.area_rect(area_id()))?;
+    (shown.height() > 1.0).then_some(shown.bottom())
+}
+
+fn area_id() -> Id {
+    Id::unique("file notices")
+}
+
+/// A button that was clicked, with the index of the session, notice or job.
+enum Clicked {
+    Recover(usize),
+    Discard(usize),
+    RecoverScene(usize),
+    DiscardScene(usize),
+    CloseNotice(usize),
+    CancelJob(usize),
+    CancelReplay,
+}
+
+impl Files {
+    /// Shows all messages at the top of the window, above everything else.
+    pub(super) fn show_notices(&mut self, ctx: &Context) {
+        let now = Instant::now();
+        self.notices.retain(|notice| notice.until.is_none_or(|until| until > now));
+        if let Some(next) = self.notices.iter().filter_map(|notice| notice.until).min() {
+            ctx.request_repaint_after(next - now);
+        }
+        let excess = self.notices.len().saturating_sub(MAX_NOTICES);
+        self.notices.drain(..excess);
+        let mut clicked = None;
+        Area::new(area_id())
+            .order(Order::Foreground)
+            .anchor(Align2::CENTER_TOP, vec2(0.0, 44.0))
+            .show(ctx, |ui| {
+                self.show_lost(ui, &mut clicked);
+                self.show_jobs(ui, &mut clicked);
+                for (index, notice) in self.notices.iter().enumerate() {
+                    let words = |ui: &mut Ui| {
+                        ui.label(&notice.text);
+                        if let Some(hint) = &notice.hint {
+                            ui.label(RichText::new(hint).weak());
+                        }
+                    };
+                    card(ui, words, |ui| {
+                        if notice.until.is_some() {
+                            return;
+                        }
+                        if ui.button("OK").on_hover_text(tr("Close this message")).clicked() {
+                            clicked = Some(Clicked::CloseNotice(index));
+                        }
+                    });
+                }
+            });
+        match clicked {
+            Some(Clicked::Recover(index)) => {
+                let folder = self.lost_sessions[index].folder().to_owned();
+                self.recover(&folder);
+            }
+            Some(Clicked::Discard(index)) => self.lost_sessions.remove(index).discard(),
+            Some(Clicked::RecoverScene(index)) => self.recover_scene(index),
+            Some(Clicked::DiscardScene(index)) => self.scenes.lost.remove(index).discard(),
+            Some(Clicked::CloseNotice(index)) => {
+                self.notices.remove(index);
+            }
+            Some(Clicked::CancelJob(index)) => self.jobs[index].job.cancel(),
+            Some(Clicked::CancelReplay) => self.commands.push(Command::Cancel),
+            None => {}
+        }
+    }
+
+    /// Shows the sessions of programs that ended without saving.
+    fn show_lost(&self, ui: &mut Ui, clicked: &mut Option<Clicked>) {
+        for (index, lost) in self.lost_sessions.iter().enumerate() {
+            let answer = lost_card(ui, lost, tr("painting"));
+            *clicked = match answer {
+                Some(true) => Some(Clicked::Recover(index)),
+                Some(false) => Some(Clicked::Discard(index)),
+                None => continue,
+            };
+        }
+        for (index, lost) in self.scenes.lost.iter().enumerate() {
+            let answer = lost_card(ui, lost, tr("scene"));
+            *clicked = match answer {
+                Some(true) => Some(Clicked::RecoverScene(index)),
+                Some(false) => Some(Clicked::DiscardScene(index)),
+                None => continue,
+            };
+        }
+    }
+
+    /// Shows the jobs that the painter waits for.
+    fn show_jobs(&self, ui: &mut Ui, clicked: &mut Option<Clicked>) {
+        for (index, job) in self.jobs.iter().enumerate() {
+            if !matches!(job.kind, JobKind::Shown | JobKind::Saving) {
+                continue;
+            }
+            ui.ctx().request_repaint_after(Duration::from_millis(100));
+            if job.began.elapsed() < JOB_SHOWN_AFTER {
+                continue;
+            }
+            card(
+                ui,
+                |ui: &mut Ui| bar(ui, job.job.label(), job.job.fraction()),
+                |ui| {
+                    let cancel = ui.button(tr("Cancel"));
+                    if cancel
+                        .on_hover_text(tr("Cancels it; no file is left half written"))
+                        .clicked()
+                    {
+                        *clicked = Some(Clicked::CancelJob(index));
+                    }
+                },
+            );
+        }
+        if let Some((done, of)) = self.replay {
+            let fraction = done as f32 / of.max(1) as f32;
+            let words = |ui: &mut Ui| {
+                bar(ui, &tr_format!("playing, action {done} of {of}", done, of), Some(fraction));
+            };
+            card(ui, words, |ui| {
+                if ui.button(tr("Stop")).on_hover_text(tr("Ends the recording here")).clicked() {
+                    *clicked = Some(Clicked::CancelReplay);
+                }
+            });
+        }
+    }
+}
+
+/// Offers to recover a lost `kind` of work. Returns whether it is to be recovered or discarded.
+fn lost_card(ui: &mut Ui, lost: &LostSession, kind: &str) -> Option<bool> {
+    let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
+    let when = ago(then, SystemTime::now());
+    let words = |ui: &mut Ui| {
+        ui.label(tr_format!("A {kind} was not saved", kind));
+        let details = tr_format!("{title}, autosaved {when}", title = lost.meta.title, when);
+        ui.label(RichText::new(details).weak());
+    };
+    let mut answer = None;
+    card(ui, words, |ui| {
+        if ui.button(tr("Discard")).on_hover_text(tr("Deletes the autosaved copy")).clicked() {
+            answer = Some(false);
+        }
+        let tip = tr_format!("Opens the {kind} as it was autosaved", kind);
+        if ui.button(tr("Recover")).on_hover_text(tip).clicked() {
+            answer = Some(true);
+        }
+    });
+    answer
+}
+
+/// A label over a progress bar, or over a spinner if the progress is not known.
+fn bar(ui: &mut Ui, label: &str, fraction: Option<f32>) {
+    ui.label(label);
+    match fraction {
+        Some(fraction) => ui.add(ProgressBar::new(fraction).desired_height(6.0)),
+        None => ui.add(Spinner::new()),
+    };
+}
+
+/// A framed message with buttons at its right.
+fn card(ui: &mut Ui, words: impl FnOnce(&mut Ui), buttons: impl FnOnce(&mut Ui)) {
+    Frame::popup(ui.style()).show(ui, |ui| {
+        ui.set_width(WIDTH);
+        ui.horizontal(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(WIDTH - BUTTONS_WIDTH);
+                words(ui);
+            });
+            ui.with_layout(Layout::right_to_left(Align::Center), buttons);
+        });
+    });
 }

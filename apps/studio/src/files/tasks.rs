@@ -1,26 +1,36 @@
 //! Starts each job on files: saving, exporting, reading, preferences.
+//!
+//! Applies the results of jobs that ended.
+//!
+//! Starts the jobs of autosaves and their recovery.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
-use documents::file::disk;
-use documents::file::write_whole;
+use documents::file::{disk, write_whole};
 use paint::document::Document;
 use paint::light::Light;
-use paint::strokes::{KeptBrush, StrokeScript};
+use paint::strokes::{Action, KeptBrush, StrokeScript};
 use pigment::library::PigmentLibrary;
+use serde_json::{from_value, to_value};
+use session::{
+    Command, KeptPainting, Origin, Pace, RecoveredWork, SessionMeta, Snapshot, blank_canvas, now,
+};
+use web_time::{Duration, Instant};
 
+use super::desk::{Desk, digest_of};
 use super::exporting;
+use super::exporting::{Recorded, TimelapseExport};
 use super::job::{JobError, Progress, on_one_core};
 use super::opened::{self, Opened};
-use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::problem::Problem;
-use super::revisions;
+use super::request::ReferenceChange;
 use super::state::Files;
-use super::timelapse::{Recorded, TimelapseExport};
-use super::work::{Finished, JobKind, Purpose, file_name};
+use super::work::{
+    FileOrigin, Finished, JobKind, Notice, PendingAction, Purpose, Replacement, StatusNote,
+    file_name,
+};
 use crate::language::{tr, tr_format};
-use session::{Command, Origin, Snapshot};
 
 impl Files {
     /// Saves the painting in `path`, then carries out `next`.
@@ -48,7 +58,7 @@ impl Files {
                 let label = tr("keeping a revision").to_owned();
                 self.start_job(JobKind::Shown, label, move |progress| {
                     let light = light()?;
-                    let kept = revisions::keep(&path, &canvas, &light, progress)?;
+                    let kept = opened::keep(&path, &canvas, &light, progress)?;
                     Ok(Finished::RevisionKept(kept))
                 });
             }
@@ -161,7 +171,7 @@ impl Files {
         };
         let label = tr("looking for revisions").to_owned();
         self.start_job(JobKind::Background, label, move |progress| {
-            let revisions = revisions::list(&path, progress)?;
+            let revisions = opened::list(&path, progress)?;
             Ok(Finished::Listed { epoch, revisions })
         });
     }
@@ -237,5 +247,325 @@ pub(super) fn read_painting(
             let text = tr_format!("{path}: is not a painting", path = path.display());
             Err(Problem::new(text, tr("another program has changed it")).into())
         }
+    }
+}
+
+impl Files {
+    /// Applies the results of all jobs that ended.
+    pub(super) fn collect_results(&mut self) {
+        let mut index = 0;
+        while index < self.jobs.len() {
+            match self.jobs[index].job.poll() {
+                None => index += 1,
+                Some(result) => {
+                    let ended = self.jobs.remove(index);
+                    match result {
+                        Ok(finished) => self.apply(finished),
+                        Err(JobError::Cancelled) => {
+                            self.closes_when_saved &= ended.kind != JobKind::Saving;
+                            let text = tr_format!("{label}: cancelled", label = ended.job.label());
+                            self.notices.push(Notice::done(&text));
+                        }
+                        Err(JobError::Failed(problem)) => self.report_failure(ended.kind, problem),
+                    }
+                }
+            }
+        }
+    }
+
+    fn report_failure(&mut self, kind: JobKind, problem: Problem) {
+        self.closes_when_saved &= kind != JobKind::Saving;
+        // Autosaves fail again every few seconds; the first report is enough.
+        if kind == JobKind::Autosave {
+            // What was kept of the recording is not known.
+            self.recorded = 0;
+            if std::mem::replace(&mut self.autosave_failed, true) {
+                return;
+            }
+        }
+        self.report(problem);
+    }
+
+    pub(super) fn apply(&mut self, finished: Finished) {
+        match finished {
+            Finished::Read { path, opened } => self.use_opened(path, opened),
+            Finished::RevisionRead(document, start) | Finished::Begun(document, start) => {
+                let commands = vec![Command::Open(Origin::Painting(document))];
+                let origin = FileOrigin { start: Some(start), ..FileOrigin::default() };
+                self.replace(Replacement { commands, origin });
+            }
+            Finished::Cropped { canvas, palette, start, revision, epoch } => {
+                if epoch == self.epoch {
+                    self.continue_cropped(canvas, palette, start, revision);
+                }
+            }
+            Finished::Recovered { canvas, palette, work, lost, remarks } => {
+                self.notices.extend(remarks.into_iter().map(Notice::problem));
+                let RecoveredWork { session, start } = work.map(|work| *work).unwrap_or_default();
+                let kept = Some(Box::new(session));
+                let commands = vec![Command::Open(Origin::Recovered { canvas, palette, kept })];
+                let path = lost.meta.path.clone();
+                let start = start.map(Arc::new);
+                let origin = FileOrigin { path, lost: Some(lost), start, ..FileOrigin::default() };
+                self.replace(Replacement { commands, origin });
+            }
+            Finished::Saved { path, revision, epoch, next, keep_revision } => {
+                self.preferences.remember(&path);
+                self.notices.push(Notice::done(&tr_format!("saved {path}", path = path.display())));
+                if epoch == self.epoch {
+                    self.saved(path, revision, keep_revision);
+                }
+                if let Some(next) = next {
+                    self.carry_out_safely(next);
+                }
+            }
+            Finished::RevisionKept(path) => {
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+                self.notices.push(Notice::done(&tr_format!("kept as revision {stem}", stem)));
+                self.list_revisions();
+            }
+            Finished::Exported { path, remark } => {
+                self.notices
+                    .push(Notice::done(&tr_format!("exported {path}", path = path.display())));
+                self.notices.extend(remark.map(Notice::problem));
+                self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
+            }
+            Finished::Recorded { path, actions } => {
+                self.notices.push(Notice::done(&tr_format!("saved {path}", path = path.display())));
+                let text = tr_format!("the recording holds {actions} actions", actions);
+                let hint = Some(tr("open its file to play it again").to_owned());
+                self.status = Some(StatusNote { text, hint });
+                self.preferences.remember(&path);
+            }
+            Finished::DrawingSaved { drawn, next } => self.drawing_saved(drawn, next),
+            Finished::DrawingRead(drawn) => {
+                self.change_reference(ReferenceChange::Draw(drawn));
+            }
+            Finished::Listed { epoch, revisions } => {
+                if epoch == self.epoch {
+                    self.revisions.set(&self.ctx, self.path.clone(), revisions);
+                }
+            }
+            Finished::Autosaved { revision, epoch, recorded, desk, digest } => {
+                self.autosave_failed = false;
+                self.reference_digest = digest;
+                if epoch == self.epoch {
+                    self.autosaved_revision = Some(revision);
+                    (self.recorded, self.autosaved_desk) = (recorded, Some(*desk));
+                }
+                if let Some(lost) = self.recovered.take() {
+                    // The autosaves of this session contain the recovered painting now, so
+                    // the lost session is not needed. The painting is still not saved in a
+                    // file.
+                    self.saved_revision = None;
+                    lost.discard();
+                }
+            }
+            Finished::BrushSetsRead(sets, problems) => self.brush_sets_read(sets, problems),
+            Finished::BrushesRead { path, brushes } => self.brushes_read(&path, brushes),
+            Finished::SwatchesRead { book, problem } => self.swatches_read(book, problem),
+            Finished::SwatchesImported(read) => self.swatches_imported(read),
+            Finished::SceneSaved { path, revision } => {
+                self.notices.push(Notice::done(&tr_format!("saved {path}", path = path.display())));
+                self.scene_saved(&path, revision);
+            }
+            Finished::SceneAutosaved => self.scene_autosaved(),
+            Finished::Quietly => {}
+        }
+    }
+
+    /// The current painting was saved in `path`.
+    fn saved(&mut self, path: PathBuf, revision: u64, keep_revision: bool) {
+        self.saved_revision = Some(revision);
+        self.path = Some(path.clone());
+        if let Some(lost) = self.recovered.take() {
+            lost.discard();
+        }
+        if !self.has_unsaved_changes() {
+            self.clear_autosaves();
+        }
+        self.list_revisions();
+        if keep_revision {
+            self.request_snapshot(Purpose::Revision { path });
+        }
+    }
+
+    /// Uses the content of a file, according to its kind.
+    fn use_opened(&mut self, path: PathBuf, opened: Opened) {
+        match opened {
+            Opened::Painting { document: canvas, table, bytes } => {
+                let opened = match table {
+                    Ok(Some(table)) => Origin::WithTable { canvas, table },
+                    Ok(None) => Origin::Painting(canvas),
+                    Err(problem) => {
+                        self.notices.push(Notice::problem(problem));
+                        Origin::Painting(canvas)
+                    }
+                };
+                self.replace(Replacement {
+                    commands: vec![Command::Open(opened)],
+                    origin: FileOrigin {
+                        path: Some(path),
+                        start: Some(bytes),
+                        ..FileOrigin::default()
+                    },
+                });
+            }
+            Opened::Library(library) => {
+                self.preferences.remember(&path);
+                let commands = vec![Command::Open(blank_canvas(*library, 192.0, 108.0, 0.1))];
+                self.replace(Replacement { commands, origin: FileOrigin::default() });
+            }
+            Opened::Recording { script, library, remarks } => {
+                self.preferences.remember(&path);
+                self.notices.extend(remarks.into_iter().map(Notice::problem));
+                let commands = vec![Command::Replay { script, library, pace: self.replay_pace() }];
+                self.replace(Replacement { commands, origin: FileOrigin::default() });
+            }
+            Opened::Picture => self.change_reference(ReferenceChange::Open(path)),
+            Opened::Lamp => self.light_with_lamp(&path),
+        }
+    }
+
+    fn replace(&mut self, replacement: Replacement) {
+        self.carry_out_safely(PendingAction::Replace(replacement));
+    }
+
+    fn replay_pace(&self) -> Pace {
+        let preferred =
+            if self.preferences.replay_as_painted { Pace::AsPainted } else { Pace::Fast };
+        self.pace.unwrap_or(preferred)
+    }
+
+    /// Lights the painting with the lamp measured in `path`.
+    fn light_with_lamp(&mut self, path: &Path) {
+        let (Some(state), Some(text)) = (&self.painting, path.to_str()) else {
+            let text = tr_format!(
+                "{path}: the name of a lamp's file must be text",
+                path = file_name(path)
+            );
+            return self.report(Problem::new(text, tr("rename the file")));
+        };
+        let mut lighting = state.lighting.clone();
+        lighting.illuminant = text.to_owned();
+        self.commands.push(Command::Apply(Action::Light(lighting)));
+    }
+}
+
+impl Files {
+    /// Starts reading the lost session in `folder`.
+    pub(super) fn recover(&mut self, folder: &Path) {
+        let mut sessions = self.lost_sessions.iter();
+        let Some(at) = sessions.position(|lost| lost.folder() == folder) else { return };
+        let lost = self.lost_sessions.remove(at);
+        let label = tr_format!("recovering {title}", title = lost.meta.title);
+        self.start_job(JobKind::Shown, label, move |progress| {
+            let [canvas, palette] = lost.files();
+            let title = &lost.meta.title;
+            let canvas = read_autosaved(&canvas, title, progress)?;
+            let palette = read_autosaved(&palette, title, progress)?;
+            // The painting is worth more than what lies beside it.
+            let mut remarks = Vec::new();
+            let work = lost.work().unwrap_or_else(|failure| {
+                remarks.push(failure.into());
+                None
+            });
+            let desk: Option<Desk> = lost.meta.desk.clone().and_then(|desk| from_value(desk).ok());
+            let reference = desk.and_then(|desk| desk.reference);
+            remarks.extend(reference.and_then(|reference| reference.remark()));
+            Ok(Finished::Recovered { canvas, palette, work: work.map(Box::new), lost, remarks })
+        });
+    }
+
+    /// Requests an autosave if it is due; otherwise requests a repaint at the time when it
+    /// will be.
+    pub(super) fn autosave_when_due(&mut self) {
+        let Some(state) = self.painting.clone() else { return };
+        let busy = self.jobs.iter().any(|job| job.kind == JobKind::Autosave)
+            || self.awaited.iter().any(|(_, purpose)| matches!(purpose, Purpose::Autosave));
+        let changed = state.stroke_open
+            || self.autosaved_revision != Some(state.revision)
+            || self
+                .autosaved_desk
+                .as_ref()
+                .is_some_and(|desk| desk.reference != self.desk.reference);
+        if busy || !changed || !self.has_unsaved_changes() || self.opening.is_some() {
+            return;
+        }
+        let interval = Duration::from_secs(self.preferences.autosave_seconds);
+        match self.last_autosave.and_then(|last| interval.checked_sub(last.elapsed())) {
+            Some(left) if !left.is_zero() => self.ctx.request_repaint_after(left),
+            _ => {
+                self.last_autosave = Some(Instant::now());
+                self.request_autosave();
+            }
+        }
+    }
+
+    /// Starts writing an autosave.
+    pub(super) fn start_autosave(&mut self, kept: &Arc<KeptPainting>) {
+        let kept = kept.clone();
+        let start = self.start.clone();
+        let desk = self.desk.clone();
+        let revision = kept.snapshot.revision;
+        let epoch = self.epoch;
+        let title = self.title();
+        let path = self.path.clone();
+        let seconds = now();
+        let autosave = self.autosave.clone();
+        let known = self.reference_digest.clone();
+        self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
+            let picture = desk.reference.as_ref().map(|reference| &reference.picture);
+            let digest = known.filter(|(path, _)| Some(path) == picture);
+            let digest = digest.or_else(|| picture.map(|path| (path.clone(), digest_of(path))));
+            let mut with_digest = desk.clone();
+            if let (Some(reference), Some((_, sha256))) = (&mut with_digest.reference, &digest) {
+                reference.sha256.clone_from(sha256);
+            }
+            let meta = SessionMeta { title, path, seconds, desk: to_value(&with_digest).ok() };
+            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
+            let recorded = match autosave.as_mut() {
+                Some(autosave) => {
+                    let start = start.as_ref().map(|bytes| bytes.as_slice());
+                    let kept = on_one_core(|| autosave.keep(&kept, start, &meta));
+                    kept.map_err(Problem::from)?
+                }
+                None => 0,
+            };
+            Ok(Finished::Autosaved { revision, epoch, recorded, desk: Box::new(desk), digest })
+        });
+    }
+
+    /// Starts deleting the autosaves. They are not needed once the painting is saved in a
+    /// file or discarded.
+    pub(super) fn clear_autosaves(&mut self) {
+        (self.last_autosave, self.autosaved_revision) = (Some(Instant::now()), None);
+        (self.recorded, self.autosaved_desk) = (0, None);
+        let autosave = self.autosave.clone();
+        self.start_job(JobKind::Background, tr("clearing autosaves").to_owned(), move |_| {
+            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(autosave) = autosave.as_mut() {
+                autosave.clear().map_err(Problem::from)?;
+            }
+            Ok(Finished::Quietly)
+        });
+    }
+}
+
+/// Reads a file of the autosave of `title`. The painter never chose the file's name, so that a
+/// problem names the autosave instead.
+fn read_autosaved(
+    path: &Path,
+    title: &str,
+    progress: &Progress,
+) -> Result<Box<Document>, JobError> {
+    let named = |problem: Problem| {
+        let autosave = tr_format!("the autosave of {title}", title);
+        Problem { text: problem.text.replace(&path.display().to_string(), &autosave), ..problem }
+    };
+    match read_painting(path, progress) {
+        Ok((document, _)) => Ok(document),
+        Err(JobError::Failed(problem)) => Err(named(problem).into()),
+        Err(cancelled) => Err(cancelled),
     }
 }
