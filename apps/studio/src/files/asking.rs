@@ -26,7 +26,7 @@ use session::{Autosave, Command, LostSession, Origin, SessionMeta, Snapshot, now
 use web_time::{Duration, Instant};
 
 use super::browser::{Answer, Browser, BrowserOptions, Filter, pictures_and};
-use super::dialogs::{self, Choice, FilePurpose, OpenDialog};
+use super::dialogs::{self, Choice};
 use super::exporting::{
     Export, ExportKind, SceneAnswer, SceneExport, ScenePurpose, TimelapseExport,
 };
@@ -36,7 +36,7 @@ use super::opened;
 use super::preferences::Preferences;
 use super::problem::Problem;
 use super::request::{Drawing, DrawingKind, DrawnFile, ReferenceChange, SwatchFormat};
-use super::state::Files;
+use super::state::{FilePurpose, Files, OpenDialog};
 use super::work::{
     FileOrigin, Finished, JobKind, Notice, PendingAction, Purpose, Replacement, file_name,
 };

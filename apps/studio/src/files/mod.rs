@@ -2,8 +2,8 @@
 //! runs on threads of its own.
 
 mod problem;
-mod desk;
 mod request;
+mod desk;
 mod job;
 mod new_canvas;
 mod preferences;
@@ -11,14 +11,14 @@ mod opened;
 mod exporting;
 mod figures_log;
 mod picture_file;
-mod browser;
 mod dialogs;
+mod browser;
 mod work;
 mod new_dialog;
 mod state;
 mod tasks;
-mod swatches;
 mod asking;
+mod swatches;
 
 pub use desk::{Desk, DeskDrawing, DeskReference, DeskView};
 pub(crate) use exporting::export;
@@ -33,5 +33,5 @@ pub use request::{
     Drawing, DrawingKind, DrawnFile, FileRequest, ReadSwatches, ReferenceChange, SwatchFormat,
 };
 pub use state::Files;
-pub(crate) use state::bottom_of_notices;
+pub(crate) use tasks::bottom_of_notices;
 pub use work::{BrushSets, StatusNote};

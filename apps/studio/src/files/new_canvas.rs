@@ -518,7 +518,7 @@ mod tests {
     fn another_kind_of_ground_keeps_seed_and_color() {
         let mut new = NewCanvas::default();
         *new.seed().unwrap() = 7;
-        new.canvas.ground.reflectance = Some(paint::ground::Primer::Grey(0.5));
+        new.canvas.ground.reflectance = Some(Primer::Grey(0.5));
         new.set_kind(GroundKind::Paper);
         assert_eq!((new.kind(), new.seed().copied()), (Some(GroundKind::Paper), Some(7)));
         assert!(new.canvas.ground.reflectance.is_some(), "the colour is gone");

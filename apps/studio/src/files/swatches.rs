@@ -23,12 +23,11 @@ use strokes::{Photograph, first_layer};
 
 use super::asking::PICTURES;
 use super::browser::{BrowserOptions, Filter};
-use super::dialogs::{FilePurpose, OpenDialog};
 use super::job::{JobError, Progress};
 use super::new_dialog::{CanvasPicture, NewDialog};
 use super::problem::Problem;
 use super::request::{ReadSwatches, SwatchFormat, read_swatches};
-use super::state::Files;
+use super::state::{FilePurpose, Files, OpenDialog};
 use super::work::{
     FileOrigin, Finished, JobKind, Notice, PendingAction, ReadBrushes, Replacement, file_name,
 };

@@ -26,7 +26,7 @@ use crate::files::problem::{ago, size};
 use crate::language::{tr, tr_format};
 use crate::theme;
 
-const SHOW_WIDTH: f32 = 860.0;
+const WIDTH: f32 = 860.0;
 const HEIGHT: f32 = 440.0;
 
 impl Browser {
@@ -43,7 +43,7 @@ impl Browser {
         let mut answer = None;
         let taken = dialogs::keyboard_taken(ctx);
         let modal = Modal::new(Id::unique("file browser")).show(ctx, |ui| {
-            ui.set_width(SHOW_WIDTH.min(ctx.content_rect().width() - 40.0));
+            ui.set_width(WIDTH.min(ctx.content_rect().width() - 40.0));
             ui.heading(self.options.title);
             answer = self.path_line(ui);
             self.look_line(ui);
@@ -54,7 +54,7 @@ impl Browser {
             let across = Layout::left_to_right(Align::Min);
             ui.allocate_ui_with_layout(size, across, |ui| {
                 ui.set_min_size(size);
-                ui.allocate_ui_with_layout(vec2(WIDTH, height), down(), |ui| {
+                ui.allocate_ui_with_layout(vec2(PLACES_WIDTH, height), down(), |ui| {
                     answer = answer.take().or_else(|| self.places_view(ui, height));
                 });
                 Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4).show(ui, |ui| {
@@ -437,12 +437,12 @@ fn details(entry: &Entry) -> String {
 }
 
 /// Width of the column, in points.
-pub(super) const WIDTH: f32 = 160.0;
+pub(super) const PLACES_WIDTH: f32 = 160.0;
 
 impl Browser {
     /// Draws the column; a click opens the folder, or chooses the file.
     pub(super) fn places_view(&mut self, ui: &mut Ui, height: f32) -> Option<Answer> {
-        ui.set_width(WIDTH);
+        ui.set_width(PLACES_WIDTH);
         let mut answer = None;
         ScrollArea::vertical().id_salt("places").max_height(height).auto_shrink(false).show(
             ui,
@@ -503,5 +503,5 @@ fn heading(ui: &mut Ui, name: &str) {
 }
 
 fn place_button(name: &str, here: bool) -> Button<'_> {
-    Button::selectable(here, name).truncate().min_size(vec2(WIDTH - 10.0, 0.0))
+    Button::selectable(here, name).truncate().min_size(vec2(PLACES_WIDTH - 10.0, 0.0))
 }

@@ -42,7 +42,7 @@ use crate::files::new_canvas::{
 use crate::files::work::file_name;
 use crate::language::{tr, tr_format};
 use crate::theme;
-use pigment::library::{PigmentLibrary, PigmentLibrary as MixtureRowsPigmentLibrary};
+use pigment::library::PigmentLibrary;
 use preview::{CELLS, Preview, PreviewLight};
 
 /// sRGB of each tone; `None` of one whose pigments a library lacks.
@@ -230,7 +230,7 @@ impl NewDialog {
     /// The lit piece of the ground.
     fn ground_picture(&self, ui: &mut Ui) {
         let room = vec2(CELLS[0] as f32, CELLS[1] as f32);
-        let (rect, _) = ui.allocate_exact_size(room, eframe::egui::Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
         ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
         if let Some(texture) = &self.preview.texture {
             let size = texture.size_vec2();
@@ -561,7 +561,7 @@ fn swatch(ui: &mut Ui, color: Option<[u8; 3]>) {
 const MOST_PIGMENTS: usize = 3;
 
 /// A film to begin with: the first pigment of the library whose K and S are known.
-fn first_film(library: &MixtureRowsPigmentLibrary) -> Option<Primer> {
+fn first_film(library: &PigmentLibrary) -> Option<Primer> {
     let name = library.pigments.iter().find(|pigment| pigment.identified)?.name.clone();
     let film = PrimerFilm { recipe: [(name, 1.0)].into(), height_mm: 0.001 };
     Some(Primer::Toned(TonedPrimer { film }))
@@ -573,7 +573,7 @@ fn first_color() -> Primer {
 }
 
 /// Adds the rows of a film: one for each pigment, and one for its thickness.
-fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &MixtureRowsPigmentLibrary) {
+fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &PigmentLibrary) {
     let names: Vec<String> = film.recipe.keys().cloned().collect();
     for (row, name) in names.iter().enumerate() {
         grid_row(ui, if row == 0 { tr("Film") } else { "" }, |ui| {
@@ -611,13 +611,7 @@ fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &MixtureRowsPigmentLib
 }
 
 /// Draws the choice of the pigment `name`.
-fn pigment(
-    ui: &mut Ui,
-    row: usize,
-    film: &mut PrimerFilm,
-    name: &str,
-    library: &MixtureRowsPigmentLibrary,
-) {
+fn pigment(ui: &mut Ui, row: usize, film: &mut PrimerFilm, name: &str, library: &PigmentLibrary) {
     let combo = ComboBox::from_id_salt(("film", row)).selected_text(name).width(150.0);
     let combo = combo.show_ui(ui, |ui| {
         for other in &library.pigments {
