@@ -1,11 +1,5 @@
-//! Where the panels of the window stand, as data: columns of groups of tabs. Moving, folding
-//! and sharing the height are functions of it.
-//!
-//! Columns, groups and panels, and reading them from a file.
-//!
-//! Selecting, folding and moving of panels.
-//!
-//! How the groups of a column share its height.
+//! Where the panels of the window stand, as data: columns of groups of tabs. Selecting, moving and
+//! folding panels and sharing the height are functions of it.
 
 use std::ops::RangeInclusive;
 
@@ -199,39 +193,7 @@ impl Arrangement {
             }
         }
     }
-}
 
-/// A place for a panel. Indices count the groups of the column before the move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// Among the tabs of a group.
-    Tab(Side, usize),
-    /// In a group of its own, before the group with this index, or after the last one.
-    Before(Side, usize),
-}
-
-/// A step that the menu of a panel offers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Move {
-    /// Above the group, or above the one before.
-    Up,
-    /// Below the group, or below the one after.
-    Down,
-    /// To the end of the other column.
-    OtherColumn,
-    /// Among the tabs of the group above.
-    JoinAbove,
-    /// Among the tabs of the group below.
-    JoinBelow,
-}
-
-impl Move {
-    /// All moves in the order of the menu.
-    pub const ALL: [Self; 5] =
-        [Self::Up, Self::Down, Self::OtherColumn, Self::JoinAbove, Self::JoinBelow];
-}
-
-impl Arrangement {
     /// Shows a panel: selects its tab and unfolds its group.
     pub fn select(&mut self, key: &str) {
         if let Some((side, group, tab)) = self.position(key) {
@@ -295,6 +257,36 @@ impl Arrangement {
         self.remove_empty_groups();
         self.select(key);
     }
+}
+
+/// A place for a panel. Indices count the groups of the column before the move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Among the tabs of a group.
+    Tab(Side, usize),
+    /// In a group of its own, before the group with this index, or after the last one.
+    Before(Side, usize),
+}
+
+/// A step that the menu of a panel offers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Move {
+    /// Above the group, or above the one before.
+    Up,
+    /// Below the group, or below the one after.
+    Down,
+    /// To the end of the other column.
+    OtherColumn,
+    /// Among the tabs of the group above.
+    JoinAbove,
+    /// Among the tabs of the group below.
+    JoinBelow,
+}
+
+impl Move {
+    /// All moves in the order of the menu.
+    pub const ALL: [Self; 5] =
+        [Self::Up, Self::Down, Self::OtherColumn, Self::JoinAbove, Self::JoinBelow];
 }
 
 /// Height below its tabs that a group needs, in points.

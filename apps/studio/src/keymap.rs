@@ -1,18 +1,8 @@
 //! Keys and what they do: standard keys, the painter's changes, and the table in use.
 //!
-//! An action is named by a text, such as `undo` or `tool-paint`; those of scenes begin with
-//! `scene.`. The window installs the tables in use in egui's context, where menus, tooltips and
-//! panels look keys up by these names.
-//!
-//! A key with its modifiers, and its text.
-//!
-//! Text names of actions.
-//!
-//! A table of actions and their keys.
-//!
-//! The painter's changes of keys, as the preferences keep them, and the tables that follow.
-//!
-//! The tables in use, in egui's context.
+//! An action is named by a text, such as `undo` or `tool-paint`. Names of actions in scenes begin
+//! with `scene.`. The window installs the tables in use in egui's context, where menus, tooltips
+//! and panels look keys up by these names.
 
 use std::collections::BTreeMap;
 use std::str::FromStr;
@@ -246,6 +236,57 @@ impl KeyTable {
             None => false,
         }
     }
+
+    /// Gives a shortcut to an action, instead of the one that it replaces or beside its others. It
+    /// is taken from the action that has it now.
+    pub fn assign(
+        &self,
+        name: &str,
+        replaced: Option<Shortcut>,
+        shortcut: Shortcut,
+        changes: &mut Changes,
+    ) {
+        for owner in self.rows().iter().filter(|row| row.name != name) {
+            if owner.keys.contains(&shortcut) {
+                self.remove(&owner.name, shortcut, changes);
+            }
+        }
+        let Some(row) = self.row(name) else { return };
+        let mut keys = row.keys.clone();
+        keys.retain(|own| *own != shortcut || replaced == Some(shortcut));
+        match keys.iter_mut().find(|own| Some(**own) == replaced) {
+            Some(own) => *own = shortcut,
+            None => keys.push(shortcut),
+        }
+        note(row, &keys, changes);
+    }
+
+    /// Takes a shortcut from an action.
+    pub fn remove(&self, name: &str, shortcut: Shortcut, changes: &mut Changes) {
+        let Some(row) = self.row(name) else { return };
+        let keys: Vec<Shortcut> = row.keys.iter().copied().filter(|own| *own != shortcut).collect();
+        note(row, &keys, changes);
+    }
+
+    /// Gives an action its standard keys again, which are taken from those that have them now.
+    pub fn restore(&self, name: &str, changes: &mut Changes) {
+        let Some(row) = self.row(name) else { return };
+        for other in self.rows().iter().filter(|other| other.name != name) {
+            let kept: Vec<Shortcut> =
+                other.keys.iter().copied().filter(|key| !row.standard.contains(key)).collect();
+            if kept != other.keys {
+                note(other, &kept, changes);
+            }
+        }
+        changes.remove(name);
+    }
+
+    /// Gives all actions their standard keys again.
+    pub fn restore_all(&self, changes: &mut Changes) {
+        self.rows().iter().for_each(|row| {
+            changes.remove(&row.name);
+        });
+    }
 }
 
 /// Texts of the keys of each action that has not its standard keys, by its name. Names that this
@@ -312,59 +353,6 @@ impl Keymap {
             Scope::Easel => &self.easel,
             Scope::Scenes => &self.scenes,
         }
-    }
-}
-
-impl KeyTable {
-    /// Gives a shortcut to an action, instead of the one that it replaces or beside its others. It
-    /// is taken from the action that has it now.
-    pub fn assign(
-        &self,
-        name: &str,
-        replaced: Option<Shortcut>,
-        shortcut: Shortcut,
-        changes: &mut Changes,
-    ) {
-        for owner in self.rows().iter().filter(|row| row.name != name) {
-            if owner.keys.contains(&shortcut) {
-                self.remove(&owner.name, shortcut, changes);
-            }
-        }
-        let Some(row) = self.row(name) else { return };
-        let mut keys = row.keys.clone();
-        keys.retain(|own| *own != shortcut || replaced == Some(shortcut));
-        match keys.iter_mut().find(|own| Some(**own) == replaced) {
-            Some(own) => *own = shortcut,
-            None => keys.push(shortcut),
-        }
-        note(row, &keys, changes);
-    }
-
-    /// Takes a shortcut from an action.
-    pub fn remove(&self, name: &str, shortcut: Shortcut, changes: &mut Changes) {
-        let Some(row) = self.row(name) else { return };
-        let keys: Vec<Shortcut> = row.keys.iter().copied().filter(|own| *own != shortcut).collect();
-        note(row, &keys, changes);
-    }
-
-    /// Gives an action its standard keys again, which are taken from those that have them now.
-    pub fn restore(&self, name: &str, changes: &mut Changes) {
-        let Some(row) = self.row(name) else { return };
-        for other in self.rows().iter().filter(|other| other.name != name) {
-            let kept: Vec<Shortcut> =
-                other.keys.iter().copied().filter(|key| !row.standard.contains(key)).collect();
-            if kept != other.keys {
-                note(other, &kept, changes);
-            }
-        }
-        changes.remove(name);
-    }
-
-    /// Gives all actions their standard keys again.
-    pub fn restore_all(&self, changes: &mut Changes) {
-        self.rows().iter().for_each(|row| {
-            changes.remove(&row.name);
-        });
     }
 }
 

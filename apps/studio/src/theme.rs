@@ -1,16 +1,6 @@
-//! Colours and sizes of the window, dark and light. All colours are exactly neutral greys,
-//! because colour is judged here; the surround of the canvas has 18 % reflectance in both
-//! themes. All text has a contrast of at least 7:1 (WCAG 2.2, level AAA).
-//!
-//! Greys of both themes.
-//!
-//! Contrast of text, as the WCAG defines it.
-//!
-//! Scale of the interface: its steps, and what fits into a window.
-//!
-//! Visuals of egui's widgets, made of the greys of a theme.
-//!
-//! The look of the window: theme, and size of everything that is touched.
+//! Colours and sizes of the window, dark and light. All colours are exactly neutral greys, because
+//! colour is judged here; the surround of the canvas has 18 % reflectance in both themes. All text
+//! has a contrast of at least 7:1 (WCAG 2.2, level AAA).
 
 use eframe::egui::style::{ScrollStyle, Selection, WidgetVisuals, Widgets};
 use eframe::egui::{

@@ -1,6 +1,5 @@
-//! A study of two pears and a plum, after the photograph `docs/images/still-life.png`.
-//!
-//! A simulated hand that records its actions as a script.
+//! A study of two pears and a plum, after the photograph `docs/images/still-life.png`, painted by
+//! a simulated hand that records its actions as a script.
 
 use std::f64::consts::TAU;
 

@@ -1,8 +1,5 @@
-//! The window of the tests, and waiting for what it shows.
-//!
-//! A scene of paint volumes while the pen pours.
-//!
-//! Marks of samples on a painting, and guides of strokes on a picture of a model.
+//! The window of the tests, and what is painted in it: a scene of paint volumes, marks of samples,
+//! and guides of strokes.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,12 +1,5 @@
-//! The toolbar at the left.
-//!
-//! Icons of the toolbar, as lines in a square of 18 x 18 points.
-//!
-//! The menu bar with its shortcuts.
-//!
-//! An entry of a menu, with a tick drawn as a shape: the fonts have no sign for it.
-//!
-//! The status line: message, view, canvas size, light and backend.
+//! The bars of the window: the toolbar at the left with its icons, the menu bar, and the status
+//! line.
 
 use eframe::egui::{
     Align, Button, Color32, Context, InnerResponse, Layout, MenuBar, Painter, Pos2, Rect, Response,

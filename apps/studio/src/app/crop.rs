@@ -1,8 +1,5 @@
-//! Cropping: a rectangle with handles on the canvas.
-//!
-//! The rectangle that stays when a painting is cropped: pure geometry in cells.
-//!
-//! Draws the crop over the canvas, and lets it be dragged.
+//! Cropping: the rectangle of cells that stays, as data, and the tool that draws and drags it over
+//! the canvas.
 
 use eframe::egui::{
     Button, Color32, ComboBox, Context, CursorIcon, Id, Key, Modifiers, PointerButton, Pos2,

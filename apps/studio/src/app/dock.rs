@@ -1,6 +1,5 @@
-//! Draws the columns of panels.
-//!
-//! The header of a group: a fold button, tabs in as many rows as they need, and a menu.
+//! Draws the columns of panels. The header of a group has a fold button, tabs in as many rows as
+//! they need, and a menu.
 
 use eframe::egui::{
     Button, Context, CornerRadius, Id, Popup, Rect, Response, RichText, Role, ScrollArea, Sense,

@@ -1,18 +1,5 @@
-//! All menu entries, a table a menu: name, description and shortcuts.
-//!
-//! Constants and functions that shorten the tables of menu entries.
-//!
-//! Entries of the File menu.
-//!
-//! Entries of the Edit menu.
-//!
-//! Entries of the View menu.
-//!
-//! Entries of the Tools menu.
-//!
-//! Entries of the Help menu.
-//!
-//! Actions of the easel as rows of the table of keys.
+//! All menu entries, one table per menu (name, description and shortcuts), and the rows of the
+//! table of keys that follow from them.
 
 use eframe::egui::{Context, Key, Modifiers};
 

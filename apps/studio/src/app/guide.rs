@@ -1,12 +1,6 @@
-//! The guided tour as data: its steps, and what tells that a step was done.
-//!
-//! Facts about a painting that tell whether a step of the tour was done.
-//!
-//! The steps of the tour.
-//!
-//! Where the tour is, and how it goes on.
-//!
-//! Lines of text on a plate over the picture, and an outline around what they speak of.
+//! The guided tour as data: its steps, the facts about a painting that show whether a step was
+//! done, and the current step. [`callout`] outlines a part of the window beside a few lines of
+//! text.
 
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};

@@ -1,8 +1,5 @@
-//! A brush that hovers over a surface, and the mesh of its head.
-//!
-//! The mirrored twins of the stroke that is being painted.
-//!
-//! The movement of the dashes of a mask, which stops while nothing happens.
+//! What moves with the pen: the head of a hovering brush, the mirrored twins of a stroke, and the
+//! dashes of a mask.
 
 use eframe::egui::{Color32, Painter, Shape, Stroke};
 use paint::brush::{Head, Relief};

@@ -1,7 +1,5 @@
-//! Intents: everything that keys, menus and toolbar can request.
-//!
-//! Rectangles of parts of the window, noted where they are drawn, for the guide that points at
-//! them.
+//! Intents: everything that keys, menus and toolbar can request. Also notes the rectangles of the
+//! window's parts, so that the tour can point at them.
 
 use eframe::egui::{Context, Id, Rect};
 use serde::Serialize;

@@ -1,11 +1,8 @@
-//! Translates key presses to intents while no text field has the focus.
+//! Translates key presses to intents while no text field has the focus, and shows the window in
+//! which keys are changed.
 //!
-//! A tool key selects its tool. If it is held while the pointer works, releasing it
-//! restores the previous tool, as in other painting programs.
-//!
-//! Editing keys: which key is waited for, and what came of the last press.
-//!
-//! The window with the table of keys, in which they are changed.
+//! A tool key selects its tool. If it is held while the pointer works, releasing it restores the
+//! previous tool, as in other painting programs.
 
 use std::sync::Arc;
 

@@ -1,22 +1,11 @@
-//! Performs the intents of menus, toolbar and keyboard.
+//! Performs the intents of menus, toolbar and keyboard, and connects the window to the system
+//! (title, dropped files, performance log, closing).
 //!
-//! Connections of the window to the system: title, dropped files, performance log and
-//! closing.
+//! Also draws what lies over the whole window: the windows of pen and own brushes, the sheet of
+//! panels in a narrow window, the quick palette, the first steps and the guided tour.
 //!
-//! The windows of the pen and of own brushes.
-//!
-//! Narrow windows, as on a phone: the panels of both columns lie on a sheet that covers canvas and
-//! palette, and is there only while it is asked for.
-//!
-//! Opens the quick palette and carries out what was chosen in it.
-//!
-//! Changes by a stroke of a stylus between two frames of the window: paint, and the head over it.
-//!
-//! A page in a browser shows it by itself, as its frames take long where there is no graphics card.
-//!
-//! The first steps: a few lines where the hand is, until the first stroke.
-//!
-//! Shows the guided tour: a card with the step, and an outline around its place.
+//! [`Between`] holds what a stroke changes between two frames. A page in a browser shows that part
+//! by itself, because its frames take long without a graphics card.
 
 use std::path::{Path, PathBuf};
 
@@ -175,9 +164,7 @@ impl Studio {
     fn file(&mut self, request: FileRequest) {
         self.requests.push(Request::File(request));
     }
-}
 
-impl Studio {
     /// Prepares to close: stores the tool settings in the preferences, waits for files
     /// being written and stops the worker.
     pub fn finish(&mut self) {
@@ -276,9 +263,7 @@ impl Studio {
         log.append_when_due(now, &frames, &self.figures);
         context.request_repaint_after(Duration::from_secs(1));
     }
-}
 
-impl Studio {
     /// Draws the windows of the pen and of own brushes, if they are open.
     pub(super) fn draw_pen_windows(&mut self, context: &Context) {
         let brush = self.tools.brush.clone();
@@ -329,9 +314,7 @@ impl Studio {
             }
         }
     }
-}
 
-impl Studio {
     /// Whether the sheet of panels covers canvas and palette.
     pub(super) fn shows_sheet(&self, context: &Context) -> bool {
         self.visible.sheet && self.visible.panels && is_narrow(context)
@@ -370,9 +353,7 @@ impl Studio {
         }
         self.panels.drop_dragged(ui.ctx(), drawn, Rect::NOTHING);
     }
-}
 
-impl Studio {
     /// Opens the quick palette at the pointer, or in the middle of the canvas if the pointer is over
     /// no surface; closes it if it is open. Never opens over a dialog or during a stroke.
     pub(super) fn toggle_quick_palette(&mut self, context: &Context) {
@@ -429,25 +410,7 @@ impl Studio {
             });
         }
     }
-}
 
-/// Least time between two frames of the whole window during such a stroke; the panels' figures change
-/// as often.
-const RARE: Duration = Duration::from_millis(500);
-
-/// The time instead of [`RARE`] while the paint is behind the pen.
-const RARE_BEHIND: Duration = Duration::from_millis(1500);
-
-/// The part of the window that a stroke has changed.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Between {
-    /// Its pixels without the head; without extent if nothing changed.
-    pub patch: Patch,
-    /// The head over them, which lies within them.
-    pub head: HeadLines,
-}
-
-impl Studio {
     /// Passes on what the stylus reported, without waiting for a frame. Returns whether its stroke is
     /// one that [`Studio::between`] shows; if not, nothing is done, and a frame is needed.
     pub fn take_stylus(&mut self, context: &Context) -> bool {
@@ -517,47 +480,7 @@ impl Studio {
             context.request_repaint();
         }
     }
-}
 
-/// Whether a floating window or a message lies over a part of the window.
-fn is_covered(context: &Context, region: Rect) -> bool {
-    context.memory(|memory| {
-        memory.areas().visible_layer_ids().iter().any(|layer| {
-            let rect = memory.area_rect(layer.id).unwrap_or(Rect::NOTHING);
-            layer.order != Order::Background && rect.height() > 1.0 && rect.intersects(region)
-        })
-    })
-}
-
-/// Lines over the canvas, with the keys in use.
-fn canvas_lines(context: &Context) -> [String; 3] {
-    let dry = by_key(context, Intent::Dry, tr("Edit, Dry"));
-    [
-        tr("Press here and draw, with a pen, a mouse or a finger.").to_owned(),
-        tr_format!("Alt + click tells a colour. {dry} dries the paint, to paint over it.", dry),
-        tr("File, Sample painting opens one to try; Help, Guided tour shows more.").to_owned(),
-    ]
-}
-
-/// Lines over the palette, with the keys in use.
-fn palette_lines(context: &Context) -> [String; 2] {
-    let wash = by_key(context, Intent::Wash, tr("Edit, Wash the brush"));
-    [tr("Mix here with the brush.").to_owned(), tr_format!("{wash} washes it.", wash)]
-}
-
-/// The key of an intent, or its place in the menus if it has none.
-fn by_key(context: &Context, intent: Intent, menu: &str) -> String {
-    text(context, &intent.name()).filter(|key| !key.is_empty()).unwrap_or_else(|| menu.to_owned())
-}
-
-/// Lines over the tubes.
-const TUBES: [&str; 2] =
-    ["Double click a tube: its paint is on the brush.", "Click, then click the palette: a heap."];
-
-/// Largest width of the lines over the canvas, in points.
-const WIDTH: f32 = 440.0;
-
-impl Studio {
     /// Draws the lines over canvas, palette and tubes. They take no clicks.
     pub(super) fn draw_first_steps(&self, ui: &Ui) {
         let busy = self.tour.is_running() || self.crop.is_some();
@@ -588,23 +511,7 @@ impl Studio {
             plate(painter, tip, Arrow::Down, width.min(WIDTH), lines);
         }
     }
-}
 
-/// Width of the card's contents, in points.
-const TOUR_CARD_WIDTH: f32 = 392.0;
-
-/// Distance of the card from the place that it speaks of, in points.
-const GAP: f32 = 12.0;
-
-/// A button of the card.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Pressed {
-    Back,
-    Next,
-    Leave,
-}
-
-impl Studio {
     /// Starts the tour, or goes on where it was left.
     pub(super) fn start_tour(&mut self) {
         self.tour.start();
@@ -750,4 +657,72 @@ impl Studio {
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.add_space(4.0);
     }
+}
+
+/// Least time between two frames of the whole window during such a stroke; the panels' figures change
+/// as often.
+const RARE: Duration = Duration::from_millis(500);
+
+/// The time instead of [`RARE`] while the paint is behind the pen.
+const RARE_BEHIND: Duration = Duration::from_millis(1500);
+
+/// The part of the window that a stroke has changed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Between {
+    /// Its pixels without the head; without extent if nothing changed.
+    pub patch: Patch,
+    /// The head over them, which lies within them.
+    pub head: HeadLines,
+}
+
+/// Whether a floating window or a message lies over a part of the window.
+fn is_covered(context: &Context, region: Rect) -> bool {
+    context.memory(|memory| {
+        memory.areas().visible_layer_ids().iter().any(|layer| {
+            let rect = memory.area_rect(layer.id).unwrap_or(Rect::NOTHING);
+            layer.order != Order::Background && rect.height() > 1.0 && rect.intersects(region)
+        })
+    })
+}
+
+/// Lines over the canvas, with the keys in use.
+fn canvas_lines(context: &Context) -> [String; 3] {
+    let dry = by_key(context, Intent::Dry, tr("Edit, Dry"));
+    [
+        tr("Press here and draw, with a pen, a mouse or a finger.").to_owned(),
+        tr_format!("Alt + click tells a colour. {dry} dries the paint, to paint over it.", dry),
+        tr("File, Sample painting opens one to try; Help, Guided tour shows more.").to_owned(),
+    ]
+}
+
+/// Lines over the palette, with the keys in use.
+fn palette_lines(context: &Context) -> [String; 2] {
+    let wash = by_key(context, Intent::Wash, tr("Edit, Wash the brush"));
+    [tr("Mix here with the brush.").to_owned(), tr_format!("{wash} washes it.", wash)]
+}
+
+/// The key of an intent, or its place in the menus if it has none.
+fn by_key(context: &Context, intent: Intent, menu: &str) -> String {
+    text(context, &intent.name()).filter(|key| !key.is_empty()).unwrap_or_else(|| menu.to_owned())
+}
+
+/// Lines over the tubes.
+const TUBES: [&str; 2] =
+    ["Double click a tube: its paint is on the brush.", "Click, then click the palette: a heap."];
+
+/// Largest width of the lines over the canvas, in points.
+const WIDTH: f32 = 440.0;
+
+/// Width of the card's contents, in points.
+const TOUR_CARD_WIDTH: f32 = 392.0;
+
+/// Distance of the card from the place that it speaks of, in points.
+const GAP: f32 = 12.0;
+
+/// A button of the card.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pressed {
+    Back,
+    Next,
+    Leave,
 }

@@ -1,10 +1,4 @@
 //! The quick palette: a round menu at the pointer with tubes, mixtures and brush sizes.
-//!
-//! Choices of the quick palette.
-//!
-//! Geometry of a ring of wedges.
-//!
-//! Draws the quick palette and reads the painter's answer.
 
 use std::f32::consts::TAU;
 

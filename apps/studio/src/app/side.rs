@@ -1,13 +1,5 @@
-//! The columns of panels at both sides of the window: tabs in groups that are folded, resized
-//! and dragged to other places.
-//!
-//! Table of the panels in the columns. A new panel is one line here, and its [`Tab`].
-//!
-//! State of all panels.
-//!
-//! Dragging a panel by its tab to another place.
-//!
-//! Edges that are dragged to resize what lies beside them.
+//! The panels in the columns at both sides of the window. A new panel is one line in the table
+//! here, and its [`Tab`].
 
 use std::collections::BTreeMap;
 

@@ -1,14 +1,5 @@
-//! State of the studio window.
-//!
-//! Parts that a window is created from. The worker starts before the window exists.
-//!
-//! One frame of the window: events, input, drawing and requests.
-//!
-//! Lays out the window: menu bar, status line, toolbar, side panel and surfaces.
-//!
-//! Handles the events of the worker.
-//!
-//! The window's set-up as data: gathered for autosaves, and applied after a recovery.
+//! State of the studio window, and one frame of it: input, events of the worker, layout, drawing
+//! and requests.
 
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -298,57 +289,7 @@ impl Studio {
         let palette = self.visible.palette && self.visible.panels;
         if palette { vec![SurfaceId::Palette, SurfaceId::Canvas] } else { vec![SurfaceId::Canvas] }
     }
-}
 
-impl Drop for Studio {
-    fn drop(&mut self) {
-        self.worker.ask(Command::Quit);
-    }
-}
-
-/// A started worker, and the slot for the window that it wakes.
-#[derive(Debug)]
-pub struct StartedWorker {
-    pub(super) worker: Worker,
-    pub(super) window: Arc<OnceLock<Context>>,
-}
-
-impl StartedWorker {
-    /// Starts the worker and sends it `commands`.
-    #[must_use]
-    pub fn new(options: WorkerOptions, commands: Vec<Command>) -> Self {
-        let window: Arc<OnceLock<Context>> = Arc::default();
-        let wakes = Arc::clone(&window);
-        let wake = move || {
-            if let Some(context) = wakes.get() {
-                pace::wake(context);
-            }
-        };
-        #[cfg(not(target_arch = "wasm32"))]
-        let worker = Worker::start(options, wake);
-        #[cfg(target_arch = "wasm32")]
-        let worker = Worker::in_turns(options, wake);
-        commands.into_iter().for_each(|command| worker.ask(command));
-        Self { worker, window }
-    }
-}
-
-/// Parts that a [`Studio`](super::Studio) is created from.
-#[derive(Debug)]
-pub struct Parts {
-    /// Worker thread, already started.
-    pub worker: StartedWorker,
-    /// Input of pen, mouse and touch.
-    pub pen: Pen,
-    /// File dialogs, tasks and preferences.
-    pub files: Files,
-    /// File to open first.
-    pub open: Option<PathBuf>,
-    /// Performance log, if asked for.
-    pub log: Option<FiguresLog>,
-}
-
-impl Studio {
     /// Lets the workers of a page, which have no threads, work until `deadline`. Returns how long they may
     /// wait for the next turn.
     pub fn turn(&self, deadline: Instant) -> Wait {
@@ -520,9 +461,7 @@ impl Studio {
             }
         }
     }
-}
 
-impl Studio {
     /// Draws all parts of the window, from its edges inwards.
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
@@ -633,9 +572,7 @@ impl Studio {
             self.message = None;
         }
     }
-}
 
-impl Studio {
     /// Handles all events that arrived since the last call.
     pub(super) fn handle_events(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
@@ -720,9 +657,7 @@ impl Studio {
     pub(super) fn show_message(&mut self, text: String, hint: Option<String>, failed: bool) {
         self.message = Some(Message { text, hint, failed, shown_at: Instant::now() });
     }
-}
 
-impl Studio {
     /// How the window is set up now.
     #[must_use]
     pub fn desk(&self) -> Desk {
@@ -760,4 +695,52 @@ impl Studio {
             }
         }
     }
+}
+
+impl Drop for Studio {
+    fn drop(&mut self) {
+        self.worker.ask(Command::Quit);
+    }
+}
+
+/// A started worker, and the slot for the window that it wakes.
+#[derive(Debug)]
+pub struct StartedWorker {
+    pub(super) worker: Worker,
+    pub(super) window: Arc<OnceLock<Context>>,
+}
+
+impl StartedWorker {
+    /// Starts the worker and sends it `commands`.
+    #[must_use]
+    pub fn new(options: WorkerOptions, commands: Vec<Command>) -> Self {
+        let window: Arc<OnceLock<Context>> = Arc::default();
+        let wakes = Arc::clone(&window);
+        let wake = move || {
+            if let Some(context) = wakes.get() {
+                pace::wake(context);
+            }
+        };
+        #[cfg(not(target_arch = "wasm32"))]
+        let worker = Worker::start(options, wake);
+        #[cfg(target_arch = "wasm32")]
+        let worker = Worker::in_turns(options, wake);
+        commands.into_iter().for_each(|command| worker.ask(command));
+        Self { worker, window }
+    }
+}
+
+/// Parts that a [`Studio`](super::Studio) is created from.
+#[derive(Debug)]
+pub struct Parts {
+    /// Worker thread, already started.
+    pub worker: StartedWorker,
+    /// Input of pen, mouse and touch.
+    pub pen: Pen,
+    /// File dialogs, tasks and preferences.
+    pub files: Files,
+    /// File to open first.
+    pub open: Option<PathBuf>,
+    /// Performance log, if asked for.
+    pub log: Option<FiguresLog>,
 }

@@ -1,12 +1,5 @@
-//! Draws canvas, palette and reference picture, and handles tools other than the brush.
-//!
-//! Passes the input of pen, mouse and touch on to the worker.
-//!
-//! Draws the cursor: the brush head, or the eyedropper's ring of colour.
-//!
-//! Draws the mask of the canvas, and the polygon of a new one.
-//!
-//! Draws the drawing aids over the canvas, and lets their handles be dragged.
+//! Canvas, palette and reference picture: draws them with cursor, mask and drawing aids, and
+//! passes the input of pen, mouse and touch to the worker.
 
 use std::time::Duration;
 
@@ -237,18 +230,7 @@ impl Studio {
             self.with_panels(|_, cx| squeeze(cx, slot, surface, x_mm, y_mm));
         }
     }
-}
 
-/// Names of the first and the second light, if there are two.
-fn lights_of(painting: &PaintingState) -> Option<[&str; 2]> {
-    let second = painting.second_lighting.as_ref()?;
-    Some([painting.lighting.illuminant.as_str(), second.illuminant.as_str()])
-}
-
-/// Brush used for the eraser end of a pen, if the painting has it.
-const ERASER: &str = "knife";
-
-impl Studio {
     /// Reads the system's pen devices. Call before egui processes the input.
     pub fn raw_input(&mut self, context: &Context, input: &mut RawInput) {
         self.pen.read_systems(context, input);
@@ -371,34 +353,7 @@ impl Studio {
             device == Device::Eraser && brushes.into_iter().any(|brush| brush.name == ERASER);
         if eraser { ERASER.to_owned() } else { self.tools.brush.clone() }
     }
-}
 
-/// Whether a stroke that began with its group is cut after a command, if it was `cut` before.
-fn cut_after(cut: bool, command: &Command) -> bool {
-    match command {
-        Command::BeginGroup => false,
-        Command::PenDown { .. }
-        | Command::ToolDown { .. }
-        | Command::PenMove(_)
-        | Command::PenUp
-        | Command::EndGroup => cut,
-        other => cut || !other.is_question(),
-    }
-}
-
-/// The command that sets a brush down as a tool.
-fn down(tool: StrokeTool, surface: SurfaceId, brush: String) -> Command {
-    if tool.is_paint() {
-        Command::PenDown { surface, brush, decimals: SampleDecimals::PEN }
-    } else {
-        Command::ToolDown { tool, surface, brush }
-    }
-}
-
-/// Radius of the eyedropper's ring, in points.
-const RING: f32 = 24.0;
-
-impl Studio {
     /// Draws the cursor for the tool in use.
     pub(super) fn draw_cursor(&mut self, ui: &Ui, mode: Mode) {
         let Some(painting) = self.painting.clone() else { return };
@@ -491,18 +446,7 @@ impl Studio {
         let cell = second.or(view.picture(false))?.pixels(TileRect { x, y, width: 1, height: 1 });
         cell.pixels.first().copied()
     }
-}
 
-/// Distance in points by which the pen moves for another point of a polygon.
-const STEP: f32 = 3.0;
-
-/// Width of the outline, in points.
-const WIDTH: f32 = 1.2;
-
-/// Most points of a polygon, within the limit of a script.
-const MOST_POINTS: usize = 4000;
-
-impl Studio {
     /// Draws the outline of the mask, and takes the points of the polygon that the pen draws in the
     /// mode of masks.
     pub(super) fn draw_mask(&mut self, ui: &Ui, response: &Response, mode: Mode) {
@@ -567,79 +511,7 @@ impl Studio {
             ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
         }
     }
-}
 
-/// Draws the outline of a mask as dashes that have moved by `phase` points.
-fn draw_outline(painter: &Painter, placement: &Placement, mask: &MaskState, phase: f32) {
-    let seen = painter.clip_rect().expand(2.0);
-    for line in &mask.outline {
-        let ends = line.map(|(x, y)| placement.point([f64::from(x), f64::from(y)]));
-        if seen.intersects(Rect::from_two_pos(ends[0], ends[1])) {
-            march(painter, ends, phase);
-        }
-    }
-}
-
-/// Draws a line in dashes of black and white. Their place depends on the place in the window, so
-/// that the dashes of joined lines follow each other.
-fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
-    let way = to - from;
-    // The stairs of an outline are shorter than the line is wide: longer ends close their corners.
-    let cap = 0.5 * WIDTH * way.normalized();
-    let along = |point: Pos2| point.x + point.y + phase;
-    let start = along(from);
-    let end = along(to);
-    let run = end - start;
-    if run.abs() < 0.01 {
-        painter.line_segment([from, to], Stroke::new(WIDTH, Color32::WHITE));
-        return;
-    }
-    let low = start.min(end);
-    let high = start.max(end);
-    let mut at = low;
-    while at < high - 0.001 {
-        let dash = (at / DASH).floor();
-        let next = ((dash + 1.0) * DASH).min(high).max(at + 0.01);
-        let color = if dash.rem_euclid(2.0) < 0.5 { Color32::BLACK } else { Color32::WHITE };
-        let place = |value: f32| from + way * ((value - start) / run);
-        painter.line_segment([place(at) - cap, place(next) + cap], Stroke::new(WIDTH, color));
-        at = next;
-    }
-}
-
-/// Diameter of a handle, in points.
-const HANDLE: f32 = 14.0;
-
-/// Distance of a handle from the edge of the view beyond which its place is, in points.
-const AIDS_EDGE: f32 = 12.0;
-
-/// The canvas on the screen.
-#[derive(Debug, Clone, Copy)]
-struct OnCanvas {
-    placement: Placement,
-    cell_mm: f64,
-    /// The part of the window that shows it.
-    view: Rect,
-}
-
-impl OnCanvas {
-    fn point(&self, mm: [f64; 2]) -> Pos2 {
-        self.placement.point(mm.map(|mm| mm / self.cell_mm))
-    }
-
-    fn mm(&self, point: Pos2) -> [f64; 2] {
-        self.placement.cell(point).map(|cells| cells * self.cell_mm)
-    }
-
-    /// Rectangle in which a handle is touched: at the edge of the view if its place is beyond.
-    fn handle(&self, place: [f64; 2], size: Vec2) -> Rect {
-        let room = self.view.shrink(AIDS_EDGE);
-        let point = self.point(place);
-        Rect::from_center_size(if room.is_positive() { room.clamp(point) } else { point }, size)
-    }
-}
-
-impl Studio {
     /// Width and height of the canvas in mm.
     fn canvas_mm(painting: &PaintingState) -> [f64; 2] {
         let (columns, rows) = painting.canvas_cells;
@@ -732,6 +604,119 @@ impl Studio {
             self.aids.move_to(handle, [to[0] + right, to[1] + down]);
         }
         response.on_hover_cursor(CursorIcon::Grab).on_hover_text(name);
+    }
+}
+
+/// Names of the first and the second light, if there are two.
+fn lights_of(painting: &PaintingState) -> Option<[&str; 2]> {
+    let second = painting.second_lighting.as_ref()?;
+    Some([painting.lighting.illuminant.as_str(), second.illuminant.as_str()])
+}
+
+/// Brush used for the eraser end of a pen, if the painting has it.
+const ERASER: &str = "knife";
+
+/// Whether a stroke that began with its group is cut after a command, if it was `cut` before.
+fn cut_after(cut: bool, command: &Command) -> bool {
+    match command {
+        Command::BeginGroup => false,
+        Command::PenDown { .. }
+        | Command::ToolDown { .. }
+        | Command::PenMove(_)
+        | Command::PenUp
+        | Command::EndGroup => cut,
+        other => cut || !other.is_question(),
+    }
+}
+
+/// The command that sets a brush down as a tool.
+fn down(tool: StrokeTool, surface: SurfaceId, brush: String) -> Command {
+    if tool.is_paint() {
+        Command::PenDown { surface, brush, decimals: SampleDecimals::PEN }
+    } else {
+        Command::ToolDown { tool, surface, brush }
+    }
+}
+
+/// Radius of the eyedropper's ring, in points.
+const RING: f32 = 24.0;
+
+/// Distance in points by which the pen moves for another point of a polygon.
+const STEP: f32 = 3.0;
+
+/// Width of the outline, in points.
+const WIDTH: f32 = 1.2;
+
+/// Most points of a polygon, within the limit of a script.
+const MOST_POINTS: usize = 4000;
+
+/// Draws the outline of a mask as dashes that have moved by `phase` points.
+fn draw_outline(painter: &Painter, placement: &Placement, mask: &MaskState, phase: f32) {
+    let seen = painter.clip_rect().expand(2.0);
+    for line in &mask.outline {
+        let ends = line.map(|(x, y)| placement.point([f64::from(x), f64::from(y)]));
+        if seen.intersects(Rect::from_two_pos(ends[0], ends[1])) {
+            march(painter, ends, phase);
+        }
+    }
+}
+
+/// Draws a line in dashes of black and white. Their place depends on the place in the window, so
+/// that the dashes of joined lines follow each other.
+fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
+    let way = to - from;
+    // The stairs of an outline are shorter than the line is wide: longer ends close their corners.
+    let cap = 0.5 * WIDTH * way.normalized();
+    let along = |point: Pos2| point.x + point.y + phase;
+    let start = along(from);
+    let end = along(to);
+    let run = end - start;
+    if run.abs() < 0.01 {
+        painter.line_segment([from, to], Stroke::new(WIDTH, Color32::WHITE));
+        return;
+    }
+    let low = start.min(end);
+    let high = start.max(end);
+    let mut at = low;
+    while at < high - 0.001 {
+        let dash = (at / DASH).floor();
+        let next = ((dash + 1.0) * DASH).min(high).max(at + 0.01);
+        let color = if dash.rem_euclid(2.0) < 0.5 { Color32::BLACK } else { Color32::WHITE };
+        let place = |value: f32| from + way * ((value - start) / run);
+        painter.line_segment([place(at) - cap, place(next) + cap], Stroke::new(WIDTH, color));
+        at = next;
+    }
+}
+
+/// Diameter of a handle, in points.
+const HANDLE: f32 = 14.0;
+
+/// Distance of a handle from the edge of the view beyond which its place is, in points.
+const AIDS_EDGE: f32 = 12.0;
+
+/// The canvas on the screen.
+#[derive(Debug, Clone, Copy)]
+struct OnCanvas {
+    placement: Placement,
+    cell_mm: f64,
+    /// The part of the window that shows it.
+    view: Rect,
+}
+
+impl OnCanvas {
+    fn point(&self, mm: [f64; 2]) -> Pos2 {
+        self.placement.point(mm.map(|mm| mm / self.cell_mm))
+    }
+
+    fn mm(&self, point: Pos2) -> [f64; 2] {
+        self.placement.cell(point).map(|cells| cells * self.cell_mm)
+    }
+
+    /// Rectangle in which a handle is touched: at the edge of the view if its place is beyond.
+    fn handle(&self, place: [f64; 2], size: Vec2) -> Rect {
+        let room = self.view.shrink(AIDS_EDGE);
+        let point = self.point(place);
+        Rect::from_center_size(if room.is_positive() { room.clamp(point) } else { point }, size)
     }
 }
 

@@ -1,13 +1,8 @@
-//! Opens and shows the dialogs, and carries out the painter's answers.
+//! Opens and shows the dialogs, and carries out the painter's answers. Also crops the painting,
+//! saves lines drawn on the reference picture, and handles the files of scenes.
 //!
-//! Files of the lines drawn on the reference picture, and actions that would lose them.
-//!
-//! Crops the painting: the part that stays is opened in its place.
-//!
-//! The history of a painting keeps pieces of a canvas of one size, so it ends here, and the
-//! recording begins anew with the part that stays.
-//!
-//! Scenes: their files, and autosaves of what was done to them.
+//! The history of a painting keeps pieces of a canvas of one size. A crop ends it and begins a new
+//! recording with the part that stays.
 //!
 //! A scene is small on the disk: its script. A scene that was not saved when another is opened or
 //! the window closes keeps its autosave, which the next start offers to recover.
@@ -360,28 +355,7 @@ impl Files {
         };
         self.browse(options, FilePurpose::Timelapse(export));
     }
-}
 
-/// The browser that asks where to write an export of a painting with this title.
-pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
-    let ending = kind.ending();
-    let filters: &[Filter] = match kind {
-        ExportKind::Picture(PictureFormat::Png8 | PictureFormat::Png16) => &[PICTURES, Filter::ALL],
-        ExportKind::Picture(PictureFormat::Tiff16) | ExportKind::Layers => &[Filter::ALL],
-        ExportKind::PigmentMaps => &[Filter::ALL],
-        _ => &[PAINTINGS, Filter::ALL],
-    };
-    // A linear EXR must not get the name of the painting's own file.
-    let linear = kind == ExportKind::Picture(PictureFormat::LinearExr);
-    let mark = if linear { ".linear" } else { "" };
-    let name = format!("{title}{mark}.{ending}");
-    let title = tr("Export");
-    let ending = Some(ending);
-    let others = &[][..];
-    BrowserOptions { title, saving: true, filters, ending, others, name }
-}
-
-impl Files {
     /// Takes note of the drawings on the reference picture that are in no file. To be called every
     /// frame before [`Files::update`].
     pub fn note_drawings(&mut self, unsaved: Vec<DrawnFile>) {
@@ -452,9 +426,7 @@ impl Files {
             self.carry_out_safely(next);
         }
     }
-}
 
-impl Files {
     /// Starts to crop the painting of `snapshot`.
     pub(super) fn start_crop(&mut self, rect: Rect, snapshot: &Snapshot) {
         let canvas = Arc::clone(&snapshot.canvas);
@@ -506,23 +478,7 @@ impl Files {
         // Nothing is lost, so nothing is asked.
         self.carry_out(PendingAction::Replace(Replacement { commands, origin: files }));
     }
-}
 
-const SCENES: Filter = Filter {
-    label: english("Models, photographs and scripts"),
-    endings: &pictures_and::<11>(&["glb", "gltf", "obj", "ply", "toml"]),
-};
-const LIBRARIES: Filter = Filter { label: english("Pigment libraries"), endings: &["json"] };
-const SCENES_SCRIPTS: Filter = Filter { label: english("Scripts"), endings: &["toml"] };
-const SCENES_PICTURES: Filter = Filter { label: english("Pictures"), endings: &["png", "exr"] };
-const SCENES_PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
-const ANIMATIONS: Filter =
-    Filter { label: english("Animations"), endings: &["gif", "png", "apng"] };
-
-/// Longest time between a change and its autosave: a script is written in no time.
-const INTERVAL: Duration = Duration::from_secs(2);
-
-impl Files {
     /// Removes and returns the oldest answer of the painter about scenes.
     pub fn take_scene_answer(&mut self) -> Option<SceneAnswer> {
         self.scenes.answers.pop_front()
@@ -697,6 +653,39 @@ impl Files {
         });
     }
 }
+
+/// The browser that asks where to write an export of a painting with this title.
+pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
+    let ending = kind.ending();
+    let filters: &[Filter] = match kind {
+        ExportKind::Picture(PictureFormat::Png8 | PictureFormat::Png16) => &[PICTURES, Filter::ALL],
+        ExportKind::Picture(PictureFormat::Tiff16) | ExportKind::Layers => &[Filter::ALL],
+        ExportKind::PigmentMaps => &[Filter::ALL],
+        _ => &[PAINTINGS, Filter::ALL],
+    };
+    // A linear EXR must not get the name of the painting's own file.
+    let linear = kind == ExportKind::Picture(PictureFormat::LinearExr);
+    let mark = if linear { ".linear" } else { "" };
+    let name = format!("{title}{mark}.{ending}");
+    let title = tr("Export");
+    let ending = Some(ending);
+    let others = &[][..];
+    BrowserOptions { title, saving: true, filters, ending, others, name }
+}
+
+const SCENES: Filter = Filter {
+    label: english("Models, photographs and scripts"),
+    endings: &pictures_and::<11>(&["glb", "gltf", "obj", "ply", "toml"]),
+};
+const LIBRARIES: Filter = Filter { label: english("Pigment libraries"), endings: &["json"] };
+const SCENES_SCRIPTS: Filter = Filter { label: english("Scripts"), endings: &["toml"] };
+const SCENES_PICTURES: Filter = Filter { label: english("Pictures"), endings: &["png", "exr"] };
+const SCENES_PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
+const ANIMATIONS: Filter =
+    Filter { label: english("Animations"), endings: &["gif", "png", "apng"] };
+
+/// Longest time between a change and its autosave: a script is written in no time.
+const INTERVAL: Duration = Duration::from_secs(2);
 
 /// The name of a file without what cannot be in one.
 fn file_stem(title: &str) -> String {

@@ -1,10 +1,5 @@
-//! Exports of a painting: pictures, layers, spectra and pigment maps.
-//!
-//! Timelapse of the session's recording: its settings in a dialog, and its files.
-//!
-//! Files of a scene: what can be made of it, and the painter's answers.
-//!
-//! State of the files of scenes.
+//! Exports: pictures, layers, spectra and pigment maps of a painting, timelapses of the recording,
+//! and the files of a scene.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;

@@ -1,19 +1,10 @@
-//! The canvas of a new painting as data: its format, its ground, and what is kept of it.
+//! The canvas of a new painting as data: its format, its ground, and the canvases kept for the
+//! next painting.
 //!
-//! Units of lengths that a painter chooses from.
-//!
-//! Formats of paper and canvas by name.
-//!
-//! Paper: ISO 216 and US Letter (ANSI/ASME Y14.1). French canvases by number, figure, paysage
-//! and marine: B. Haaf, "Industriell vorgrundierte Malleinen", Zeitschrift fuer
-//! Kunsttechnologie und Konservierung 1 (1987), 7-71, as tabulated in Wikipedia, "French
-//! standard sizes for oil paintings".
-//!
-//! The canvas of a new painting, as a painter describes it.
-//!
-//! Colours of grounds: bare priming, thin films of pigments over it, and thick ones.
-//!
-//! Canvases that are kept for the next painting.
+//! Paper: ISO 216 and US Letter (ANSI/ASME Y14.1). French canvases by number, figure, paysage and
+//! marine: B. Haaf, "Industriell vorgrundierte Malleinen", Zeitschrift fuer Kunsttechnologie und
+//! Konservierung 1 (1987), 7-71, as tabulated in Wikipedia, "French standard sizes for oil
+//! paintings".
 
 use std::path::PathBuf;
 

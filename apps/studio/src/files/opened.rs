@@ -1,12 +1,9 @@
-//! Reads files of any kind; the kind is detected from the content, not the name.
+//! Reads files of any kind, which it detects from the content and not from the name, and the
+//! numbered revisions of a painting.
 //!
-//! Numbered copies of a painting: beside `study.exr` a folder `study.revisions` with
-//! `0001.exr` and the thumbnail `0001.png`.
-//!
-//! A revision is kept only on request, not at every save: undo and autosave cover the time
-//! between two saves.
-//!
-//! Revisions of the painting with their thumbnails, as a panel shows them.
+//! Revisions lie beside `study.exr` in a folder `study.revisions` as `0001.exr` with the thumbnail
+//! `0001.png`. A revision is kept only on request, not at every save: undo and autosave cover the
+//! time between two saves.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};

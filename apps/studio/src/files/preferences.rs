@@ -1,12 +1,8 @@
 //! The painter's preferences, a JSON file in the program's own folder.
 //!
-//! Keys that this version does not know are kept, so that older and newer versions can
-//! share the file. A value that it does not understand is reported and replaced by the
-//! default. A file that is not JSON is renamed.
-//!
-//! How the file browser shows a folder.
-//!
-//! Folders in which the program keeps preferences and autosaves.
+//! Keys that this version does not know are kept, so that older and newer versions can share the
+//! file. A value that it does not understand is reported and replaced by the default. A file that
+//! is not JSON is renamed.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

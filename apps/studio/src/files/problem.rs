@@ -1,8 +1,5 @@
-//! Problems as the painter sees them.
-//!
-//! Ages and file sizes in words.
-//!
-//! Problems that only a page has: the browser's storage, and files that do not fit into its memory.
+//! Problems with files, in words for the painter: a message, its cause, and ages and sizes of
+//! files.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,10 +1,5 @@
-//! File actions that menus and panels can request.
-//!
-//! Lines drawn on the reference picture: marks of samples and guides of strokes, as files.
-//!
-//! Changes of the picture beside the canvas and of the lines drawn on it.
-//!
-//! Formats that kept mixtures are written in, and what is read from them.
+//! File actions that menus and panels can request, and the formats of drawings on the reference
+//! picture and of kept mixtures.
 
 use std::path::{Path, PathBuf};
 

@@ -343,22 +343,7 @@ impl Files {
             PendingAction::Reference(change) => self.reference.push_back(change),
         }
     }
-}
 
-/// The kept mixtures, and what of them is in their file.
-#[derive(Debug, Default)]
-pub(super) struct SwatchList {
-    /// Mixtures as the painter sees them.
-    pub(super) book: SwatchBook,
-    /// Mixtures in the file; `None` until it was read.
-    pub(super) written: Option<SwatchBook>,
-    /// Whether reading has begun.
-    pub(super) asked: bool,
-    /// Colours that were imported and not taken yet.
-    pub(super) colors: Option<SwatchFile>,
-}
-
-impl Files {
     /// Handles an event of the worker.
     pub fn handle_event(&mut self, event: &Event) {
         match event {
@@ -557,6 +542,19 @@ impl Files {
             }
         }
     }
+}
+
+/// The kept mixtures, and what of them is in their file.
+#[derive(Debug, Default)]
+pub(super) struct SwatchList {
+    /// Mixtures as the painter sees them.
+    pub(super) book: SwatchBook,
+    /// Mixtures in the file; `None` until it was read.
+    pub(super) written: Option<SwatchBook>,
+    /// Whether reading has begun.
+    pub(super) asked: bool,
+    /// Colours that were imported and not taken yet.
+    pub(super) colors: Option<SwatchFile>,
 }
 
 /// A dialog that asks the user.

@@ -1,11 +1,6 @@
-//! The kept mixtures: read at the start, written when they change, imported and exported.
-//!
-//! Sets of own brushes in the home folder: reading, writing, importing and exporting.
-//!
-//! The sample painting: a still life with dry layers, glazes and wet lights, as a script that the
-//! worker plays.
-//!
-//! Begins a painting as the dialog describes it.
+//! Collections in the home folder: kept mixtures and sets of own brushes, read at the start,
+//! written when they change, imported and exported. Also begins new paintings, among them the
+//! sample painting, a script that the worker plays.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -142,47 +137,7 @@ impl Files {
             let _ = write_own(&self.home.swatches(), &self.swatches.book);
         }
     }
-}
 
-fn write_own(path: &Path, book: &SwatchBook) -> Result<(), Problem> {
-    if let Some(folder) = path.parent() {
-        disk::create_dir_all(folder).map_err(|error| Problem::io(folder, "created", &error))?;
-    }
-    Ok(write_whole(path, book.to_json().as_bytes())?)
-}
-
-/// Reads the list of the home folder. No file is an empty list; a file that cannot be read is put
-/// aside, so that it is not overwritten.
-fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
-    if !disk::exists(path) {
-        return (SwatchBook::default(), None);
-    }
-    match read_swatches(path) {
-        Ok(ReadSwatches::Mixtures(book)) => (book, None),
-        Ok(ReadSwatches::Colors(_)) => (SwatchBook::default(), None),
-        Err(Problem { text, .. }) => {
-            let aside = path.with_extension("broken.json");
-            let hint = match disk::rename(path, &aside) {
-                Ok(()) => {
-                    tr_format!(
-                        "a new list is begun; the file was renamed to {aside}",
-                        aside = aside.display()
-                    )
-                }
-                Err(error) => {
-                    tr_format!("a new list is begun; the file cannot be renamed: {error}", error)
-                }
-            };
-            (SwatchBook::default(), Some(Problem::new(text, hint)))
-        }
-    }
-}
-
-const SETS: Filter = Filter { label: english("Own brushes"), endings: &["json"] };
-const IMPORTED: Filter =
-    Filter { label: english("Own brushes and MyPaint's"), endings: &["json", "myb"] };
-
-impl Files {
     /// Adds a set and shows it. A name that another set has is numbered.
     pub fn add_brush_set(&mut self, set: BrushSet) {
         let taken = |name: &str| self.brush_sets.sets.iter().any(|own| own.set.name() == name);
@@ -313,40 +268,7 @@ impl Files {
             Ok(Finished::Exported { path, remark: None })
         });
     }
-}
 
-/// Writes the sets that differ, and deletes the files of those that are gone.
-fn write_sets(before: &[StoredSet], now: &[StoredSet]) -> Result<(), JobError> {
-    for stored in now.iter().filter(|stored| !before.contains(stored)) {
-        write_set(stored).map_err(Problem::from)?;
-    }
-    for gone in before.iter().filter(|old| !now.iter().any(|stored| stored.path == old.path)) {
-        disk::remove_file(&gone.path)
-            .map_err(|error| Problem::io(&gone.path, "deleted", &error))?;
-    }
-    Ok(())
-}
-
-fn read_brushes(path: &Path) -> Result<ReadBrushes, Problem> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("myb")) {
-        let text = read_text(path)?;
-        let imported = brush_of_myb(&text, &path.display().to_string(), MM_PER_PIXEL);
-        let imported = imported.map_err(|error| Problem::from_error(&error))?;
-        return Ok(ReadBrushes::Myb(Box::new(imported)));
-    }
-    Ok(ReadBrushes::Set(read_set(path)?))
-}
-
-/// Two oranges and a lemon, in the Van Gogh oils.
-const ORANGES: &[u8] = include_bytes!("sample/oranges.json");
-
-/// The script of the sample painting.
-fn script() -> Result<StrokeScript, Problem> {
-    let read = StrokeScript::from_json(tr("the sample painting"), ORANGES);
-    read.map_err(|error| Problem::from_error(&error))
-}
-
-impl Files {
     /// Opens the sample painting in place of the open one, after asking about unsaved changes.
     pub(super) fn open_sample(&mut self) {
         match script() {
@@ -374,9 +296,7 @@ impl Files {
             self.saved_revision = Some(state.revision);
         }
     }
-}
 
-impl Files {
     /// Opens the dialog of a new painting, which begins with the canvas of the last.
     pub(super) fn ask_for_new(&mut self, state: &PaintingState) {
         let last = self.preferences.new_painting.last.clone();
@@ -438,6 +358,75 @@ impl Files {
             Ok(Finished::Begun(Box::new(document), Arc::new(bytes)))
         });
     }
+}
+
+fn write_own(path: &Path, book: &SwatchBook) -> Result<(), Problem> {
+    if let Some(folder) = path.parent() {
+        disk::create_dir_all(folder).map_err(|error| Problem::io(folder, "created", &error))?;
+    }
+    Ok(write_whole(path, book.to_json().as_bytes())?)
+}
+
+/// Reads the list of the home folder. No file is an empty list; a file that cannot be read is put
+/// aside, so that it is not overwritten.
+fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
+    if !disk::exists(path) {
+        return (SwatchBook::default(), None);
+    }
+    match read_swatches(path) {
+        Ok(ReadSwatches::Mixtures(book)) => (book, None),
+        Ok(ReadSwatches::Colors(_)) => (SwatchBook::default(), None),
+        Err(Problem { text, .. }) => {
+            let aside = path.with_extension("broken.json");
+            let hint = match disk::rename(path, &aside) {
+                Ok(()) => {
+                    tr_format!(
+                        "a new list is begun; the file was renamed to {aside}",
+                        aside = aside.display()
+                    )
+                }
+                Err(error) => {
+                    tr_format!("a new list is begun; the file cannot be renamed: {error}", error)
+                }
+            };
+            (SwatchBook::default(), Some(Problem::new(text, hint)))
+        }
+    }
+}
+
+const SETS: Filter = Filter { label: english("Own brushes"), endings: &["json"] };
+const IMPORTED: Filter =
+    Filter { label: english("Own brushes and MyPaint's"), endings: &["json", "myb"] };
+
+/// Writes the sets that differ, and deletes the files of those that are gone.
+fn write_sets(before: &[StoredSet], now: &[StoredSet]) -> Result<(), JobError> {
+    for stored in now.iter().filter(|stored| !before.contains(stored)) {
+        write_set(stored).map_err(Problem::from)?;
+    }
+    for gone in before.iter().filter(|old| !now.iter().any(|stored| stored.path == old.path)) {
+        disk::remove_file(&gone.path)
+            .map_err(|error| Problem::io(&gone.path, "deleted", &error))?;
+    }
+    Ok(())
+}
+
+fn read_brushes(path: &Path) -> Result<ReadBrushes, Problem> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("myb")) {
+        let text = read_text(path)?;
+        let imported = brush_of_myb(&text, &path.display().to_string(), MM_PER_PIXEL);
+        let imported = imported.map_err(|error| Problem::from_error(&error))?;
+        return Ok(ReadBrushes::Myb(Box::new(imported)));
+    }
+    Ok(ReadBrushes::Set(read_set(path)?))
+}
+
+/// Two oranges and a lemon, in the Van Gogh oils.
+const ORANGES: &[u8] = include_bytes!("sample/oranges.json");
+
+/// The script of the sample painting.
+fn script() -> Result<StrokeScript, Problem> {
+    let read = StrokeScript::from_json(tr("the sample painting"), ORANGES);
+    read.map_err(|error| Problem::from_error(&error))
 }
 
 /// The canvas of `script` with the picture in `path` as its first dry layer.

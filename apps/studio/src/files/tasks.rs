@@ -200,59 +200,7 @@ impl Files {
         let replacement = Replacement { commands, origin: FileOrigin::default() };
         self.carry_out_safely(PendingAction::Replace(replacement));
     }
-}
 
-/// Returns the script as it will be saved in `path`. If it continues a painting, the file
-/// of that painting as it was at the start (`start`) is written beside it as
-/// `NAME.start.exr`.
-fn with_start_file(
-    path: &Path,
-    script: &StrokeScript,
-    start: Option<Arc<Vec<u8>>>,
-) -> Result<StrokeScript, Problem> {
-    let mut script = script.clone();
-    let Some(named) = &script.start else { return Ok(script) };
-    let bytes = match start {
-        Some(bytes) => bytes,
-        // The painting comes from a recording, whose script names the file that it started
-        // from.
-        None => Arc::new(documents::file::read(Path::new(named))?),
-    };
-    let beside = path.with_extension("start.exr");
-    write_whole(&beside, &bytes)?;
-    script.start = Some(file_name(&beside));
-    Ok(script)
-}
-
-/// Writes a painting, with the palette and the brushes beside it.
-fn write_painting(
-    path: &Path,
-    canvas: &Document,
-    (palette, brushes): (&Document, &[KeptBrush]),
-    progress: &Progress,
-) -> Result<(), JobError> {
-    let bytes = paint::file::write_with_table(canvas, palette, brushes)
-        .map_err(|error| Problem::from_error(&error))?;
-    progress.report(0.8)?;
-    write_whole(path, &bytes).map_err(Problem::from)?;
-    Ok(())
-}
-
-/// Reads a painting, and returns the content of its file too.
-pub(super) fn read_painting(
-    path: &Path,
-    progress: &Progress,
-) -> Result<(Box<Document>, Arc<Vec<u8>>), JobError> {
-    match opened::read(path, progress)? {
-        Opened::Painting { document, bytes, .. } => Ok((document, bytes)),
-        _ => {
-            let text = tr_format!("{path}: is not a painting", path = path.display());
-            Err(Problem::new(text, tr("another program has changed it")).into())
-        }
-    }
-}
-
-impl Files {
     /// Applies the results of all jobs that ended.
     pub(super) fn collect_results(&mut self) {
         let mut index = 0;
@@ -452,9 +400,7 @@ impl Files {
         lighting.illuminant = text.to_owned();
         self.commands.push(Command::Apply(Action::Light(lighting)));
     }
-}
 
-impl Files {
     /// Starts reading the lost session in `folder`.
     pub(super) fn recover(&mut self, folder: &Path) {
         let mut sessions = self.lost_sessions.iter();
@@ -552,60 +498,7 @@ impl Files {
             Ok(Finished::Quietly)
         });
     }
-}
 
-/// Reads a file of the autosave of `title`. The painter never chose the file's name, so that a
-/// problem names the autosave instead.
-fn read_autosaved(
-    path: &Path,
-    title: &str,
-    progress: &Progress,
-) -> Result<Box<Document>, JobError> {
-    let named = |problem: Problem| {
-        let autosave = tr_format!("the autosave of {title}", title);
-        Problem { text: problem.text.replace(&path.display().to_string(), &autosave), ..problem }
-    };
-    match read_painting(path, progress) {
-        Ok((document, _)) => Ok(document),
-        Err(JobError::Failed(problem)) => Err(named(problem).into()),
-        Err(cancelled) => Err(cancelled),
-    }
-}
-
-/// A job is shown after it has run for this time; a shorter one would only flicker.
-const JOB_SHOWN_AFTER: Duration = Duration::from_millis(300);
-
-/// Width of a message, in points.
-const WIDTH: f32 = 480.0;
-
-/// Width of the buttons of a message, in points.
-const BUTTONS_WIDTH: f32 = 140.0;
-
-/// Maximum number of messages shown at a time.
-const MAX_NOTICES: usize = 4;
-
-/// Bottom of the messages in the last frame, in points; `None` without messages.
-pub(crate) fn bottom_of_notices(ctx: &Context) -> Option<f32> {
-    let shown = ctx.memory(|memory| memory.area_rect(area_id()))?;
-    (shown.height() > 1.0).then_some(shown.bottom())
-}
-
-fn area_id() -> Id {
-    Id::unique("file notices")
-}
-
-/// A button that was clicked, with the index of the session, notice or job.
-enum Clicked {
-    Recover(usize),
-    Discard(usize),
-    RecoverScene(usize),
-    DiscardScene(usize),
-    CloseNotice(usize),
-    CancelJob(usize),
-    CancelReplay,
-}
-
-impl Files {
     /// Shows all messages at the top of the window, above everything else.
     pub(super) fn show_notices(&mut self, ctx: &Context) {
         let now = Instant::now();
@@ -712,6 +605,107 @@ impl Files {
             });
         }
     }
+}
+
+/// Returns the script as it will be saved in `path`. If it continues a painting, the file
+/// of that painting as it was at the start (`start`) is written beside it as
+/// `NAME.start.exr`.
+fn with_start_file(
+    path: &Path,
+    script: &StrokeScript,
+    start: Option<Arc<Vec<u8>>>,
+) -> Result<StrokeScript, Problem> {
+    let mut script = script.clone();
+    let Some(named) = &script.start else { return Ok(script) };
+    let bytes = match start {
+        Some(bytes) => bytes,
+        // The painting comes from a recording, whose script names the file that it started
+        // from.
+        None => Arc::new(documents::file::read(Path::new(named))?),
+    };
+    let beside = path.with_extension("start.exr");
+    write_whole(&beside, &bytes)?;
+    script.start = Some(file_name(&beside));
+    Ok(script)
+}
+
+/// Writes a painting, with the palette and the brushes beside it.
+fn write_painting(
+    path: &Path,
+    canvas: &Document,
+    (palette, brushes): (&Document, &[KeptBrush]),
+    progress: &Progress,
+) -> Result<(), JobError> {
+    let bytes = paint::file::write_with_table(canvas, palette, brushes)
+        .map_err(|error| Problem::from_error(&error))?;
+    progress.report(0.8)?;
+    write_whole(path, &bytes).map_err(Problem::from)?;
+    Ok(())
+}
+
+/// Reads a painting, and returns the content of its file too.
+pub(super) fn read_painting(
+    path: &Path,
+    progress: &Progress,
+) -> Result<(Box<Document>, Arc<Vec<u8>>), JobError> {
+    match opened::read(path, progress)? {
+        Opened::Painting { document, bytes, .. } => Ok((document, bytes)),
+        _ => {
+            let text = tr_format!("{path}: is not a painting", path = path.display());
+            Err(Problem::new(text, tr("another program has changed it")).into())
+        }
+    }
+}
+
+/// Reads a file of the autosave of `title`. The painter never chose the file's name, so that a
+/// problem names the autosave instead.
+fn read_autosaved(
+    path: &Path,
+    title: &str,
+    progress: &Progress,
+) -> Result<Box<Document>, JobError> {
+    let named = |problem: Problem| {
+        let autosave = tr_format!("the autosave of {title}", title);
+        Problem { text: problem.text.replace(&path.display().to_string(), &autosave), ..problem }
+    };
+    match read_painting(path, progress) {
+        Ok((document, _)) => Ok(document),
+        Err(JobError::Failed(problem)) => Err(named(problem).into()),
+        Err(cancelled) => Err(cancelled),
+    }
+}
+
+/// A job is shown after it has run for this time; a shorter one would only flicker.
+const JOB_SHOWN_AFTER: Duration = Duration::from_millis(300);
+
+/// Width of a message, in points.
+const WIDTH: f32 = 480.0;
+
+/// Width of the buttons of a message, in points.
+const BUTTONS_WIDTH: f32 = 140.0;
+
+/// Maximum number of messages shown at a time.
+const MAX_NOTICES: usize = 4;
+
+/// Bottom of the messages in the last frame, in points; `None` without messages.
+pub(crate) fn bottom_of_notices(ctx: &Context) -> Option<f32> {
+    let shown = ctx.memory(|memory| memory.area_rect(area_id()))?;
+    (shown.height() > 1.0).then_some(shown.bottom())
+}
+
+fn area_id() -> Id {
+    Id::unique("file notices")
+}
+
+/// A button that was clicked, with the index of the session, notice or job.
+enum Clicked {
+    Recover(usize),
+    Discard(usize),
+    RecoverScene(usize),
+    DiscardScene(usize),
+    CloseNotice(usize),
+    CancelJob(usize),
+    CancelReplay,
 }
 
 /// Offers to recover a lost `kind` of work. Returns whether it is to be recovered or discarded.

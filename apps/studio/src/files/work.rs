@@ -1,10 +1,5 @@
-//! Jobs on files: the purpose of each, and its result.
-//!
-//! Actions that wait until no unsaved changes would be lost.
-//!
-//! A message that is shown over the window.
-//!
-//! Own brushes of the painter, as the window shows them.
+//! Jobs on files: the purpose of each and its result, the actions that wait for one, and the
+//! messages that report it.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -1,22 +1,12 @@
-//! The languages of the window: English texts in the sources, and for each other language a
-//! table with their translations.
+//! The languages of the window: English texts in the sources, and for each other language a table
+//! with their translations.
 //!
 //! A text is shown through [`tr`], one with values through `tr_format`. Both look it up in the
-//! table of the language that [`speak`] chose for this thread, and show the English text where
-//! the table has none. Tables of data hold English texts, which are translated where they are
-//! shown.
+//! table of the language that [`speak`] chose for this thread, and show the English text where the
+//! table has none. Tables of data hold English texts, which are translated where they are shown.
 //!
-//! The languages, and which of them the system speaks.
-//!
-//! The table of a language: its texts by the English ones.
-//!
-//! The language that a thread speaks. Only the thread of the window draws; all others speak
-//! English, as the tests do.
-//!
-//! Texts in the language that the thread speaks.
-//!
-//! Labels of actions in the history, which the session writes in English: they are recognised by
-//! their pattern and translated where they are shown.
+//! Only the thread of the window chooses a language; all others speak English, as the tests do.
+//! The session writes labels of actions in English: they are recognised by their pattern.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};

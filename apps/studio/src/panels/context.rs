@@ -1,10 +1,5 @@
-//! Context in which a panel is drawn: the painting, the tools, and a queue of requests.
-//!
-//! Selected tool and tool settings, which are not part of the painting.
-//!
-//! Laying a mixture on a free place of the palette, and keeping it for later.
-//!
-//! A value that a control shows before the worker has confirmed it.
+//! Context in which a panel is drawn: the painting, the tools with their settings, and a queue of
+//! requests.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -117,9 +112,7 @@ impl Mode {
     pub fn moves_head(self) -> bool {
         matches!(self, Self::Paint | Self::Blend | Self::Scrape | Self::Erase)
     }
-}
 
-impl Mode {
     /// All tools.
     const ALL: [Self; 10] = [
         Self::Paint,

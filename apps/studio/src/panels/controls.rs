@@ -1,10 +1,5 @@
-//! Shared controls of the panels, each with an accessible name and a tooltip.
-//!
-//! Parts of a panel that fold.
-//!
-//! Text that fits into a rectangle: wrapped or smaller before it is truncated.
-//!
-//! Order of what a search finds, and the line that Enter takes.
+//! Shared controls of the panels, each with an accessible name and a tooltip; folding sections,
+//! fitted text, and the order of search results.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;

@@ -1,10 +1,5 @@
-//! The history panel: list of actions with pictures, undo, redo and memory.
-//!
-//! Draws the history panel.
-//!
-//! Pictures of the canvas along the history, with an outline around what an action changed.
-//!
-//! The revisions panel: numbered copies of the painting with thumbnails.
+//! The history panel (list of actions with pictures, undo, redo and memory) and the panel of
+//! revisions.
 
 use std::sync::Arc;
 

@@ -1,10 +1,5 @@
-//! The window of own brushes: sets of kept brushes, and what became of a brush taken over.
-//!
-//! The window of own brushes.
-//!
-//! One row of the list of own brushes.
-//!
-//! The list of settings of a brush of MyPaint, with what became of each.
+//! The window of own brushes: sets of kept brushes, and what became of the settings of an imported
+//! MyPaint brush.
 
 use eframe::egui::{
     Align, CollapsingHeader, ComboBox, Context, Key, Rect, Response, ScrollArea, TextStyle, Ui,

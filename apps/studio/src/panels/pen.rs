@@ -1,14 +1,8 @@
 //! The window of the pen: pressure curve with a test field, stabiliser, and options of single
 //! brushes.
 //!
-//! The window of the pen.
-//!
-//! Rows of settings: presets of the curve, stabiliser, tilt, twist and range.
-//!
-//! The field on which the pen is tried.
-//!
-//! Editor of the pressure curve: points are dragged, added by a click and removed by dragging them
-//! out or by the right button; the present pressure is marked.
+//! Points of the curve are dragged, added by a click, and removed by dragging them out or by the
+//! right button. The present pressure is marked.
 
 use eframe::egui::{
     Align2, Context, DragValue, EventFilter, Grid, Id, Key, Painter, Pos2, Rect, Response, Role,

@@ -1,12 +1,5 @@
-//! Pigment lists and cards that several panels share.
-//!
-//! Colours, hiding power and tinting strength of a library's pigments under a light.
-//!
-//! A searchable list of the library's pigments.
-//!
-//! Tooltip card with the properties of a pigment.
-//!
-//! The window that replaces a pigment in existing paint.
+//! Pigment lists and cards that several panels share, and the window that replaces a pigment in
+//! existing paint.
 
 use std::sync::{Arc, OnceLock};
 

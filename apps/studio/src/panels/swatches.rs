@@ -1,12 +1,5 @@
-//! The swatches panel: mixtures that the painter keeps.
-//!
-//! Draws the swatches panel.
-//!
-//! The grid of kept mixtures.
-//!
-//! The selected mixture: its recipe, and what can be done with it.
-//!
-//! Colours of the kept mixtures under the light of the painting.
+//! The swatches panel: the grid of mixtures that the painter keeps, and the recipe of the selected
+//! one.
 
 use std::sync::Arc;
 

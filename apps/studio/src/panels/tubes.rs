@@ -1,12 +1,5 @@
-//! The tube panel beside the palette.
-//!
-//! Draws the tube panel: eight tubes and their commands.
-//!
-//! Picture of a paint tube.
-//!
-//! The window that chooses the pigments on the palette.
-//!
-//! Squeezing a tube and loading the brush from it.
+//! The tube panel beside the palette: eight tubes, squeezing and loading from them, and the window
+//! that chooses their pigments.
 
 use eframe::egui::{
     Align, Button, Color32, Context, CornerRadius, DragAndDrop, Id, LayerId, Mesh, Order, Painter,

@@ -1,14 +1,5 @@
-//! The wheel panel: what the tubes on hand can mix, by measured colour.
-//!
-//! Draws the wheel panel.
-//!
-//! Draws a colour wheel: reach, mixing lines, tints, tubes and marks.
-//!
-//! The plane of a* and b* on the screen.
-//!
-//! How near the tubes come to a colour, searched on a background thread.
-//!
-//! Region and size of a wheel, computed once for each lightness.
+//! The wheel panel: the colours that the tubes on hand can mix, by measured colour, and how near
+//! they come to a wanted one. The plane is a* and b*.
 
 use std::sync::Arc;
 

@@ -1,7 +1,5 @@
-//! Combines all input devices: turns their reports into strokes and hover events on the
-//! surfaces.
-//!
-//! A field in a window on which the pen draws as it would paint, to try its settings.
+//! Combines all input devices: turns their reports into strokes and hover events on the surfaces.
+//! [`TestField`] does so in a window, to try the settings of the pen.
 
 #[cfg(not(target_arch = "wasm32"))]
 use eframe::CreationContext;

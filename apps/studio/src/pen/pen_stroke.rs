@@ -1,8 +1,5 @@
-//! Turns the states of a pressed device into samples of a stroke.
-//!
-//! How a brush is led by a device: the general settings with the options of the brush.
-//!
-//! The direction of a stroke, across which a following brush turns its broad side.
+//! Turns the states of a pressed device into samples of a stroke, by the settings of the pen and
+//! the options of the brush.
 
 use eframe::egui::{Pos2, Vec2};
 use paint::pose::Sample;

@@ -1,6 +1,4 @@
-//! Reports of mice and fingers, made from egui's events.
-//!
-//! Taps of several fingers at once.
+//! Reports of mice and fingers, made from egui's events, and taps of several fingers at once.
 
 use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
 use web_time::{Duration, Instant};

@@ -1,8 +1,5 @@
-//! Reports of input devices, before they become strokes.
-//!
-//! A synthetic pen for tests and demonstrations: reports at given times.
-//!
-//! Times of the events of mice, from the window system.
+//! Reports of input devices, before they become strokes, with their times from the window system.
+//! [`Script`] is a synthetic pen for tests and demonstrations.
 
 use std::collections::VecDeque;
 

@@ -1,6 +1,4 @@
 //! Styluses of the window system: X11, Wayland or Windows, and the times of its mice.
-//!
-//! Tablet support of a Wayland compositor.
 
 use eframe::CreationContext;
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput};

@@ -1,6 +1,5 @@
-//! Styluses under Wayland and Windows, through octotablet.
-//!
-//! Converts millisecond timestamps of a window system to [`Instant`]s of this program.
+//! Styluses under Wayland and Windows, through octotablet. Converts their millisecond timestamps
+//! to [`Instant`]s of this program.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -1,8 +1,5 @@
-//! Tests of the pen module as a whole, without a window.
-//!
-//! Tests of strokes that a guide leads, without a window.
-//!
-//! Tests of stabilised strokes, from reports of a device to samples.
+//! Tests of pen input without a window, from reports of a device to samples: plain, led by a
+//! guide, and stabilised.
 
 use eframe::egui::{
     Event, Modifiers, PointerButton, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2, vec2,

@@ -1,14 +1,9 @@
-//! The window in which quads are drawn: by a shader of their own, or by egui's.
+//! Draws quads in the window: by a shader of their own, or by egui's.
 //!
-//! Lets the quads' shader fill the large opaque areas that egui's widgets draw.
-//!
-//! egui's shader is some twenty times as expensive with a software driver, see the module of the
-//! quads; the trays and cards of the window took more than half of a frame.
-//!
-//! Quads drawn without egui's shader.
-//!
-//! egui's shader contains code that filters textures itself, and a software driver executes
-//! it for every pixel even when it is not needed. This shader only samples or fills.
+//! egui's shader contains code that filters textures itself, and a software driver executes it for
+//! every pixel even when it is not needed, which makes it some twenty times as expensive. This
+//! shader only samples or fills. [`quicken`] also gives it the large opaque areas that egui's
+//! widgets draw, the trays and cards that took more than half of a frame.
 
 #[cfg(feature = "wgpu")]
 use std::sync::OnceLock;

@@ -1,11 +1,10 @@
-//! The outline of a surface: a rectangle, or a palette with a thumb hole.
+//! The outline of a surface (a rectangle, or a palette with a thumb hole), and the brush head as a
+//! cursor: an outline seen from above, clear inside.
 //!
-//! The brush head as a cursor: an outline seen from above, clear inside.
-//!
-//! A dark line with a light one in it, so that it is seen on light and on dark paint. It runs
-//! around the whole head, as far as it is bent now, and never over the place that it paints. The
-//! handle is a line that begins outside; a dot of the paint on the brush is at its end. A head too
-//! small for an outline is a ring with four ticks.
+//! The cursor is a dark line with a light one in it, so that it is seen on light and on dark
+//! paint. It runs around the whole head, as far as it is bent now, and never over the place that
+//! it paints. The handle is a line that begins outside, with a dot of the brush's paint at its
+//! end. A head too small for an outline is a ring with four ticks.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,6 +1,5 @@
-//! Textures of cells that are uploaded when they are next drawn.
-//!
-//! Large quads in the window: pictures and flat areas.
+//! Textures of cells that are uploaded when they are next drawn, and the large quads that show
+//! them.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -1,6 +1,4 @@
-//! Tests of the brush panel.
-//!
-//! Tests of own brushes: keeping, using, ordering, and files.
+//! Tests of the brush panel and of own brushes: keeping, using, ordering, and files.
 
 use std::path::Path;
 use std::time::Duration;

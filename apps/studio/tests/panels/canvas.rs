@@ -1,10 +1,5 @@
-//! Tests of the surface view.
-//!
-//! The reference picture over the canvas, and the frame of a crop.
-//!
-//! Parts of the window that a stroke changes between two frames, as a page shows them.
-//!
-//! The interface drawn by the quads' shader against egui's own.
+//! Tests of the surface view: the reference picture over the canvas, the frame of a crop, parts
+//! that a stroke changes between two frames, and the quads' shader against egui's own.
 
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
@@ -629,8 +624,7 @@ fn the_interface_looks_alike_with_either_shader() {
         };
         let by_quads = rendered(quick, density);
         assert_eq!(by_egui.dimensions(), by_quads.dimensions());
-        let colors: BTreeSet<[u8; 4]> =
-            by_egui.pixels().map(|pixel| pixel.0).collect();
+        let colors: BTreeSet<[u8; 4]> = by_egui.pixels().map(|pixel| pixel.0).collect();
         assert!(colors.len() > 60, "a picture with {} colours", colors.len());
         for (x, y, pixel) in by_egui.enumerate_pixels() {
             let other = by_quads.get_pixel(x, y);

@@ -1,9 +1,5 @@
-//! Tests of the eyedropper panel: shown values equal those of the libraries, and clicks
-//! queue the right requests.
-//!
-//! Tests of the wheel panel.
-//!
-//! Tests of the swatches panel.
+//! Tests of the panels of colours (eyedropper, wheel and swatches): shown values equal those of
+//! the libraries, and clicks queue the right requests.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,8 +1,5 @@
-//! A test painting as a worker would report it, and a window with a single panel.
-//!
-//! A window with one panel and a fixed painting.
-//!
-//! Lines of text that a window shows, and everything in it that is clicked.
+//! A test painting as a worker would report it, a window with a single panel, and what such a
+//! window shows.
 
 use std::sync::{Arc, OnceLock};
 

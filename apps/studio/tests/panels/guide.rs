@@ -1,6 +1,5 @@
-//! The first steps over the painting, the sample painting, the cursor, and the palette's light.
-//!
-//! The guided tour: its steps as data, and the whole of it with a painter's hand.
+//! Tests of the first steps, the sample painting, the cursor, the palette's light, and the guided
+//! tour.
 
 use eframe::egui::{Key, Modifiers, Pos2, Shape, Theme, Vec2, vec2};
 use egui_kittest::kittest::Queryable;

@@ -1,6 +1,5 @@
-//! Tests of changed keys, in the window of keys and where they are pressed and shown.
-//!
-//! Windows over the canvas: closing them, menus, and strokes beside them.
+//! Tests of changed keys, and of windows over the canvas: closing them, menus, and strokes beside
+//! them.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, Rect, pos2};

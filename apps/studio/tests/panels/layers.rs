@@ -1,6 +1,4 @@
-//! Tests of the layer panel.
-//!
-//! Tests of the history panel.
+//! Tests of the layer panel and the history panel.
 
 use eframe::egui::accesskit::{Role, Toggled};
 use eframe::egui::{Key, Modifiers, Pos2, Theme, vec2};

@@ -1,8 +1,5 @@
-//! Tests of the window: layout, keys, view, strokes and split view.
-//!
-//! Tests of the columns of panels: folding, moving, resizing, and what is remembered.
-//!
-//! A window in which nothing happens draws no frames.
+//! Tests of the window: layout, columns of panels, view, strokes and split view. A window in which
+//! nothing happens draws no frames.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

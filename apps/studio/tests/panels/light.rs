@@ -1,7 +1,5 @@
-//! Tests of the light panel.
-//!
-//! Tests of light, eyedropper and reference picture in the whole window with a real
-//! worker.
+//! Tests of the light panel, and of light, eyedropper and reference picture in the whole window
+//! with a real worker.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

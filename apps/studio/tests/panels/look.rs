@@ -1,10 +1,5 @@
-//! Tests of themes, touch targets and scale: what is written is read, what is touched is
-//! large enough.
-//!
-//! Windows, dialogs and bars over the canvas: their texts are whole, their targets can be touched,
-//! and their characters have glyphs.
-//!
-//! Every character that the window shows has a glyph in its fonts.
+//! Tests of themes, touch targets, scale and glyphs, also in windows, dialogs and bars over the
+//! canvas.
 
 use std::collections::BTreeSet;
 

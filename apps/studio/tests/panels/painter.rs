@@ -1,7 +1,5 @@
-//! Tests of tube, brush, layer and history panels with a real worker.
-//!
-//! Typical working steps with the panels (squeezing, loading, mixing, drying, exchanging pigments)
-//! and the paint and layers that result.
+//! Tests of tube, brush, layer and history panels with a real worker: typical working steps and
+//! the paint and layers that result.
 
 use std::sync::Arc;
 

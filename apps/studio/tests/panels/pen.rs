@@ -1,8 +1,5 @@
-//! Tests of pen input in the whole window.
-//!
-//! Tests of the window of the pen, and of stabilised strokes that are recorded.
-//!
-//! Blending, scraping, erasing and masks in the whole window, with a synthetic pen.
+//! Tests of pen input, the window of the pen, and the tools that work wet paint, in the whole
+//! window.
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Theme, vec2};
 use egui_kittest::kittest::Queryable;

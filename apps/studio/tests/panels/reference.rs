@@ -1,6 +1,4 @@
-//! Tests of the reference picture.
-//!
-//! Tests of marks and guides drawn on the reference picture, in the panel alone.
+//! Tests of the reference picture, and of marks and guides drawn on it.
 
 use std::path::PathBuf;
 

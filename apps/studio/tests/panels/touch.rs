@@ -1,6 +1,5 @@
-//! Fingers: taps of several undo and redo, two of them move the view, and handles are large enough.
-//!
-//! Windows as narrow as a phone: the canvas has most of them, and the panels lie on a sheet over it.
+//! Fingers and narrow windows: taps of several undo and redo, two of them move the view, and the
+//! panels of a narrow window lie on a sheet over the canvas.
 
 use std::path::PathBuf;
 

@@ -1,6 +1,4 @@
-//! Tests of the tube panel.
-//!
-//! Tests of the quick palette in the whole window.
+//! Tests of the tube panel and the quick palette.
 
 use std::time::Duration;
 

@@ -1,16 +1,8 @@
 //! A scripted painter at the built program, who does everything that a guide tells of and takes a
 //! picture of the screen at every station, for a person to look at.
 //!
-//! The painter's hand, which does everything twice: in the program on its screen, and in a window
-//! without a screen that is set up alike. That one tells where each control is.
-//!
-//! Stations at pen, brush, palette and layers.
-//!
-//! Stations at dialogs and windows.
-//!
-//! The first minute: what is shown at the start, and the guided tour.
-//!
-//! The whole walk, in windows of several sizes and in both themes.
+//! The painter's hand does everything twice: in the program on its screen, and in a window without
+//! a screen that is set up alike and knows where each control is.
 
 #[expect(dead_code, reason = "the tests of the panels need more of it")]
 #[path = "../panels/harness.rs"]
@@ -496,9 +488,7 @@ impl Hand<'_> {
         std::thread::sleep(Duration::from_secs(5));
         self.station("sample");
     }
-}
 
-impl Hand<'_> {
     /// Goes through the tour, doing what each card asks for.
     fn tour(&mut self) {
         self.station("first-start");

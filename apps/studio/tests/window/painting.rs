@@ -1,10 +1,5 @@
-//! Painting, drying, undo and another light in the window, then saving and reopening the painting.
-//!
-//! Recovery of a painting after the program was killed.
-//!
-//! A scene of paint volumes in the program's own window, and after it was killed.
-//!
-//! The engine's own export of a saved painting, compared with the screen.
+//! Painting, saving, reopening and exporting in the program's window, and recovery after it was
+//! killed, for paintings and scenes.
 
 use std::path::{Path, PathBuf};
 

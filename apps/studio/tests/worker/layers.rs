@@ -1,8 +1,5 @@
-//! Reported state of layers, brushes and tubes.
-//!
-//! Palette and brushes from a painting's file, and the undo history across what is not painting.
-//!
-//! Sessions that are kept by autosaves and recovered.
+//! Reported state of layers, brushes and tubes, palettes and brushes from a painting's file, and
+//! sessions that are recovered from autosaves.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;

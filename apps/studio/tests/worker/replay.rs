@@ -1,12 +1,5 @@
-//! Replay of recordings.
-//!
-//! Pictures of the canvas along the history.
-//!
-//! Reported tiles equal the exported picture.
-//!
-//! Refused commands report a message and change nothing.
-//!
-//! Squeezing paint into free space of the palette.
+//! Replay of recordings, pictures of the canvas along the history, reported tiles, refused
+//! commands, and free space of the palette.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -350,10 +343,7 @@ fn tiles_cover_every_change() {
         assert_pictures(&mut window, &snapshot);
     }
     assert!(
-        !window
-            .events
-            .iter()
-            .any(|event| matches!(event, Event::Message { failed: true, .. })),
+        !window.events.iter().any(|event| matches!(event, Event::Message { failed: true, .. })),
         "nothing was refused"
     );
 }

@@ -1,10 +1,5 @@
-//! Strokes sent in bursts, with commands in between.
-//!
-//! Strokes of a group are undone and repeated together, and replay to the bit.
-//!
-//! Tools that work wet paint, masks, and their replay.
-//!
-//! Picking colour and paint, and loading picked paint.
+//! Strokes sent in bursts, groups of strokes, tools that work wet paint, and picking colour and
+//! paint.
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -99,9 +94,7 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     });
     let moves = |samples: &[Sample]| {
         let arrived = Instant::now();
-        Command::PenMove(
-            samples.iter().map(|&sample| PenSample { sample, arrived }).collect(),
-        )
+        Command::PenMove(samples.iter().map(|&sample| PenSample { sample, arrived }).collect())
     };
     window.ask(moves(&samples[..90]));
     let midway = window.snapshot();

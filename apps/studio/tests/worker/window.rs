@@ -1,6 +1,4 @@
-//! A client of the worker that collects its events.
-//!
-//! Synthetic strokes and brush loads for the tests of the worker.
+//! A client of the worker that collects its events, with synthetic strokes and brush loads.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};

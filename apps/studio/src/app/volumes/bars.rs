@@ -1,8 +1,4 @@
-//! The menu bar of the workspace of scenes.
-//!
-//! The toolbar of the workspace of scenes.
-//!
-//! Icons of the tools of a scene, in a square of 18 x 18 points.
+//! Menu bar and toolbar of the workspace of scenes.
 
 use eframe::egui::{
     Align, Color32, Layout, MenuBar, Painter, Rect, Role, Sense, Stroke, StrokeKind, Ui,

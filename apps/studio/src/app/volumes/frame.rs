@@ -1,8 +1,4 @@
-//! One frame of the workspace of scenes.
-//!
-//! Performs the intents of menus, toolbar and keyboard in a scene.
-//!
-//! The status line of the workspace of scenes.
+//! One frame of the workspace of scenes: draws its bars and panels, and performs its intents.
 
 use std::sync::Arc;
 
@@ -129,28 +125,7 @@ impl Volumes {
             }
         }
     }
-}
 
-/// Factor of the rate for one key press.
-const STEP: f64 = 1.25;
-
-/// Lowest and highest rate in mm3 a second.
-const RATES: [f64; 2] = [1.0, 1000.0];
-
-/// An intent that the window itself carries out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::app) enum WindowIntent {
-    /// Shows the easel.
-    Easel,
-    /// Shows or hides the panels.
-    Panels,
-    /// Shows or hides the table of keys.
-    Keys,
-    /// Shows the preferences.
-    Preferences,
-}
-
-impl Volumes {
     /// Intents of this frame's key events, which are removed.
     pub(super) fn read_keys(&self, context: &Context) -> Vec<SceneIntent> {
         if context.text_edit_focused() {
@@ -269,9 +244,7 @@ impl Volumes {
             Inside::ByRegion => tr("inside: what the script names for each region").to_owned(),
         });
     }
-}
 
-impl Volumes {
     /// Draws the status line.
     pub(super) fn status_line(&self, ui: &mut Ui) {
         let Some(state) = &self.state else {
@@ -315,6 +288,25 @@ impl Volumes {
             });
         });
     }
+}
+
+/// Factor of the rate for one key press.
+const STEP: f64 = 1.25;
+
+/// Lowest and highest rate in mm3 a second.
+const RATES: [f64; 2] = [1.0, 1000.0];
+
+/// An intent that the window itself carries out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::app) enum WindowIntent {
+    /// Shows the easel.
+    Easel,
+    /// Shows or hides the panels.
+    Panels,
+    /// Shows or hides the table of keys.
+    Keys,
+    /// Shows the preferences.
+    Preferences,
 }
 
 /// Where the paint is.

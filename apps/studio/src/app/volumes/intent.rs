@@ -1,6 +1,4 @@
-//! Intents of the workspace of scenes: everything that keys, menus and toolbar can request.
-//!
-//! Table of all menu entries of the workspace of scenes.
+//! Intents of the workspace of scenes, and the table of its menu entries.
 
 use eframe::egui::{Context, Key, Modifiers, Ui};
 use serde::Serialize;
@@ -116,6 +114,15 @@ impl SceneIntent {
     /// Whether a held key repeats it.
     pub(super) fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::More | Self::Less | Self::Undo)
+    }
+
+    /// Intent of a key press with these keys, if any.
+    #[must_use]
+    pub(super) fn of_key(table: &KeyTable, key: Key, modifiers: Modifiers) -> Option<Self> {
+        let name = &table.find(key, modifiers)?.name;
+        let tubes = (1_u8..=8).map(Self::Tube);
+        let mut intents = SCENE_ENTRIES.iter().map(|entry| entry.intent).chain(tubes);
+        intents.find(|intent| intent.name() == *name)
     }
 }
 
@@ -353,17 +360,6 @@ pub fn scene_key_rows() -> Vec<KeyRow> {
         KeyRow::new(name, title, description, tr("Tubes"), &[self::key(NONE, key)])
     });
     entries.chain(tubes).collect()
-}
-
-impl SceneIntent {
-    /// Intent of a key press with these keys, if any.
-    #[must_use]
-    pub(super) fn of_key(table: &KeyTable, key: Key, modifiers: Modifiers) -> Option<Self> {
-        let name = &table.find(key, modifiers)?.name;
-        let tubes = (1_u8..=8).map(Self::Tube);
-        let mut intents = SCENE_ENTRIES.iter().map(|entry| entry.intent).chain(tubes);
-        intents.find(|intent| intent.name() == *name)
-    }
 }
 
 /// Tooltip of an entry: name, shortcut and description.

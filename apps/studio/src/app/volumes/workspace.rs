@@ -1,12 +1,5 @@
-//! State of the workspace of scenes.
-//!
-//! The picture of a scene in the window, and the card of what is there.
-//!
-//! The hand in a scene: the pen uses the tool, the middle button and the wheel move the camera.
-//!
-//! Handles the events of the worker of scenes.
-//!
-//! Files that the scene makes: asks the worker for their content, and has them written.
+//! State of the workspace of scenes: the picture in the window, input of pen and mouse, events of
+//! the worker, and exported files.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -219,12 +212,7 @@ impl Volumes {
     pub fn new_subject() -> String {
         format!("{SHAPE}{NEW}")
     }
-}
 
-/// Name of the picture for screen readers and tests.
-const NAME: &str = "Scene";
-
-impl Volumes {
     /// Draws the picture in a rectangle of the window, and lets the hand work on it.
     pub(super) fn show_canvas(&mut self, ui: &mut Ui, rect: Rect, pen: &mut Pen) {
         fill_rect(ui.painter(), rect, theme::SURROUND);
@@ -298,12 +286,7 @@ impl Volumes {
             self.ask(VolumeCommand::Pick(place));
         }
     }
-}
 
-/// Points of scrolling that zoom by a factor of e, as on the easel.
-const WHEEL_POINTS: f32 = 220.0;
-
-impl Volumes {
     /// Turns, moves and zooms the camera by the middle button and the wheel.
     pub(super) fn navigate(&mut self, ui: &Ui, response: &Response) {
         let height = self.rect.height();
@@ -390,9 +373,7 @@ impl Volumes {
             | PenEvent::Barrel { .. } => {}
         }
     }
-}
 
-impl Volumes {
     /// Handles all events that arrived since the last call.
     pub(in crate::app) fn handle_events(&mut self, files: &mut Files) {
         let events: Vec<VolumeEvent> = self.worker.events().collect();
@@ -461,12 +442,7 @@ impl Volumes {
             context.request_repaint_after(rest);
         }
     }
-}
 
-/// Number of the request for the recording of an autosave.
-const AUTOSAVE: u64 = 0;
-
-impl Volumes {
     /// Carries out what the painter chose for a scene.
     pub(in crate::app) fn answer(&mut self, answer: SceneAnswer, files: &mut Files) {
         match answer {
@@ -588,3 +564,12 @@ impl Volumes {
         });
     }
 }
+
+/// Name of the picture for screen readers and tests.
+const NAME: &str = "Scene";
+
+/// Points of scrolling that zoom by a factor of e, as on the easel.
+const WHEEL_POINTS: f32 = 220.0;
+
+/// Number of the request for the recording of an autosave.
+const AUTOSAVE: u64 = 0;

@@ -1,6 +1,4 @@
-//! Lists the files and folders of a folder.
-//!
-//! Which entries of a folder are shown, and in which order.
+//! Lists, filters and sorts the entries of a folder.
 
 use std::cmp::Reverse;
 use std::path::Path;

@@ -1,10 +1,5 @@
-//! Drawing and input of the file browser.
-//!
-//! Plain signs of folders and files, for entries without a picture.
-//!
-//! The entries of the folder: a list of rows, or a grid of pictures.
-//!
-//! The column of places and recent files.
+//! Draws the file browser (places, recent files, entries as rows or pictures) and handles its
+//! input.
 
 use std::path::Path;
 
@@ -249,62 +244,7 @@ impl Browser {
             }
         });
     }
-}
 
-/// Selects all text of a field, so that typing replaces it.
-fn select_all(ui: &Ui, field: Id, text: &str) {
-    let mut state = TextEditState::load(ui.ctx(), field).unwrap_or_default();
-    let ends = [0, text.chars().count()].map(CCursor::new);
-    state.cursor.set_char_range(Some(CCursorRange::two(ends[0], ends[1])));
-    state.store(ui.ctx(), field);
-}
-
-fn down() -> Layout {
-    Layout::top_down(Align::Min)
-}
-
-/// Draws the sign of a folder, or of a file, in the middle of `rect`.
-pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) {
-    let side = rect.width().min(rect.height()) * 0.8;
-    let size = if folder { vec2(side, 0.78 * side) } else { vec2(0.72 * side, side) };
-    let corner = rect.center() - 0.5 * size;
-    let place = |(x, y): (f32, f32)| pos2(corner.x + x * size.x, corner.y + y * size.y);
-    let stroke = Stroke::new((side / 22.0).clamp(1.0, 2.0), color);
-    let lines: [&[(f32, f32)]; 2] = if folder {
-        [
-            &[
-                (0.0, 1.0),
-                (0.0, 0.0),
-                (0.36, 0.0),
-                (0.48, 0.16),
-                (1.0, 0.16),
-                (1.0, 1.0),
-                (0.0, 1.0),
-            ],
-            &[(0.0, 0.34), (1.0, 0.34)],
-        ]
-    } else {
-        [
-            &[(0.0, 0.0), (0.62, 0.0), (1.0, 0.28), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)],
-            &[(0.62, 0.0), (0.62, 0.28), (1.0, 0.28)],
-        ]
-    };
-    for line in lines {
-        let places: Vec<Pos2> = line.iter().copied().map(place).collect();
-        painter.add(Shape::line(places, stroke));
-    }
-}
-
-/// Height of a row of the list, in points.
-const ROW: f32 = 34.0;
-
-/// Size of a tile of the grid, in points.
-const TILE: Vec2 = vec2(126.0, 124.0);
-
-/// Height of the name below a picture of the grid, in points.
-const NAME: f32 = 20.0;
-
-impl Browser {
     /// The entries in the form that the painter chose.
     pub(super) fn entries_view(
         &mut self,
@@ -428,18 +368,7 @@ impl Browser {
             Thumbnail::Plain => draw(ui.painter(), rect, entry.folder, faint),
         }
     }
-}
 
-/// Size and age of an entry in words.
-fn details(entry: &Entry) -> String {
-    let age = entry.changed.map(|then| ago(then, SystemTime::now())).unwrap_or_default();
-    if entry.folder { age } else { format!("{}   {age}", size(entry.bytes)) }
-}
-
-/// Width of the column, in points.
-pub(super) const PLACES_WIDTH: f32 = 160.0;
-
-impl Browser {
     /// Draws the column; a click opens the folder, or chooses the file.
     pub(super) fn places_view(&mut self, ui: &mut Ui, height: f32) -> Option<Answer> {
         ui.set_width(PLACES_WIDTH);
@@ -496,6 +425,68 @@ impl Browser {
         None
     }
 }
+
+/// Selects all text of a field, so that typing replaces it.
+fn select_all(ui: &Ui, field: Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), field).unwrap_or_default();
+    let ends = [0, text.chars().count()].map(CCursor::new);
+    state.cursor.set_char_range(Some(CCursorRange::two(ends[0], ends[1])));
+    state.store(ui.ctx(), field);
+}
+
+fn down() -> Layout {
+    Layout::top_down(Align::Min)
+}
+
+/// Draws the sign of a folder, or of a file, in the middle of `rect`.
+pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) {
+    let side = rect.width().min(rect.height()) * 0.8;
+    let size = if folder { vec2(side, 0.78 * side) } else { vec2(0.72 * side, side) };
+    let corner = rect.center() - 0.5 * size;
+    let place = |(x, y): (f32, f32)| pos2(corner.x + x * size.x, corner.y + y * size.y);
+    let stroke = Stroke::new((side / 22.0).clamp(1.0, 2.0), color);
+    let lines: [&[(f32, f32)]; 2] = if folder {
+        [
+            &[
+                (0.0, 1.0),
+                (0.0, 0.0),
+                (0.36, 0.0),
+                (0.48, 0.16),
+                (1.0, 0.16),
+                (1.0, 1.0),
+                (0.0, 1.0),
+            ],
+            &[(0.0, 0.34), (1.0, 0.34)],
+        ]
+    } else {
+        [
+            &[(0.0, 0.0), (0.62, 0.0), (1.0, 0.28), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)],
+            &[(0.62, 0.0), (0.62, 0.28), (1.0, 0.28)],
+        ]
+    };
+    for line in lines {
+        let places: Vec<Pos2> = line.iter().copied().map(place).collect();
+        painter.add(Shape::line(places, stroke));
+    }
+}
+
+/// Height of a row of the list, in points.
+const ROW: f32 = 34.0;
+
+/// Size of a tile of the grid, in points.
+const TILE: Vec2 = vec2(126.0, 124.0);
+
+/// Height of the name below a picture of the grid, in points.
+const NAME: f32 = 20.0;
+
+/// Size and age of an entry in words.
+fn details(entry: &Entry) -> String {
+    let age = entry.changed.map(|then| ago(then, SystemTime::now())).unwrap_or_default();
+    if entry.folder { age } else { format!("{}   {age}", size(entry.bytes)) }
+}
+
+/// Width of the column, in points.
+pub(super) const PLACES_WIDTH: f32 = 160.0;
 
 fn heading(ui: &mut Ui, name: &str) {
     ui.add_space(6.0);

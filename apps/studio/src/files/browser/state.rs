@@ -1,6 +1,4 @@
-//! State of the file browser, and how keys and clicks change it.
-//!
-//! Folders that a painter goes to: their own, those of recent files, and drives.
+//! State of the file browser: how keys and clicks change it, and which places it offers.
 
 use std::path::{Path, PathBuf};
 

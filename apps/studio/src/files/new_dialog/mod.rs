@@ -1,20 +1,5 @@
-//! The dialog of a new painting: format, ground and presets, with a picture of the ground.
-//!
-//! State of the dialog.
-//!
-//! Answers of the dialog.
-//!
-//! The whole dialog.
-//!
-//! Rows of the dialog for format, size and cells.
-//!
-//! The row of the dialog for presets.
-//!
-//! Rows of the dialog for the ground: its kind, relief and colour.
-//!
-//! The painter's own tone of a ground: a film of up to three pigments, or a plain colour.
-//!
-//! Memory that the machine has free.
+//! The dialog of a new painting: presets, format, size in cells and ground, with a picture of the
+//! ground.
 
 mod preview;
 
@@ -161,35 +146,7 @@ impl NewDialog {
             light,
         });
     }
-}
 
-/// Use of a picture file that the painter is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum CanvasPicture {
-    /// Its greys become the relief of the ground.
-    Relief,
-    /// Its colours become the first dry layer.
-    FirstLayer,
-}
-
-/// Answer of the painter to the dialog of a new painting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum NewAnswer {
-    /// Begins the painting.
-    Begin,
-    /// Closes the dialog.
-    Cancelled,
-    /// Asks for a picture; the dialog stays.
-    Choose(CanvasPicture),
-}
-
-/// Width of the dialog in points.
-const WIDTH: f32 = 760.0;
-
-/// Width of the settings in points.
-const SETTINGS: f32 = 476.0;
-
-impl NewDialog {
     /// Shows the dialog.
     pub(super) fn show(&mut self, ctx: &Context, kept: &mut KeptCanvases) -> Option<NewAnswer> {
         self.update(ctx);
@@ -248,9 +205,7 @@ impl NewDialog {
         };
         ui.label(RichText::new(text).weak().small());
     }
-}
 
-impl NewDialog {
     /// Adds the rows for format, size and cells.
     fn size_rows(&mut self, ui: &mut Ui) {
         grid_row(ui, tr("Format"), |ui| self.format(ui));
@@ -343,20 +298,7 @@ impl NewDialog {
         let text = self.size_problem().unwrap_or_default();
         ui.label(RichText::new(text).strong().color(theme::colors(ui.ctx()).strong));
     }
-}
 
-fn side(ui: &mut Ui, name: &str, unit: LengthUnit, mm: &mut f64) {
-    let [least, most] = SIDE_MM.map(|side| side / unit.in_mm());
-    let mut value = *mm / unit.in_mm();
-    let decimals = if unit == LengthUnit::Mm { 1 } else { 2 };
-    let drag = DragValue::new(&mut value).range(least..=most).max_decimals(decimals);
-    let drag = ui.add(drag.speed(1.0 / unit.in_mm())).accessible_name(name);
-    if drag.on_hover_text(tr_format!("{name} of the canvas", name)).changed() {
-        *mm = value * unit.in_mm();
-    }
-}
-
-impl NewDialog {
     /// Adds the choice of a preset, and keeping and removing one.
     fn preset_row(&mut self, ui: &mut Ui, kept: &mut KeptCanvases) {
         let chosen = kept.preset(&self.preset).is_some();
@@ -395,9 +337,7 @@ impl NewDialog {
             self.preset.clear();
         }
     }
-}
 
-impl NewDialog {
     /// Adds the rows for the ground. Returns a request for a picture.
     fn ground_rows(&mut self, ui: &mut Ui) -> Option<NewAnswer> {
         let mut answer = None;
@@ -545,6 +485,43 @@ impl NewDialog {
             }
         };
         choose.on_hover_text(tip).clicked().then_some(NewAnswer::Choose(CanvasPicture::FirstLayer))
+    }
+}
+
+/// Use of a picture file that the painter is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum CanvasPicture {
+    /// Its greys become the relief of the ground.
+    Relief,
+    /// Its colours become the first dry layer.
+    FirstLayer,
+}
+
+/// Answer of the painter to the dialog of a new painting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NewAnswer {
+    /// Begins the painting.
+    Begin,
+    /// Closes the dialog.
+    Cancelled,
+    /// Asks for a picture; the dialog stays.
+    Choose(CanvasPicture),
+}
+
+/// Width of the dialog in points.
+const WIDTH: f32 = 760.0;
+
+/// Width of the settings in points.
+const SETTINGS: f32 = 476.0;
+
+fn side(ui: &mut Ui, name: &str, unit: LengthUnit, mm: &mut f64) {
+    let [least, most] = SIDE_MM.map(|side| side / unit.in_mm());
+    let mut value = *mm / unit.in_mm();
+    let decimals = if unit == LengthUnit::Mm { 1 } else { 2 };
+    let drag = DragValue::new(&mut value).range(least..=most).max_decimals(decimals);
+    let drag = ui.add(drag.speed(1.0 / unit.in_mm())).accessible_name(name);
+    if drag.on_hover_text(tr_format!("{name} of the canvas", name)).changed() {
+        *mm = value * unit.in_mm();
     }
 }
 

@@ -1,12 +1,5 @@
-//! One row of the brush list.
-//!
-//! Preview of the marks that the tip of a brush makes at three pressures.
-//!
-//! Settings of the tools that work wet paint, and the mask.
-//!
-//! Icon of a brush head, seen from its broad side.
-//!
-//! The large swatch of what the selected brush holds, with its colour in numbers.
+//! Parts of the brush panel: a row of the list, the icon of a head, the preview of its marks, the
+//! swatch of its paint, and the settings of the tools that work wet paint.
 
 use eframe::egui::{
     Align, Color32, ColorImage, Context, CornerRadius, Layout, Painter, Pos2, Rect, Response, Role,

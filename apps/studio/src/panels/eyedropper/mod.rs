@@ -1,9 +1,5 @@
-//! The eyedropper panel: spectrum, colour and paint at a picked place, and recipes for
-//! a colour.
-//!
-//! Draws the eyedropper panel.
-//!
-//! Colour, spectrum and paint at the last picked place.
+//! The eyedropper panel: colour, spectrum and paint at the last picked place, and recipes for a
+//! colour.
 
 mod target;
 mod search;

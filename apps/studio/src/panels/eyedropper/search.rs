@@ -1,6 +1,5 @@
-//! The recipe search of the eyedropper panel: limits, progress and results.
-//!
-//! A recipe that the search found, with buttons to load the brush and fill the palette.
+//! The recipe search of the eyedropper panel: limits, progress, and results with buttons to load
+//! the brush and fill the palette.
 
 use std::sync::Arc;
 

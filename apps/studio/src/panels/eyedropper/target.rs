@@ -1,8 +1,4 @@
-//! The target colour of a recipe search.
-//!
-//! The paint of a picked layer, described as a recipe.
-//!
-//! Draws swatches of one or more colours.
+//! The target colour of a recipe search, and the paint of a picked layer as a recipe.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

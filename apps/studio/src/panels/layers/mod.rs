@@ -1,12 +1,4 @@
 //! The layer panel: drying, and names, order, visibility, opacity and merging of layers.
-//!
-//! Draws the layer panel.
-//!
-//! Which dry layers are chosen, to be merged or renamed.
-//!
-//! Moving a dry layer by dragging its row to another place.
-//!
-//! Stiffness of the wet paint: a slider whose drag is one action.
 
 mod row;
 

@@ -1,14 +1,4 @@
 //! One dry layer in the list: eye, thumbnail, name, figures, opacity and menu.
-//!
-//! The eye icon that shows and hides a layer.
-//!
-//! Editing the name of a dry layer in its row.
-//!
-//! Opacity of a dry layer: a slider whose drag is one action.
-//!
-//! Patches of the pigments of a layer.
-//!
-//! Cache of the textures of layer thumbnails, scaled to the pixels of the screen.
 
 use std::sync::Arc;
 

@@ -1,6 +1,5 @@
-//! Control of the light direction: a shaded hemisphere seen from above.
-//!
-//! Two-dimensional control of gloss: exponent to the right, strength upwards.
+//! Two pads of the light panel: the light direction on a shaded hemisphere seen from above, and
+//! gloss with the exponent to the right and the strength upwards.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,14 +1,6 @@
-//! The CIE illuminants with their kinds and descriptions.
-//!
-//! Control of one illuminant: a list and a temperature slider.
-//!
-//! A drop-down list of illuminants with a search field.
-//!
-//! A slider of colour temperature: CIE daylight, or a black body below 4000 K.
-//!
-//! Chart of the spectral power of lights.
-//!
-//! A slider with its label at the left.
+//! Control of one illuminant: a list of the CIE illuminants with a search field, a slider of
+//! colour temperature (CIE daylight, or a black body below 4000 K), and a chart of the spectral
+//! power.
 
 use std::path::Path;
 

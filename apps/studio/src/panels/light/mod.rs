@@ -1,8 +1,4 @@
-//! The light panel: illuminant, direction, gloss and split view.
-//!
-//! Draws the light panel.
-//!
-//! The white point of a light in numbers.
+//! The light panel: illuminant with its white point, direction, gloss and split view.
 
 mod illuminants;
 mod direction;

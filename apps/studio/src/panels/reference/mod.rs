@@ -1,17 +1,5 @@
-//! The reference picture beside the canvas: its colours, marks of samples and guides of strokes on
-//! it.
-//!
-//! The picture with its buttons, and its view.
-//!
-//! The buttons above the picture.
-//!
-//! The list of marked samples below the picture.
-//!
-//! The list of guides below the picture.
-//!
-//! The commands that go on with a drawing.
-//!
-//! The command that goes on with a drawing, to be copied.
+//! The reference picture beside the canvas: its buttons, its view, and the lists of marked samples
+//! and guides below it.
 
 mod picture;
 mod samples;
@@ -176,13 +164,7 @@ impl Reference {
         });
         Some(texture.id())
     }
-}
 
-fn space_held(ui: &Ui) -> bool {
-    ui.input(|input| input.key_down(Key::Space))
-}
-
-impl Reference {
     /// Draws the buttons for the picture, its view, and the use of the pointer.
     fn controls(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         ui.horizontal_wrapped(|ui| {
@@ -268,12 +250,7 @@ impl Reference {
             self.flipped ^= true;
         }
     }
-}
 
-/// Width of the figure and the button at the right of a sample, in points.
-const RIGHT: f32 = 104.0;
-
-impl Reference {
     /// Draws the list of samples with its buttons.
     fn sample_list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let (Some(path), Some(picture)) = (self.path.clone(), &self.picture) else { return };
@@ -371,21 +348,7 @@ impl Reference {
             self.samples.rename(index, &typed, size);
         }
     }
-}
 
-/// Draws the colour of a sample as a button. Returns whether it was clicked.
-fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
-    let (rect, response) =
-        ui.allocate_exact_size(theme::at_least(ui, vec2(20.0, 20.0)), Sense::click());
-    let words = tr_format!("Select {name}", name);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &words));
-    let width = if selected { 2.0 } else { 0.0 };
-    let edge = Stroke::new(width, theme::colors(ui.ctx()).strong);
-    ui.painter().rect(rect.shrink(2.0), 2, screen_color(index), edge, StrokeKind::Outside);
-    response.on_hover_text(tr("Selects the sample; Spacing is for the selected one")).clicked()
-}
-
-impl Reference {
     /// Draws the list of guides with its buttons.
     fn guide_list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let (Some(path), Some(picture)) = (self.path.clone(), &self.picture) else { return };
@@ -504,6 +467,25 @@ impl Reference {
         })
         .inner
     }
+}
+
+fn space_held(ui: &Ui) -> bool {
+    ui.input(|input| input.key_down(Key::Space))
+}
+
+/// Width of the figure and the button at the right of a sample, in points.
+const RIGHT: f32 = 104.0;
+
+/// Draws the colour of a sample as a button. Returns whether it was clicked.
+fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
+    let (rect, response) =
+        ui.allocate_exact_size(theme::at_least(ui, vec2(20.0, 20.0)), Sense::click());
+    let words = tr_format!("Select {name}", name);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &words));
+    let width = if selected { 2.0 } else { 0.0 };
+    let edge = Stroke::new(width, theme::colors(ui.ctx()).strong);
+    ui.painter().rect(rect.shrink(2.0), 2, screen_color(index), edge, StrokeKind::Outside);
+    response.on_hover_text(tr("Selects the sample; Spacing is for the selected one")).clicked()
 }
 
 /// Command that takes samples of `picture` by the marks in a file.

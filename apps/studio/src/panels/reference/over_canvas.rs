@@ -1,9 +1,7 @@
-//! The reference picture laid over the canvas, to draw after. It is only shown: nothing of it
-//! is painted, saved or exported.
+//! Tools of the pointer on the reference picture: drawing marks and guides, and picking colours.
 //!
-//! Draws marks and guides with the pointer, and shows them on the picture.
-//!
-//! Picks colours of the picture.
+//! The picture can also lie over the canvas, to draw after. It is only shown: nothing of it is
+//! painted, saved or exported.
 
 use eframe::egui::epaint::{Mesh, Vertex};
 use eframe::egui::{
@@ -150,67 +148,7 @@ impl Reference {
         }
         moved
     }
-}
 
-/// The canvas on the screen, in mm.
-struct OnCanvas {
-    placement: Placement,
-    cell_mm: f64,
-}
-
-impl OnCanvas {
-    fn point(&self, mm: [f64; 2]) -> Pos2 {
-        self.placement.point(mm.map(|mm| mm / self.cell_mm))
-    }
-
-    fn mm(&self, point: Pos2) -> [f64; 2] {
-        self.placement.cell(point).map(|cells| cells * self.cell_mm)
-    }
-}
-
-/// The point of the handle that turns the picture, above the middle of its upper edge.
-fn turn_handle(on_canvas: &OnCanvas, place: &OverlayPlace, aspect: f64) -> Pos2 {
-    let edge = on_canvas.point(place.point([0.5, 0.0], aspect));
-    let middle = on_canvas.point(place.center);
-    edge + (edge - middle).normalized() * 26.0
-}
-
-fn draw(painter: &Painter, texture: TextureId, corners: [Pos2; 4], flipped: bool, opacity: f32) {
-    let color = Color32::WHITE.gamma_multiply(opacity);
-    let mut mesh = Mesh::with_texture(texture);
-    for (pos, [across, down]) in corners.into_iter().zip(CORNERS) {
-        let across = if flipped { 1.0 - across } else { across };
-        mesh.vertices.push(Vertex { pos, uv: pos2(across as f32, down as f32), color });
-    }
-    mesh.add_triangle(0, 1, 2);
-    mesh.add_triangle(0, 2, 3);
-    painter.add(Shape::mesh(mesh));
-}
-
-fn draw_frame(painter: &Painter, ui: &Ui, corners: [Pos2; 4], turn: Pos2) {
-    let colors = theme::colors(ui.ctx());
-    let top = corners[0].lerp(corners[1], 0.5);
-    for (width, color) in [(3.0, Color32::from_black_alpha(110)), (1.0, Color32::WHITE)] {
-        let stroke = Stroke::new(width, color);
-        painter.add(Shape::closed_line(corners.to_vec(), stroke));
-        painter.line_segment([top, turn], stroke);
-    }
-    let edge = Stroke::new(1.0, colors.strong);
-    for corner in corners {
-        let rect = Rect::from_center_size(corner, vec2(HANDLE - 4.0, HANDLE - 4.0));
-        painter.rect(rect, 2.0, colors.panel, edge, eframe::egui::StrokeKind::Inside);
-    }
-    painter.circle(turn, 0.5 * HANDLE - 1.0, colors.panel, edge);
-}
-
-/// Distance in points within which a click selects a line.
-const REACH: f32 = 8.0;
-
-/// Least bend in pixels of the picture, and in points of the window, that a line keeps.
-const TOLERANCE_PX: f32 = 0.5;
-const TOLERANCE_POINTS: f32 = 0.75;
-
-impl Reference {
     /// Takes the pointer's movements over the picture in this frame.
     pub(super) fn sketch(&mut self, ui: &Ui, response: &Response, view: PictureView) {
         let Some(drawn) = self.line.update(ui, response) else { return };
@@ -309,9 +247,7 @@ impl Reference {
             overlay.spacing([point(first), pointer], selected);
         }
     }
-}
 
-impl Reference {
     /// Picks the colour at the pointer when the primary button is released, and shows it beside the
     /// pointer until then.
     pub(super) fn pick(
@@ -343,6 +279,64 @@ impl Reference {
         }
     }
 }
+
+/// The canvas on the screen, in mm.
+struct OnCanvas {
+    placement: Placement,
+    cell_mm: f64,
+}
+
+impl OnCanvas {
+    fn point(&self, mm: [f64; 2]) -> Pos2 {
+        self.placement.point(mm.map(|mm| mm / self.cell_mm))
+    }
+
+    fn mm(&self, point: Pos2) -> [f64; 2] {
+        self.placement.cell(point).map(|cells| cells * self.cell_mm)
+    }
+}
+
+/// The point of the handle that turns the picture, above the middle of its upper edge.
+fn turn_handle(on_canvas: &OnCanvas, place: &OverlayPlace, aspect: f64) -> Pos2 {
+    let edge = on_canvas.point(place.point([0.5, 0.0], aspect));
+    let middle = on_canvas.point(place.center);
+    edge + (edge - middle).normalized() * 26.0
+}
+
+fn draw(painter: &Painter, texture: TextureId, corners: [Pos2; 4], flipped: bool, opacity: f32) {
+    let color = Color32::WHITE.gamma_multiply(opacity);
+    let mut mesh = Mesh::with_texture(texture);
+    for (pos, [across, down]) in corners.into_iter().zip(CORNERS) {
+        let across = if flipped { 1.0 - across } else { across };
+        mesh.vertices.push(Vertex { pos, uv: pos2(across as f32, down as f32), color });
+    }
+    mesh.add_triangle(0, 1, 2);
+    mesh.add_triangle(0, 2, 3);
+    painter.add(Shape::mesh(mesh));
+}
+
+fn draw_frame(painter: &Painter, ui: &Ui, corners: [Pos2; 4], turn: Pos2) {
+    let colors = theme::colors(ui.ctx());
+    let top = corners[0].lerp(corners[1], 0.5);
+    for (width, color) in [(3.0, Color32::from_black_alpha(110)), (1.0, Color32::WHITE)] {
+        let stroke = Stroke::new(width, color);
+        painter.add(Shape::closed_line(corners.to_vec(), stroke));
+        painter.line_segment([top, turn], stroke);
+    }
+    let edge = Stroke::new(1.0, colors.strong);
+    for corner in corners {
+        let rect = Rect::from_center_size(corner, vec2(HANDLE - 4.0, HANDLE - 4.0));
+        painter.rect(rect, 2.0, colors.panel, edge, eframe::egui::StrokeKind::Inside);
+    }
+    painter.circle(turn, 0.5 * HANDLE - 1.0, colors.panel, edge);
+}
+
+/// Distance in points within which a click selects a line.
+const REACH: f32 = 8.0;
+
+/// Least bend in pixels of the picture, and in points of the window, that a line keeps.
+const TOLERANCE_PX: f32 = 0.5;
+const TOLERANCE_POINTS: f32 = 0.75;
 
 /// Draws the colour beside the pointer, and the disc that is averaged.
 fn loupe(ui: &Ui, panel: Rect, pointer: Pos2, reach: f32, linear: Rgb) {

@@ -1,10 +1,5 @@
-//! The pixels of a reference picture, read on a background thread.
-//!
-//! View transform of a picture in its panel.
-//!
-//! How the reference picture lies over the canvas: pure geometry in mm.
-//!
-//! The use of the pointer on the picture.
+//! The pixels of a reference picture, read on a background thread, and its view in the panel and
+//! over the canvas (pure geometry in mm).
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};

@@ -1,10 +1,5 @@
-//! Marks of samples on the picture, as data.
-//!
-//! Guides of strokes on the picture, as data.
-//!
-//! Lines traced by the pointer: the part on the picture, with few points.
-//!
-//! A value that is edited: its past for undo, and what is in its file.
+//! Marks of samples and guides of strokes on the picture, as data with undo. Lines are traced by
+//! the pointer and simplified to few points.
 
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,4 @@
-//! State of the reference panel.
-//!
-//! A line that is being drawn with the pointer.
-//!
-//! Draws marks and guides over the picture.
+//! State of the reference panel, and the marks and guides drawn over the picture.
 
 use std::fmt;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,5 @@
-//! Context in which a panel of a scene is drawn: its state, the tools, and a queue of requests.
-//!
-//! The time bar: play, step, go back, and a track with all events.
-//!
-//! The window that chooses the pigment of a tube.
-//!
-//! The illuminant that the pigments of a scene are seen under.
+//! Context in which a panel of a scene is drawn (its state, the tools, and a queue of requests),
+//! the time bar with its track of events, and the choosers of pigments and illuminants.
 
 use std::path::PathBuf;
 

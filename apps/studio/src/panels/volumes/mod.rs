@@ -1,21 +1,6 @@
-//! The panels of a scene of paint volumes. Each shows the state that the scene's worker last
-//! reported and queues requests.
-//!
-//! The side panel of a scene: tubes, the tool in hand, and tabs.
-//!
-//! The choice of the picture that is shown of a scene.
-//!
-//! What is at a place of a scene: a card beside the pointer, and the panel that keeps it.
-//!
-//! The light of a scene: its direction, and the illuminant that pigments are seen under.
-//!
-//! Settings of the tool in hand.
-//!
-//! The tubes of a scene.
-//!
-//! Files that a scene makes.
-//!
-//! The list of events of a scene.
+//! The panels of a scene of paint volumes: tubes, the tool in hand, picture, light, readings,
+//! events and exports. Each shows the state that the scene's worker last reported and queues
+//! requests.
 
 mod context;
 

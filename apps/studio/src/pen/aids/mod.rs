@@ -1,13 +1,6 @@
 //! Drawing aids as data: a ruler and a perspective guide that lead strokes, and symmetry that
-//! repeats them. Positions are in mm of the canvas.
-//!
-//! The drawing aids of a painting.
-//!
-//! Leads one stroke along a guide.
-//!
-//! Lines that show the drawing aids.
-//!
-//! Handles with which the drawing aids are moved.
+//! repeats them, with the lines that show them and the handles that move them. Positions are in mm
+//! of the canvas.
 
 mod shapes;
 
@@ -116,6 +109,101 @@ impl DrawingAids {
     pub fn set_vanishing_points(&mut self, count: usize) {
         self.perspective = Perspective::in_middle_of(self.canvas_mm, count);
     }
+
+    /// Lines of all aids that are shown.
+    #[must_use]
+    pub fn lines(&self) -> AidLines {
+        let mut lines = AidLines::default();
+        // Far enough to leave the canvas from every place on it.
+        let far = 2.0 * length(self.canvas_mm);
+        match self.guide {
+            Some(GuideKind::Ruler) => self.ruler.lines(self.canvas_mm, far, &mut lines),
+            Some(GuideKind::Perspective) => {
+                self.perspective.lines(self.canvas_mm, far, &mut lines);
+            }
+            None => {}
+        }
+        if self.symmetry.on {
+            let centre = self.symmetry.centre;
+            let rays = self.symmetry.rays().into_iter();
+            lines.main.extend(rays.map(|ray| vec![centre, moved(centre, ray, far)]));
+        }
+        lines
+    }
+
+    /// Handles of all aids that are shown.
+    #[must_use]
+    pub fn handles(&self) -> Vec<AidHandle> {
+        let mut handles = match (self.guide, self.ruler.shape) {
+            (Some(GuideKind::Ruler), RulerShape::Line | RulerShape::Parallel) => {
+                vec![AidHandle::End(0), AidHandle::End(1)]
+            }
+            (Some(GuideKind::Ruler), RulerShape::Ellipse | RulerShape::Concentric) => {
+                vec![AidHandle::Middle, AidHandle::Tip, AidHandle::Side]
+            }
+            (Some(GuideKind::Perspective), _) => {
+                (0..self.perspective.in_use().len()).map(AidHandle::Vanishing).collect()
+            }
+            (None, _) => Vec::new(),
+        };
+        if self.symmetry.on {
+            handles.push(AidHandle::Centre);
+            // Turned twins do not depend on the angle.
+            if self.symmetry.kind != SymmetryKind::Radial {
+                handles.push(AidHandle::Axis);
+            }
+        }
+        handles
+    }
+
+    /// Place of a handle in mm of the canvas.
+    #[must_use]
+    pub fn place_of(&self, handle: AidHandle) -> [f64; 2] {
+        match handle {
+            AidHandle::End(end) => self.ruler.ends[end.min(1)],
+            AidHandle::Middle => self.ruler.middle,
+            AidHandle::Tip => self.ruler.tip,
+            AidHandle::Side => self.ruler.side(),
+            AidHandle::Vanishing(number) => self.perspective.points[number.min(2)],
+            AidHandle::Centre => self.symmetry.centre,
+            AidHandle::Axis => {
+                let [width, height] = self.canvas_mm;
+                let up = upright_turned(self.symmetry.angle_deg);
+                moved(self.symmetry.centre, up, ARM * width.min(height))
+            }
+        }
+    }
+
+    /// Moves a handle to a place in mm of the canvas, or as near as it may be: only vanishing
+    /// points leave the canvas.
+    pub fn move_to(&mut self, handle: AidHandle, to: [f64; 2]) {
+        let [width, height] = self.canvas_mm;
+        let inside = [to[0].clamp(0.0, width.max(0.0)), to[1].clamp(0.0, height.max(0.0))];
+        match handle {
+            AidHandle::End(end) => self.ruler.ends[end.min(1)] = inside,
+            AidHandle::Middle => {
+                let by = way(self.ruler.middle, inside);
+                self.ruler.middle = inside;
+                self.ruler.tip = moved(self.ruler.tip, by, 1.0);
+            }
+            AidHandle::Tip => self.ruler.tip = to,
+            AidHandle::Side => self.ruler.half_width_mm = self.half_width(to),
+            AidHandle::Vanishing(number) => self.perspective.points[number.min(2)] = to,
+            AidHandle::Centre => self.symmetry.centre = inside,
+            AidHandle::Axis => {
+                let [right, down] = way(self.symmetry.centre, to);
+                if length([right, down]) > 1e-6 {
+                    self.symmetry.angle_deg = stepped(right.atan2(-down).to_degrees());
+                }
+            }
+        }
+    }
+
+    /// Distance of a place from the line of the ellipse's half axis.
+    fn half_width(&self, to: Place) -> f64 {
+        let axis = unit(way(self.ruler.middle, self.ruler.tip)).unwrap_or([1.0, 0.0]);
+        dot(across(axis), way(self.ruler.middle, to)).abs()
+    }
 }
 
 /// A place on a surface, in mm.
@@ -221,29 +309,6 @@ pub struct AidLines {
     pub main: Vec<Vec<[f64; 2]>>,
     /// Fans of the vanishing points, parallel lines and ellipses of the same form.
     pub faint: Vec<Vec<[f64; 2]>>,
-}
-
-impl DrawingAids {
-    /// Lines of all aids that are shown.
-    #[must_use]
-    pub fn lines(&self) -> AidLines {
-        let mut lines = AidLines::default();
-        // Far enough to leave the canvas from every place on it.
-        let far = 2.0 * length(self.canvas_mm);
-        match self.guide {
-            Some(GuideKind::Ruler) => self.ruler.lines(self.canvas_mm, far, &mut lines),
-            Some(GuideKind::Perspective) => {
-                self.perspective.lines(self.canvas_mm, far, &mut lines);
-            }
-            None => {}
-        }
-        if self.symmetry.on {
-            let centre = self.symmetry.centre;
-            let rays = self.symmetry.rays().into_iter();
-            lines.main.extend(rays.map(|ray| vec![centre, moved(centre, ray, far)]));
-        }
-        lines
-    }
 }
 
 impl Ruler {
@@ -367,82 +432,6 @@ impl AidHandle {
             Self::Centre => "Centre of the symmetry".to_owned(),
             Self::Axis => "Angle of the symmetry".to_owned(),
         }
-    }
-}
-
-impl DrawingAids {
-    /// Handles of all aids that are shown.
-    #[must_use]
-    pub fn handles(&self) -> Vec<AidHandle> {
-        let mut handles = match (self.guide, self.ruler.shape) {
-            (Some(GuideKind::Ruler), RulerShape::Line | RulerShape::Parallel) => {
-                vec![AidHandle::End(0), AidHandle::End(1)]
-            }
-            (Some(GuideKind::Ruler), RulerShape::Ellipse | RulerShape::Concentric) => {
-                vec![AidHandle::Middle, AidHandle::Tip, AidHandle::Side]
-            }
-            (Some(GuideKind::Perspective), _) => {
-                (0..self.perspective.in_use().len()).map(AidHandle::Vanishing).collect()
-            }
-            (None, _) => Vec::new(),
-        };
-        if self.symmetry.on {
-            handles.push(AidHandle::Centre);
-            // Turned twins do not depend on the angle.
-            if self.symmetry.kind != SymmetryKind::Radial {
-                handles.push(AidHandle::Axis);
-            }
-        }
-        handles
-    }
-
-    /// Place of a handle in mm of the canvas.
-    #[must_use]
-    pub fn place_of(&self, handle: AidHandle) -> [f64; 2] {
-        match handle {
-            AidHandle::End(end) => self.ruler.ends[end.min(1)],
-            AidHandle::Middle => self.ruler.middle,
-            AidHandle::Tip => self.ruler.tip,
-            AidHandle::Side => self.ruler.side(),
-            AidHandle::Vanishing(number) => self.perspective.points[number.min(2)],
-            AidHandle::Centre => self.symmetry.centre,
-            AidHandle::Axis => {
-                let [width, height] = self.canvas_mm;
-                let up = upright_turned(self.symmetry.angle_deg);
-                moved(self.symmetry.centre, up, ARM * width.min(height))
-            }
-        }
-    }
-
-    /// Moves a handle to a place in mm of the canvas, or as near as it may be: only vanishing
-    /// points leave the canvas.
-    pub fn move_to(&mut self, handle: AidHandle, to: [f64; 2]) {
-        let [width, height] = self.canvas_mm;
-        let inside = [to[0].clamp(0.0, width.max(0.0)), to[1].clamp(0.0, height.max(0.0))];
-        match handle {
-            AidHandle::End(end) => self.ruler.ends[end.min(1)] = inside,
-            AidHandle::Middle => {
-                let by = way(self.ruler.middle, inside);
-                self.ruler.middle = inside;
-                self.ruler.tip = moved(self.ruler.tip, by, 1.0);
-            }
-            AidHandle::Tip => self.ruler.tip = to,
-            AidHandle::Side => self.ruler.half_width_mm = self.half_width(to),
-            AidHandle::Vanishing(number) => self.perspective.points[number.min(2)] = to,
-            AidHandle::Centre => self.symmetry.centre = inside,
-            AidHandle::Axis => {
-                let [right, down] = way(self.symmetry.centre, to);
-                if length([right, down]) > 1e-6 {
-                    self.symmetry.angle_deg = stepped(right.atan2(-down).to_degrees());
-                }
-            }
-        }
-    }
-
-    /// Distance of a place from the line of the ellipse's half axis.
-    fn half_width(&self, to: Place) -> f64 {
-        let axis = unit(way(self.ruler.middle, self.ruler.tip)).unwrap_or([1.0, 0.0]);
-        dot(across(axis), way(self.ruler.middle, to)).abs()
     }
 }
 

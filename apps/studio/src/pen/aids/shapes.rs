@@ -1,12 +1,5 @@
-//! Places and directions in the plane of the canvas.
-//!
-//! The line or ellipse that one stroke is led along.
-//!
-//! Rulers: a line, lines parallel to it, an ellipse, and ellipses of the same form.
-//!
-//! Perspective with one, two or three vanishing points.
-//!
-//! Symmetry: places and attitudes of the brush of a stroke, mirrored or turned.
+//! Geometry of the drawing aids: the line or ellipse that leads a stroke, rulers, perspective with
+//! one, two or three vanishing points, and symmetry.
 
 use paint::pose::Sample;
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,4 @@
-//! The dialog of a new painting.
-//!
-//! Enter in the dialogs of files: a field that has the keyboard takes it, else the default button.
-//!
-//! The file browser: pictures of files, places, order and filter.
-//!
-//! Cropping the painting.
+//! Dialogs of files: new painting, default button by the keyboard, file browser and crop.
 
 use std::path::Path;
 

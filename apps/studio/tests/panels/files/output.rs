@@ -1,10 +1,5 @@
-//! Revisions, exports, recordings, opened files and preferences.
-//!
-//! Timelapses of the session's recording.
-//!
-//! Kept mixtures: their file in the home folder, import and export.
-//!
-//! Marks and guides on the reference picture are saved, opened, and asked for before they are lost.
+//! Revisions, exports, recordings, timelapses, preferences, kept mixtures, and drawings on the
+//! reference picture.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};

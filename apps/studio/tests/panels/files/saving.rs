@@ -1,6 +1,4 @@
-//! Saving, opening, recovery and closing.
-//!
-//! Scenes are autosaved as scripts, and offered after a crash.
+//! Saving, opening, recovery and closing of paintings, and autosaves of scenes.
 
 use std::path::Path;
 use std::sync::Arc;

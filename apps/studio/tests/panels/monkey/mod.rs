@@ -1,12 +1,6 @@
 //! A monkey at the whole program: random actions, after each of which nothing may have failed, and
-//! at the end of which no paint may be lost.
-//!
-//! Single actions of the monkey, and the choice between them.
-//!
-//! The accounts of the paint: the recording is played again, action by action, and every quantum is
-//! followed.
-//!
-//! Runs of the monkey.
+//! at the end of which no paint may be lost. The recording is played again, action by action, and
+//! every quantum is followed.
 
 mod paws;
 

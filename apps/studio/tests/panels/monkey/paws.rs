@@ -1,10 +1,5 @@
-//! The window under the monkey's paws: clicks, drags, keys and text, and a record of them.
-//!
-//! Random numbers that a seed repeats.
-//!
-//! Messages with which the program refuses what cannot be done, rightly.
-//!
-//! Controls that the window shows now, as a screen reader finds them.
+//! The window under the monkey's paws: clicks, drags, keys and text, a record of them, and the
+//! messages that may appear.
 
 use std::fmt::Write as _;
 use std::io::Write as _;

@@ -1,6 +1,5 @@
-//! Scenes and their files in the whole window: the File menu, the file dialog, and dropped files.
-//!
-//! Files that a scene makes, by the buttons of its panel.
+//! Files of scenes in the whole window: the File menu, the file dialog, dropped files, and
+//! exports.
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,4 @@
 //! The workspace of scenes: the whole window with a real worker and a synthetic pen.
-//!
-//! Pigments, light and drying in the workspace of scenes, by a synthetic pen.
 
 mod files;
 
