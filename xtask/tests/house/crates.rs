@@ -118,7 +118,6 @@ fn the_graphics_device_is_named_in_one_folder_and_where_the_window_draws() {
             "apps/studio/src/view/canvas.rs",
             "apps/studio/src/view/meshes.rs",
             "apps/studio/src/view/pipeline.rs",
-            "apps/studio/src/view/shader.rs",
             "apps/studio/src/view/texture.rs",
         ];
         let may = path.starts_with("render/graphics/src/gpu/") || draws.contains(&path.as_str());

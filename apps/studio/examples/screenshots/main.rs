@@ -8,10 +8,7 @@
 //! `docs/images/`. It needs a graphics adapter; a software one will do.
 
 mod window;
-mod hand;
 mod study;
-mod drawing;
-mod scene;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -26,7 +23,7 @@ use session::{Command, PenSample};
 use studio::app::Tab;
 use studio::panels::Mode;
 
-use hand::{Hand, samples};
+use study::{Hand, samples};
 use window::{Window, has_adapter, wait_for};
 
 const SIZE: Vec2 = vec2(1440.0, 900.0);
@@ -47,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let mut window = Window::with_commands("screenshots", SIZE, 1.0, vec![study::new_painting()]);
     if std::env::args().nth(2).as_deref() == Some("studio-volumes") {
-        scene::pouring(&mut window)?;
+        window::pouring(&mut window)?;
         return save(&mut window, &folder, "studio-volumes");
     }
     at_work(&mut window);
@@ -60,15 +57,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     colors(&mut window)?;
     save(&mut window, &folder, "studio-colour")?;
     window.studio_mut().panels.reference.close();
-    drawing::marks(&mut window)?;
+    window::marks(&mut window)?;
     save(&mut window, &folder, "studio-marks")?;
-    drawing::guides(&mut window, &folder)?;
+    window::guides(&mut window, &folder)?;
     save(&mut window, &folder, "studio-guides")?;
     window.studio_mut().panels.reference.close();
     layers(&mut window);
     save(&mut window, &folder, "studio-layers")?;
     window.harness().set_size(SIZE);
-    scene::pouring(&mut window)?;
+    window::pouring(&mut window)?;
     save(&mut window, &folder, "studio-volumes")
 }
 

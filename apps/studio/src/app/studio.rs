@@ -1,34 +1,41 @@
-//! State of the studio window.
+//! State of the studio window, and one frame of it: input, events of the worker, layout, drawing
+//! and requests.
 
-use std::sync::Arc;
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
 
-use eframe::egui::{Context, Rect};
+use eframe::egui::{CentralPanel, Context, Frame, Margin, Panel, Rect, Ui};
 use paint::strokes::{StrokeScript, SurfaceId};
+use session::volumes::Subject;
+use session::{
+    Command, Event, HeadOnCanvas, PaintingState, Performance, Wait, Worker, WorkerOptions,
+};
+use web_time::{Duration, Instant};
 
+use super::bars::Message;
 use super::crop::CropTool;
-use super::dashes::Dashes;
+use super::dock::Drawn;
+use super::entries::key_rows;
 use super::frames::Frames;
 use super::guide::Tour;
-use super::hover::{Hover, HoveringHead};
-use super::key_editor::KeyEditor;
-use super::keys::Keys;
-use super::parts::{Parts, StartedWorker};
+use super::hover::{Dashes, Hover, HoveringHead, TwinStrokes};
+use super::keys::{KeyEditor, Keys};
 use super::quick::QuickPalette;
-use super::side::Panels;
-use super::status::Message;
-use super::twins::TwinStrokes;
-use super::volumes::Volumes;
-use crate::files::{FiguresLog, Files};
-use crate::keymap::{Changes, Keymap};
-use crate::language::Language;
+use super::side::{Panels, Tab};
+use super::volumes::{Volumes, WindowIntent, scene_key_rows};
+use super::{bars, keys};
+use crate::arrangement::Side;
+use crate::files::{
+    Desk, DeskReference, DeskView, FiguresLog, Files, Problem, ReferenceChange, StatusNote,
+};
+use crate::keymap::{Changes, Keymap, Scope, install};
+use crate::language::{Language, speak, spoken, tr, tr_format};
 use crate::panels::own_brushes::OwnBrushes;
 use crate::panels::pen::PenWindow;
-use crate::panels::{FileRequest, Request, Tools};
-use crate::pen::{DrawingAids, Pen};
-use crate::theme;
-use crate::view::{Outline, SurfaceView};
-use session::volumes::Subject;
-use session::{Command, HeadOnCanvas, PaintingState, Performance, Worker};
+use crate::panels::{FileRequest, Mode, PanelContext, Request, Tools};
+use crate::pen::{Device, DrawingAids, Pen};
+use crate::view::{Outline, SurfaceView, ViewState, fill_rect};
+use crate::{floating, pace, theme, view};
 
 /// The studio window, independent of the window system.
 #[derive(Debug)]
@@ -282,10 +289,458 @@ impl Studio {
         let palette = self.visible.palette && self.visible.panels;
         if palette { vec![SurfaceId::Palette, SurfaceId::Canvas] } else { vec![SurfaceId::Canvas] }
     }
+
+    /// Lets the workers of a page, which have no threads, work until `deadline`. Returns how long they may
+    /// wait for the next turn.
+    pub fn turn(&self, deadline: Instant) -> Wait {
+        let wait = self.worker.turn(deadline);
+        match self.volumes.as_ref().map(|volumes| volumes.turn(deadline)) {
+            None => wait,
+            Some(other) => wait.min(other),
+        }
+    }
+
+    /// Handles worker events and file tasks. Call before each frame, also while the
+    /// window is hidden.
+    pub fn logic(&mut self, context: &Context) {
+        if self.pen.stylus_on().is_none() {
+            pace::set_rare(context, None);
+        }
+        pace::begin_frame(context, Instant::now());
+        speak(self.files.preferences.language);
+        self.handle_events();
+        if let Some(desk) = self.files.take_desk() {
+            self.set_up(&desk, context);
+        }
+        self.files.note_desk(self.desk());
+        self.files.note_drawings(self.panels.reference.unsaved_drawings());
+        for command in self.files.update(context) {
+            self.note_command(&command);
+            self.worker.ask(command);
+        }
+        if let Some(StatusNote { text, hint }) = self.files.take_status() {
+            match self.volumes.as_mut().filter(|_| self.shows_volumes) {
+                Some(volumes) => volumes.say(text),
+                None => self.show_message(text, hint, false),
+            }
+        }
+        while let Some(change) = self.files.take_reference() {
+            if let Some(problem) = self.panels.reference.apply(change, context) {
+                self.files.report(problem);
+            }
+        }
+        while let Some(answer) = self.files.take_scene_answer() {
+            // Exports are answered where they were asked for.
+            self.show_volumes(context);
+            if let Some(volumes) = &mut self.volumes {
+                volumes.answer(answer, &mut self.files);
+            }
+        }
+        if let Some(colors) = self.files.take_colors() {
+            self.panels.eyedropper.set_swatches(&colors);
+            self.panels.select(Tab::Color);
+        }
+        if let Some(volumes) = &mut self.volumes {
+            volumes.handle_events(&mut self.files);
+            volumes.autosave(&mut self.files);
+        }
+        self.pen.settings.clone_from(&self.files.preferences.pen);
+        self.pen.options = self.files.preferences.options_of(&self.tools.brush);
+        let eraser = self.brush_for(Device::Eraser);
+        self.pen.eraser_options = self.files.preferences.options_of(&eraser);
+        self.update_keys(context);
+        self.apply_look(context);
+        // Once it is settled, not at every step of a drag.
+        if !context.input(|input| input.pointer.any_down()) {
+            self.files.preferences.arrangement = self.panels.arrangement();
+        }
+    }
+
+    /// Applies theme, touch targets and scale when they were changed, or the window's size.
+    fn apply_look(&mut self, context: &Context) {
+        let look = self.files.preferences.look();
+        if self.look != look {
+            self.look = look;
+            theme::apply_look(context, look);
+        }
+        let now = context.zoom_factor();
+        let size = context.content_rect().size() * now;
+        let scale = theme::scale_in_window(self.files.preferences.interface_scale, size);
+        if (now - scale).abs() > 1e-3 {
+            context.set_zoom_factor(scale);
+        }
+    }
+
+    /// Draws one frame. `busy` is the processing time of the previous frame including
+    /// drawing, if known.
+    pub fn ui(&mut self, ui: &mut Ui, busy: Option<Duration>) {
+        let context = ui.ctx().clone();
+        let now = Instant::now();
+        speak(self.files.preferences.language);
+        self.frames.begin(now, busy);
+        floating::begin_frame(&context);
+        self.handle_events();
+        self.key_editor.read(&context, &self.keymap, &mut self.files.preferences.keys);
+        if self.shows_volumes {
+            self.draw_volumes(ui);
+        } else {
+            if !self.files.has_dialog() {
+                for intent in self.keys.read(&context, self.tools.mode) {
+                    self.perform(intent, &context);
+                }
+            }
+            self.draw(ui);
+            self.draw_pen_windows(&context);
+            self.draw_aids_window(&context);
+            self.show_quick_palette(&context);
+            self.show_tour(&context);
+        }
+        let keymap = &self.keymap;
+        let changes = &mut self.files.preferences.keys;
+        keys::show(&context, &mut self.visible.keys, &mut self.key_editor, keymap, changes);
+        self.open_dropped(&context);
+        self.files.show(ui);
+        self.send_requests();
+        self.update_title(&context);
+        self.log_figures(&context, now);
+        if let Some(rest) = self.message.as_ref().and_then(|message| message.rest(now)) {
+            context.request_repaint_after(rest);
+        }
+        view::quicken(&context);
+    }
+
+    /// Uses the keys of the preferences if they or the language changed. New faults in them are told.
+    fn update_keys(&mut self, context: &Context) {
+        let changes = &self.files.preferences.keys;
+        let made = (spoken(), changes);
+        if self.keymap_changes.as_ref().is_some_and(|(spoken, used)| (*spoken, used) == made) {
+            return;
+        }
+        let (keymap, faults) = Keymap::new(key_rows(), scene_key_rows(), changes);
+        install(context, keymap.clone());
+        (self.keymap, self.keymap_changes) = (keymap, Some((spoken(), changes.clone())));
+        if faults != self.key_faults && !faults.is_empty() {
+            let text = tr_format!("preferences, `keys`: {faults}", faults = faults.join("; "));
+            self.files.report(Problem::new(text, tr("Help, Keys shows and changes all keys")));
+        }
+        self.key_faults = faults;
+    }
+
+    /// Shows or hides the table of keys of a workspace.
+    pub(super) fn show_keys(&mut self, scope: Scope) {
+        self.visible.keys ^= true;
+        self.key_editor.scope = scope;
+    }
+
+    /// Draws the workspace of scenes.
+    fn draw_volumes(&mut self, ui: &mut Ui) {
+        let Some(volumes) = &mut self.volumes else { return };
+        match volumes.show(ui, self.visible.panels, &mut self.pen, &mut self.files) {
+            Some(WindowIntent::Easel) => self.shows_volumes = false,
+            Some(WindowIntent::Panels) => self.visible.panels ^= true,
+            Some(WindowIntent::Keys) => self.show_keys(Scope::Scenes),
+            Some(WindowIntent::Preferences) => {
+                self.requests.push(Request::File(FileRequest::Preferences));
+            }
+            None => {}
+        }
+    }
+
+    /// Passes the queued requests on in order. File requests wait until a painting is
+    /// open.
+    pub(super) fn send_requests(&mut self) {
+        for request in std::mem::take(&mut self.requests) {
+            match (request, &self.painting) {
+                (Request::Worker(command), _) => {
+                    self.note_command(&command);
+                    self.worker.ask(command);
+                }
+                (Request::File(request), Some(painting)) => self.files.request(request, painting),
+                // No painting is open yet.
+                (request, None) => self.requests.push(request),
+            }
+        }
+    }
+
+    /// Draws all parts of the window, from its edges inwards.
+    pub(super) fn draw(&mut self, ui: &mut Ui) {
+        let context = ui.ctx().clone();
+        let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
+        let painting = self.painting.clone();
+        let history = painting.as_ref().map_or((false, false), |painting| {
+            (painting.history_done > 0, painting.history_done < painting.history.len())
+        });
+        let mirror = self.canvas.view.mirror;
+        let mut intent = None;
+        if self.visible.panels {
+            let panels = self.shows_panels(&context);
+            let shown = (panels, self.visible.palette, self.tools.figures);
+            let scene = self.volumes.is_some();
+            let open = painting.is_some();
+            let look = self.files.preferences.look();
+            let aids = self.aids;
+            let state = bars::MenuState { open, scene, history, shown, mirror, aids, look };
+            let title = self.title.clone();
+            Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
+                fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
+                intent = bars::show_menus(ui, state, &title);
+            });
+            let line = bars::height(&context, self.message.as_ref());
+            Panel::bottom("line").frame(bar).exact_size(line).show_separator_line(false).show(
+                ui,
+                |ui| {
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
+                    self.status_line(ui);
+                },
+            );
+            let column = bar.inner_margin(Margin::symmetric(4, 6));
+            Panel::left("tools")
+                .frame(column)
+                .resizable(false)
+                .exact_size(bars::width(&context))
+                .show_separator_line(false)
+                .show(ui, |ui| {
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
+                    let mode = self.keys.mode(self.tools.mode);
+                    let state = bars::State { mode, mirror, history };
+                    intent = intent.or(bars::show_toolbar(ui, state));
+                });
+            if !theme::is_narrow(&context) {
+                self.draw_columns(ui);
+            }
+        }
+        if let Some(intent) = intent {
+            self.perform(intent, &context);
+        }
+        let covered = self.shows_sheet(&context);
+        CentralPanel::no_frame()
+            .show(ui, |ui| if covered { self.draw_sheet(ui) } else { self.draw_surfaces(ui) });
+        if covered {
+            let events = context.input(|input| input.events.clone());
+            self.update_pen(&context, &events, self.keys.mode(self.tools.mode));
+        }
+    }
+
+    /// Draws the columns of panels at both sides.
+    fn draw_columns(&mut self, ui: &mut Ui) {
+        let Some(painting) = self.painting.clone() else { return };
+        let context = ui.ctx().clone();
+        let mut drawn = Drawn::default();
+        for side in Side::ALL {
+            let width = self.panels.column_width(&context, side);
+            if width == 0.0 {
+                continue;
+            }
+            let column = match side {
+                Side::Left => Panel::left("left panels"),
+                Side::Right => Panel::right("right panels"),
+            };
+            let column = column.frame(Frame::NONE).resizable(false).exact_size(width);
+            column.show_separator_line(false).show(ui, |ui| {
+                let requests = &mut self.requests;
+                let mut cx = PanelContext { painting: &painting, tools: &mut self.tools, requests };
+                self.panels.show(ui, side, (&mut cx, &self.files), &mut drawn);
+            });
+        }
+        self.panels.drop_dragged(&context, drawn, ui.available_rect_before_wrap());
+    }
+
+    /// Draws the status line.
+    fn status_line(&mut self, ui: &mut Ui) {
+        let now = Instant::now();
+        let Some(painting) = self.painting.clone() else {
+            ui.weak(tr("preparing the canvas"));
+            return;
+        };
+        let (width, height) = painting.canvas_cells;
+        let mm = |cells: usize| cells as f64 * painting.cell_mm;
+        let view = self.canvas.view;
+        let turn = (view.snapped_turn().to_degrees().round() as i64).rem_euclid(360);
+        let turn = if turn == 0 { String::new() } else { tr_format!(", {turn} degrees", turn) };
+        let mirrored = if view.mirror { tr(", mirrored") } else { "" };
+        let second =
+            painting.second_lighting.as_ref().map(|second| format!(" | {}", second.illuminant));
+        let light = &painting.lighting;
+        let state = bars::StatusState {
+            message: self.message.as_ref().filter(|message| message.is_displayed(now)),
+            view: format!("{:.0} %{turn}{mirrored}", view.zoom * 100.0),
+            size: format!("{width} x {height}, {:.0} x {:.0} mm", mm(width), mm(height)),
+            light: format!("{}{}", light.illuminant, second.unwrap_or_default()),
+            backend: &painting.backend,
+        };
+        if bars::show_status(ui, &state) {
+            self.message = None;
+        }
+    }
+
+    /// Handles all events that arrived since the last call.
+    pub(super) fn handle_events(&mut self) {
+        let events: Vec<Event> = self.worker.events().collect();
+        for event in events {
+            self.handle_event(event);
+        }
+    }
+
+    /// Handles one event as if it came from the worker. Tests use this to inject
+    /// events.
+    pub fn handle_event(&mut self, event: Event) {
+        self.event_count += 1;
+        self.files.handle_event(&event);
+        match event {
+            Event::Opened(state) => self.open_painting(state),
+            Event::State(state) => self.set_painting(state),
+            Event::Tiles { surface, second, tiles, newest } => {
+                let view = match surface {
+                    SurfaceId::Canvas => &mut self.canvas,
+                    SurfaceId::Palette => &mut self.palette,
+                };
+                for tile in &tiles {
+                    view.write(second, tile);
+                }
+                if let Some(arrived) = newest {
+                    self.frames.shows(arrived);
+                }
+            }
+            Event::Head(head) => self.head = head,
+            Event::Performance(figures) => self.figures = figures,
+            Event::Picked(picked) => {
+                self.tools.picked = Some(picked);
+                self.panels.select(Tab::Color);
+            }
+            Event::Recording { number, script } => self.last_recording = Some((number, script)),
+            // Handled by the files above.
+            Event::Snapshot(_) | Event::Kept(_) | Event::Progress { .. } | Event::Replayed => {}
+            Event::DirtyBrush(brush) => {
+                let text = tr_format!("the brush \u{201c}{brush}\u{201d} is dirty", brush);
+                let key = |name| {
+                    let row = self.keymap.easel.row(name);
+                    let key = row.and_then(|row| row.keys.first());
+                    key.map_or_else(String::new, |key| format!(" ({})", key.text()))
+                };
+                let wash = key("wash");
+                let wipe = key("wipe");
+                let hint =
+                    tr_format!("wash{wash} or wipe{wipe} it before another colour", wash, wipe);
+                self.show_message(text, Some(hint), false);
+            }
+            Event::Message { text, hint, failed } => {
+                self.show_message(text, hint.map(|hint| hint.to_string()), failed);
+            }
+        }
+    }
+
+    /// Shows another painting and resets what belongs to the previous one.
+    fn open_painting(&mut self, state: Arc<PaintingState>) {
+        self.canvas.open(state.canvas_cells);
+        self.palette.open(state.palette_cells);
+        self.head = None;
+        self.hover = None;
+        self.tour.forget();
+        self.crop = None;
+        self.twins = None;
+        self.set_painting(state);
+        let Some(painting) = &self.painting else { return };
+        let exists = painting.brushes.iter().any(|brush| brush.name == self.tools.brush);
+        if let Some(first) = painting.brushes.first().filter(|_| !exists) {
+            self.tools.brush = first.name.clone();
+        }
+    }
+
+    fn set_painting(&mut self, state: Arc<PaintingState>) {
+        for surface in [&mut self.canvas, &mut self.palette] {
+            surface.set_second(state.second_lighting.is_some());
+        }
+        self.painting = Some(state);
+    }
+
+    /// Shows a message in the status line.
+    pub(super) fn show_message(&mut self, text: String, hint: Option<String>, failed: bool) {
+        self.message = Some(Message { text, hint, failed, shown_at: Instant::now() });
+    }
+
+    /// How the window is set up now.
+    #[must_use]
+    pub fn desk(&self) -> Desk {
+        let ViewState { centre, zoom, rotation, mirror, fitted } = self.canvas.view;
+        let reference = self.panels.reference.pinned();
+        Desk {
+            brush: Some(self.tools.brush.clone()),
+            tool: Some(self.tools.mode.name().to_owned()),
+            view: Some(DeskView { centre, zoom, rotation, mirror, fitted }),
+            aids: Some(self.aids),
+            reference: reference.map(|(path, drawings)| DeskReference::new(path, &drawings)),
+        }
+    }
+
+    /// Sets the window up as `desk` says. What the painting does not have is left as it is.
+    pub fn set_up(&mut self, desk: &Desk, context: &Context) {
+        let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
+        let brush = brushes.map(|brush| &brush.name).find(|name| desk.brush.as_ref() == Some(name));
+        if let Some(brush) = brush {
+            self.tools.brush = brush.clone();
+        }
+        if let Some(mode) = desk.tool.as_deref().and_then(Mode::named) {
+            self.tools.mode = mode;
+        }
+        if let Some(DeskView { centre, zoom, rotation, mirror, fitted }) = desk.view {
+            self.canvas.view = ViewState { centre, zoom, rotation, mirror, fitted };
+        }
+        self.aids = desk.aids.unwrap_or(self.aids);
+        if let Some(reference) = &desk.reference {
+            let picture = reference.picture.clone();
+            let drawings = reference.drawn();
+            let restored = ReferenceChange::Restore { picture, drawings };
+            if let Some(problem) = self.panels.reference.apply(restored, context) {
+                self.files.report(problem);
+            }
+        }
+    }
 }
 
 impl Drop for Studio {
     fn drop(&mut self) {
         self.worker.ask(Command::Quit);
     }
+}
+
+/// A started worker, and the slot for the window that it wakes.
+#[derive(Debug)]
+pub struct StartedWorker {
+    pub(super) worker: Worker,
+    pub(super) window: Arc<OnceLock<Context>>,
+}
+
+impl StartedWorker {
+    /// Starts the worker and sends it `commands`.
+    #[must_use]
+    pub fn new(options: WorkerOptions, commands: Vec<Command>) -> Self {
+        let window: Arc<OnceLock<Context>> = Arc::default();
+        let wakes = Arc::clone(&window);
+        let wake = move || {
+            if let Some(context) = wakes.get() {
+                pace::wake(context);
+            }
+        };
+        #[cfg(not(target_arch = "wasm32"))]
+        let worker = Worker::start(options, wake);
+        #[cfg(target_arch = "wasm32")]
+        let worker = Worker::in_turns(options, wake);
+        commands.into_iter().for_each(|command| worker.ask(command));
+        Self { worker, window }
+    }
+}
+
+/// Parts that a [`Studio`](super::Studio) is created from.
+#[derive(Debug)]
+pub struct Parts {
+    /// Worker thread, already started.
+    pub worker: StartedWorker,
+    /// Input of pen, mouse and touch.
+    pub pen: Pen,
+    /// File dialogs, tasks and preferences.
+    pub files: Files,
+    /// File to open first.
+    pub open: Option<PathBuf>,
+    /// Performance log, if asked for.
+    pub log: Option<FiguresLog>,
 }

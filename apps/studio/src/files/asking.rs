@@ -1,28 +1,40 @@
-//! Opens and shows the dialogs, and carries out the painter's answers.
+//! Opens and shows the dialogs, and carries out the painter's answers. Also crops the painting,
+//! saves lines drawn on the reference picture, and handles the files of scenes.
+//!
+//! The history of a painting keeps pieces of a canvas of one size. A crop ends it and begins a new
+//! recording with the part that stays.
+//!
+//! A scene is small on the disk: its script. A scene that was not saved when another is opened or
+//! the window closes keeps its autosave, which the next start offers to recover.
 
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui::Ui;
 use graphics::export::PictureFormat;
 use graphics::picture_formats;
+use graphics::tile::Rect;
+use paint::document::Document;
 use paint::scene::PixelsPerCell;
+use session::volumes::{SceneRecording, SceneState};
+use session::{Autosave, Command, LostSession, Origin, SessionMeta, Snapshot, now};
+use web_time::{Duration, Instant};
 
 use super::browser::{Answer, Browser, BrowserOptions, Filter, pictures_and};
 use super::dialogs::{self, Choice};
-use super::drawing::{DrawingKind, DrawnFile};
-use super::exporting::{Export, ExportKind};
+use super::exporting::{
+    Export, ExportKind, SceneAnswer, SceneExport, ScenePurpose, TimelapseExport,
+};
+use super::job::{JobError, Progress};
 use super::new_dialog::NewAnswer;
-use super::notice::Notice;
-use super::open_dialog::{FilePurpose, OpenDialog};
-use super::pending::PendingAction;
+use super::opened;
 use super::preferences::Preferences;
-use super::reference_change::ReferenceChange;
-use super::revisions;
-use super::scene_file::SceneExport;
-use super::state::Files;
-use super::swatch_format::SwatchFormat;
-use super::timelapse::TimelapseExport;
-use super::work::{Purpose, file_name};
+use super::problem::Problem;
+use super::request::{Drawing, DrawingKind, DrawnFile, ReferenceChange, SwatchFormat};
+use super::state::{FilePurpose, Files, OpenDialog};
+use super::work::{
+    FileOrigin, Finished, JobKind, Notice, PendingAction, Purpose, Replacement, file_name,
+};
 use crate::language::{english, tr, tr_format};
 
 const PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
@@ -194,7 +206,7 @@ impl Files {
     }
 
     fn delete_revision(&mut self, path: PathBuf) {
-        match revisions::delete(&path) {
+        match opened::delete(&path) {
             Ok(()) => {
                 let text = tr_format!("deleted {path}", path = file_name(&path));
                 self.notices.push(Notice::done(&text));
@@ -343,6 +355,303 @@ impl Files {
         };
         self.browse(options, FilePurpose::Timelapse(export));
     }
+
+    /// Takes note of the drawings on the reference picture that are in no file. To be called every
+    /// frame before [`Files::update`].
+    pub fn note_drawings(&mut self, unsaved: Vec<DrawnFile>) {
+        self.unsaved_drawings = unsaved;
+    }
+
+    /// The unsaved drawings that an action would lose.
+    pub(super) fn drawings_lost_by(&self, action: &PendingAction) -> Vec<DrawnFile> {
+        let lost = |drawn: &&DrawnFile| match action {
+            PendingAction::Close { drawings_given_up } => !drawings_given_up,
+            PendingAction::Replace(_) | PendingAction::Reference(ReferenceChange::Saved(_)) => {
+                false
+            }
+            PendingAction::Reference(ReferenceChange::Draw(new)) => {
+                new.drawing.kind() == drawn.drawing.kind()
+            }
+            PendingAction::Reference(
+                ReferenceChange::Open(_) | ReferenceChange::Restore { .. } | ReferenceChange::Close,
+            ) => true,
+        };
+        self.unsaved_drawings.iter().filter(lost).cloned().collect()
+    }
+
+    /// Changes the picture beside the canvas, after asking about drawings that this loses.
+    pub(super) fn change_reference(&mut self, change: ReferenceChange) {
+        self.carry_out_safely(PendingAction::Reference(change));
+    }
+
+    /// Goes on with an action without the drawings that it loses.
+    pub(super) fn carry_out_without_drawings(&mut self, action: PendingAction) {
+        match action {
+            PendingAction::Close { .. } => {
+                self.carry_out_safely(PendingAction::Close { drawings_given_up: true });
+            }
+            other => self.carry_out(other),
+        }
+    }
+
+    /// Starts writing a drawing, then carries out `next`.
+    pub(super) fn save_drawing(
+        &mut self,
+        drawing: Drawing,
+        path: PathBuf,
+        next: Option<PendingAction>,
+    ) {
+        let label = tr_format!("saving {path}", path = file_name(&path));
+        self.start_job(JobKind::Saving, label, move |_| {
+            drawing.save(&path)?;
+            Ok(Finished::DrawingSaved { drawn: DrawnFile { drawing, path }, next })
+        });
+    }
+
+    /// Starts reading a drawing.
+    pub(super) fn read_drawing(&mut self, kind: DrawingKind, path: PathBuf) {
+        let label = tr_format!("reading {path}", path = file_name(&path));
+        self.start_job(JobKind::Shown, label, move |_| {
+            let drawing = kind.open(&path)?;
+            Ok(Finished::DrawingRead(DrawnFile { drawing, path }))
+        });
+    }
+
+    /// A drawing was saved.
+    pub(super) fn drawing_saved(&mut self, drawn: DrawnFile, next: Option<PendingAction>) {
+        self.notices.push(Notice::done(&tr_format!("saved {path}", path = drawn.path.display())));
+        self.unsaved_drawings.retain(|unsaved| unsaved.drawing != drawn.drawing);
+        self.reference.push_back(ReferenceChange::Saved(drawn));
+        if let Some(next) = next {
+            self.carry_out_safely(next);
+        }
+    }
+
+    /// Starts to crop the painting of `snapshot`.
+    pub(super) fn start_crop(&mut self, rect: Rect, snapshot: &Snapshot) {
+        let canvas = Arc::clone(&snapshot.canvas);
+        let palette = Arc::clone(&snapshot.palette);
+        let revision = snapshot.revision;
+        let epoch = self.epoch;
+        self.start_job(JobKind::Shown, tr("cropping the painting").to_owned(), move |progress| {
+            let cropped = canvas.cropped(rect);
+            progress.report(0.2)?;
+            let bytes =
+                paint::file::write(&cropped).map_err(|error| Problem::from_error(&error))?;
+            let canvas = Box::new(cropped);
+            let start = Arc::new(bytes);
+            Ok(Finished::Cropped { canvas, palette, start, revision, epoch })
+        });
+    }
+
+    /// Opens the part that stays, unless something was painted meanwhile.
+    pub(super) fn continue_cropped(
+        &mut self,
+        canvas: Box<Document>,
+        palette: Arc<Document>,
+        start: Arc<Vec<u8>>,
+        revision: u64,
+    ) {
+        let changed =
+            |state: &Arc<session::PaintingState>| state.stroke_open || state.revision != revision;
+        if self.painting.as_ref().is_none_or(changed) {
+            let text = tr("the painting changed while it was cropped");
+            return self.report(Problem::new(text, tr("crop it again")));
+        }
+        let [width, height] = [canvas.wet.width(), canvas.wet.height()]
+            .map(|cells: usize| cells as f64 * canvas.cell_mm);
+        let size = tr_format!("cropped to {width:.1} x {height:.1} mm", width, height);
+        let mixed = palette.wet.totals().iter().any(|total| *total > 0);
+        let (origin, start, text) = if mixed {
+            // A recording begins with a clean palette, so that there is none here.
+            let palette = Box::new(Arc::unwrap_or_clone(palette));
+            let text =
+                tr_format!("{size}; without a recording, as the palette keeps its paint", size);
+            (Origin::Recovered { canvas, palette, kept: None }, None, text)
+        } else {
+            (Origin::Painting(canvas), Some(start), size)
+        };
+        let commands = vec![Command::Open(origin)];
+        let files =
+            FileOrigin { path: self.path.clone(), start, changed: true, ..FileOrigin::default() };
+        self.notices.push(Notice::done(&text));
+        // Nothing is lost, so nothing is asked.
+        self.carry_out(PendingAction::Replace(Replacement { commands, origin: files }));
+    }
+
+    /// Removes and returns the oldest answer of the painter about scenes.
+    pub fn take_scene_answer(&mut self) -> Option<SceneAnswer> {
+        self.scenes.answers.pop_front()
+    }
+
+    /// Asks for the file of a scene.
+    pub fn ask_for_scene(&mut self) {
+        const KINDS: [Filter; 3] = [SCENES, SCENES_SCRIPTS, Filter::ALL];
+        let options = BrowserOptions::open(tr("Open a scene"), &KINDS);
+        self.browse(options, FilePurpose::Scene(ScenePurpose::Open));
+    }
+
+    /// Asks for the library of a scene's tubes.
+    pub fn ask_for_scene_library(&mut self) {
+        const KINDS: [Filter; 2] = [LIBRARIES, Filter::ALL];
+        let options = BrowserOptions::open(tr("Open a pigment library"), &KINDS);
+        self.browse(options, FilePurpose::Scene(ScenePurpose::Library));
+    }
+
+    /// Asks where to write a file of the scene.
+    pub fn ask_where_to_export_scene(&mut self, export: SceneExport) {
+        let (title, filters, ending): (_, &[Filter; 2], _) = match export {
+            SceneExport::Picture => {
+                (tr("Save the picture"), &[SCENES_PICTURES, Filter::ALL], "png")
+            }
+            SceneExport::Painting => {
+                (tr("Save the painting"), &[SCENES_PAINTINGS, Filter::ALL], "exr")
+            }
+            SceneExport::Script => (tr("Save the script"), &[SCENES_SCRIPTS, Filter::ALL], "toml"),
+            SceneExport::Animation => (tr("Save the animation"), &[ANIMATIONS, Filter::ALL], "gif"),
+            SceneExport::OfPainting(Export { kind, .. }) => {
+                let options = export_options(kind, &self.scene_stem());
+                return self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
+            }
+        };
+        let name = format!("{}.{ending}", self.scene_stem());
+        let ending = Some(ending);
+        let others = filters[0].endings;
+        let options = BrowserOptions { title, saving: true, filters, ending, others, name };
+        self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
+    }
+
+    /// Asks what to export of the painting that the scene makes.
+    pub fn ask_what_to_export_of_scene(&mut self) {
+        let export = Export { kind: ExportKind::Layers, pixels: PixelsPerCell::default() };
+        self.dialogs.push(OpenDialog::ExportOfScene(export));
+    }
+
+    /// The name of the scene's files, without an ending.
+    fn scene_stem(&self) -> String {
+        file_stem(self.scenes.open.as_ref().map_or("scene", |(title, _)| title))
+    }
+
+    /// Notes the painter's choice of a file.
+    pub(super) fn choose_for_scene(&mut self, purpose: ScenePurpose, path: PathBuf) {
+        self.scenes.answers.push_back(match purpose {
+            ScenePurpose::Open => {
+                self.preferences.remember(&path);
+                SceneAnswer::Open(path)
+            }
+            ScenePurpose::Library => SceneAnswer::Library(path),
+            ScenePurpose::Export(export) => SceneAnswer::Export(export, path),
+        });
+    }
+
+    /// Recovers a lost scene, by its place in the list.
+    pub(super) fn recover_scene(&mut self, index: usize) {
+        let lost = self.scenes.lost.remove(index);
+        self.scenes.answers.push_back(SceneAnswer::Recover(lost));
+    }
+
+    /// Keeps the lost scene that is being opened until it is autosaved again.
+    pub fn recovering_scene(&mut self, lost: LostSession) {
+        self.scenes.opening = Some(lost);
+    }
+
+    /// The worker has opened a scene.
+    pub fn scene_opened(&mut self, state: &SceneState) {
+        self.scenes.end();
+        let begun = Autosave::begin(&self.home.scenes());
+        let autosave = begun.map_err(|failure| self.report(failure.into())).ok();
+        self.scenes.autosave = Arc::new(Mutex::new(autosave));
+        self.scenes.open = Some((state.title.clone(), state.revision));
+        self.scenes.recovered = self.scenes.opening.take();
+        // A recovered scene is in no file.
+        let in_file = self.scenes.recovered.is_none();
+        self.scenes.saved = if in_file { state.revision } else { u64::MAX };
+        self.scenes.autosaved = self.scenes.saved;
+        (self.scenes.awaited, self.scenes.last_autosave) = (false, Instant::now());
+    }
+
+    /// The state of the scene changed.
+    pub fn scene_changed(&mut self, state: &SceneState) {
+        if let Some((_, revision)) = &mut self.scenes.open {
+            *revision = state.revision;
+        }
+    }
+
+    /// Whether the recording is wanted now, for an autosave; otherwise the window is drawn again
+    /// when it will be.
+    pub fn wants_scene_recording(&mut self) -> bool {
+        let Some((_, revision)) = &self.scenes.open else { return false };
+        let changed = self.scenes.is_changed() && self.scenes.autosaved != *revision;
+        if !changed || self.scenes.awaited {
+            return false;
+        }
+        let interval = Duration::from_secs(self.preferences.autosave_seconds).min(INTERVAL);
+        match interval.checked_sub(self.scenes.last_autosave.elapsed()) {
+            Some(left) if !left.is_zero() => {
+                self.ctx.request_repaint_after(left);
+                false
+            }
+            _ => {
+                (self.scenes.awaited, self.scenes.last_autosave) = (true, Instant::now());
+                true
+            }
+        }
+    }
+
+    /// Writes the autosave of a scene.
+    pub fn autosave_scene(&mut self, recording: &SceneRecording) {
+        self.scenes.awaited = false;
+        let Some((title, _)) = self.scenes.open.clone() else { return };
+        self.scenes.autosaved = recording.revision;
+        let path = Some(recording.folder.clone());
+        let meta = SessionMeta { title, path, seconds: now(), desk: None };
+        let autosave = self.scenes.autosave.clone();
+        let text = recording.text.clone();
+        self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
+            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(autosave) = autosave.as_mut() {
+                autosave.keep_script(&text, &meta).map_err(Problem::from)?;
+            }
+            Ok(Finished::SceneAutosaved)
+        });
+    }
+
+    /// An autosave of the scene was written: it holds what the scene was recovered from.
+    pub(super) fn scene_autosaved(&mut self) {
+        if let Some(lost) = self.scenes.recovered.take() {
+            lost.discard();
+        }
+    }
+
+    /// Saves the script of a scene in a file.
+    pub fn save_scene(&mut self, recording: &SceneRecording, path: PathBuf) {
+        let recording = recording.clone();
+        let label = tr_format!("saving {path}", path = file_name(&path));
+        self.start_job(JobKind::Saving, label, move |_| {
+            recording.save(&path).map_err(Problem::from)?;
+            Ok(Finished::SceneSaved { path, revision: recording.revision })
+        });
+    }
+
+    /// The script of the scene was saved.
+    pub(super) fn scene_saved(&mut self, path: &Path, revision: u64) {
+        self.scenes.saved = revision;
+        self.preferences.remember(path);
+        self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
+    }
+
+    /// Writes a file of the scene on a thread of its own.
+    pub(crate) fn export_scene(
+        &mut self,
+        path: PathBuf,
+        work: impl FnOnce(&Path, &Progress) -> Result<Option<Problem>, JobError> + Send + 'static,
+    ) {
+        let label = tr_format!("exporting {path}", path = file_name(&path));
+        self.start_job(JobKind::Shown, label, move |progress| {
+            let remark = work(&path, progress)?;
+            Ok(Finished::Exported { path, remark })
+        });
+    }
 }
 
 /// The browser that asks where to write an export of a painting with this title.
@@ -362,4 +671,23 @@ pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
     let ending = Some(ending);
     let others = &[][..];
     BrowserOptions { title, saving: true, filters, ending, others, name }
+}
+
+const SCENES: Filter = Filter {
+    label: english("Models, photographs and scripts"),
+    endings: &pictures_and::<11>(&["glb", "gltf", "obj", "ply", "toml"]),
+};
+const LIBRARIES: Filter = Filter { label: english("Pigment libraries"), endings: &["json"] };
+const SCENES_SCRIPTS: Filter = Filter { label: english("Scripts"), endings: &["toml"] };
+const SCENES_PICTURES: Filter = Filter { label: english("Pictures"), endings: &["png", "exr"] };
+const SCENES_PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
+const ANIMATIONS: Filter =
+    Filter { label: english("Animations"), endings: &["gif", "png", "apng"] };
+
+/// Longest time between a change and its autosave: a script is written in no time.
+const INTERVAL: Duration = Duration::from_secs(2);
+
+/// The name of a file without what cannot be in one.
+fn file_stem(title: &str) -> String {
+    title.chars().map(|letter: char| if letter.is_alphanumeric() { letter } else { '-' }).collect()
 }

@@ -8,8 +8,8 @@ use painterly::guides::Guides;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::drawing::{Drawing, DrawingKind, DrawnFile};
 use super::problem::Problem;
+use super::request::{Drawing, DrawingKind, DrawnFile};
 use crate::language::{tr, tr_format};
 use crate::pen::DrawingAids;
 

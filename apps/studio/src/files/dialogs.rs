@@ -1,17 +1,18 @@
 //! Small dialogs: questions, export, new painting, preferences.
+//!
+//! Enter presses the default button of a dialog. Enter in a field only leaves the field.
+//! A second Enter, or Ctrl+Enter at any time, presses the button.
 
 use std::path::Path;
 
-use eframe::egui::{Align, Context, DragValue, Grid, Id, Layout, Modal, RichText, Ui};
+use eframe::egui::{Align, Context, DragValue, Event, Grid, Id, Key, Layout, Modal, RichText, Ui};
 use graphics::export::PictureFormat;
 use paint::export::SpectralBands;
 use paint::scene::PixelsPerCell;
 
-use super::default_button;
-use super::drawing::DrawnFile;
-use super::exporting::{Export, ExportKind};
+use super::exporting::{Export, ExportKind, TimelapseExport};
 use super::preferences::{Backend, Preferences};
-use super::timelapse::TimelapseExport;
+use super::request::DrawnFile;
 use crate::language::{Language, english, tr, tr_format};
 use crate::pen::PenSettings;
 use crate::theme::ThemeChoice;
@@ -39,7 +40,7 @@ pub(super) fn dialog(
     content: impl FnOnce(&mut Ui),
 ) -> Option<Choice> {
     let mut choice = None;
-    let taken = default_button::keyboard_taken(ctx);
+    let taken = keyboard_taken(ctx);
     let modal = Modal::new(Id::unique(("dialog", title))).show(ctx, |ui| {
         ui.set_width(380.0);
         ui.heading(title);
@@ -60,7 +61,7 @@ pub(super) fn dialog(
             }
         });
     });
-    if choice.is_none() && default_button::pressed(ctx, taken) {
+    if choice.is_none() && pressed(ctx, taken) {
         choice = Some(Choice::Yes);
     }
     choice.or_else(|| modal.should_close().then_some(Choice::Cancelled))
@@ -276,4 +277,23 @@ pub(super) fn grid_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.label(name);
     ui.horizontal(content);
     ui.end_row();
+}
+
+/// Whether a field or button has the keyboard. Ask before the dialog is drawn: a field gives
+/// the keyboard back in the frame of its Enter.
+pub(crate) fn keyboard_taken(ctx: &Context) -> bool {
+    ctx.egui_wants_keyboard_input()
+}
+
+/// Whether the default button was pressed with the keyboard in this frame. A held key counts
+/// once. `taken` is the answer of [`keyboard_taken`] before the dialog was drawn.
+pub(crate) fn pressed(ctx: &Context, taken: bool) -> bool {
+    ctx.input(|input| {
+        input.events.iter().any(|event| match event {
+            Event::Key { key: Key::Enter, pressed: true, repeat: false, modifiers, .. } => {
+                modifiers.command || (!taken && modifiers.is_none())
+            }
+            _ => false,
+        })
+    })
 }

@@ -1,19 +1,30 @@
-//! Reads files of any kind; the kind is detected from the content, not the name.
+//! Reads files of any kind, which it detects from the content and not from the name, and the
+//! numbered revisions of a painting.
+//!
+//! Revisions lie beside `study.exr` in a folder `study.revisions` as `0001.exr` with the thumbnail
+//! `0001.png`. A revision is kept only on request, not at every save: undo and autosave cover the
+//! time between two saves.
 
-use documents::file::disk;
-use documents::file::disk::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use documents::file::disk::File;
+use documents::file::{disk, write_whole};
+use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use graphics::exr_picture::linear_picture;
 use graphics::picture_formats::begins_like_picture;
+use image::imageops::FilterType;
+use image::{ImageReader, Limits, RgbImage, RgbaImage};
 use paint::document::Document;
 use paint::file::PaintingFileError;
+use paint::light::Light;
+use paint::scene::{picture, scene};
 use paint::strokes::{SideTable, StrokeScript};
 use pigment::library::PigmentLibrary;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
+use web_time::SystemTime;
 
 use super::job::{JobError, Progress};
 use super::problem::Problem;
@@ -212,11 +223,186 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
     Ok(Opened::Recording { script: Box::new(script), library: Box::new(library), remarks })
 }
 
+/// Length of the longer side of a thumbnail, in pixels.
+const MAX_SIDE: u32 = 192;
+
+/// A numbered copy of a painting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Revision {
+    /// Number, from 1.
+    pub number: u32,
+    /// Path of its file.
+    pub path: PathBuf,
+    /// Size of its file in bytes.
+    pub bytes: u64,
+    /// Time at which it was kept, if the system knows it.
+    pub kept: Option<SystemTime>,
+    /// The thumbnail, if its file exists.
+    pub thumbnail: Option<RgbaImage>,
+}
+
+/// Folder of the revisions of the painting in `path`.
+#[must_use]
+pub(super) fn folder(path: &Path) -> PathBuf {
+    path.with_extension("revisions")
+}
+
+/// Writes `document` as the next revision of the painting in `path`, with a thumbnail under
+/// `light`. Returns the path of the revision.
+///
+/// # Errors
+/// [`JobError`] if it cannot be written.
+pub(super) fn keep(
+    path: &Path,
+    document: &Document,
+    light: &Light,
+    progress: &Progress,
+) -> Result<PathBuf, JobError> {
+    let folder = folder(path);
+    disk::create_dir_all(&folder).map_err(|error| Problem::io(&folder, "created", &error))?;
+    let number = 1 + numbers(&folder)?.into_iter().map(|(number, _)| number).max().unwrap_or(0);
+    let bytes = paint::file::write(document).map_err(|error| Problem::from_error(&error))?;
+    progress.report(0.5)?;
+    let thumbnail = thumbnail(document, light);
+    progress.report(0.9)?;
+    let mut png = std::io::Cursor::new(Vec::new());
+    thumbnail
+        .write_to(&mut png, image::ImageFormat::Png)
+        .map_err(|error| Problem::without_hint(&error))?;
+    let kept = folder.join(format!("{number:04}.exr"));
+    // The thumbnail is written first, because a revision counts as complete once its
+    // painting exists.
+    write_whole(&kept.with_extension("png"), png.get_ref()).map_err(Problem::from)?;
+    write_whole(&kept, &bytes).map_err(Problem::from)?;
+    Ok(kept)
+}
+
+/// Lists the revisions of the painting in `path`, the newest first.
+///
+/// # Errors
+/// [`JobError`] if the folder cannot be read.
+pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, JobError> {
+    let mut found = numbers(&folder(path))?;
+    found.sort_unstable_by_key(|(number, _)| std::cmp::Reverse(*number));
+    let mut revisions = Vec::with_capacity(found.len());
+    for (number, path) in found {
+        progress.report(0.0)?;
+        let Ok(file) = disk::metadata(&path) else { continue };
+        let thumbnail = read_thumbnail(&path.with_extension("png"));
+        let bytes = file.len();
+        let kept = file.modified().ok();
+        revisions.push(Revision { number, path, bytes, kept, thumbnail });
+    }
+    Ok(revisions)
+}
+
+/// Deletes the revision in `path` with its thumbnail, and the folder if it is empty then.
+///
+/// # Errors
+/// [`Problem`] if `path` is not a revision or cannot be removed.
+pub(super) fn delete(path: &Path) -> Result<(), Problem> {
+    let beside = path.parent().and_then(Path::extension).is_some_and(|end| end == "revisions");
+    if !beside || number(path).is_none() {
+        let text = format!("{}: is not a revision", path.display());
+        return Err(Problem::new(text, "delete it in a file manager"));
+    }
+    disk::remove_file(path).map_err(|error| Problem::io(path, "deleted", &error))?;
+    let _ = disk::remove_file(path.with_extension("png"));
+    // Removes the folder if it is empty now.
+    let _ = path.parent().map(disk::remove_dir);
+    Ok(())
+}
+
+fn number(path: &Path) -> Option<u32> {
+    let name = path.file_name()?.to_str()?.strip_suffix(".exr")?;
+    (name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())).then_some(())?;
+    name.parse().ok()
+}
+
+fn numbers(folder: &Path) -> Result<Vec<(u32, PathBuf)>, Problem> {
+    let entries = match disk::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => return Err(Problem::io(folder, "read", &error)),
+    };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    Ok(paths.filter_map(|path| Some((number(&path)?, path))).collect())
+}
+
+/// Renders a thumbnail of at most [`MAX_SIDE`] pixels per side, in sRGB; it is averaged in
+/// linear light.
+fn thumbnail(document: &Document, light: &Light) -> RgbImage {
+    let picture = picture(document, &scene(document, light));
+    let width = picture.width() as u32;
+    let height = picture.height() as u32;
+    let values = picture.values().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+    let Some(linear) = image::Rgb32FImage::from_raw(width, height, values) else {
+        return RgbImage::new(1, 1);
+    };
+    let longest = width.max(height).max(1);
+    let side = |length: u32| (length * MAX_SIDE.min(longest) / longest).max(1);
+    let small = image::imageops::resize(&linear, side(width), side(height), FilterType::Triangle);
+    let encoded = small.pixels().flat_map(|pixel| {
+        let linear = spectra::color::Rgb(pixel.0.map(|v| f64::from(v.clamp(0.0, 1.0))));
+        linear.encoded().0.map(|v| (v * 255.0).round() as u8)
+    });
+    RgbImage::from_raw(small.width(), small.height(), encoded.collect()).unwrap_or_default()
+}
+
+fn read_thumbnail(path: &Path) -> Option<RgbaImage> {
+    let mut reader = ImageReader::open(path).ok()?;
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(4 * MAX_SIDE);
+    limits.max_image_height = Some(4 * MAX_SIDE);
+    reader.limits(limits);
+    Some(reader.decode().ok()?.into_rgba8())
+}
+
+/// A revision with its thumbnail as a texture.
+#[derive(Clone)]
+pub struct ListedRevision {
+    /// File and number of the revision.
+    pub revision: Revision,
+    /// The thumbnail, if its file exists.
+    pub texture: Option<TextureHandle>,
+}
+
+impl std::fmt::Debug for ListedRevision {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.revision.path.fmt(formatter)
+    }
+}
+
+/// Revisions of the painting, the newest first.
+#[derive(Debug, Clone, Default)]
+pub struct RevisionList {
+    /// The painting's file. A painting without one has no revisions.
+    pub path: Option<PathBuf>,
+    /// The revisions, the newest first.
+    pub revisions: Vec<ListedRevision>,
+}
+
+impl RevisionList {
+    /// Replaces the list and uploads the thumbnails.
+    pub fn set(&mut self, ctx: &Context, path: Option<PathBuf>, revisions: Vec<Revision>) {
+        self.path = path;
+        let listed = revisions.into_iter().map(|revision| {
+            let texture = revision.thumbnail.as_ref().map(|picture| {
+                let size = [picture.width() as usize, picture.height() as usize];
+                let image = ColorImage::from_rgba_unmultiplied(size, picture.as_raw());
+                let name = revision.path.display().to_string();
+                ctx.load_texture(name, image, TextureOptions::LINEAR)
+            });
+            ListedRevision { revision, texture }
+        });
+        self.revisions = listed.collect();
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use paint::strokes::{Canvas, PaletteSpec};
-
     use super::*;
+    use paint::strokes::{Canvas, PaletteSpec};
 
     fn opened(name: &str, bytes: &[u8]) -> Result<Opened, JobError> {
         let folder = tempfile::tempdir().unwrap();

@@ -1,25 +1,25 @@
 //! The painter's preferences, a JSON file in the program's own folder.
 //!
-//! Keys that this version does not know are kept, so that older and newer versions can
-//! share the file. A value that it does not understand is reported and replaced by the
-//! default. A file that is not JSON is renamed.
+//! Keys that this version does not know are kept, so that older and newer versions can share the
+//! file. A value that it does not understand is reported and replaced by the default. A file that
+//! is not JSON is renamed.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+#[cfg(not(target_arch = "wasm32"))]
+use directories::ProjectDirs;
+use documents::file::{disk, write_whole};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use session::brushes::BrushOptions;
 
-use super::browser_look::BrowserLook;
 use super::new_canvas::KeptCanvases;
 use super::problem::Problem;
 use crate::arrangement::Arrangement;
 use crate::language::Language;
 use crate::pen::PenSettings;
 use crate::theme::{Look, ThemeChoice};
-use documents::file::disk;
-use documents::file::write_whole;
-use session::brushes::BrushOptions;
 
 /// Maximum number of recent files.
 const MAX_RECENT: usize = 12;
@@ -260,6 +260,92 @@ fn set_aside(path: &Path, error: &serde_json::Error) -> Problem {
         Err(error) => format!("the defaults are used; the file cannot be renamed: {error}"),
     };
     Problem::new(format!("{}: {error}", path.display()), hint)
+}
+
+/// Order of the files of a folder. Folders come first in each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BrowserOrder {
+    /// By name, with numbers in numerical order.
+    #[default]
+    Name,
+    /// By the time of the last change, the latest first.
+    Date,
+}
+
+/// Form and order of the files in the file browser.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct BrowserLook {
+    /// Whether files are shown as a grid of pictures rather than a list.
+    pub grid: bool,
+    /// Order of the files.
+    pub order: BrowserOrder,
+}
+
+/// The program's own folders. They need not exist yet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Home {
+    /// Folder of the preferences.
+    pub settings: PathBuf,
+    /// Folder of the autosaves.
+    pub data: PathBuf,
+}
+
+impl Home {
+    /// The usual folders of the platform, such as `~/.config/impasto` and
+    /// `~/.local/share/impasto`; `None` if the system does not name the user's home folder.
+    #[must_use]
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn for_platform() -> Option<Self> {
+        let folders = ProjectDirs::from("", "", "impasto")?;
+        let settings = folders.config_dir();
+        let data = folders.data_local_dir();
+        Some(Self { settings: settings.to_owned(), data: data.to_owned() })
+    }
+
+    /// The folders of a page.
+    #[must_use]
+    #[cfg(target_arch = "wasm32")]
+    pub fn for_platform() -> Option<Self> {
+        Some(Self { settings: PathBuf::from("/settings"), data: PathBuf::from("/data") })
+    }
+
+    /// Keeps everything in one folder.
+    #[must_use]
+    pub fn in_folder(folder: &Path) -> Self {
+        Self { settings: folder.to_owned(), data: folder.to_owned() }
+    }
+
+    /// Path of the preferences file.
+    #[must_use]
+    pub fn preferences(&self) -> PathBuf {
+        self.settings.join("preferences.json")
+    }
+
+    /// Folder of the sets of own brushes.
+    #[must_use]
+    pub fn brushes(&self) -> PathBuf {
+        self.settings.join("brushes")
+    }
+
+    /// Path of the list of kept mixtures.
+    #[must_use]
+    pub fn swatches(&self) -> PathBuf {
+        self.settings.join("swatches.json")
+    }
+
+    /// Folder that holds one folder for each scene that is not saved.
+    #[must_use]
+    pub fn scenes(&self) -> PathBuf {
+        self.data.join("scenes")
+    }
+
+    /// Folder that holds one folder for each session.
+    #[must_use]
+    pub fn sessions(&self) -> PathBuf {
+        self.data.join("sessions")
+    }
 }
 
 #[cfg(test)]

@@ -1,13 +1,17 @@
-//! Shared controls of the panels, each with an accessible name and a tooltip.
+//! Shared controls of the panels, each with an accessible name and a tooltip; folding sections,
+//! fitted text, and the order of search results.
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
+use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
-    Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense, Slider,
-    Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
+    Align, Button, Color32, CornerRadius, FontId, Galley, Id, Key, Layout, Modifiers, Painter,
+    Rect, Response, Role, Sense, Shape, Slider, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
-use crate::language::tr;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Width of the label at the left of a slider, in points.
@@ -187,6 +191,207 @@ pub(super) fn millimetres(mm: f64) -> String {
     }
 }
 
+/// Height of a heading, in points.
+const HEADING: f32 = 22.0;
+
+/// Draws a heading and, unless it is folded, `content` below it. A click on the heading folds
+/// and unfolds it.
+pub(super) fn section(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
+    let id = Id::unique(("folded section", name));
+    let mut folded = ui.data(|data| data.get_temp::<bool>(id).unwrap_or(false));
+    let label =
+        if folded { tr_format!("Unfold {name}", name) } else { tr_format!("Fold {name}", name) };
+    let response = row(ui, HEADING, &label, false);
+    let (sign, rest) = response.rect.split_left_right_at_x(response.rect.left() + 18.0);
+    ui.painter().add(triangle(sign, folded, theme::colors(ui.ctx()).text));
+    let strong = theme::colors(ui.ctx()).strong;
+    text(ui, rest, Align::Min, TextStyle::Body, strong, name);
+    if response.on_hover_text(tr("Folds and unfolds this part")).clicked() {
+        folded = !folded;
+        ui.data_mut(|data| data.insert_temp(id, folded));
+    }
+    if !folded {
+        content(ui);
+    }
+}
+
+/// A triangle that points right if the part is folded, else down.
+fn triangle(rect: Rect, folded: bool, color: Color32) -> Shape {
+    let points = match folded {
+        true => [vec2(-2.0, -4.0), vec2(3.0, 0.0), vec2(-2.0, 4.0)],
+        false => [vec2(-4.0, -2.0), vec2(4.0, -2.0), vec2(0.0, 3.0)],
+    };
+    let points = points.map(|offset| rect.center() + offset).to_vec();
+    Shape::convex_polygon(points, color, Stroke::NONE)
+}
+
+/// Smallest font, in points.
+const SMALLEST: f32 = 9.0;
+
+/// Space that a line of text may take above and below its rectangle, in points.
+const OVER: f32 = 2.0;
+
+/// Draws text within a rectangle, centred vertically: on one line, or on as many lines as
+/// there is room for, or in a smaller font. Only what does not fit even so is truncated.
+pub(super) fn text(
+    ui: &Ui,
+    rect: Rect,
+    align: Align,
+    style: TextStyle,
+    color: Color32,
+    words: &str,
+) {
+    let laid = fitted(ui, rect, align, style, color, words);
+    let top = rect.center().y - laid.size().y / 2.0;
+    draw(ui, rect, align, top, laid, color);
+}
+
+/// Draws text as [`text`] does, from the top of the rectangle.
+pub(super) fn text_from_top(
+    ui: &Ui,
+    rect: Rect,
+    align: Align,
+    style: TextStyle,
+    color: Color32,
+    words: &str,
+) {
+    let laid = fitted(ui, rect, align, style, color, words);
+    draw(ui, rect, align, rect.top(), laid, color);
+}
+
+/// Whether text fits into a rectangle on one line in its own font.
+pub(super) fn fits_on_a_line(ui: &Ui, rect: Rect, style: TextStyle, words: &str) -> bool {
+    let font = style.resolve(ui.style());
+    let laid = ui.painter().layout_no_wrap(words.to_owned(), font, Color32::PLACEHOLDER);
+    laid.size().x <= rect.width()
+}
+
+fn draw(ui: &Ui, rect: Rect, align: Align, top: f32, laid: Arc<Galley>, color: Color32) {
+    let x = match align {
+        Align::Min => rect.left(),
+        Align::Center => rect.center().x,
+        Align::Max => rect.right(),
+    };
+    ui.painter_at(rect.expand(OVER)).galley(pos2(x, top), laid, color);
+}
+
+/// Lays text out in the largest font in which it fits.
+fn fitted(
+    ui: &Ui,
+    rect: Rect,
+    align: Align,
+    style: TextStyle,
+    color: Color32,
+    words: &str,
+) -> Arc<Galley> {
+    let usual = style.resolve(ui.style());
+    let lay = |size: f32| {
+        let font = FontId { size, family: usual.family.clone() };
+        let height = ui.fonts_mut(|fonts| fonts.row_height(&font));
+        let rows = ((rect.height() + 2.0 * OVER) / height).floor().max(1.0);
+        let mut job = LayoutJob::simple(words.to_owned(), font, color, rect.width());
+        job.wrap = TextWrapping {
+            max_width: rect.width(),
+            max_rows: rows as usize,
+            ..TextWrapping::default()
+        };
+        job.halign = align;
+        ui.painter().layout_job(job)
+    };
+    let mut size = usual.size;
+    let mut laid = lay(size);
+    while !is_whole(&laid) && size > SMALLEST {
+        size = (size - 0.5).max(SMALLEST);
+        laid = lay(size);
+    }
+    laid
+}
+
+/// Whether nothing is truncated, and no word is broken.
+fn is_whole(laid: &Galley) -> bool {
+    let broken = |row: &str| !row.ends_with(|last: char| !last.is_alphanumeric());
+    let rows = laid.rows.len();
+    let all_but_last = laid.rows.iter().take(rows.saturating_sub(1));
+    !laid.elided && all_but_last.map(|row| row.text()).all(|row| !broken(&row))
+}
+
+/// How well a name matches what was typed, the best first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Match {
+    /// It is the whole name.
+    Exact,
+    /// The name begins with it.
+    Start,
+    /// Another word of the name begins with it.
+    Word,
+    /// The name contains it.
+    Inside,
+    /// Something else that is searched contains it.
+    Elsewhere,
+}
+
+impl Match {
+    /// How well `name` matches `wanted`, ignoring case.
+    pub(super) fn of(name: &str, wanted: &str) -> Self {
+        let name = name.to_lowercase();
+        let wanted = wanted.trim().to_lowercase();
+        if name == wanted {
+            Self::Exact
+        } else if name.starts_with(&wanted) {
+            Self::Start
+        } else if name.match_indices(&wanted).any(|(at, _): (usize, &str)| {
+            name[..at].chars().next_back().is_some_and(|before| !before.is_alphanumeric())
+        }) {
+            Self::Word
+        } else if name.contains(&wanted) {
+            Self::Inside
+        } else {
+            Self::Elsewhere
+        }
+    }
+}
+
+/// Sorts what was found: the best matches first, equal ones in the order that they had.
+pub(super) fn sort<'a, T>(found: &mut [T], wanted: &str, name: impl Fn(&T) -> &'a str) {
+    if !wanted.trim().is_empty() {
+        found.sort_by_key(|one| Match::of(name(one), wanted));
+    }
+}
+
+/// The line of a list that Enter takes; the arrow keys move it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Highlight {
+    line: usize,
+    search: String,
+    /// Whether the list must scroll to the line.
+    pub(super) moved: bool,
+}
+
+impl Highlight {
+    /// Takes the arrow keys while the field of the search has the keyboard. Call before the field
+    /// is drawn, which would move its cursor with them.
+    pub(super) fn read_arrows(&mut self, ui: &Ui, focused: bool) {
+        if !focused {
+            return;
+        }
+        let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
+        let down = pressed(Key::ArrowDown);
+        let up = pressed(Key::ArrowUp);
+        self.line = (self.line + down).saturating_sub(up);
+        self.moved |= down + up > 0;
+    }
+
+    /// The highlighted one of `count` lines found by `search`; the first after the search changed.
+    pub(super) fn among(&mut self, search: &str, count: usize) -> usize {
+        if self.search != search {
+            (self.line, self.moved) = (0, true);
+            search.clone_into(&mut self.search);
+        }
+        self.line = self.line.min(count.saturating_sub(1));
+        self.line
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,5 +402,28 @@ mod tests {
         let wanted =
             ["0.00 mm", "below 0.001 mm", "0.012 mm", "0.12 mm", "1.2 mm", "12 mm", "100 mm"];
         assert_eq!(found, wanted);
+    }
+
+    #[test]
+    fn the_whole_name_comes_before_its_beginning_and_that_before_the_rest() {
+        let mut names = vec!["Cobalt", "Lead-Tin Red", "Minium red", "Predella", "Red Lead", "red"];
+        sort(&mut names, "RED ", |name| name);
+        let wanted = ["red", "Red Lead", "Lead-Tin Red", "Minium red", "Predella", "Cobalt"];
+        assert_eq!(names, wanted);
+        let mut lights = vec!["D65", "B", "A", "ID65"];
+        sort(&mut lights, "a", |name| name);
+        assert_eq!(lights[0], "A");
+        sort(&mut lights, "", |name| name);
+        assert_eq!(lights[0], "A", "no search, no order");
+    }
+
+    #[test]
+    fn another_search_begins_at_the_first_line() {
+        let mut highlight = Highlight { line: 4, ..Highlight::default() };
+        assert_eq!(highlight.among("a", 9), 0);
+        highlight.line = 7;
+        assert_eq!((highlight.among("a", 9), highlight.among("a", 3)), (7, 2));
+        assert_eq!(highlight.among("ab", 3), 0);
+        assert_eq!(highlight.among("abc", 0), 0, "nothing was found");
     }
 }

@@ -1,13 +1,6 @@
 //! The panels. Each shows the state that the worker last reported and queues requests.
-
-mod tools;
 mod context;
-mod laying;
-mod pending_value;
 mod controls;
-mod search;
-mod fitted_text;
-mod section;
 mod pigments;
 pub mod eyedropper;
 pub mod wheel;
@@ -23,9 +16,7 @@ pub mod own_brushes;
 pub mod aids;
 pub mod figures;
 pub mod volumes;
-pub mod revisions;
 
 pub use crate::files::FileRequest;
-pub use context::{PanelContext, Request};
+pub use context::{Mode, PanelContext, Request, Tools};
 pub(crate) use controls::small_button;
-pub use tools::{Mode, Tools};

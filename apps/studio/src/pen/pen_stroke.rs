@@ -1,19 +1,18 @@
-//! Turns the states of a pressed device into samples of a stroke.
-
-use web_time::{Duration, Instant};
+//! Turns the states of a pressed device into samples of a stroke, by the settings of the pen and
+//! the options of the brush.
 
 use eframe::egui::{Pos2, Vec2};
 use paint::pose::Sample;
 use paint::strokes::SurfaceId;
+use session::PenSample;
+use session::brushes::{BrushOptions, StabiliserMethod, TiltUse, TwistUse};
+use web_time::{Duration, Instant};
 
 use super::aids::{Guide, Lead};
-use super::handling::Handling;
-use super::heading::Heading;
 use super::report::{Device, PointerState};
-use super::speed::SpeedPressure;
-use super::stabiliser::{Stabiliser, distance};
+use super::settings::{Grip, PenSettings};
+use super::stabiliser::{SpeedPressure, Stabiliser, distance};
 use super::transform::SurfaceTransform;
-use session::PenSample;
 
 /// Time without reports after which a pen counts as still. A sample is then added at its
 /// position, because the smoothed path of the brush lags one sample behind.
@@ -366,4 +365,203 @@ pub(super) fn brush_sample(
     let tilt_x_deg = tilt.0.clamp(-90.0, 90.0);
     let tilt_y_deg = tilt.1.clamp(-90.0, 90.0);
     Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg }
+}
+
+/// The general settings and the options of the brush in hand, which come first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Handling<'a> {
+    /// The general settings.
+    pub(super) settings: &'a PenSettings,
+    /// Options of the brush in hand.
+    pub(super) options: &'a BrushOptions,
+}
+
+impl Handling<'_> {
+    /// Pressure of the brush for one that the device measures, 0 to 1.
+    pub(super) fn pressure(&self, measured: f64) -> f64 {
+        let curve = self.options.curve.as_ref().unwrap_or(&self.settings.curve);
+        self.options.in_range(curve.at(measured))
+    }
+
+    /// Pressure of the brush for one that follows from the speed of a device without pressure.
+    pub(super) fn pressure_by_speed(&self, pressure: f64) -> f64 {
+        self.options.in_range(pressure)
+    }
+
+    /// Tilt in the window, in degrees.
+    pub(super) fn tilt_deg(&self, state: &PointerState) -> (f64, f64) {
+        let grip = self.settings.grip;
+        let measured = match self.options.tilt {
+            TiltUse::AsSet => state.tilt_deg.filter(|_| self.settings.pen_tilt),
+            TiltUse::Pen => state.tilt_deg,
+            TiltUse::Ignored => None,
+            TiltUse::Fixed(lean_deg) => return Grip { lean_deg, ..grip }.tilt_deg(),
+        };
+        measured.unwrap_or_else(|| grip.tilt_deg())
+    }
+
+    /// Rotation in the window that the device measures, in degrees, if it moves the brush.
+    pub(super) fn measured_twist(&self, state: &PointerState) -> Option<f64> {
+        match self.options.twist {
+            TwistUse::AsSet => state.twist_deg.filter(|_| self.settings.pen_tilt),
+            TwistUse::Device => state.twist_deg,
+            TwistUse::Stroke | TwistUse::Fixed(_) => None,
+        }
+    }
+
+    /// Rotation in the window at the start of a stroke, in degrees, if none is measured.
+    pub(super) fn first_twist(&self) -> f64 {
+        match self.options.twist {
+            TwistUse::Fixed(degrees) => degrees,
+            _ => self.settings.grip.twist_deg,
+        }
+    }
+
+    /// Whether the broad side turns across the direction of the stroke, if no rotation is measured.
+    pub(super) fn follows(&self) -> bool {
+        match self.options.twist {
+            TwistUse::AsSet | TwistUse::Device => self.settings.follow,
+            TwistUse::Stroke => true,
+            TwistUse::Fixed(_) => false,
+        }
+    }
+
+    /// Method of the stabiliser, and its length in mm on a surface that is shown like this.
+    pub(super) fn stabiliser(&self, transform: &SurfaceTransform) -> (StabiliserMethod, f64) {
+        let settings = self.options.stabiliser.unwrap_or(self.settings.stabiliser);
+        let scale = match settings.unit {
+            session::brushes::LengthUnit::Mm => 1.0,
+            session::brushes::LengthUnit::Px => transform.mm_per_point(),
+        };
+        (settings.method, settings.length * scale)
+    }
+}
+
+/// Path length in points over which the brush turns: the remaining angle falls by a factor
+/// of e.
+const TURNING_POINTS: f64 = 30.0;
+
+/// Path length in points over which the direction of the stroke is averaged: single steps
+/// of a mouse are a few whole points, so their directions jump by up to 45 degrees.
+const AVERAGED_POINTS: f64 = 20.0;
+
+/// Path length in points at which the direction at the start of a stroke is taken. Shorter
+/// ones give a coarse direction, longer ones a later start.
+const START_POINTS: f64 = 8.0;
+
+/// Rotation of a brush that follows its stroke.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heading {
+    /// Rotation in the window, clockwise, in degrees.
+    twist: f64,
+    /// Recent way of the stroke in points; older steps weigh less.
+    way: (f64, f64),
+    /// Path length in points.
+    path: f64,
+    /// Whether the rotation at the start of the stroke is settled.
+    started: bool,
+}
+
+impl Heading {
+    /// A stroke without direction, with this rotation of the brush.
+    pub(super) fn new(twist: f64) -> Self {
+        Self { twist, way: (0.0, 0.0), path: 0.0, started: false }
+    }
+
+    /// Rotation of the brush in the window, clockwise, in degrees.
+    pub(super) fn twist(&self) -> f64 {
+        self.twist
+    }
+
+    /// Whether the rotation at the start of the stroke is settled.
+    pub(super) fn is_started(&self) -> bool {
+        self.started
+    }
+
+    /// Whether the stroke is long enough to tell its direction.
+    pub(super) fn is_clear(&self) -> bool {
+        self.path >= START_POINTS
+    }
+
+    /// Adds a step of the stroke. Once started, the brush turns gradually across the direction.
+    pub(super) fn add(&mut self, step: Vec2) {
+        let length = f64::from(step.length());
+        if length == 0.0 {
+            return;
+        }
+        let kept = (-length / AVERAGED_POINTS).exp();
+        self.way = (self.way.0 * kept + f64::from(step.x), self.way.1 * kept + f64::from(step.y));
+        self.path += length;
+        if self.started {
+            self.twist += self.off() * (1.0 - (-length / TURNING_POINTS).exp());
+        }
+    }
+
+    /// Settles the rotation at the start: across the direction so far, if there is one.
+    pub(super) fn start(&mut self) {
+        self.started = true;
+        if self.path > 0.0 {
+            self.twist += self.off();
+        }
+    }
+
+    /// Angle from the broad side to the line across the direction, in degrees. The broad side
+    /// has no direction, so it is taken modulo 180 degrees.
+    fn off(&self) -> f64 {
+        let across = self.way.1.atan2(self.way.0).to_degrees() + 90.0;
+        (across - self.twist + 90.0).rem_euclid(180.0) - 90.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::Pos2;
+    use session::brushes::PressureCurve;
+
+    fn state() -> PointerState {
+        let tilt_deg = Some((20.0, -10.0));
+        let twist_deg = Some(70.0);
+        PointerState { tilt_deg, twist_deg, ..PointerState::at(Pos2::ZERO) }
+    }
+
+    #[test]
+    fn options_of_the_brush_come_before_the_general_settings() {
+        let general = PenSettings { curve: PressureCurve::Power(2.0), ..PenSettings::default() };
+        let plain = BrushOptions::default();
+        let handling = Handling { settings: &general, options: &plain };
+        assert_eq!((handling.pressure(0.5), handling.tilt_deg(&state())), (0.25, (20.0, -10.0)));
+        assert_eq!((handling.measured_twist(&state()), handling.follows()), (Some(70.0), true));
+        let own = BrushOptions {
+            tilt: TiltUse::Ignored,
+            twist: TwistUse::Fixed(40.0),
+            range: [0.5, 1.0],
+            curve: Some(PressureCurve::LINEAR),
+            stabiliser: None,
+        };
+        let handling = Handling { options: &own, ..handling };
+        assert_eq!((handling.pressure(0.5), handling.pressure_by_speed(0.2)), (0.75, 0.6));
+        assert_eq!(handling.tilt_deg(&state()), general.grip.tilt_deg());
+        let twist = (handling.measured_twist(&state()), handling.first_twist(), handling.follows());
+        assert_eq!(twist, (None, 40.0, false));
+    }
+
+    #[test]
+    fn a_brush_uses_the_pen_although_the_general_settings_do_not() {
+        let general = PenSettings { pen_tilt: false, follow: false, ..PenSettings::default() };
+        let plain = BrushOptions::default();
+        let handling = Handling { settings: &general, options: &plain };
+        assert_eq!(handling.tilt_deg(&state()), general.grip.tilt_deg());
+        assert_eq!(handling.measured_twist(&state()), None);
+        let own = BrushOptions { tilt: TiltUse::Pen, twist: TwistUse::Device, ..plain.clone() };
+        let handling = Handling { options: &own, ..handling };
+        assert_eq!(handling.tilt_deg(&state()), (20.0, -10.0));
+        assert_eq!(handling.measured_twist(&state()), Some(70.0));
+        let own =
+            BrushOptions { tilt: TiltUse::Fixed(60.0), twist: TwistUse::Stroke, ..plain.clone() };
+        let handling = Handling { options: &own, ..handling };
+        let (x, y) = handling.tilt_deg(&state());
+        let lean = x.to_radians().tan().hypot(y.to_radians().tan()).atan().to_degrees();
+        assert!((lean - 60.0).abs() < 1e-9 && handling.follows(), "{lean}");
+    }
 }

@@ -1,12 +1,9 @@
-//! Reports of mice and fingers, made from egui's events.
-
-use web_time::{Duration, Instant};
+//! Reports of mice and fingers, made from egui's events, and taps of several fingers at once.
 
 use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
+use web_time::{Duration, Instant};
 
-use super::report::{Device, PointerState, Report, ReportKind};
-use super::stamps::{Stamp, Stamps, filled};
-use super::taps::{Tap, Taps};
+use super::report::{Device, PointerState, Report, ReportKind, Stamp, Stamps, filled};
 
 /// Distance after which a moving finger paints, in points. Until then a second finger can
 /// turn the touch into a gesture.
@@ -209,11 +206,82 @@ fn is_of_touch(event: &Event, next: Option<&Event>) -> bool {
     }
 }
 
+/// Time within which all fingers of a tap come down.
+const DOWN: Duration = Duration::from_millis(250);
+
+/// Time within which all of them are lifted, from the first contact.
+const UP: Duration = Duration::from_millis(450);
+
+/// Distance in points by which a finger of a tap may move.
+const STILL: f32 = 10.0;
+
+/// A tap of several fingers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tap {
+    /// Number of fingers, 2 or more.
+    pub(super) fingers: usize,
+    /// Place of the first contact.
+    pub(super) at: Pos2,
+}
+
+/// The fingers since the first one came down.
+#[derive(Debug, Default)]
+pub(super) struct Taps {
+    since: Option<Instant>,
+    /// All fingers that came down, with their first places.
+    fingers: Vec<(TouchId, Pos2)>,
+    /// Number of fingers that are down.
+    down: usize,
+    /// Whether this cannot be a tap any more.
+    spoiled: bool,
+}
+
+impl Taps {
+    /// Reads an event of the frame at `now`. Returns the tap that ends with it.
+    pub(super) fn read(&mut self, event: &Event, now: Instant) -> Option<Tap> {
+        let Event::Touch { id, phase, pos, .. } = *event else { return None };
+        let since = match (phase, self.since) {
+            (TouchPhase::Start, None) => *self.since.insert(now),
+            (_, since) => since?,
+        };
+        let age = now.saturating_duration_since(since);
+        let first = self.fingers.iter().rfind(|(finger, _)| *finger == id).map(|(_, at)| *at);
+        self.spoiled |= match phase {
+            TouchPhase::Start => age > DOWN,
+            TouchPhase::Move => first.is_some_and(|first| first.distance(pos) > STILL),
+            TouchPhase::End => age > UP || first.is_some_and(|first| first.distance(pos) > STILL),
+            TouchPhase::Cancel => true,
+        };
+        match phase {
+            TouchPhase::Start => {
+                self.fingers.push((id, pos));
+                self.down += 1;
+                None
+            }
+            TouchPhase::Move => None,
+            TouchPhase::End | TouchPhase::Cancel => {
+                self.down = self.down.saturating_sub(1);
+                if self.down > 0 {
+                    return None;
+                }
+                let Self { fingers, spoiled, .. } = std::mem::take(self);
+                let (_, at) = *fingers.first()?;
+                (!spoiled && fingers.len() > 1).then_some(Tap { fingers: fingers.len(), at })
+            }
+        }
+    }
+
+    /// Notes that a finger paints: until all are lifted, this is no tap.
+    pub(super) fn paints(&mut self) {
+        self.spoiled |= self.since.is_some();
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use eframe::egui::{Modifiers, TouchDeviceId, pos2};
-
     use super::*;
+    use TouchPhase::{Cancel, End, Move, Start};
+    use eframe::egui::{Modifiers, TouchDeviceId, pos2};
 
     fn touch(id: u64, phase: TouchPhase, x: f32) -> Event {
         let device_id = TouchDeviceId(0);
@@ -283,21 +351,21 @@ mod tests {
         let mut pointer = Pointer::default();
         let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
         // egui adds these pointer events for a finger.
-        let down = [touch(1, TouchPhase::Start, 0.0), button(true)];
+        let down = [touch(1, Start, 0.0), button(true)];
         assert_eq!(frame(0, &down), "");
-        let moved = [touch(1, TouchPhase::Move, 4.0), Event::PointerMoved(pos2(4.0, 0.0))];
+        let moved = [touch(1, Move, 4.0), Event::PointerMoved(pos2(4.0, 0.0))];
         assert_eq!(frame(16, &moved), "");
-        assert_eq!(frame(32, &[touch(1, TouchPhase::Move, 9.0)]), "PMM");
-        assert_eq!(frame(48, &[touch(1, TouchPhase::Move, 30.0)]), "M");
-        assert_eq!(frame(64, &[touch(1, TouchPhase::End, 30.0), button(false)]), "Rr");
+        assert_eq!(frame(32, &[touch(1, Move, 9.0)]), "PMM");
+        assert_eq!(frame(48, &[touch(1, Move, 30.0)]), "M");
+        assert_eq!(frame(64, &[touch(1, End, 30.0), button(false)]), "Rr");
         // A finger that rests in place.
         assert_eq!(frame(100, &down), "");
         assert_eq!(frame(160, &[]), "");
         assert_eq!(frame(180, &[]), "P");
-        assert_eq!(frame(190, &[touch(1, TouchPhase::End, 0.0)]), "R");
+        assert_eq!(frame(190, &[touch(1, End, 0.0)]), "R");
         // A tap is a short press at one place.
         assert_eq!(frame(300, &down), "");
-        assert_eq!(frame(310, &[touch(1, TouchPhase::End, 0.0)]), "PR");
+        assert_eq!(frame(310, &[touch(1, End, 0.0)]), "PR");
     }
 
     #[test]
@@ -305,14 +373,14 @@ mod tests {
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let press = [button(true), touch(1, TouchPhase::Start, 1.0)];
+        let press = [button(true), touch(1, Start, 1.0)];
         assert_eq!(letters(&pointer.reports(&press, at(0))), "");
-        let moved = [Event::PointerMoved(pos2(20.0, 0.0)), touch(1, TouchPhase::Move, 20.0)];
+        let moved = [Event::PointerMoved(pos2(20.0, 0.0)), touch(1, Move, 20.0)];
         assert_eq!(letters(&pointer.reports(&moved, at(10))), "PM");
-        let lifted = [button(false), Event::PointerGone, touch(1, TouchPhase::End, 20.0)];
+        let lifted = [button(false), Event::PointerGone, touch(1, End, 20.0)];
         assert_eq!(letters(&pointer.reports(&lifted, at(20))), "R");
         // A mouse elsewhere stays one.
-        let both = [button(true), touch(2, TouchPhase::Start, 50.0)];
+        let both = [button(true), touch(2, Start, 50.0)];
         assert_eq!(letters(&pointer.reports(&both, at(30))), "p");
     }
 
@@ -322,16 +390,16 @@ mod tests {
         let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
         let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
-        let first = touch(1, TouchPhase::Start, 0.0);
-        let pinch = [first.clone(), touch(2, TouchPhase::Start, 50.0)];
+        let first = touch(1, Start, 0.0);
+        let pinch = [first.clone(), touch(2, Start, 50.0)];
         assert_eq!(frame(0, &pinch), "");
-        assert_eq!(frame(200, &[touch(1, TouchPhase::Move, 90.0)]), "");
-        assert_eq!(frame(210, &[touch(1, TouchPhase::End, 90.0)]), "");
-        assert_eq!(frame(220, &[touch(2, TouchPhase::Move, 90.0)]), "");
-        assert_eq!(frame(230, &[touch(2, TouchPhase::End, 90.0)]), "");
-        assert_eq!(frame(300, &[first, touch(1, TouchPhase::Move, 20.0)]), "PM");
-        assert_eq!(frame(310, &[touch(2, TouchPhase::Start, 50.0)]), "R");
-        assert_eq!(frame(320, &[touch(1, TouchPhase::Move, 60.0)]), "");
+        assert_eq!(frame(200, &[touch(1, Move, 90.0)]), "");
+        assert_eq!(frame(210, &[touch(1, End, 90.0)]), "");
+        assert_eq!(frame(220, &[touch(2, Move, 90.0)]), "");
+        assert_eq!(frame(230, &[touch(2, End, 90.0)]), "");
+        assert_eq!(frame(300, &[first, touch(1, Move, 20.0)]), "PM");
+        assert_eq!(frame(310, &[touch(2, Start, 50.0)]), "R");
+        assert_eq!(frame(320, &[touch(1, Move, 60.0)]), "");
     }
 
     #[test]
@@ -343,8 +411,8 @@ mod tests {
             (letters(&reports), pointer.tapped().map(|tap| (tap.fingers, tap.at.x)))
         };
         let none = |letters: &str| (letters.to_owned(), None);
-        let [first, second] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, TouchPhase::Start, x));
-        let [end, last] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, TouchPhase::End, x));
+        let [first, second] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, Start, x));
+        let [end, last] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, End, x));
         assert_eq!(frame(0, std::slice::from_ref(&first)), none(""));
         assert_eq!(frame(50, std::slice::from_ref(&second)), none(""));
         assert_eq!(frame(90, std::slice::from_ref(&last)), none(""));
@@ -358,7 +426,54 @@ mod tests {
         // All in one slow frame, once with a stroke before the second finger.
         let whole = [first.clone(), second.clone(), end.clone(), last.clone()];
         assert_eq!(frame(2000, &whole), (String::new(), Some((2, 7.0))));
-        let stroke = touch(1, TouchPhase::Move, 16.0);
+        let stroke = touch(1, Move, 16.0);
         assert_eq!(frame(3000, &[first, stroke, second, end, last]), none("PMR"));
+    }
+
+    /// Fingers with the time of an event in ms, its place, and its phase.
+    type Script<'a> = &'a [(u64, u64, f32, TouchPhase)];
+
+    /// Number of fingers of the taps in a script.
+    fn taps(script: Script<'_>) -> Vec<usize> {
+        let mut taps = Taps::default();
+        let start = Instant::now();
+        let found = script.iter().filter_map(|&(id, ms, x, phase)| {
+            let device_id = TouchDeviceId(0);
+            let id = TouchId(id);
+            let pos = pos2(x, 0.0);
+            let event = Event::Touch { device_id, id, phase, pos, force: None };
+            taps.read(&event, start + Duration::from_millis(ms)).map(|tap| tap.fingers)
+        });
+        found.collect()
+    }
+
+    #[test]
+    fn fingers_that_touch_together_and_rest_are_a_tap() {
+        let two = [(1, 0, 0.0, Start), (2, 60, 50.0, Start), (1, 90, 4.0, Move)];
+        let two: Vec<_> =
+            two.into_iter().chain([(1, 150, 4.0, End), (2, 200, 55.0, End)]).collect();
+        assert_eq!(taps(&two), [2]);
+        let three = [(1, 0, 0.0, Start), (2, 60, 50.0, Start), (3, 80, 90.0, Start)];
+        let ends = [(3, 200, 90.0, End), (2, 210, 50.0, End), (1, 220, 0.0, End)];
+        let three: Vec<_> = three.into_iter().chain(ends).collect();
+        assert_eq!(taps(&three), [3]);
+        let later = three.iter().map(|&(id, ms, x, phase)| (id, ms + 9000, x, phase));
+        assert_eq!(taps(&two.iter().copied().chain(later).collect::<Vec<_>>()), [2, 3]);
+    }
+
+    #[test]
+    fn one_finger_a_late_a_long_a_moved_and_a_cancelled_one_are_none() {
+        let two = |late: u64, moved: f32, end: u64, phase| {
+            let down = [(1, 0, 0.0, Start), (2, late, 50.0, Start), (2, late, 50.0 + moved, Move)];
+            let up = [(1, end, 0.0, End), (2, end, 50.0, phase)];
+            taps(&down.into_iter().chain(up).collect::<Vec<_>>())
+        };
+        assert_eq!(two(250, 10.0, 450, End), [2], "as late as it may be");
+        assert_eq!(two(251, 0.0, 300, End), [0_usize; 0], "the second finger is late");
+        assert_eq!(two(10, 10.5, 100, End), [0_usize; 0], "one moved");
+        assert_eq!(two(10, 0.0, 451, End), [0_usize; 0], "they rested too long");
+        assert_eq!(two(10, 0.0, 100, Cancel), [0_usize; 0], "the system took it");
+        assert_eq!(taps(&[(1, 0, 0.0, Start), (1, 90, 0.0, End)]), [0_usize; 0], "a single one");
+        assert_eq!(taps(&[(1, 0, 0.0, End)]), [0_usize; 0], "one that never came down");
     }
 }

@@ -1,12 +1,16 @@
 //! Styluses of the window system: X11, Wayland or Windows, and the times of its mice.
 
-use web_time::{Duration, Instant};
-
 use eframe::CreationContext;
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput};
+#[cfg(target_os = "linux")]
+use wayland_client::globals::{GlobalListContents, registry_queue_init};
+#[cfg(target_os = "linux")]
+use wayland_client::protocol::wl_registry::{Event as WaylandEvent, WlRegistry};
+#[cfg(target_os = "linux")]
+use wayland_client::{Connection, Dispatch, QueueHandle};
+use web_time::{Duration, Instant};
 
-use super::report::{Report, ReportKind};
-use super::stamps::Stamp;
+use super::report::{Report, ReportKind, Stamp};
 use super::tablet::Tablet;
 #[cfg(target_os = "linux")]
 use super::x11::X11Pens;
@@ -56,7 +60,7 @@ impl Systems {
                 }
                 return systems;
             }
-            match super::wayland::tablet_version() {
+            match tablet_version() {
                 Some(version) if version > TABLET_VERSION => {
                     systems.notice = Some(format!(
                         "pens act as mice: the compositor uses version {version} of the tablet \
@@ -148,12 +152,39 @@ fn emulate_pointer(
     }
 }
 
+#[cfg(target_os = "linux")]
+struct Globals;
+
+#[cfg(target_os = "linux")]
+impl Dispatch<WlRegistry, GlobalListContents> for Globals {
+    fn event(
+        _: &mut Self,
+        _: &WlRegistry,
+        _: WaylandEvent,
+        _: &GlobalListContents,
+        _: &Connection,
+        _: &QueueHandle<Self>,
+    ) {
+    }
+}
+
+/// Version of `zwp_tablet_manager_v2` that the compositor offers, queried on a separate
+/// connection; `None` if it offers none.
+#[cfg(target_os = "linux")]
+pub(super) fn tablet_version() -> Option<u32> {
+    let connection = Connection::connect_to_env().ok()?;
+    let (globals, _) = registry_queue_init::<Globals>(&connection).ok()?;
+    globals.contents().with_list(|list| {
+        let found = list.iter().find(|global| global.interface == "zwp_tablet_manager_v2");
+        found.map(|global| global.version)
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use eframe::egui::pos2;
-
     use super::super::report::{Device, PointerState};
     use super::*;
+    use eframe::egui::pos2;
 
     #[test]
     fn a_stylus_moves_the_pointer_where_the_system_does_not() {

@@ -1,27 +1,28 @@
-//! Tests of the pen module as a whole, without a window.
-
-use web_time::{Duration, Instant};
+//! Tests of pen input without a window, from reports of a device to samples: plain, led by a
+//! guide, and stabilised.
 
 use eframe::egui::{
-    Event, Modifiers, PointerButton, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2,
+    Event, Modifiers, PointerButton, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2, vec2,
 };
 use paint::pose::Sample;
 use paint::strokes::{SampleDecimals, SurfaceId};
+use session::PenSample;
+use session::brushes::{LengthUnit, StabiliserMethod, StabiliserSettings};
+use web_time::{Duration, Instant};
 
 use super::{
-    Device, Pen, PenEvent, PenSettings, PenTargets, PointerState, Report, ReportKind, Script,
-    SurfaceTransform,
+    Device, Guide, Pen, PenEvent, PenSettings, PenTargets, Perspective, PointerState, Report,
+    ReportKind, Ruler, RulerShape, Script, SurfaceTransform, TestField,
 };
-use session::PenSample;
 
 /// Canvas and palette at 4 points per mm; the palette begins at x = 800.
 fn transforms() -> [SurfaceTransform; 2] {
-    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), eframe::egui::vec2(width, 600.0));
+    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), vec2(width, 600.0));
     let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
     [
         SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
         SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at: Pos2| {
-            mm(at - eframe::egui::vec2(800.0, 0.0))
+            mm(at - vec2(800.0, 0.0))
         }),
     ]
 }
@@ -408,4 +409,351 @@ fn a_tap_beside_a_surface_or_of_a_hand_that_holds_a_pen_is_none() {
     test.feed(190, ReportKind::Moved(state(300.0, 0.0)));
     assert_eq!(letters(&test.frame(200, &tap(300.0))), "H", "the pen is near");
     assert_eq!(letters(&test.frame(900, &tap(300.0))), "T", "it is gone");
+}
+
+/// Canvas of 200 x 150 mm at 4 points per mm; right of it the palette, which begins at 0 mm too.
+fn both_surfaces() -> [SurfaceTransform; 2] {
+    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), vec2(width, 600.0));
+    let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
+    [
+        SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
+        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at| {
+            mm(at - vec2(800.0, 0.0))
+        }),
+    ]
+}
+
+/// A pen at a place in mm of the canvas, without twist.
+fn hold(x_mm: f64, y_mm: f64) -> PointerState {
+    let at = pos2(4.0 * x_mm as f32, 4.0 * y_mm as f32);
+    PointerState { pressure: Some(0.5), ..PointerState::at(at) }
+}
+
+/// A wavy stroke to the lower right.
+fn wavy() -> Vec<PointerState> {
+    (0..60)
+        .map(|step: u8| {
+            let along = 0.7 * f64::from(step);
+            hold(60.0 + along, 50.0 + 0.4 * along + 2.0 * along.sin())
+        })
+        .collect()
+}
+
+/// Samples of each of the strokes of a pen, one after another.
+fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -> Vec<Vec<Sample>> {
+    let start = Instant::now();
+    let transforms = both_surfaces();
+    let mut script = Script::new(Device::Pen);
+    for holds in strokes {
+        script = script.stroke(holds.iter().copied(), Duration::from_millis(5));
+    }
+    let mut all: Vec<Vec<Sample>> = Vec::new();
+    for frame in 0..200 {
+        let now = start + Duration::from_millis(10 * frame);
+        script.due(start, now).into_iter().for_each(|report| pen.feed(report));
+        let targets = PenTargets { surfaces: &transforms, covered: &|_| false };
+        for event in pen.process_frame(&[], modifiers, now, &targets) {
+            match event {
+                PenEvent::Down { .. } => all.push(Vec::new()),
+                PenEvent::Move(samples) => {
+                    let stroke = all.last_mut().expect("a stroke has begun");
+                    stroke.extend(samples.into_iter().map(|sample| sample.sample));
+                }
+                _ => {}
+            }
+        }
+    }
+    all
+}
+
+fn led_by(guide: Option<Guide>, settings: PenSettings) -> Pen {
+    let mut pen = Pen::new(settings);
+    pen.guide = guide;
+    pen
+}
+
+fn stroke(guide: Option<Guide>, holds: Vec<PointerState>) -> Vec<Sample> {
+    let mut pen = led_by(guide, PenSettings::default());
+    strokes(&mut pen, &[holds], Modifiers::NONE).remove(0)
+}
+
+fn ruler() -> Guide {
+    Guide::Ruler(Ruler { ends: [[10.0, 20.0], [110.0, 95.0]], ..Ruler::default() })
+}
+
+fn perspective() -> Guide {
+    let points = [[0.0, 0.0], [200.0, 10.0], [0.0, 0.0]];
+    Guide::Perspective(Perspective { count: 2, points })
+}
+
+/// Farthest distance of samples from the line through two places.
+fn off(samples: &[Sample], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let right = to[0] - from[0];
+    let down = to[1] - from[1];
+    samples
+        .iter()
+        .map(|sample: &Sample| {
+            let x = sample.x_mm - from[0];
+            let y = sample.y_mm - from[1];
+            (x * down - y * right).abs() / right.hypot(down)
+        })
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_stroke_along_the_ruler_is_straight_and_keeps_time_and_pressure() {
+    let free = stroke(None, wavy());
+    assert!(off(&free, [[10.0, 20.0], [110.0, 95.0]]) > 1.0, "the hand shakes");
+    let led = stroke(Some(ruler()), wavy());
+    assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
+    assert_eq!(led.len(), free.len());
+    for (led, free) in led.iter().zip(&free) {
+        assert_eq!((led.seconds, led.pressure), (free.seconds, free.pressure));
+    }
+    // The broad side is across the ruler, whose slope is 3 to 4, from the first sample on.
+    let across = 0.75_f64.atan().to_degrees() + 90.0;
+    let twist = |sample: &Sample| (sample.twist_deg - across + 90.0).rem_euclid(180.0) - 90.0;
+    assert!(led.iter().all(|sample| twist(sample).abs() < 1e-3), "{:?}", led[0]);
+}
+
+#[test]
+fn a_stabilised_stroke_ends_on_the_ruler_too() {
+    let mut settings = PenSettings::default();
+    settings.stabiliser.method = StabiliserMethod::String;
+    let mut pen = led_by(Some(ruler()), settings);
+    let led = strokes(&mut pen, &[wavy()], Modifiers::NONE).remove(0);
+    assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
+    let first = led[0];
+    let last = led[led.len() - 1];
+    assert!(last.x_mm - first.x_mm > 30.0, "it catches up: {first:?} {last:?}");
+}
+
+#[test]
+fn perspective_leads_all_samples_to_the_point_of_the_first_direction() {
+    let holds: Vec<PointerState> = (0..60)
+        .map(|step: u8| {
+            let along = 0.7 * f64::from(step);
+            hold(60.0 + along, 50.0 + 0.7 * along + 0.8 * (2.0 * along).sin())
+        })
+        .collect();
+    let led = stroke(Some(perspective()), holds.clone());
+    let start = [led[0].x_mm, led[0].y_mm];
+    assert_eq!(start, [60.0, 50.0]);
+    assert!(off(&led, [[0.0, 0.0], start]) < 1e-9, "away from the first vanishing point");
+    assert_eq!(led.len(), stroke(None, holds).len(), "no sample is lost");
+    let twists = led.iter().map(|sample| sample.twist_deg);
+    let least = twists.clone().fold(360.0, f64::min);
+    let most = twists.fold(-360.0, f64::max);
+    assert!(most - least < 1e-3, "the brush does not turn: {least} to {most}");
+}
+
+#[test]
+fn a_touch_in_perspective_paints_a_dot() {
+    let touch = vec![hold(40.0, 40.0), hold(40.5, 40.2), hold(40.2, 40.1)];
+    let led = stroke(Some(perspective()), touch.clone());
+    let free = stroke(None, touch);
+    assert!(led.len() >= 3);
+    let places = |samples: &[Sample]| {
+        samples.iter().map(|sample| [sample.x_mm, sample.y_mm]).collect::<Vec<_>>()
+    };
+    assert_eq!(places(&led)[..3], places(&free)[..3]);
+}
+
+#[test]
+fn strokes_on_the_palette_are_free() {
+    let right =
+        wavy().into_iter().map(|state| PointerState { at: state.at + vec2(600.0, 0.0), ..state });
+    let right: Vec<PointerState> = right.collect();
+    assert_eq!(stroke(Some(ruler()), right.clone()), stroke(None, right));
+}
+
+#[test]
+fn a_line_with_shift_goes_on_parallel_to_the_ruler() {
+    let Guide::Ruler(ruler) = ruler() else { panic!("a ruler") };
+    let parallel = Guide::Ruler(Ruler { shape: RulerShape::Parallel, ..ruler });
+    let mut pen = led_by(Some(parallel), PenSettings::default());
+    let shift = Modifiers::SHIFT;
+    let both = strokes(&mut pen, &[wavy(), vec![hold(150.0, 60.0), hold(150.0, 60.0)]], shift);
+    let [first, second] = &both[..] else { panic!("two strokes: {}", both.len()) };
+    let end = first[first.len() - 1];
+    let line = [[end.x_mm, end.y_mm], [end.x_mm + 4.0, end.y_mm + 3.0]];
+    assert!(off(second, line) < 1e-9, "on the line of the first");
+    let gap = (end.x_mm - second[0].x_mm).hypot(end.y_mm - second[0].y_mm);
+    assert!(gap < 1e-9, "from the end of the first: {gap} mm");
+}
+
+#[test]
+fn pens_with_twist_and_mice_are_led_from_the_first_sample_to_the_last() {
+    let twisted = wavy().into_iter().map(|state| PointerState { twist_deg: Some(30.0), ..state });
+    let led = stroke(Some(perspective()), twisted.collect());
+    let first = led[0];
+    let last = led[led.len() - 1];
+    let line = [[first.x_mm, first.y_mm], [last.x_mm, last.y_mm]];
+    assert!(off(&led, line) < 1e-9 && last.twist_deg == led[5].twist_deg, "{first:?} {last:?}");
+    let mouse = wavy().into_iter().map(|state| PointerState { pressure: None, ..state });
+    let led = stroke(Some(ruler()), mouse.collect());
+    assert!(led[led.len() - 1].pressure < 0.1, "the mouse is lifted");
+    assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
+}
+
+/// A canvas at 4 points a mm.
+fn canvas() -> [SurfaceTransform; 1] {
+    let area = Rect::from_min_size(Pos2::ZERO, vec2(800.0, 600.0));
+    [SurfaceTransform::new(SurfaceId::Canvas, area, |at: Pos2| {
+        (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0)
+    })]
+}
+
+fn settings(method: StabiliserMethod, length: f64, unit: LengthUnit) -> PenSettings {
+    let stabiliser = StabiliserSettings { method, length, unit };
+    PenSettings { stabiliser, ..PenSettings::default() }
+}
+
+/// States of a pen that draws a wave from x = 10 to 80 mm.
+fn wave(measures: bool) -> Vec<PointerState> {
+    (0..=100)
+        .map(|at: u8| {
+            let share = f32::from(at) / 100.0;
+            let at = pos2(40.0 + 280.0 * share, 200.0 + 10.0 * (40.0 * share).sin());
+            let pressure = measures.then_some(0.2 + 0.5 * f64::from(share));
+            PointerState { pressure, ..PointerState::at(at) }
+        })
+        .collect()
+}
+
+/// Events of a stroke along these states, one report each 5 ms, two in each frame.
+fn stabilised_stroke(pen: &mut Pen, device: Device, states: Vec<PointerState>) -> Vec<PenEvent> {
+    let start = Instant::now();
+    let mut script = Script::new(device).stroke(states, Duration::from_millis(5));
+    let transforms = canvas();
+    let targets = PenTargets { surfaces: &transforms, covered: &|_| false };
+    let mut events = Vec::new();
+    for frame in 0..60 {
+        let now = start + Duration::from_millis(10) * frame;
+        script.due(start, now).into_iter().for_each(|report| pen.feed(report));
+        events.extend(pen.process_frame(&[], Modifiers::NONE, now, &targets));
+    }
+    events
+}
+
+fn moved_samples(events: &[PenEvent]) -> Vec<Sample> {
+    let moves = events.iter().filter_map(|event| match event {
+        PenEvent::Move(samples) => Some(samples.iter().map(|sample| sample.sample)),
+        _ => None,
+    });
+    moves.flatten().collect()
+}
+
+#[test]
+fn a_stabilised_stroke_is_steadier_ends_at_the_pen_and_keeps_its_times_in_order() {
+    let end = wave(true)[100].at;
+    for device in [Device::Pen, Device::Mouse] {
+        let states = || wave(device.is_pen());
+        let mut plain = Pen::new(PenSettings::default());
+        let plain = moved_samples(&stabilised_stroke(&mut plain, device, states()));
+        for method in [StabiliserMethod::Average, StabiliserMethod::String] {
+            let mut pen = Pen::new(settings(method, 12.0, LengthUnit::Mm));
+            let steady = moved_samples(&stabilised_stroke(&mut pen, device, states()));
+            let swing = |samples: &[Sample]| {
+                let ys = samples.iter().filter(|at| (30.0..70.0).contains(&at.x_mm));
+                let ys: Vec<f64> = ys.map(|sample| sample.y_mm).collect();
+                let most = ys.iter().copied().fold(f64::MIN, f64::max);
+                most - ys.iter().copied().fold(f64::MAX, f64::min)
+            };
+            assert!(
+                swing(&steady) < 0.8 * swing(&plain),
+                "{device:?} {method:?}: {} of {}",
+                swing(&steady),
+                swing(&plain)
+            );
+            let last = steady[steady.len() - 1];
+            let at = (f64::from(end.x) / 4.0, f64::from(end.y) / 4.0);
+            assert_eq!((last.x_mm, last.y_mm), at, "{device:?} {method:?}");
+            assert!(steady.is_sorted_by_key(|sample| sample.seconds), "{device:?} {method:?}");
+            assert!(!device.is_pen() || last.pressure > 0.69, "the pen's last pressure: {last:?}");
+            assert!(device.is_pen() || last.pressure == 0.0, "lifted: {last:?}");
+        }
+    }
+}
+
+#[test]
+fn without_a_stabiliser_the_samples_are_the_reports() {
+    let mut pen = Pen::new(PenSettings::default());
+    let found = moved_samples(&stabilised_stroke(&mut pen, Device::Pen, wave(true)));
+    let places: Vec<(f64, f64)> = found.iter().map(|sample| (sample.x_mm, sample.y_mm)).collect();
+    let wanted = wave(true);
+    let wanted = wanted.iter().map(|at| (f64::from(at.at.x) / 4.0, f64::from(at.at.y) / 4.0));
+    assert_eq!(places, wanted.collect::<Vec<_>>());
+    assert_eq!(pen.string_line(), None);
+}
+
+#[test]
+fn the_eraser_end_has_the_options_of_its_own_brush() {
+    let mut pen = Pen::new(PenSettings::default());
+    pen.options.range = [0.9, 1.0];
+    pen.eraser_options.range = [0.0, 0.5];
+    let most = |device, pen: &mut Pen| {
+        let found = moved_samples(&stabilised_stroke(pen, device, wave(true)));
+        found.iter().map(|sample| sample.pressure).fold(0.0, f64::max)
+    };
+    assert!((most(Device::Pen, &mut pen) - 0.97).abs() < 1e-9, "the brush in hand");
+    assert!((most(Device::Eraser, &mut pen) - 0.35).abs() < 1e-9, "that of the eraser");
+}
+
+#[test]
+fn the_string_is_shown_from_the_brush_to_the_pen_at_its_length() {
+    for (length, unit) in [(10.0, LengthUnit::Mm), (40.0, LengthUnit::Px)] {
+        let mut pen = Pen::new(settings(StabiliserMethod::String, length, unit));
+        let start = Instant::now();
+        let transforms = canvas();
+        let targets = PenTargets { surfaces: &transforms, covered: &|_| false };
+        for (order, x) in [40.0, 60.0, 140.0].into_iter().enumerate() {
+            let state = PointerState { pressure: Some(0.5), ..PointerState::at(pos2(x, 80.0)) };
+            let kind =
+                if order == 0 { ReportKind::Pressed(state) } else { ReportKind::Moved(state) };
+            let arrived = start + Duration::from_millis(5 * order as u64);
+            pen.feed(Report { device: Device::Pen, arrived, kind });
+        }
+        let now = start + Duration::from_millis(16);
+        pen.process_frame(&[], Modifiers::NONE, now, &targets);
+        let [brush, tip] = pen.string_line().unwrap();
+        assert!((brush - pos2(100.0, 80.0)).length() < 1e-3, "{unit:?}: {brush:?}");
+        assert_eq!(tip, pos2(140.0, 80.0));
+    }
+}
+
+#[test]
+fn the_test_field_draws_what_would_be_painted() {
+    let mut pen = Pen::new(PenSettings::default());
+    pen.options.range = [0.5, 1.0];
+    let mut field = TestField::default();
+    let area = Rect::from_min_size(pos2(20.0, 20.0), vec2(400.0, 400.0));
+    let start = Instant::now();
+    let mut script = Script::new(Device::Pen).stroke(wave(true), Duration::from_millis(5));
+    let targets = PenTargets { surfaces: &[], covered: &|_| false };
+    for frame in 0..60 {
+        let now = start + Duration::from_millis(10) * frame;
+        script.due(start, now).into_iter().for_each(|report| pen.feed(report));
+        assert!(pen.process_frame(&[], Modifiers::NONE, now, &targets).is_empty());
+        field.update(&pen, area, true, now);
+    }
+    let [stroke] = field.strokes() else { panic!("{field:?}") };
+    assert!(!field.is_drawing() && stroke.len() >= 101, "{} points", stroke.len());
+    let first = stroke[0];
+    let wanted = wave(true)[0].at - area.min.to_vec2();
+    assert!((first.at - wanted).length() < 1e-2, "{first:?}");
+    // Half of the range and half of the pressure.
+    assert!((first.pressure - 0.6).abs() < 1e-12, "{first:?}");
+    // A press outside draws nothing.
+    let beside = Rect::from_min_size(pos2(600.0, 20.0), vec2(100.0, 100.0));
+    let mut script = Script::new(Device::Pen).stroke(wave(true), Duration::from_millis(5));
+    script
+        .due(start, start + Duration::from_secs(9))
+        .into_iter()
+        .for_each(|report| pen.feed(report));
+    pen.process_frame(&[], Modifiers::NONE, start, &targets);
+    field.update(&pen, beside, true, start);
+    assert_eq!(field.strokes().len(), 1);
+    field.clear();
+    assert!(field.strokes().is_empty());
 }

@@ -11,9 +11,9 @@ use eframe::egui::Pos2;
 #[cfg(target_arch = "wasm32")]
 use eframe::egui::{Context, RawInput};
 
-use super::report::{Device, PointerState, Report, ReportKind};
 #[cfg(target_arch = "wasm32")]
-use super::stamps::Stamp;
+use super::report::Stamp;
+use super::report::{Device, PointerState, Report, ReportKind};
 use crate::language::tr;
 #[cfg(target_arch = "wasm32")]
 use web_time::Duration;

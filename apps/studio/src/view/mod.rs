@@ -6,29 +6,18 @@ mod mipmap;
 #[cfg(feature = "wgpu")]
 mod pipeline;
 mod texture;
-mod quad;
-
-#[cfg(feature = "wgpu")]
-mod shader;
 mod canvas;
-mod fills;
 
 #[cfg(feature = "wgpu")]
 mod meshes;
 mod picture;
 mod outline;
-mod head;
-mod patch;
 mod surface;
-mod light_switch;
 
-pub use canvas::{Drawing, fill_rect, set_drawing};
-pub use fills::quicken;
-pub use head::HeadLines;
+pub use canvas::{Drawing, fill_rect, quicken, set_drawing};
 #[cfg(feature = "wgpu")]
 pub use meshes::{draw_meshes, is_processor};
-pub use outline::Outline;
-pub use patch::Patch;
+pub use outline::{HeadLines, Outline};
 pub use picture::{DrawnPart, Picture};
-pub use surface::{DragMode, Split, SurfaceView};
+pub use surface::{DragMode, Patch, Split, SurfaceView};
 pub use transform::{Placement, ViewState};

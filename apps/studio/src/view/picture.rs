@@ -6,8 +6,7 @@ use graphics::tile::Rect;
 
 use super::canvas::draw_quads;
 use super::mipmap::{MipLevels, next_level_rect};
-use super::quad::{Quad, Vertex};
-use super::texture::LazyTexture;
+use super::texture::{LazyTexture, Quad, Vertex};
 use super::transform::Placement;
 use crate::theme;
 use session::TilePixels;

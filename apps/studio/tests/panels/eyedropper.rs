@@ -1,27 +1,36 @@
-//! Tests of the eyedropper panel: shown values equal those of the libraries, and clicks
-//! queue the right requests.
-
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
+//! Tests of the panels of colours (eyedropper, wheel and swatches): shown values equal those of
+//! the libraries, and clicks queue the right requests.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::{Key, OutputCommand, Role, vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use paint::document::Lighting;
 use paint::layer::SLOTS;
-use paint::strokes::{Action, SurfaceId};
+use paint::strokes::{Action, PaletteSpec, Recipe, SurfaceId};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::matching::{FilmKind, MatchRequest, RecipeMatch, Target, ViewingCondition, recipes};
+use session::swatches::{KeptMixture, SwatchBook, SwatchChange};
 use session::{Command, PaintingState, Picked, PickedLayer};
 use spectra::color::{Adaptation, Lab, RgbSpace};
 use spectra::{Illuminant, Observer};
-use studio::panels::Mode;
-use studio::panels::eyedropper::{Color, Eyedropper};
+use studio::files::SwatchFormat;
+use studio::panels::eyedropper::{Color, Eyedropper, TargetColor};
+use studio::panels::swatches::Swatches;
+use studio::panels::wheel::{Plane, Wheel};
+use studio::panels::{FileRequest, Mode, Request};
 use studio::view::Outline;
+use studio::wheel_maker::WheelRequest;
+use web_time::{Duration, Instant};
 
-use super::panel_window::{PanelWindow, made_painting};
+use super::fixture::{
+    Fixture, PIGMENTS, PanelWindow, assert_requests, click, is_disabled, made_painting, painting,
+    picture, show_panel,
+};
+use super::harness::Window;
 
 fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
     PanelWindow::new(Eyedropper::default(), vec2(300.0, 1000.0), painting, Eyedropper::show)
@@ -162,7 +171,7 @@ fn wait_for_recipes(stage: &mut PanelWindow<Eyedropper>) {
         if stage.harness.query_by_label("Load recipe 1").is_some() {
             return stage.run();
         }
-        std::thread::sleep(std::time::Duration::from_millis(10));
+        std::thread::sleep(Duration::from_millis(10));
     }
     panic!("no recipe was found");
 }
@@ -356,7 +365,7 @@ fn a_search_can_be_cancelled() {
     stage.harness.step();
     assert!(stage.harness.query_by_label("Find recipes for it").is_none(), "the search is running");
     stage.click("Cancel");
-    std::thread::sleep(std::time::Duration::from_millis(500));
+    std::thread::sleep(Duration::from_millis(500));
     stage.run();
     assert!(stage.harness.query_by_label("Load recipe 1").is_none(), "no result is shown");
     assert!(
@@ -389,4 +398,234 @@ fn swatches_of_other_programs_become_targets_by_a_click() {
     stage.state().panel.open_swatches(&path.with_file_name("gone.gpl"));
     stage.run();
     assert!(stage.harness.query_by_label_contains("gone.gpl").is_some(), "the error is shown");
+}
+
+fn wheel(painting: PaintingState, wanted: Option<Lab>) -> Harness<'static, Fixture<Wheel>> {
+    let wanted = wanted.map(|lab| TargetColor { name: "Lab".to_owned(), color: Color::Lab(lab) });
+    let mut harness = show_panel(Wheel::default(), painting, move |wheel, ui, cx| {
+        wheel.show(ui, cx, wanted.as_ref());
+    });
+    let start = Instant::now();
+    while harness.query_by_label_contains("Mixing the tubes").is_some() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no wheel");
+        std::thread::sleep(Duration::from_millis(5));
+        harness.run();
+    }
+    harness
+}
+
+fn request(painting: &PaintingState) -> WheelRequest {
+    let mut tubes: Vec<_> = painting.slots.iter().copied().flatten().collect();
+    tubes.sort_unstable();
+    let viewing = painting.light.viewing.clone();
+    WheelRequest { library: painting.library.clone(), tubes, viewing }
+}
+
+#[test]
+fn the_tubes_lie_at_their_measured_colours() {
+    let painting = painting();
+    let made = request(&painting).make().unwrap();
+    let mut harness = wheel(painting, None);
+    let rect = harness.get_by_label("Colour wheel").rect();
+    assert!(rect.width() > 250.0 && (rect.width() - rect.height()).abs() < 0.5, "{rect}");
+    let Some(drawn) = picture(&mut harness, "wheel") else { return };
+    let chroma = made.gamut.samples.iter().map(|one| one.color.lab.a.hypot(one.color.lab.b));
+    let plane = Plane::with_chroma(rect, chroma.fold(0.0, f64::max));
+    for (pigment, color) in &made.masstones {
+        let point = plane.point([color.lab.a, color.lab.b]);
+        let found = drawn.get_pixel(point.x as u32, point.y as u32).0;
+        let wanted = color.srgb.linear().mapped_into_gamut().encoded().to_bytes();
+        let apart = found.iter().zip(wanted).map(|(a, b)| a.abs_diff(b)).max().unwrap();
+        // White and black lie side by side in the middle, one over the other.
+        let chromatic = color.lab.a.hypot(color.lab.b) > 15.0;
+        assert!(!chromatic || apart <= 2, "{pigment:?}: {found:?}, not {wanted:?}");
+    }
+}
+
+/// Draws until a label contains these words.
+#[track_caller]
+fn wait_for(harness: &mut Harness<'static, Fixture<Wheel>>, words: &str) {
+    let start = Instant::now();
+    while harness.query_all_by_label_contains(words).next().is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no `{words}`");
+        std::thread::sleep(Duration::from_millis(10));
+        harness.run_steps(2);
+    }
+}
+
+#[test]
+fn the_legend_tells_whether_a_colour_is_reached() {
+    let made = request(&painting()).make().unwrap();
+    let mixed = made.gamut.samples[200].color.lab;
+    let mut harness = wheel(painting(), Some(mixed));
+    wait_for(&mut harness, "The tubes reach it");
+    wait_for(&mut harness, "Ring: what the brush holds");
+    let neon = Lab { lightness: 80.0, a: -90.0, b: 20.0 };
+    let far = made.nearest(neon).unwrap().delta_e;
+    assert!(far > 10.0, "{far}");
+    let mut harness = wheel(painting(), Some(neon));
+    wait_for(&mut harness, "The tubes come within");
+    let label = harness.get_by_label_contains("The tubes come within");
+    let words = label.accesskit_node().value().unwrap();
+    let found: f64 = words.trim_end_matches('.').rsplit(' ').next().unwrap().parse().unwrap();
+    assert!(found <= far + 0.05 && found > 0.5 * far, "{found} by search, {far} by samples");
+}
+
+#[test]
+fn a_click_finds_recipes_for_that_colour_and_offers_to_load_them() {
+    let mut harness = wheel(painting(), None);
+    click(&mut harness, "All lightnesses");
+    let rect = harness.get_by_label("Colour wheel").rect();
+    harness.hover_at(rect.center() + vec2(20.0, -14.0));
+    harness.drag_at(rect.center() + vec2(20.0, -14.0));
+    harness.drop_at(rect.center() + vec2(20.0, -14.0));
+    harness.run_steps(3);
+    wait_for(&mut harness, "Square: Lab 50 ");
+    wait_for(&mut harness, "Load recipe 1");
+    wait_for(&mut harness, "The tubes reach it");
+    picture(&mut harness, "wheel-recipes");
+    harness.get_by_label("Load recipe 1").click_accesskit();
+    harness.run_steps(2);
+    assert!(matches!(harness.state().requests[..], [Request::Worker(_)]), "the brush is loaded");
+    harness.get_by_label("Clear the wheel's colour").click_accesskit();
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Load recipe 1").is_none());
+}
+
+#[test]
+fn a_palette_without_paint_that_mixes_tells_so() {
+    let mut bare = painting();
+    bare.slots = [None; SLOTS];
+    let harness = wheel(bare, None);
+    assert!(harness.query_by_label_contains("can be mixed").is_some());
+}
+
+#[test]
+fn a_low_window_shows_the_wheel_whole() {
+    for height in [800.0, 900.0, 1080.0] {
+        let mut window = Window::sized("low-wheel", vec2(1440.0, height), 1.0);
+        window.click("Wheel");
+        let start = Instant::now();
+        while window.harness().query_by_label("Colour wheel").is_none() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no wheel");
+            std::thread::sleep(Duration::from_millis(10));
+            window.harness().step();
+        }
+        window.settle();
+        window.save(&format!("low-wheel-{height}"));
+        let rect = window.harness().get_by_label("Colour wheel").rect();
+        let tab = window.harness().get_by_label("Wheel").rect();
+        // The status line takes 24 points.
+        let room = tab.bottom()..=height - 24.0;
+        assert!(rect.width() >= 128.0, "{rect} is too small to read");
+        assert!(room.contains(&rect.top()) && room.contains(&rect.bottom()), "{rect} of {height}");
+    }
+}
+
+fn kept(name: &str, library: &str, parts: &[(&str, f64)]) -> KeptMixture {
+    let recipe: Recipe = parts.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
+    let color = "#4a7d8c".to_owned();
+    let name = name.to_owned();
+    let library = library.to_owned();
+    KeptMixture { name, library, recipe, vehicle: 0.25, color, light: "D65".to_owned() }
+}
+
+fn book() -> SwatchBook {
+    let own = painting().library.title.clone();
+    SwatchBook {
+        swatches: vec![
+            kept("sky", &own, &[("Zinc White", 5.0), ("Ultramarine", 1.0)]),
+            kept("far", "Acrylics", &[("Phthalo Green", 1.0)]),
+            kept("lake", &own, &[("Zinc White", 2.0), ("Prussian Blue", 1.0)]),
+        ],
+    }
+}
+
+#[test]
+fn moving_passes_over_mixtures_that_are_not_shown() {
+    let mut harness = panel(book());
+    click(&mut harness, "mixture sky");
+    click(&mut harness, "Later");
+    assert_requests(&mut harness, &[change(SwatchChange::Move(0, 2))]);
+}
+
+fn panel(book: SwatchBook) -> Harness<'static, Fixture<Swatches>> {
+    show_panel(Swatches::default(), painting(), move |panel, ui, cx| panel.show(ui, cx, &book))
+}
+
+fn change(change: SwatchChange) -> Request {
+    Request::File(FileRequest::Swatches(change))
+}
+
+#[test]
+fn a_mixture_is_loaded_laid_moved_renamed_and_removed() {
+    let mut harness = panel(book());
+    assert!(harness.query_by_label("mixture far").is_none(), "of another library");
+    click(&mut harness, "All libraries");
+    picture(&mut harness, "swatches");
+    click(&mut harness, "mixture sky");
+    click(&mut harness, "Load the brush");
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    let [Request::Worker(Command::Apply(Action::Load(load)))] = &requests[..] else {
+        panic!("{requests:?}");
+    };
+    assert_eq!((&load.recipe, load.vehicle), (&book().swatches[0].recipe, 0.25));
+    assert_eq!(harness.state().tools.recent[0].0, load.recipe, "it is among the last mixtures");
+    click(&mut harness, "Lay on the palette");
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    let laid = matches!(&requests[..], [Request::Worker(Command::SqueezeInFreeSpace { .. })]);
+    assert!(laid, "{requests:?}");
+    assert!(is_disabled(&harness, "Earlier"), "it is the first");
+    click(&mut harness, "Later");
+    assert_requests(&mut harness, &[change(SwatchChange::Move(0, 1))]);
+    click(&mut harness, "mixture lake");
+    click(&mut harness, "Rename");
+    harness.get_by_label("Name of the mixture").type_text(" of glass");
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_requests(&mut harness, &[change(SwatchChange::Rename(2, "lake of glass".to_owned()))]);
+    click(&mut harness, "Forget");
+    assert_requests(&mut harness, &[change(SwatchChange::Remove(2))]);
+    assert!(harness.query_by_label("Forget").is_none(), "nothing is selected any more");
+}
+
+#[test]
+fn a_mixture_whose_pigments_are_missing_says_which_and_offers_the_way() {
+    let mut harness = panel(book());
+    click(&mut harness, "All libraries");
+    click(&mut harness, "mixture far");
+    assert!(is_disabled(&harness, "Load the brush") && is_disabled(&harness, "Lay on the palette"));
+    assert!(harness.query_by_label("Phthalo Green is not in the open library.").is_some());
+    assert!(harness.query_by_label("Add its tubes").is_none());
+    click(&mut harness, "mixture lake");
+    picture(&mut harness, "swatches-missing");
+    assert!(is_disabled(&harness, "Load the brush"));
+    assert!(harness.query_by_label("Prussian Blue is not on the palette.").is_some());
+    click(&mut harness, "Add its tubes");
+    let names = PIGMENTS.into_iter().chain(["Prussian Blue"]);
+    let palette = Action::Palette(PaletteSpec::from_names(names));
+    assert_requests(&mut harness, &[Request::Worker(Command::Apply(palette))]);
+    let mut full = painting();
+    full.slots[7] = full.library.find("Emerald Green").ok();
+    harness.state_mut().painting = full;
+    harness.run();
+    assert!(is_disabled(&harness, "Add its tubes"), "the palette is full");
+}
+
+#[test]
+fn files_are_asked_for_from_the_menu() {
+    let mut harness = panel(book());
+    for (name, wanted) in [
+        ("Import...", FileRequest::ImportSwatches),
+        ("Export mixtures...", FileRequest::ExportSwatches(SwatchFormat::Json)),
+        ("Export colours (.gpl)...", FileRequest::ExportSwatches(SwatchFormat::Gpl)),
+        ("Export colours (.ase)...", FileRequest::ExportSwatches(SwatchFormat::Ase)),
+    ] {
+        click(&mut harness, "Import, export");
+        click(&mut harness, name);
+        assert_requests(&mut harness, &[Request::File(wanted)]);
+    }
+    let harness = panel(SwatchBook::default());
+    assert!(harness.query_by_label_contains("No mixture is kept").is_some());
 }

@@ -1,10 +1,12 @@
-//! A test painting as a worker would report it, and a window with a single panel.
+//! A test painting as a worker would report it, a window with a single panel, and what such a
+//! window shows.
 
 use std::sync::{Arc, OnceLock};
 
-use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
-use egui_kittest::Harness;
+use eframe::egui::accesskit::Action;
+use eframe::egui::{self, Color32, Frame, FullOutput, Margin, Pos2, Rect, Role, Shape, Ui, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, Node};
 use paint::brush::HeadShape;
 use paint::document::{LayerId, Lighting, Medium, Slots};
 use paint::layer::SLOTS;
@@ -14,11 +16,11 @@ use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::palette::{Cards, Palette, Recipe, TINT_PARTS};
 use session::{
-    BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, PaintingState,
-    Thumbnail,
+    BrushState, BrushSwatch, Command, FilmColor, HistoryShot, HistoryShots, LayerState,
+    PaintingState, Thumbnail,
 };
 use spectra::color::Lab;
-use studio::panels::{PanelContext, Request, Tools};
+use studio::panels::{FileRequest, PanelContext, Request, Tools};
 use studio::theme;
 
 use super::harness::{has_adapter, keep};
@@ -242,4 +244,241 @@ pub(crate) fn picture<P>(
     let image = harness.render().unwrap();
     keep(&image, &format!("panel-{name}"));
     Some(image)
+}
+
+/// A panel with its context and its requests.
+pub(crate) struct PanelState<P> {
+    pub(crate) panel: P,
+    pub(crate) painting: PaintingState,
+    pub(crate) tools: Tools,
+    pub(crate) requests: Vec<Request>,
+}
+
+/// A panel under test.
+pub(crate) struct PanelWindow<P: 'static> {
+    pub(crate) harness: Harness<'static, PanelState<P>>,
+}
+
+impl<P> PanelWindow<P> {
+    /// Creates a window of `size` points in which `show` draws `panel`.
+    pub(crate) fn new(
+        panel: P,
+        size: Vec2,
+        painting: PaintingState,
+        mut show: impl FnMut(&mut P, &mut Ui, &mut PanelContext<'_>) + 'static,
+    ) -> Self {
+        let scene = PanelState { panel, painting, tools: Tools::default(), requests: Vec::new() };
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .with_pixels_per_point(2.0)
+            .with_step_dt(1.0 / 60.0)
+            .with_max_steps(60)
+            .with_render_cursor(false)
+            .with_context_setup(theme::apply)
+            .build_ui_state(
+                move |ui, scene: &mut PanelState<P>| {
+                    let PanelState { panel, painting, tools, requests } = scene;
+                    let mut cx = PanelContext { painting, tools, requests };
+                    let frame = Frame::new().fill(theme::DARK.panel).inner_margin(Margin::same(10));
+                    frame.show(ui, |ui| {
+                        ui.take_available_space();
+                        show(panel, ui, &mut cx);
+                        let used = ui.min_rect().width();
+                        let given = ui.max_rect().width();
+                        assert!(used <= given + 0.5, "{used} points wide, of {given}");
+                    });
+                },
+                scene,
+            );
+        harness.run_ok();
+        Self { harness }
+    }
+
+    pub(crate) fn state(&mut self) -> &mut PanelState<P> {
+        self.harness.state_mut()
+    }
+
+    /// Clicks the control with this label.
+    pub(crate) fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.run();
+    }
+
+    /// Draws frames until nothing changes.
+    pub(crate) fn run(&mut self) {
+        self.harness.step();
+        self.harness.run_ok();
+    }
+
+    /// Draws frames for `seconds` of the harness's clock.
+    pub(crate) fn wait(&mut self, seconds: f64) {
+        self.harness.run_steps((seconds * 60.0).ceil() as usize);
+    }
+
+    /// Drags the mouse with the primary button, one frame for each position.
+    pub(crate) fn drag(&mut self, along: &[Pos2]) {
+        self.harness.hover_at(along[0]);
+        self.harness.drag_at(along[0]);
+        self.harness.step();
+        for &place in &along[1..] {
+            self.harness.hover_at(place);
+            self.harness.step();
+        }
+        self.harness.drop_at(along[along.len() - 1]);
+        self.run();
+    }
+
+    /// Commands for the worker since the last call.
+    pub(crate) fn commands(&mut self) -> Vec<Command> {
+        let requests = std::mem::take(&mut self.state().requests);
+        let commands = requests.into_iter().map(|request| match request {
+            Request::Worker(command) => command,
+            Request::File(request) => panic!("unexpected file request: {request:?}"),
+        });
+        commands.collect()
+    }
+
+    /// File requests since the last call.
+    pub(crate) fn requests(&mut self) -> Vec<FileRequest> {
+        let requests = std::mem::take(&mut self.state().requests);
+        let requests = requests.into_iter().map(|request| match request {
+            Request::File(request) => request,
+            Request::Worker(command) => panic!("unexpected command: {command:?}"),
+        });
+        requests.collect()
+    }
+
+    /// Renders the panel if there is an adapter, and keeps the picture.
+    pub(crate) fn save(&mut self, name: &str) {
+        if !has_adapter() {
+            return;
+        }
+        let picture = self.harness.render().expect("the panel is drawn");
+        keep(&picture, name);
+    }
+}
+
+/// A blank canvas of 1920 x 1080 cells with Van Gogh's oils and a clean round brush.
+pub(crate) fn made_painting() -> PaintingState {
+    let made = painting();
+    let mut slots = [None; SLOTS];
+    for (slot, pigment) in slots.iter_mut().zip(&TUBES) {
+        *slot = Some(made.library.find(pigment).expect("one of Van Gogh's"));
+    }
+    let round = BrushState {
+        amount_mm: 0.0,
+        tip_mm: 0.0,
+        vehicle: 0.0,
+        parts: [0.0; SLOTS],
+        color: None,
+        swatch: None,
+        ..made.brushes[0].clone()
+    };
+    PaintingState {
+        canvas_cells: (1920, 1080),
+        palette_cells: (640, 420),
+        slots,
+        masstones: [None; SLOTS],
+        tints: [None; SLOTS],
+        layers: Vec::new(),
+        history: Vec::new(),
+        history_done: 0,
+        history_shots: HistoryShots::default(),
+        brushes: vec![round],
+        ..made
+    }
+}
+
+/// Pigments on the palette: six, with two free slots.
+const TUBES: [&str; 6] =
+    ["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine", "Prussian Blue", "Bone Black"];
+
+/// Text on the screen.
+#[derive(Debug, Clone)]
+pub(crate) struct SeenText {
+    pub(crate) words: String,
+    pub(crate) rect: Rect,
+    /// The part of the window in which it is drawn.
+    pub(crate) clip: Rect,
+    /// Its colour; translucent if it is disabled.
+    pub(crate) color: Color32,
+    elided: bool,
+}
+
+impl SeenText {
+    /// Whether a part of it is missing at the right or at the left.
+    pub(crate) fn is_cut(&self) -> bool {
+        let beyond = self.rect.left() < self.clip.left() - 1.5
+            || self.rect.right() > self.clip.right() + 1.5;
+        self.is_seen() && (self.elided || beyond)
+    }
+
+    fn is_seen(&self) -> bool {
+        !self.words.trim().is_empty()
+            && self.clip.is_positive()
+            && self.clip.y_range().intersects(self.rect.y_range())
+            && self.clip.x_range().intersects(self.rect.x_range())
+    }
+
+    /// Whether all of it is on the screen.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.is_seen() && !self.is_cut() && self.clip.expand(1.0).contains_rect(self.rect)
+    }
+}
+
+/// All text of a frame.
+pub(crate) fn texts(output: &FullOutput) -> Vec<SeenText> {
+    let mut found = Vec::new();
+    for clipped in &output.shapes {
+        collect(&clipped.shape, clipped.clip_rect, &mut found);
+    }
+    found
+}
+
+fn collect(shape: &Shape, clip: Rect, found: &mut Vec<SeenText>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, found)),
+        Shape::Text(text) => {
+            let galley = &text.galley;
+            let own = galley.job.sections.first().map_or(Color32::PLACEHOLDER, |s| s.format.color);
+            let own = if own == Color32::PLACEHOLDER { text.fallback_color } else { own };
+            let color = text.override_text_color.unwrap_or(own);
+            found.push(SeenText {
+                words: galley.text().to_owned(),
+                rect: galley.rect.translate(text.pos.to_vec2()),
+                clip,
+                color: color.gamma_multiply(text.opacity_factor),
+                elided: galley.elided,
+            });
+        }
+        _ => {}
+    }
+}
+
+/// Something that is clicked or dragged with a finger.
+#[derive(Debug, Clone)]
+pub(crate) struct Target {
+    pub(crate) name: String,
+    pub(crate) size: Vec2,
+    pub(crate) right: f32,
+}
+
+/// Everything below `root` that is clicked, and all sliders.
+pub(crate) fn targets(root: &Node<'_>) -> Vec<Target> {
+    let touched = |node: &Node<'_>| {
+        let inner = node.accesskit_node();
+        // Instead of scroll bars, fingers drag the content.
+        let is_bar = inner.role() == Role::ScrollBar;
+        let is_clicked = inner.data().supports_action(Action::Click);
+        (is_clicked && !is_bar) || inner.role() == Role::Slider
+    };
+    root.children_recursive()
+        .filter(touched)
+        .map(|node: Node<'_>| {
+            let inner = node.accesskit_node();
+            let name = inner.label().or(inner.value());
+            let name = name.unwrap_or_else(|| format!("{:?} without a name", inner.role()));
+            Target { name, size: node.rect().size(), right: node.rect().right() }
+        })
+        .collect()
 }

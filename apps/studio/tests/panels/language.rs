@@ -14,10 +14,9 @@ use studio::language::{Language, PAINTS, PATTERNS, Table, WORDS, placeholders, t
 use studio::panels::Mode;
 use studio::theme::ThemeChoice;
 
-use super::glyphs::check;
+use super::fixture::targets;
 use super::harness::Window;
-use super::look::{cut, set_look};
-use super::seen::targets;
+use super::look::{check, cut, set_look};
 use super::volumes::scene;
 
 /// Sources whose texts are translated where they are shown: each text in them needs a

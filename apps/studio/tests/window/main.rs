@@ -8,10 +8,7 @@
 
 mod screen;
 mod program;
-mod export;
 mod painting;
-mod recovery;
-mod scene;
 mod painter;
 
 use std::io::Write;

@@ -1,20 +1,22 @@
-//! Strokes sent in bursts, with commands in between.
+//! Strokes sent in bursts, groups of strokes, tools that work wet paint, and picking colour and
+//! paint.
 
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::sync::Arc;
-use web_time::{Duration, Instant};
 
 use graphics::gpu::{BackendChoice, choose};
+use web_time::{Duration, Instant};
+
+use super::window::{Window, load, small, stroke, wander};
 use paint::document::Document;
 use paint::engine::PaintEngine;
 use paint::painting::Painting;
 use paint::pose::Sample;
+use paint::scene::SpectralDocument;
 use paint::session::PaintingSession;
-use paint::strokes::{Action, SampleDecimals, SurfaceId};
-use session::{Command, Event, Origin, Snapshot};
-
-use super::pen::{load, stroke, wander};
-use super::window::{Window, small};
+use paint::strokes::{Action, MaskChange, SampleDecimals, StrokeTool, SurfaceId};
+use session::{Command, Event, Origin, Pace, PenSample, Picked, Snapshot};
 
 /// A session set up as the worker does, for comparison.
 pub(crate) fn session() -> PaintingSession {
@@ -92,9 +94,7 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     });
     let moves = |samples: &[Sample]| {
         let arrived = Instant::now();
-        Command::PenMove(
-            samples.iter().map(|&sample| session::PenSample { sample, arrived }).collect(),
-        )
+        Command::PenMove(samples.iter().map(|&sample| PenSample { sample, arrived }).collect())
     };
     window.ask(moves(&samples[..90]));
     let midway = window.snapshot();
@@ -130,7 +130,7 @@ fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
         .count();
     assert!((1..=4).contains(&waiting), "{waiting} events are queued");
     let snapshot = window.snapshot();
-    super::pictures::assert_pictures(&mut window, &snapshot);
+    super::replay::assert_pictures(&mut window, &snapshot);
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn a_device_gives_the_same_painting() {
     assert_same(&snapshot, &mut session, "on the device");
     // Shading agrees up to rounding: a byte may differ by one.
     let light = Arc::clone(&window.state().light);
-    let wanted = super::pictures::exported(&snapshot.canvas, &light);
+    let wanted = super::replay::exported(&snapshot.canvas, &light);
     window.wait_until("the canvas as it is", |window| {
         let pairs = window.pictures.canvas.iter().zip(&wanted);
         pairs.into_iter().all(|(a, b)| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1))
@@ -240,4 +240,213 @@ fn has_adapter() -> bool {
         let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
     }
     device.is_some()
+}
+
+/// Paints a stroke with a brush of the default set.
+fn paint(window: &mut Window, seed: u64) {
+    let samples = wander(seed, 60, 32.0, 20.0);
+    window.stroke(SurfaceId::Canvas, "round", samples.chunks(20));
+}
+
+/// Waits until so many actions are done, of as many as the history has.
+fn wait_for(window: &mut Window, done: usize, all: usize) {
+    window.wait_until("the history", |window| {
+        (window.state().history_done, window.state().history.len()) == (done, all)
+    });
+}
+
+#[test]
+fn one_undo_takes_back_the_strokes_of_a_group_and_one_redo_repeats_them() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let mut session = session();
+    window.act(load("round", "Ultramarine"));
+    session.apply(&load("round", "Ultramarine")).unwrap();
+    paint(&mut window, 1);
+    session.apply(&stroke(SurfaceId::Canvas, "round", &wander(1, 60, 32.0, 20.0))).unwrap();
+    window.ask(Command::BeginGroup);
+    (2..5).for_each(|seed| paint(&mut window, seed));
+    window.ask(Command::EndGroup);
+    paint(&mut window, 5);
+    wait_for(&mut window, 5, 5);
+    let whole = window.snapshot();
+    for done in [4, 1, 0] {
+        window.act(Action::Undo {});
+        wait_for(&mut window, done, 5);
+        if done == 1 {
+            assert_same(&window.snapshot(), &mut session, "after the undo of the group");
+        }
+    }
+    for done in [1, 4, 5] {
+        window.act(Action::Redo {});
+        wait_for(&mut window, done, 5);
+    }
+    let again = window.snapshot();
+    assert!(*again.canvas == *whole.canvas, "all is repeated");
+    // The recording holds an undo for each stroke, and replays to the bit.
+    let recording = window.recording();
+    let undos = recording.actions.iter().filter(|action| matches!(action, Action::Undo {})).count();
+    assert_eq!(undos, 5);
+    let Origin::Blank { library, .. } = small() else { panic!("a bare canvas") };
+    window.ask(Command::Replay { script: Box::new(recording), library, pace: Pace::Fast });
+    window.wait("the replay", |event| matches!(event, Event::Replayed).then_some(()));
+    assert!(*window.snapshot().canvas == *whole.canvas, "to the bit");
+}
+
+#[test]
+fn a_group_with_another_action_among_its_strokes_is_none() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("round", "Ultramarine"));
+    window.ask(Command::BeginGroup);
+    paint(&mut window, 1);
+    window.act(Action::Dry { fraction: 0.5 });
+    paint(&mut window, 2);
+    window.ask(Command::EndGroup);
+    wait_for(&mut window, 3, 3);
+    window.act(Action::Undo {});
+    wait_for(&mut window, 2, 3);
+    // Reading does not disturb a group.
+    window.ask(Command::BeginGroup);
+    paint(&mut window, 3);
+    window.snapshot();
+    paint(&mut window, 4);
+    window.ask(Command::EndGroup);
+    wait_for(&mut window, 4, 4);
+    window.act(Action::Undo {});
+    wait_for(&mut window, 2, 4);
+}
+
+#[test]
+fn tools_and_masks_of_the_worker_are_those_of_the_session_and_replay_to_the_bit() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    let mut session = session();
+    let samples = wander(1, 300, 32.0, 20.0);
+    let mask = MaskChange::PolygonMm(vec![[2.0, 1.0], [30.0, 5.0], [9.0, 19.0]]);
+    for action in
+        [load("flat", "Vermilion"), stroke(SurfaceId::Canvas, "flat", &samples), Action::Mask(mask)]
+    {
+        session.apply(&action).unwrap();
+        window.act(action);
+    }
+    for (seed, tool) in [
+        (2, StrokeTool::Blend { strength: 0.7 }),
+        (3, StrokeTool::Scrape { height_mm: 0.02 }),
+        (4, StrokeTool::Erase { strength: 0.123_456_789 }),
+    ] {
+        let samples = wander(seed, 200, 32.0, 20.0);
+        window.ask(Command::ToolDown { tool, surface: SurfaceId::Canvas, brush: "flat".into() });
+        let arrived = Instant::now();
+        let moved = samples.iter().map(|&sample| PenSample { sample, arrived });
+        window.ask(Command::PenMove(moved.collect()));
+        window.ask(Command::PenUp);
+        session
+            .begin_stroke_as(tool, SurfaceId::Canvas, "flat", SampleDecimals::PEN)
+            .and_then(|()| session.extend(&samples))
+            .and_then(|()| session.end_stroke())
+            .unwrap();
+    }
+    let snapshot = window.snapshot();
+    assert_same(&snapshot, &mut session, "after all tools");
+    let recording = window.recording();
+    assert_eq!(recording, *session.recording().unwrap());
+    let text = recording.to_json().unwrap();
+    let read = paint::StrokeScript::from_json("recording", text.as_bytes()).unwrap();
+    assert_eq!(read, recording, "it is read as it was written");
+    let mut again = self::session();
+    read.replay(
+        &mut again,
+        |_: &str, _: &mut _| Ok::<(), std::io::Error>(()),
+        || ControlFlow::Continue(()),
+    )
+    .unwrap();
+    assert_same(&snapshot, &mut again, "after a replay");
+    // The worker plays it too.
+    let library = session.canvas().library().clone();
+    let pace = Pace::Fast;
+    window.ask(Command::Replay { script: Box::new(read), library: Box::new(library), pace });
+    window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
+    let replayed = window.snapshot();
+    assert!(replayed.canvas.wet == snapshot.canvas.wet, "the worker replays something else");
+}
+
+fn pick(window: &mut Window, x_mm: f64, y_mm: f64, radius_mm: f64) -> Arc<Picked> {
+    window.ask(Command::Pick { surface: SurfaceId::Canvas, x_mm, y_mm, radius_mm });
+    window.wait("what was picked", |event| match event {
+        Event::Picked(picked) => Some(Arc::clone(picked)),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_pick_equals_an_instrument_reading() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("flat", "Vermilion"));
+    window.stroke(SurfaceId::Canvas, "flat", [&wander(51, 80, 32.0, 20.0)[..]]);
+    window.act(Action::Dry { fraction: 1.0 });
+    window.act(load("round", "Ultramarine"));
+    let over = wander(51, 60, 32.0, 20.0);
+    window.stroke(SurfaceId::Canvas, "round", [&over[..]]);
+    let x_mm = over[30].x_mm;
+    let y_mm = over[30].y_mm;
+    let snapshot = window.snapshot();
+    let spectral = SpectralDocument::full(&snapshot.canvas);
+    let column = (x_mm / 0.1) as usize;
+    let row = (y_mm / 0.1) as usize;
+    let one = pick(&mut window, x_mm, y_mm, 0.0);
+    let wanted = spectral.measured_reflectance(column, row);
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(near(&one.reflectance, &wanted), "one cell");
+    assert_eq!(one.layers.len(), 2);
+    let heights: f64 = one.layers[1].amounts_mm.iter().sum();
+    let volume = snapshot.canvas.wet.cell(row * 320 + column).volume();
+    assert!((heights - paint::amount::mm_from_quanta(volume, 0.1)).abs() < 1e-12, "its height");
+    // Mean over a disc, computed cell by cell.
+    let radius = 0.35;
+    let disc = pick(&mut window, x_mm, y_mm, radius);
+    let mut sum = vec![0.0; wanted.len()];
+    let mut count = 0.0;
+    for index in 0..320 * 200 {
+        let x = index % 320;
+        let y = index / 320;
+        let away = (0.1 * x as f64 + 0.05 - x_mm).hypot(0.1 * y as f64 + 0.05 - y_mm);
+        if away <= radius {
+            count += 1.0;
+            for (sum, value) in sum.iter_mut().zip(spectral.measured_reflectance(x, y)) {
+                *sum += value;
+            }
+        }
+    }
+    let mean: Vec<f64> = sum.iter().map(|sum| sum / count).collect();
+    assert!(near(&disc.reflectance, &mean), "the mean of {count} cells");
+
+    // A brush loaded with picked paint holds that paint.
+    let brush = "filbert".to_owned();
+    window.act(load("filbert", "Zinc White"));
+    window.act(Action::Wash { brush: brush.clone() });
+    window.ask(Command::LoadPicked {
+        brush,
+        picked: Arc::unwrap_or_clone(disc).into(),
+        amount_mm: 0.2,
+    });
+    window.snapshot();
+    let filbert = |window: &Window| {
+        let found = window.state().brushes.iter().find(|brush| brush.name == "filbert");
+        found.cloned().expect("the brush exists")
+    };
+    window.wait_until("paint on the brush", |window| {
+        let state = filbert(window);
+        (state.amount_mm - 0.2).abs() < 1e-3 && state.parts[0] == 0.0
+    });
+    let wet = pick(&mut window, x_mm, y_mm, radius).layers[1].clone();
+    let total: f64 = wet.amounts_mm[..8].iter().sum();
+    for (part, amount) in filbert(&window).parts.iter().zip(wet.amounts_mm) {
+        assert!((part - amount / total).abs() < 1e-4, "{part} of {}", amount / total);
+    }
+    let bare = pick(&mut window, 0.05, 0.05, 0.0);
+    window.ask(Command::LoadPicked {
+        brush: "filbert".to_owned(),
+        picked: Box::new((*bare).clone()),
+        amount_mm: 0.2,
+    });
+    let (text, hint, failed) = window.message();
+    assert!(failed && text.contains("no wet paint") && hint.is_some(), "{text}");
 }

@@ -1,16 +1,17 @@
-//! A client of the worker that collects its events.
+//! A client of the worker that collects its events, with synthetic strokes and brush loads.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
-use web_time::{Duration, Instant};
 
 use graphics::gpu::BackendChoice;
-use paint::strokes::{Action, SampleDecimals, StrokeScript, SurfaceId};
+use paint::pose::Sample;
+use paint::strokes::{Action, Load, SampleDecimals, Stroke, StrokeScript, StrokeTool, SurfaceId};
 use pigment::library::PigmentLibrary;
 use session::{
     Command, Event, Origin, PaintingState, PenSample, Performance, Snapshot, Worker, WorkerOptions,
     default_brushes, default_mixing_canvas,
 };
+use web_time::{Duration, Instant};
 
 /// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -77,7 +78,7 @@ impl Window {
         &mut self,
         surface: SurfaceId,
         brush: &str,
-        pieces: impl IntoIterator<Item = &'a [paint::pose::Sample]>,
+        pieces: impl IntoIterator<Item = &'a [Sample]>,
     ) {
         self.ask(Command::PenDown {
             surface,
@@ -227,4 +228,43 @@ pub(crate) fn small() -> Origin {
     script.mixing = Some(mixing);
     script.brushes = default_brushes();
     Origin::Blank { script, library }
+}
+
+/// Samples of a wandering stroke of sines within `width_mm` x `height_mm`, at 120 samples per
+/// second. `seed` selects the phase.
+pub(crate) fn wander(seed: u64, count: usize, width_mm: f64, height_mm: f64) -> Vec<Sample> {
+    let phase = seed as f64 * 1.7;
+    let sample = |index: usize| {
+        let seconds = index as f64 / 120.0;
+        let a = phase + 2.1 * seconds;
+        let b = 1.3 * phase + 1.7 * seconds;
+        Sample {
+            seconds,
+            x_mm: width_mm * (0.5 + 0.45 * a.sin()),
+            y_mm: height_mm * (0.5 + 0.45 * b.cos()),
+            pressure: 0.4 + 0.3 * (3.0 * seconds + phase).sin(),
+            tilt_x_deg: 20.0 * (seconds + phase).sin(),
+            tilt_y_deg: 15.0 * (seconds - phase).cos(),
+            twist_deg: 40.0 * (0.5 * seconds).sin(),
+        }
+    };
+    (0..count).map(sample).collect()
+}
+
+pub(crate) fn load(brush: &str, pigment: &str) -> Action {
+    Action::Load(Load {
+        brush: brush.to_owned(),
+        recipe: [(pigment.to_owned(), 1.0)].into(),
+        vehicle: 0.1,
+        amount_mm: 0.3,
+    })
+}
+
+pub(crate) fn stroke(surface: SurfaceId, brush: &str, samples: &[Sample]) -> Action {
+    Action::Stroke(Stroke {
+        brush: brush.to_owned(),
+        on: surface,
+        tool: StrokeTool::Paint,
+        samples: samples.to_vec(),
+    })
 }

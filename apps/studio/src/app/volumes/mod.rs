@@ -2,22 +2,12 @@
 
 mod orbit;
 mod intent;
-mod entries;
-mod icons;
-mod menus;
-mod toolbar;
+mod bars;
 mod workspace;
-mod exports;
-mod events;
-mod perform;
-mod hand;
-mod canvas;
-mod status;
 mod frame;
 
-pub(super) use entries::SCENE_POINTER;
-pub use entries::{SCENE_ENTRIES, scene_key_rows};
-pub use intent::{SceneEntry, SceneIntent, SceneMenu};
+pub(super) use frame::WindowIntent;
+pub(super) use intent::SCENE_POINTER;
+pub use intent::{SCENE_ENTRIES, SceneEntry, SceneIntent, SceneMenu, scene_key_rows};
 pub use orbit::Orbit;
-pub(super) use perform::WindowIntent;
 pub use workspace::Volumes;

@@ -1,26 +1,40 @@
-//! State of the workspace of scenes.
+//! State of the workspace of scenes: the picture in the window, input of pen and mouse, events of
+//! the worker, and exported files.
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use web_time::Instant;
 
-use eframe::egui::{Context, Pos2, Rect, vec2};
+use documents::file::{disk, write_whole};
+use eframe::egui::{
+    Color32, Context, CursorIcon, Event, Id, Modifiers, PointerButton, Popup, Pos2, Rect, Response,
+    Role, Sense, Stroke, Ui, WidgetInfo, vec2,
+};
 use glam::Vec3;
 use graphics::camera::Camera;
+use graphics::export::PictureFormat;
+use graphics::tile::Rect as TileRect;
+use paint::document::{Document, Lighting};
+use paint::light::Light;
+use paint::strokes::SurfaceId;
+use session::brushes::{BrushOptions, StabiliserMethod};
+use session::volumes::{
+    Here, SHAPE, SceneImage, ScenePen, ScenePicture, SceneRecording, SceneState, SceneTool,
+    Subject, VolumeCommand, VolumeEvent, VolumeWorker,
+};
+use session::{TilePixels, Wait};
+use web_time::Instant;
 
 use super::orbit::Orbit;
+use crate::app::bars::Message;
 use crate::app::frames::Frames;
-use crate::app::status::Message;
-use crate::pace;
+use crate::files::{self, Files, Problem, SceneAnswer};
+use crate::language::{tr, tr_format};
 use crate::panels::volumes::{
-    SceneContext, SceneExport, SceneFileRequest, SceneRequest, SceneTools,
+    SceneContext, SceneExport, SceneFileRequest, SceneRequest, SceneTools, show_here,
 };
-use crate::pen::Device;
-use crate::view::Picture;
-use session::Wait;
-use session::volumes::{
-    Here, SHAPE, ScenePicture, SceneState, Subject, VolumeCommand, VolumeWorker,
-};
+use crate::pen::{Device, Pen, PenEvent, PenTargets, SurfaceTransform};
+use crate::view::{DrawnPart, Picture, ViewState, fill_rect};
+use crate::{pace, theme};
 
 /// Subject of a new scene.
 const NEW: &str = "village";
@@ -198,4 +212,364 @@ impl Volumes {
     pub fn new_subject() -> String {
         format!("{SHAPE}{NEW}")
     }
+
+    /// Draws the picture in a rectangle of the window, and lets the hand work on it.
+    pub(super) fn show_canvas(&mut self, ui: &mut Ui, rect: Rect, pen: &mut Pen) {
+        fill_rect(ui.painter(), rect, theme::SURROUND);
+        self.rect = rect;
+        let id = Id::unique("scene");
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, tr(NAME)));
+        let density = ui.ctx().pixels_per_point();
+        let painter = ui.painter_at(rect);
+        if let Some((_, picture)) = &mut self.picture {
+            let mut view = ViewState::default();
+            view.fit(picture.cells(), rect, 0.0, density);
+            let mut placement = view.placement(rect, density);
+            // A picture that is drawn smaller while the scene moves is smoothed.
+            placement.aligned &= view.zoom == 1.0;
+            picture.draw(&painter, &placement, DrawnPart::Whole);
+        }
+        self.navigate(ui, &response);
+        self.use_tool(ui, pen);
+        self.draw_reach(ui, &response);
+        self.ask_here(ui, &response);
+        self.tell_sight(rect, density);
+    }
+
+    /// Tells the worker camera and size if they changed.
+    fn tell_sight(&mut self, rect: Rect, density: f32) {
+        if self.state.is_none() {
+            return;
+        }
+        let size = [rect.width(), rect.height()].map(|side| (side * density).round().max(1.0));
+        self.orbit.set_aspect(size[0] / size[1]);
+        let size = size.map(|side| side as usize);
+        let camera = self.orbit.camera();
+        if self.told.1 != size {
+            self.told.1 = size;
+            self.ask(VolumeCommand::Size(size));
+        }
+        if self.told.0 != Some(camera) {
+            self.told.0 = Some(camera);
+            self.ask(VolumeCommand::Camera(camera));
+        }
+    }
+
+    /// Draws the reach of the tool around the pointer.
+    fn draw_reach(&self, ui: &Ui, response: &Response) {
+        let Some(pointer) = response.hover_pos() else { return };
+        let Some(state) = &self.state else { return };
+        let grip = self.tools.grip;
+        let radius = match grip.tool {
+            SceneTool::Pour => 4.0,
+            _ => self.orbit.points(grip.radius_mm / state.unit_mm, self.rect.height()),
+        };
+        let painter = ui.painter_at(self.rect);
+        painter.circle_stroke(pointer, radius, Stroke::new(3.0, Color32::from_black_alpha(90)));
+        painter.circle_stroke(pointer, radius, Stroke::new(1.0, theme::colors(ui.ctx()).strong));
+        ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+    }
+
+    /// Asks what is under a click of the right button, and shows the answer.
+    fn ask_here(&mut self, ui: &Ui, response: &Response) {
+        if let (Some((at, Some(here))), Some(state)) = (&self.here, &self.state)
+            && !show_here(ui.ctx(), *at, here, state)
+        {
+            self.here = None;
+        }
+        if response.clicked_by(PointerButton::Secondary)
+            && let Some(pointer) = response.interact_pointer_pos()
+        {
+            self.here = Some((pointer, None));
+            let place = self.place(pointer);
+            self.ask(VolumeCommand::Pick(place));
+        }
+    }
+
+    /// Turns, moves and zooms the camera by the middle button and the wheel.
+    pub(super) fn navigate(&mut self, ui: &Ui, response: &Response) {
+        let height = self.rect.height();
+        if response.dragged_by(PointerButton::Middle) {
+            let moved = response.drag_delta();
+            if ui.input(|input| input.modifiers.shift) {
+                self.orbit.pan(moved, height);
+            } else {
+                self.orbit.turn(moved);
+            }
+        }
+        if !response.contains_pointer() {
+            return;
+        }
+        let (scroll, zoom, pointer) = ui.input(|input| {
+            (input.smooth_scroll_delta(), input.zoom_delta(), input.pointer.hover_pos())
+        });
+        let factor = zoom * (scroll.y / WHEEL_POINTS).exp();
+        if let Some(pointer) = pointer.filter(|_| factor != 1.0) {
+            self.orbit.zoom(factor, pointer - self.rect.center(), height);
+        }
+    }
+
+    /// Uses the tool in hand where the pen is down.
+    pub(super) fn use_tool(&mut self, ui: &Ui, pen: &mut Pen) {
+        let context = ui.ctx();
+        let corner = self.rect.min;
+        // One point of the window is one unit of the pen's plane.
+        let plane = SurfaceTransform::new(SurfaceId::Canvas, self.rect, |point| {
+            (f64::from(point.x - corner.x), f64::from(point.y - corner.y))
+        });
+        let blocked = self.state.is_none()
+            || Popup::is_any_open(context)
+            || context.memory(|memory| memory.top_modal_layer().is_some());
+        let covered = |point| {
+            let above = context.layer_id_at(point);
+            blocked || above.is_some_and(|layer| layer.order != eframe::egui::Order::Background)
+        };
+        let targets = PenTargets { surfaces: &[plane], covered: &covered };
+        let events: Vec<Event> = ui.input(|input| input.events.clone());
+        // Paint is poured at once: it has no direction that the pen would wait for, and no brush.
+        pen.settings.follow = false;
+        pen.settings.stabiliser.method = StabiliserMethod::Off;
+        (pen.options, pen.guide) = (BrushOptions::default(), None);
+        let now = Instant::now();
+        for event in pen.process_frame(&events, Modifiers::NONE, now, &targets) {
+            self.handle_pen(event);
+        }
+        if let Some(soon) = pen.repaint_after(Instant::now()) {
+            pace::frame_after(context, soon, Instant::now());
+        }
+    }
+
+    fn handle_pen(&mut self, event: PenEvent) {
+        match event {
+            PenEvent::Down { device, .. } => {
+                self.device = Some(device);
+                self.pours = false;
+            }
+            PenEvent::Move(samples) => {
+                let measures = self.device.is_some_and(Device::is_pen);
+                for sample in samples {
+                    let sample = sample.sample;
+                    let size = self.rect.size();
+                    let pen = ScenePen {
+                        at: [sample.x_mm as f32 / size.x, sample.y_mm as f32 / size.y],
+                        pressure: if measures { sample.pressure as f32 } else { 1.0 },
+                    };
+                    if std::mem::replace(&mut self.pours, true) {
+                        self.ask(VolumeCommand::PenMove(pen));
+                    } else {
+                        self.ask(VolumeCommand::PenDown(self.tools.grip, pen));
+                    }
+                }
+            }
+            PenEvent::Up => {
+                if std::mem::take(&mut self.pours) {
+                    self.ask(VolumeCommand::PenUp);
+                }
+            }
+            PenEvent::Hover { .. }
+            | PenEvent::Leave
+            | PenEvent::Tap { .. }
+            | PenEvent::Barrel { .. } => {}
+        }
+    }
+
+    /// Handles all events that arrived since the last call.
+    pub(in crate::app) fn handle_events(&mut self, files: &mut Files) {
+        let events: Vec<VolumeEvent> = self.worker.events().collect();
+        for event in events {
+            self.handle_event(event, files);
+        }
+    }
+
+    fn handle_event(&mut self, event: VolumeEvent, files: &mut Files) {
+        match event {
+            VolumeEvent::Opened(state) => {
+                let orbit = Orbit::around(state.bounds, state.framed);
+                let seen_from = state.seen_from.as_ref();
+                self.orbit = seen_from.map_or(orbit, |camera| orbit.seen_by(camera));
+                self.told.0 = None;
+                (self.here, self.tools.here) = (None, None);
+                self.message = None;
+                files.scene_opened(&state);
+                self.state = Some(state);
+            }
+            VolumeEvent::State(state) => {
+                files.scene_changed(&state);
+                self.state = Some(state);
+            }
+            VolumeEvent::Picture(picture) => self.show_picture(picture),
+            VolumeEvent::Here(here) => {
+                self.tools.here = Some((*here).clone());
+                if let Some((_, answer)) = &mut self.here {
+                    *answer = Some(*here);
+                }
+            }
+            VolumeEvent::Recording(number, recording) => {
+                self.write_recording(number, &recording, files);
+            }
+            VolumeEvent::Drawn(number, picture) => self.write_picture(number, picture, files),
+            VolumeEvent::Painted(number, document) => self.write_painting(number, document, files),
+            VolumeEvent::Message { text, hint, failed: true } => {
+                let hint = hint.map(|hint| hint.to_string());
+                files.report(Problem { text, hint });
+            }
+            VolumeEvent::Message { text, hint, failed: false } => {
+                let hint = hint.map(|hint| hint.to_string());
+                self.message =
+                    Some(Message { text, hint, failed: false, shown_at: Instant::now() });
+            }
+        }
+    }
+
+    /// Puts a picture on the screen.
+    fn show_picture(&mut self, picture: Arc<ScenePicture>) {
+        let ScenePicture { width, height, .. } = *picture;
+        let kept = self.picture.take().map(|(_, shown)| shown);
+        let kept = kept.filter(|shown| shown.cells() == (width, height));
+        let mut shown = kept.unwrap_or_else(|| Picture::new(tr("Scene"), (width, height)));
+        let rect = TileRect { x: 0, y: 0, width, height };
+        shown.write(&TilePixels { rect, pixels: picture.pixels.clone() });
+        self.picture = Some((picture, shown));
+        self.pictures += 1;
+        self.shown_at = Some(Instant::now());
+        self.frames.begin(Instant::now(), None);
+    }
+
+    /// Asks for the next frame while something is awaited.
+    pub(super) fn keep_awake(&self, context: &Context) {
+        if let Some(rest) = self.message.as_ref().and_then(|message| message.rest(Instant::now())) {
+            context.request_repaint_after(rest);
+        }
+    }
+
+    /// Carries out what the painter chose for a scene.
+    pub(in crate::app) fn answer(&mut self, answer: SceneAnswer, files: &mut Files) {
+        match answer {
+            SceneAnswer::Open(path) => self.open(Subject::of_file(&path)),
+            SceneAnswer::Library(path) => self.ask(VolumeCommand::Library(path)),
+            SceneAnswer::Export(export, path) => self.export(export, path),
+            SceneAnswer::Recover(lost) => {
+                let folder = lost.meta.path.clone().unwrap_or_default();
+                match disk::read_to_string(lost.script()) {
+                    Ok(text) => {
+                        self.open(Subject::Text { text, folder });
+                        files.recovering_scene(lost);
+                    }
+                    Err(error) => {
+                        let text = tr_format!(
+                            "the autosave of {title}: cannot be read: {error}",
+                            title = lost.meta.title,
+                            error
+                        );
+                        files.report(Problem { text, hint: None });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Asks for the recording if an autosave is due.
+    pub(in crate::app) fn autosave(&mut self, files: &mut Files) {
+        if files.wants_scene_recording() {
+            self.worker.ask(VolumeCommand::Recording(AUTOSAVE));
+        }
+    }
+
+    /// Asks the worker for the content of a file.
+    fn export(&mut self, export: SceneExport, path: PathBuf) {
+        let size = self.told.1;
+        let number = self.await_file(export, path);
+        self.ask(match export {
+            SceneExport::Picture => VolumeCommand::Draw(number, size),
+            SceneExport::Painting | SceneExport::OfPainting(_) => {
+                VolumeCommand::Paint(number, size)
+            }
+            SceneExport::Script | SceneExport::Animation => VolumeCommand::Recording(number),
+        });
+    }
+
+    /// Removes and returns the file that a request was for.
+    fn take_awaited(&mut self, number: u64) -> Option<(SceneExport, PathBuf)> {
+        let at = self.awaited.iter().position(|(own, ..)| *own == number)?;
+        let (_, export, path) = self.awaited.remove(at);
+        Some((export, path))
+    }
+
+    /// Writes the recording where it was asked for.
+    pub(super) fn write_recording(
+        &mut self,
+        number: u64,
+        recording: &Arc<SceneRecording>,
+        files: &mut Files,
+    ) {
+        if number == AUTOSAVE {
+            return files.autosave_scene(recording);
+        }
+        match self.take_awaited(number) {
+            Some((SceneExport::Script, path)) => files.save_scene(recording, path),
+            Some((SceneExport::Animation, path)) => {
+                let recording = Arc::clone(recording);
+                let size = self.told.1;
+                files.export_scene(path, move |path, progress| {
+                    session::volumes::animation(&recording, size, path, |share| {
+                        progress.report(share).is_ok()
+                    })
+                    .map_err(Problem::from)?;
+                    // Nothing was written if it was cancelled.
+                    progress.report(1.0)?;
+                    Ok(None)
+                });
+            }
+            _ => {}
+        }
+    }
+
+    /// Writes a picture where it was asked for.
+    pub(super) fn write_picture(
+        &mut self,
+        number: u64,
+        picture: Arc<SceneImage>,
+        files: &mut Files,
+    ) {
+        let Some((_, path)) = self.take_awaited(number) else { return };
+        files.export_scene(path, move |path, _| {
+            let format = PictureFormat::from_path(path).unwrap_or(PictureFormat::Png8);
+            let bytes = picture.file(format).map_err(Problem::from)?;
+            write_whole(path, &bytes).map_err(Problem::from)?;
+            Ok(None)
+        });
+    }
+
+    /// Writes a painting, or an export of it, where it was asked for.
+    pub(super) fn write_painting(
+        &mut self,
+        number: u64,
+        document: Arc<Document>,
+        files: &mut Files,
+    ) {
+        let Some((export, path)) = self.take_awaited(number) else { return };
+        files.export_scene(path, move |path, progress| {
+            if let SceneExport::OfPainting(export) = export {
+                let Lighting { illuminant, observer, .. } = &document.lighting;
+                let light = Light::named(&document.library, illuminant, observer);
+                let light = light.map_err(|error| Problem::from_error(&error))?;
+                return files::export(export, &document, &light, path, progress);
+            }
+            let bytes = paint::file::write(&document);
+            let bytes = bytes.map_err(|error| Problem::from_error(&error))?;
+            progress.report(0.8)?;
+            write_whole(path, &bytes).map_err(Problem::from)?;
+            Ok(None)
+        });
+    }
 }
+
+/// Name of the picture for screen readers and tests.
+const NAME: &str = "Scene";
+
+/// Points of scrolling that zoom by a factor of e, as on the easel.
+const WHEEL_POINTS: f32 = 220.0;
+
+/// Number of the request for the recording of an autosave.
+const AUTOSAVE: u64 = 0;

@@ -2,13 +2,8 @@
 //! and could not be tested.
 
 mod listing;
-mod places;
-mod arranged;
 mod thumbnails;
-mod glyph;
 mod state;
-mod places_view;
-mod entries_view;
 mod show;
 
 pub(crate) use listing::{Filter, pictures_and};

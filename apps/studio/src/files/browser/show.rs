@@ -1,19 +1,23 @@
-//! Drawing and input of the file browser.
+//! Draws the file browser (places, recent files, entries as rows or pictures) and handles its
+//! input.
 
 use std::path::Path;
 
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
-    Align, Button, ComboBox, Context, Event, Frame, Id, Key, Layout, Modal, Modifiers, RichText,
-    Ui, Vec2, vec2,
+    Align, Align2, Button, Color32, ComboBox, Context, Event, Frame, Id, Image, Key, Label, Layout,
+    Modal, Modifiers, Painter, Pos2, Rect, Response, RichText, Role, ScrollArea, Sense, Shape,
+    Stroke, TextStyle, Ui, Vec2, WidgetInfo, WidgetText, pos2, vec2,
 };
+use web_time::SystemTime;
 
-use super::places_view;
-use super::state::{Answer, Browser};
-use super::thumbnails::Thumbnails;
-use crate::files::browser_look::BrowserOrder;
-use crate::files::default_button;
+use super::listing::Entry;
+use super::state::{Answer, Browser, PlaceKind};
+use super::thumbnails::{Thumbnail, Thumbnails};
+use crate::files::dialogs;
+use crate::files::preferences::BrowserOrder;
+use crate::files::problem::{ago, size};
 use crate::language::{tr, tr_format};
 use crate::theme;
 
@@ -32,7 +36,7 @@ impl Browser {
     pub(crate) fn show(&mut self, ctx: &Context, thumbnails: &mut Thumbnails) -> Option<Answer> {
         self.update();
         let mut answer = None;
-        let taken = default_button::keyboard_taken(ctx);
+        let taken = dialogs::keyboard_taken(ctx);
         let modal = Modal::new(Id::unique("file browser")).show(ctx, |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 40.0));
             ui.heading(self.options.title);
@@ -45,7 +49,7 @@ impl Browser {
             let across = Layout::left_to_right(Align::Min);
             ui.allocate_ui_with_layout(size, across, |ui| {
                 ui.set_min_size(size);
-                ui.allocate_ui_with_layout(vec2(places_view::WIDTH, height), down(), |ui| {
+                ui.allocate_ui_with_layout(vec2(PLACES_WIDTH, height), down(), |ui| {
                     answer = answer.take().or_else(|| self.places_view(ui, height));
                 });
                 Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4).show(ui, |ui| {
@@ -223,7 +227,7 @@ impl Browser {
             }
             self.type_letters(ctx);
         }
-        if default_button::pressed(ctx, taken) { self.enter() } else { None }
+        if dialogs::pressed(ctx, taken) { self.enter() } else { None }
     }
 
     /// Adds letters that are typed into the list to the filter.
@@ -240,6 +244,186 @@ impl Browser {
             }
         });
     }
+
+    /// The entries in the form that the painter chose.
+    pub(super) fn entries_view(
+        &mut self,
+        ui: &mut Ui,
+        height: f32,
+        thumbnails: &mut Thumbnails,
+    ) -> Option<Answer> {
+        let entries: Vec<Entry> = self.shown().into_iter().cloned().collect();
+        let gap = ui.spacing().item_spacing;
+        let grid = self.look.grid;
+        self.columns = if grid {
+            (((ui.available_width() + gap.x) / (TILE.x + gap.x)) as usize).max(1)
+        } else {
+            1
+        };
+        let row = if grid { TILE.y } else { ROW };
+        let scroll = std::mem::take(&mut self.scroll_to_selected);
+        let at = entries.iter().position(|entry| Some(&entry.name) == self.selected.as_ref());
+        let mut area = ScrollArea::vertical().auto_shrink(false).max_height(height);
+        if let Some(at) = at.filter(|_| scroll) {
+            let line = (at / self.columns) as f32;
+            let middle = line * (row + gap.y) - 0.5 * (height - row);
+            area = area.vertical_scroll_offset(middle.max(0.0));
+        }
+        let columns = self.columns;
+        let mut answer = None;
+        area.show_rows(ui, row, entries.len().div_ceil(columns), |ui, rows| {
+            for line in rows {
+                let first = line * columns;
+                let last = (first + columns).min(entries.len());
+                ui.horizontal(|ui| {
+                    for entry in &entries[first..last] {
+                        let clicked = if grid {
+                            self.tile(ui, entry, thumbnails)
+                        } else {
+                            self.row(ui, entry, thumbnails)
+                        };
+                        let clicked = clicked.on_hover_text(if entry.folder {
+                            tr("Double click to open the folder").to_owned()
+                        } else {
+                            tr_format!(
+                                "{name}\nDouble click to choose this file",
+                                name = entry.name
+                            )
+                        });
+                        if clicked.clicked() {
+                            self.select(entry);
+                        }
+                        if clicked.double_clicked() {
+                            answer = self.enter();
+                        }
+                    }
+                });
+            }
+        });
+        if entries.is_empty() {
+            let empty = match (self.update(), self.typed_filter.trim()) {
+                (true, _) => tr("Reading ..."),
+                (false, "") => tr("No files of this kind"),
+                (false, _) => tr("No names with these letters"),
+            };
+            ui.put(ui.min_rect().shrink(8.0), Label::new(RichText::new(empty).weak()));
+        }
+        answer
+    }
+
+    fn row(&self, ui: &mut Ui, entry: &Entry, thumbnails: &mut Thumbnails) -> Response {
+        let selected = self.selected.as_ref() == Some(&entry.name);
+        let name = if entry.folder { format!("{}/", entry.name) } else { entry.name.clone() };
+        let details = RichText::new(details(entry)).small();
+        // Faint text is not legible on the selected row.
+        let details = if selected { details } else { details.weak() };
+        let (place, _) = ui.allocate_exact_size(vec2(ROW + 8.0, ROW), Sense::hover());
+        self.sign(ui, place.shrink(1.0), entry, thumbnails);
+        let button = Button::selectable(selected, name)
+            .right_text(details)
+            .truncate()
+            .min_size(vec2(ui.available_width(), ROW));
+        ui.add(button)
+    }
+
+    fn tile(&self, ui: &mut Ui, entry: &Entry, thumbnails: &mut Thumbnails) -> Response {
+        let selected = self.selected.as_ref() == Some(&entry.name);
+        let (rect, response) = ui.allocate_exact_size(TILE, Sense::click());
+        let name = if entry.folder { format!("{}/", entry.name) } else { entry.name.clone() };
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &name));
+        let colors = theme::colors(ui.ctx());
+        let fill = match (selected, response.hovered()) {
+            (true, _) => colors.chosen,
+            (false, true) => colors.button,
+            (false, false) => Color32::TRANSPARENT,
+        };
+        ui.painter().rect_filled(rect, f32::from(theme::CORNER_RADIUS), fill);
+        let below = rect.bottom() - NAME;
+        let picture = Rect::from_min_max(rect.min, pos2(rect.right(), below)).shrink(5.0);
+        self.sign(ui, picture, entry, thumbnails);
+        let text = WidgetText::from(name).into_galley(
+            ui,
+            Some(eframe::egui::TextWrapMode::Truncate),
+            rect.width() - 8.0,
+            TextStyle::Body,
+        );
+        let middle = pos2(rect.center().x, below + 0.5 * NAME - 2.0);
+        let at = Align2::CENTER_CENTER.anchor_size(middle, text.size());
+        let color = if selected { colors.strong } else { colors.text };
+        ui.painter().galley(at.min, text, color);
+        response
+    }
+
+    /// Draws the picture of an entry, or a plain sign.
+    fn sign(&self, ui: &Ui, rect: Rect, entry: &Entry, thumbnails: &mut Thumbnails) {
+        let faint = theme::colors(ui.ctx()).faint;
+        match thumbnails.of(ui.ctx(), &self.folder, entry) {
+            Thumbnail::Ready(texture) => {
+                let own = texture.size_vec2();
+                let fitted = own * (rect.width() / own.x).min(rect.height() / own.y).min(1.0);
+                let place = Rect::from_center_size(rect.center(), fitted);
+                Image::from_texture(texture).paint_at(ui, place);
+            }
+            Thumbnail::Awaited => draw(ui.painter(), rect, false, faint.gamma_multiply(0.5)),
+            Thumbnail::Plain => draw(ui.painter(), rect, entry.folder, faint),
+        }
+    }
+
+    /// Draws the column; a click opens the folder, or chooses the file.
+    pub(super) fn places_view(&mut self, ui: &mut Ui, height: f32) -> Option<Answer> {
+        ui.set_width(PLACES_WIDTH);
+        let mut answer = None;
+        ScrollArea::vertical().id_salt("places").max_height(height).auto_shrink(false).show(
+            ui,
+            |ui| {
+                self.folders(ui);
+                answer = self.recent_files(ui);
+            },
+        );
+        answer
+    }
+
+    fn folders(&mut self, ui: &mut Ui) {
+        let mut kind = PlaceKind::Own;
+        for place in self.places.clone() {
+            if place.kind != kind {
+                kind = place.kind;
+                heading(ui, if kind == PlaceKind::Drive { tr("Drives") } else { tr("Folders") });
+            }
+            let here = place.path == self.folder;
+            // The names of places are found on another thread, in English.
+            let name = if kind == PlaceKind::Own { tr(&place.name) } else { &place.name };
+            let button = ui.add(place_button(name, here));
+            if button.on_hover_text(place.path.display().to_string()).clicked() {
+                self.go(place.path);
+            }
+        }
+    }
+
+    fn recent_files(&mut self, ui: &mut Ui) -> Option<Answer> {
+        let mut answer = None;
+        if !self.recent.is_empty() {
+            heading(ui, tr("Recent files"));
+        }
+        for path in self.recent.clone() {
+            let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+            let button = ui.add(place_button(&name.unwrap_or_default(), false));
+            if button.on_hover_text(path.display().to_string()).clicked() {
+                answer = self.enter_recent(&path);
+            }
+        }
+        answer
+    }
+
+    fn enter_recent(&mut self, path: &Path) -> Option<Answer> {
+        if !self.options.saving {
+            return Some(Answer::File(path.to_owned()));
+        }
+        if let Some(folder) = path.parent() {
+            self.go(folder.to_owned());
+        }
+        None
+    }
 }
 
 /// Selects all text of a field, so that typing replaces it.
@@ -252,4 +436,63 @@ fn select_all(ui: &Ui, field: Id, text: &str) {
 
 fn down() -> Layout {
     Layout::top_down(Align::Min)
+}
+
+/// Draws the sign of a folder, or of a file, in the middle of `rect`.
+pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) {
+    let side = rect.width().min(rect.height()) * 0.8;
+    let size = if folder { vec2(side, 0.78 * side) } else { vec2(0.72 * side, side) };
+    let corner = rect.center() - 0.5 * size;
+    let place = |(x, y): (f32, f32)| pos2(corner.x + x * size.x, corner.y + y * size.y);
+    let stroke = Stroke::new((side / 22.0).clamp(1.0, 2.0), color);
+    let lines: [&[(f32, f32)]; 2] = if folder {
+        [
+            &[
+                (0.0, 1.0),
+                (0.0, 0.0),
+                (0.36, 0.0),
+                (0.48, 0.16),
+                (1.0, 0.16),
+                (1.0, 1.0),
+                (0.0, 1.0),
+            ],
+            &[(0.0, 0.34), (1.0, 0.34)],
+        ]
+    } else {
+        [
+            &[(0.0, 0.0), (0.62, 0.0), (1.0, 0.28), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)],
+            &[(0.62, 0.0), (0.62, 0.28), (1.0, 0.28)],
+        ]
+    };
+    for line in lines {
+        let places: Vec<Pos2> = line.iter().copied().map(place).collect();
+        painter.add(Shape::line(places, stroke));
+    }
+}
+
+/// Height of a row of the list, in points.
+const ROW: f32 = 34.0;
+
+/// Size of a tile of the grid, in points.
+const TILE: Vec2 = vec2(126.0, 124.0);
+
+/// Height of the name below a picture of the grid, in points.
+const NAME: f32 = 20.0;
+
+/// Size and age of an entry in words.
+fn details(entry: &Entry) -> String {
+    let age = entry.changed.map(|then| ago(then, SystemTime::now())).unwrap_or_default();
+    if entry.folder { age } else { format!("{}   {age}", size(entry.bytes)) }
+}
+
+/// Width of the column, in points.
+pub(super) const PLACES_WIDTH: f32 = 160.0;
+
+fn heading(ui: &mut Ui, name: &str) {
+    ui.add_space(6.0);
+    ui.label(RichText::new(name).weak().small());
+}
+
+fn place_button(name: &str, here: bool) -> Button<'_> {
+    Button::selectable(here, name).truncate().min_size(vec2(PLACES_WIDTH - 10.0, 0.0))
 }

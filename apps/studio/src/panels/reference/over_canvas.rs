@@ -1,14 +1,19 @@
-//! The reference picture laid over the canvas, to draw after. It is only shown: nothing of it
-//! is painted, saved or exported.
+//! Tools of the pointer on the reference picture: drawing marks and guides, and picking colours.
+//!
+//! The picture can also lie over the canvas, to draw after. It is only shown: nothing of it is
+//! painted, saved or exported.
 
 use eframe::egui::epaint::{Mesh, Vertex};
 use eframe::egui::{
-    Button, Color32, CursorIcon, Id, Painter, Pos2, Rect, Response, Role, Sense, Shape, Slider,
-    Stroke, TextureId, Ui, WidgetInfo, pos2, vec2,
+    Button, Color32, CursorIcon, Id, Painter, PointerButton, Pos2, Rect, Response, Role, Sense,
+    Shape, Slider, Stroke, TextureId, Ui, WidgetInfo, pos2, vec2,
 };
+use spectra::color::Rgb;
 
-use super::place::OverlayPlace;
-use super::state::Reference;
+use super::super::context::PanelContext;
+use super::picture::{OverlayPlace, PictureView, ReferenceMode};
+use super::samples::traced;
+use super::state::{Drawn, Overlay, Reference, screen_color};
 use crate::keymap::hint;
 use crate::language::{tr, tr_format};
 use crate::theme;
@@ -116,7 +121,7 @@ impl Reference {
         aspect: f64,
     ) -> OverlayPlace {
         let mut moved = place;
-        if response.dragged_by(eframe::egui::PointerButton::Primary) {
+        if response.dragged_by(PointerButton::Primary) {
             let [from, to] = [Pos2::ZERO, response.drag_delta().to_pos2()].map(|p| on_canvas.mm(p));
             moved = moved.moved([to[0] - from[0], to[1] - from[1]]);
         }
@@ -142,6 +147,136 @@ impl Reference {
             moved = place.turned_to(to);
         }
         moved
+    }
+
+    /// Takes the pointer's movements over the picture in this frame.
+    pub(super) fn sketch(&mut self, ui: &Ui, response: &Response, view: PictureView) {
+        let Some(drawn) = self.line.update(ui, response) else { return };
+        let Some(size) = self.picture.as_ref().map(|picture| picture.file_size()) else { return };
+        let place = |point: Pos2| {
+            let place = view.place(response.rect, point);
+            [f64::from(place.x), f64::from(place.y)]
+        };
+        let tolerance = f64::from(TOLERANCE_PX.max(TOLERANCE_POINTS / view.zoom));
+        let shift = ui.input(|input| input.modifiers.shift);
+        match (self.mode, drawn) {
+            (ReferenceMode::Pick, _) => {}
+            (ReferenceMode::Mark, drawn) if self.spacing || shift => {
+                self.sketch_spacing(drawn, place, size);
+            }
+            (mode, Drawn::Line(points)) => {
+                let points: Vec<[f64; 2]> = points.into_iter().map(place).collect();
+                let line = traced(&points, size, tolerance);
+                if line.len() < 2 {
+                    return;
+                }
+                match mode {
+                    ReferenceMode::Mark => self.samples.add(line, size),
+                    _ => self.combing.add(line),
+                }
+            }
+            (mode, Drawn::Click(point)) => {
+                let at = place(point);
+                let reach = f64::from(REACH / view.zoom);
+                match mode {
+                    ReferenceMode::Mark => {
+                        let nearest = self.samples.nearest(at, reach);
+                        self.samples.selected = nearest.unwrap_or(self.samples.selected);
+                    }
+                    _ => {
+                        let nearest = self.combing.nearest(at, reach);
+                        self.combing.selected = nearest.unwrap_or(self.combing.selected);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A line from stroke to stroke, or clicks on both, are the distance of strokes.
+    fn sketch_spacing(&mut self, drawn: Drawn, place: impl Fn(Pos2) -> [f64; 2], size: [usize; 2]) {
+        let (from, to) = match drawn {
+            Drawn::Line(points) => match points[..] {
+                [first, .., last] => (place(first), place(last)),
+                _ => return,
+            },
+            Drawn::Click(point) => match self.first_place {
+                Some(first) => (first, place(point)),
+                None => {
+                    let inside = |(at, side): (f64, usize)| (0.0..side as f64).contains(&at);
+                    let at = place(point);
+                    self.first_place = at.into_iter().zip(size).all(inside).then_some(at);
+                    return;
+                }
+            },
+        };
+        if let [from, .., to] = traced(&[from, to], size, f64::INFINITY)[..] {
+            self.first_place = None;
+            self.samples.set_spacing([from, to], size);
+        }
+    }
+
+    /// Draws the lines of the mode over the picture.
+    pub(super) fn draw_sketches(&self, ui: &Ui, panel: Rect, view: PictureView) {
+        let point = |[x, y]: [f64; 2]| view.point(panel, vec2(x as f32, y as f32));
+        let overlay = Overlay { painter: ui.painter_at(panel), point: &point, zoom: view.zoom };
+        let color = match self.mode {
+            ReferenceMode::Pick => return,
+            ReferenceMode::Mark => {
+                let marks = self.samples.marks();
+                for (index, mark) in marks.iter().enumerate() {
+                    overlay.mark(index, mark, index == self.samples.selected);
+                }
+                screen_color(marks.len())
+            }
+            ReferenceMode::Comb => {
+                for (index, line) in self.combing.combed().lines.iter().enumerate() {
+                    overlay.guide(index + 1, line, index == self.combing.selected);
+                }
+                Color32::WHITE
+            }
+        };
+        let shift = ui.input(|input| input.modifiers.shift);
+        let between_strokes = self.mode == ReferenceMode::Mark && (self.spacing || shift);
+        let selected = screen_color(self.samples.selected);
+        match (between_strokes, self.line.points()) {
+            (true, [first, .., last]) => overlay.spacing([*first, *last], selected),
+            (false, points) => overlay.unfinished(points, color),
+            _ => {}
+        }
+        if let (Some(first), Some(pointer)) = (self.first_place, ui.ctx().pointer_latest_pos()) {
+            overlay.spacing([point(first), pointer], selected);
+        }
+    }
+
+    /// Picks the colour at the pointer when the primary button is released, and shows it beside the
+    /// pointer until then.
+    pub(super) fn pick(
+        &self,
+        ui: &Ui,
+        response: &Response,
+        view: PictureView,
+        cx: &mut PanelContext<'_>,
+    ) {
+        let first = ui.input(|input| {
+            input.pointer.button_down(PointerButton::Primary)
+                || input.pointer.button_released(PointerButton::Primary)
+        });
+        let (Some(pointer), Some(picture)) = (response.interact_pointer_pos(), &self.picture)
+        else {
+            return;
+        };
+        let place = view.place(response.rect, pointer);
+        let Some(color) =
+            picture.mean([place.x, place.y], self.radius, self.exposure).filter(|_| first)
+        else {
+            return;
+        };
+        if response.drag_stopped() || response.clicked() {
+            cx.tools.reference_color = Some(color);
+        } else {
+            let reach = view.zoom * self.radius.max(0.5);
+            loupe(ui, response.rect, pointer, reach, Rgb(color));
+        }
     }
 }
 
@@ -194,4 +329,22 @@ fn draw_frame(painter: &Painter, ui: &Ui, corners: [Pos2; 4], turn: Pos2) {
         painter.rect(rect, 2.0, colors.panel, edge, eframe::egui::StrokeKind::Inside);
     }
     painter.circle(turn, 0.5 * HANDLE - 1.0, colors.panel, edge);
+}
+
+/// Distance in points within which a click selects a line.
+const REACH: f32 = 8.0;
+
+/// Least bend in pixels of the picture, and in points of the window, that a line keeps.
+const TOLERANCE_PX: f32 = 0.5;
+const TOLERANCE_POINTS: f32 = 0.75;
+
+/// Draws the colour beside the pointer, and the disc that is averaged.
+fn loupe(ui: &Ui, panel: Rect, pointer: Pos2, reach: f32, linear: Rgb) {
+    let [red, green, blue] = linear.encoded().to_bytes();
+    let painter = ui.painter_at(panel);
+    painter.circle_stroke(pointer, reach.max(3.0), Stroke::new(1.5, Color32::WHITE));
+    painter.circle_stroke(pointer, reach.max(3.0) + 1.0, Stroke::new(1.0, Color32::BLACK));
+    let patch = Rect::from_center_size(pointer - vec2(0.0, 44.0), vec2(44.0, 44.0));
+    painter.rect_filled(patch.expand(1.0), 0.0, Color32::BLACK);
+    painter.rect_filled(patch, 0.0, Color32::from_rgb(red, green, blue));
 }

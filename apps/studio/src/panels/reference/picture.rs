@@ -1,9 +1,10 @@
-//! The pixels of a reference picture, read on a background thread.
+//! The pixels of a reference picture, read on a background thread, and its view in the panel and
+//! over the canvas (pure geometry in mm).
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use eframe::egui::ColorImage;
+use eframe::egui::{ColorImage, Pos2, Rect, Vec2, pos2, vec2};
 use paint::file::MEMORY_LIMIT;
 use session::thread;
 use spectra::color::RgbSpace;
@@ -130,6 +131,209 @@ impl PendingPicture {
     }
 }
 
+/// Minimum and maximum zoom, in points for each pixel.
+const ZOOM: (f32, f32) = (0.02, 64.0);
+
+/// Position, zoom and mirroring of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PictureView {
+    /// Picture position at the centre of the panel, in pixels.
+    pub(super) center: Vec2,
+    /// Zoom in points for each pixel.
+    pub(super) zoom: f32,
+    /// Whether the picture is mirrored horizontally.
+    pub(super) flipped: bool,
+}
+
+impl PictureView {
+    /// Fits a picture of `size` pixels into a panel of `panel_size` points.
+    pub(super) fn fit(size: Vec2, panel_size: Vec2, flipped: bool) -> Self {
+        let zoom = (panel_size.x / size.x).min(panel_size.y / size.y).clamp(ZOOM.0, ZOOM.1);
+        Self { center: size / 2.0, zoom, flipped }
+    }
+
+    fn side(self) -> f32 {
+        if self.flipped { -1.0 } else { 1.0 }
+    }
+
+    /// Converts a picture position in pixels to a point of the window.
+    pub(super) fn point(self, panel: Rect, place: Vec2) -> Pos2 {
+        let offset = (place - self.center) * self.zoom;
+        panel.center() + vec2(self.side() * offset.x, offset.y)
+    }
+
+    /// Converts a point of the window to a picture position in pixels.
+    pub(super) fn place(self, panel: Rect, point: Pos2) -> Vec2 {
+        let offset = (point - panel.center()) / self.zoom;
+        self.center + vec2(self.side() * offset.x, offset.y)
+    }
+
+    /// Returns the view moved by a drag, in points.
+    pub(super) fn panned(self, by: Vec2) -> Self {
+        let offset = by / self.zoom;
+        Self { center: self.center - vec2(self.side() * offset.x, offset.y), ..self }
+    }
+
+    /// Returns the view zoomed by a factor about a fixed point.
+    pub(super) fn zoomed(self, panel: Rect, about: Pos2, factor: f32) -> Self {
+        let zoom = (self.zoom * factor).clamp(ZOOM.0, ZOOM.1);
+        let fixed = self.place(panel, about);
+        let moved = Self { zoom, ..self };
+        let now = moved.place(panel, about);
+        Self { center: moved.center + fixed - now, ..moved }
+    }
+
+    /// Rectangle of the whole picture of `size` pixels in the window, and its texture
+    /// coordinates.
+    pub(super) fn rects(self, panel: Rect, size: Vec2) -> (Rect, Rect) {
+        let rect = Rect::from_two_pos(self.point(panel, Vec2::ZERO), self.point(panel, size));
+        let (left, right) = if self.flipped { (1.0, 0.0) } else { (0.0, 1.0) };
+        (rect, Rect { min: pos2(left, 0.0), max: pos2(right, 1.0) })
+    }
+}
+
+/// Shortest width of a picture over the canvas, in mm.
+const LEAST_MM: f64 = 2.0;
+
+/// Middle, width and turn of a picture over the canvas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OverlayPlace {
+    /// Middle in mm from the upper left corner of the canvas.
+    pub(super) center: [f64; 2],
+    /// Width of the picture in mm.
+    pub(super) width_mm: f64,
+    /// Clockwise turn in radians.
+    pub(super) turn: f64,
+}
+
+/// How the picture lies over the canvas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OverCanvas {
+    /// Whether it is shown there.
+    pub(super) shown: bool,
+    /// Opacity, 0 to 1.
+    pub(super) opacity: f32,
+    /// Whether the pointer moves it instead of painting.
+    pub(super) moving: bool,
+    /// Its place; fitted to the canvas before the painter moves it.
+    pub(super) place: Option<OverlayPlace>,
+}
+
+impl Default for OverCanvas {
+    fn default() -> Self {
+        Self { shown: false, opacity: 0.4, moving: false, place: None }
+    }
+}
+
+impl OverlayPlace {
+    /// Fitted without stretching into a canvas of `canvas_mm`, in its middle. `aspect` is
+    /// the width of the picture over its height.
+    pub(super) fn fitted(canvas_mm: [f64; 2], aspect: f64) -> Self {
+        let [width, height] = canvas_mm;
+        let center = [0.5 * width, 0.5 * height];
+        Self { center, width_mm: width.min(height * aspect), turn: 0.0 }
+    }
+
+    /// Place in mm of a point of the picture: shares of its width and height, from the upper
+    /// left corner.
+    pub(super) fn point(&self, [across, down]: [f64; 2], aspect: f64) -> [f64; 2] {
+        let x = (across - 0.5) * self.width_mm;
+        let y = (down - 0.5) * self.width_mm / aspect;
+        let (sin, cos) = self.turn.sin_cos();
+        [self.center[0] + cos * x - sin * y, self.center[1] + sin * x + cos * y]
+    }
+
+    /// Moved by `by` mm.
+    pub(super) fn moved(self, by: [f64; 2]) -> Self {
+        Self { center: [self.center[0] + by[0], self.center[1] + by[1]], ..self }
+    }
+
+    /// Scaled about its middle so that a corner is as far from it as `to`.
+    pub(super) fn scaled_to(self, to: [f64; 2], aspect: f64) -> Self {
+        let reach = (to[0] - self.center[0]).hypot(to[1] - self.center[1]);
+        let width_mm = 2.0 * reach / 1.0_f64.hypot(1.0 / aspect);
+        Self { width_mm: width_mm.max(LEAST_MM), ..self }
+    }
+
+    /// Turned about its middle so that its upper edge faces `to`.
+    pub(super) fn turned_to(self, to: [f64; 2]) -> Self {
+        let x = to[0] - self.center[0];
+        let y = to[1] - self.center[1];
+        if x.hypot(y) < 1e-9 { self } else { Self { turn: x.atan2(-y), ..self } }
+    }
+}
+
+/// The use of the primary button on the reference picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum ReferenceMode {
+    /// Picks colours.
+    #[default]
+    Pick,
+    /// Marks samples of brushwork.
+    Mark,
+    /// Combs guides of strokes.
+    Comb,
+}
+
+impl ReferenceMode {
+    /// All modes in the order of their buttons.
+    pub(super) const ALL: [Self; 3] = [Self::Pick, Self::Mark, Self::Comb];
+
+    /// Text of the button.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Pick => tr("Pick colour"),
+            Self::Mark => tr("Mark samples"),
+            Self::Comb => tr("Comb"),
+        }
+    }
+
+    /// Tooltip of the button.
+    pub(super) fn description(self) -> &'static str {
+        match self {
+            Self::Pick => tr("A click picks a colour to match"),
+            Self::Mark => tr("Lines over passages of brushwork, from which samples are taken"),
+            Self::Comb => tr("Lines along which strokes run on a model or a picture"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod place_tests {
+    use super::*;
+
+    fn near(a: [f64; 2], b: [f64; 2]) -> bool {
+        (a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9
+    }
+
+    #[test]
+    fn a_fitted_picture_touches_two_edges_of_the_canvas() {
+        let wide = OverlayPlace::fitted([200.0, 100.0], 4.0);
+        assert!(near(wide.point([0.0, 0.0], 4.0), [0.0, 25.0]), "{wide:?}");
+        assert!(near(wide.point([1.0, 1.0], 4.0), [200.0, 75.0]), "{wide:?}");
+        let high = OverlayPlace::fitted([200.0, 100.0], 0.5);
+        assert!(near(high.point([0.0, 0.0], 0.5), [75.0, 0.0]), "{high:?}");
+    }
+
+    #[test]
+    fn handles_stay_under_the_pointer() {
+        let place = OverlayPlace::fitted([200.0, 100.0], 2.0).moved([10.0, -5.0]);
+        assert_eq!(place.center, [110.0, 45.0]);
+        // A corner in the direction of the picture's own.
+        let corner = [place.center[0] + 40.0, place.center[1] + 20.0];
+        let scaled = place.scaled_to(corner, 2.0);
+        assert!(near(scaled.point([1.0, 1.0], 2.0), corner), "{scaled:?}");
+        let turned = place.turned_to([150.0, 45.0]);
+        assert!((turned.turn - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "a quarter clockwise");
+        let top = turned.point([0.5, 0.0], 2.0);
+        assert!(near(top, [160.0, 45.0]), "the upper edge is at the right: {top:?}");
+        let down = place.turned_to([110.0, 90.0]);
+        assert!((down.turn - std::f64::consts::PI).abs() < 1e-9, "upside down: {down:?}");
+        assert_eq!(place.scaled_to(place.center, 2.0).width_mm, LEAST_MM);
+        assert_eq!(place.turned_to(place.center), place);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -205,6 +409,51 @@ mod tests {
         for (pixel, luminance) in grey.pixels.iter().zip([0.2126, 0.7152, 0.0722]) {
             let [wanted, ..] = Rgb([luminance; 3]).encoded().to_bytes();
             assert!(pixel.r().abs_diff(wanted) <= 1, "{pixel:?} for {wanted}");
+        }
+    }
+
+    const PANEL: Rect = Rect { min: pos2(100.0, 50.0), max: pos2(500.0, 350.0) };
+
+    fn near(a: Vec2, b: Vec2) -> bool {
+        (a - b).length() < 1e-3
+    }
+
+    #[test]
+    fn a_fitted_picture_touches_two_edges() {
+        for flipped in [false, true] {
+            let view = PictureView::fit(vec2(1600.0, 400.0), PANEL.size(), flipped);
+            let (rect, _) = view.rects(PANEL, vec2(1600.0, 400.0));
+            assert_eq!((rect.left(), rect.right()), (100.0, 500.0));
+            assert!(rect.top() > 50.0 && rect.bottom() < 350.0, "{rect:?}");
+        }
+    }
+
+    #[test]
+    fn point_and_position_are_inverse_flipped_or_not() {
+        for flipped in [false, true] {
+            let view = PictureView { center: vec2(30.0, 70.0), zoom: 2.5, flipped };
+            for place in [vec2(0.0, 0.0), vec2(31.0, 68.0), vec2(200.0, 10.0)] {
+                let back = view.place(PANEL, view.point(PANEL, place));
+                assert!(near(back, place), "{back:?} for {place:?}");
+            }
+        }
+        let flipped = PictureView { center: vec2(30.0, 70.0), zoom: 2.0, flipped: true };
+        let right = flipped.point(PANEL, vec2(40.0, 70.0));
+        assert_eq!(right, PANEL.center() - vec2(20.0, 0.0), "what is right is shown left");
+    }
+
+    #[test]
+    fn zoom_keeps_the_point_and_pan_follows_the_drag() {
+        for flipped in [false, true] {
+            let view = PictureView { center: vec2(30.0, 70.0), zoom: 1.0, flipped };
+            let about = pos2(140.0, 300.0);
+            let hand = vec2(25.0, -12.0);
+            let zoomed = view.zoomed(PANEL, about, 3.0);
+            assert!(near(zoomed.place(PANEL, about), view.place(PANEL, about)));
+            assert_eq!(zoomed.zoom, 3.0);
+            let panned = view.panned(hand);
+            assert!(near(panned.place(PANEL, about + hand), view.place(PANEL, about)));
+            assert_eq!(view.zoomed(PANEL, about, 1e9).zoom, ZOOM.1);
         }
     }
 }

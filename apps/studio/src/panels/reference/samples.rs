@@ -1,11 +1,11 @@
-//! Marks of samples on the picture, as data.
+//! Marks of samples and guides of strokes on the picture, as data with undo. Lines are traced by
+//! the pointer and simplified to few points.
 
 use std::path::{Path, PathBuf};
 
 use artmap::passages::{Mark, MarkedArea, Marks};
+use painterly::guides::Guides;
 
-use super::edited::Edited;
-use super::traced::distance;
 use crate::files::{Drawing, DrawingKind, DrawnFile, Problem};
 
 /// The samples marked on the picture, and which is selected.
@@ -165,5 +165,352 @@ pub(super) fn outlines(area: &MarkedArea) -> Vec<Vec<[f64; 2]>> {
             let bottom = top + height;
             vec![vec![[left, top], [right, top], [right, bottom], [left, bottom], [left, top]]]
         }
+    }
+}
+
+/// The camera of a view of a model that is suggested: degrees around it, above the horizon, and of
+/// the field of view.
+const USUAL_CAMERA: [f32; 3] = [30.0, 20.0, 30.0];
+
+/// Guides and the camera of the view that they are drawn on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Combed {
+    /// Lines along which strokes run, in pixels of the picture.
+    pub(super) lines: Vec<Vec<[f64; 2]>>,
+    /// Camera of a view of a model.
+    pub(super) camera: Option<[f32; 3]>,
+}
+
+/// The guides drawn on the picture, and which is selected.
+#[derive(Debug, Default)]
+pub(super) struct Combing {
+    combed: Edited<Combed>,
+    /// Index of the selected guide.
+    pub(super) selected: usize,
+    path: Option<PathBuf>,
+}
+
+impl Combing {
+    /// The guides.
+    pub(super) fn combed(&self) -> &Combed {
+        self.combed.now()
+    }
+
+    /// The file of the guides as they are; `None` before they are saved.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.path.as_deref().filter(|_| !self.combed.is_unsaved())
+    }
+
+    /// Whether there is a change to undo.
+    pub(super) fn can_undo(&self) -> bool {
+        self.combed.can_undo()
+    }
+
+    /// Adds a guide, and selects it.
+    pub(super) fn add(&mut self, line: Vec<[f64; 2]>) {
+        self.combed.change(|combed| combed.lines.push(line));
+        self.selected = self.combed().lines.len() - 1;
+    }
+
+    /// Removes a guide.
+    pub(super) fn remove(&mut self, index: usize) {
+        self.combed.change(|combed| {
+            combed.lines.remove(index);
+        });
+        if self.selected >= index {
+            self.selected = self.selected.saturating_sub(1);
+        }
+    }
+
+    /// Lets a guide run the other way.
+    pub(super) fn reverse(&mut self, index: usize) {
+        self.combed.change(|combed| combed.lines[index].reverse());
+    }
+
+    /// Sets whether the picture is a view of a model.
+    pub(super) fn set_view(&mut self, is_view: bool) {
+        self.combed.change(|combed| combed.camera = is_view.then_some(USUAL_CAMERA));
+    }
+
+    /// Sets the camera of a view of a model.
+    pub(super) fn set_camera(&mut self, camera: [f32; 3]) {
+        self.combed.adjust(|combed| combed.camera = Some(camera));
+    }
+
+    /// Undoes the last change; whether there was one.
+    pub(super) fn undo(&mut self) -> bool {
+        let undone = self.combed.undo();
+        self.selected = self.selected.min(self.combed().lines.len().saturating_sub(1));
+        undone
+    }
+
+    /// The guide nearest to a place, within `reach` pixels.
+    pub(super) fn nearest(&self, place: [f64; 2], reach: f64) -> Option<usize> {
+        let far = |line: &Vec<[f64; 2]>| {
+            let distances = line.windows(2).map(|ends| distance(place, [ends[0], ends[1]]));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let all = self.combed().lines.iter().map(far).enumerate();
+        let nearest = all.min_by(|one, other| one.1.total_cmp(&other.1));
+        nearest.filter(|(_, far)| *far <= reach).map(|(index, _)| index)
+    }
+
+    /// Shows the guides of a file.
+    pub(super) fn open(&mut self, combed: Combed, path: PathBuf) {
+        self.combed.open(combed);
+        (self.selected, self.path) = (0, Some(path));
+    }
+
+    /// Shows guides that are in no file; `path` is suggested for them.
+    pub(super) fn restore(&mut self, combed: Combed, path: PathBuf) {
+        self.open(Combed::default(), path);
+        self.combed.adjust(|now| *now = combed);
+    }
+
+    /// Takes note of guides that were saved.
+    pub(super) fn saved(&mut self, combed: Combed, path: PathBuf) {
+        self.combed.saved(combed);
+        self.path = Some(path);
+    }
+
+    /// The guides as a file for `picture` of this width and height.
+    pub(super) fn drawn(&self, picture: &Path, size: [usize; 2]) -> DrawnFile {
+        let path = self.path.clone().unwrap_or_else(|| DrawingKind::Guides.beside(picture));
+        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let Combed { lines, camera } = self.combed().clone();
+        let guides = Guides {
+            file: name(&path).unwrap_or_default(),
+            picture: name(picture),
+            size_px: size.map(|side| u32::try_from(side).unwrap_or(u32::MAX)),
+            camera,
+            lines,
+        };
+        DrawnFile { drawing: Drawing::Guides(guides), path }
+    }
+
+    /// The guides as a file, if they are in none.
+    pub(super) fn unsaved(&self, picture: &Path, size: [usize; 2]) -> Option<DrawnFile> {
+        let lost = self.combed.is_unsaved() && !self.combed().lines.is_empty();
+        lost.then(|| self.drawn(picture, size))
+    }
+}
+
+/// Places are rounded to this part of a pixel.
+const ROUNDED_TO: f64 = 0.1;
+
+/// The part of a traced line up to where it first leaves a picture of this width and height, in
+/// pixels, with points only where it bends by more than `tolerance` pixels. Fewer than two points
+/// if nothing of it is on the picture.
+pub(super) fn traced(points: &[[f64; 2]], size: [usize; 2], tolerance: f64) -> Vec<[f64; 2]> {
+    // The last pixel ends where no place is any more.
+    let most = size.map(|side| side as f64 - ROUNDED_TO);
+    let rounded = |place: f64, most: f64| {
+        // Divided, because a tenth is not exact in binary.
+        ((place / ROUNDED_TO).round() / ROUNDED_TO.recip()).clamp(0.0, most.max(0.0))
+    };
+    let piece = first_piece(points, most);
+    let mut line: Vec<[f64; 2]> = simplified(&piece, tolerance)
+        .into_iter()
+        .map(|[x, y]| [rounded(x, most[0]), rounded(y, most[1])])
+        .collect();
+    line.dedup();
+    line
+}
+
+/// Points of a line from where it enters a rectangle of this size to where it leaves it.
+fn first_piece(points: &[[f64; 2]], most: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut piece: Vec<[f64; 2]> = Vec::new();
+    for ends in points.windows(2) {
+        match inside(ends[0], ends[1], most) {
+            Some([from, to]) => {
+                if piece.is_empty() {
+                    piece.push(from);
+                }
+                piece.push(to);
+                if to != ends[1] {
+                    break;
+                }
+            }
+            None if piece.is_empty() => {}
+            None => break,
+        }
+    }
+    piece
+}
+
+/// The part of a segment in a rectangle from the origin (Liang and Barsky, "A new concept and method
+/// for line clipping", 1984).
+fn inside(from: [f64; 2], to: [f64; 2], most: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+    let mut first = 0.0_f64;
+    let mut last = 1.0_f64;
+    for axis in 0..2 {
+        let step = to[axis] - from[axis];
+        for (toward, room) in [(-step, from[axis]), (step, most[axis] - from[axis])] {
+            if toward == 0.0 && room < 0.0 {
+                return None;
+            }
+            let at = room / toward;
+            if toward < 0.0 {
+                first = first.max(at);
+            } else if toward > 0.0 {
+                last = last.min(at);
+            }
+        }
+    }
+    let at = |share: f64| [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+    let end = if last == 1.0 { to } else { at(last) };
+    (first <= last).then(|| [at(first), end])
+}
+
+/// The ends of a line and the points between that are farther than `tolerance` from the line without
+/// them (Douglas and Peucker, "Algorithms for the reduction of the number of points required to
+/// represent a digitized line", 1973).
+fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
+    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
+    let mut kept = vec![false; points.len()];
+    (kept[0], kept[last]) = (true, true);
+    let mut pieces = vec![(0, last)];
+    while let Some((from, to)) = pieces.pop() {
+        let far = |at: usize| distance(points[at], [points[from], points[to]]);
+        let farthest = (from + 1..to).max_by(|&one, &other| far(one).total_cmp(&far(other)));
+        if let Some(at) = farthest.filter(|&at| far(at) > tolerance) {
+            kept[at] = true;
+            pieces.extend([(from, at), (at, to)]);
+        }
+    }
+    points.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
+}
+
+/// Distance of a point from a segment.
+pub(super) fn distance([x, y]: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let right = to[0] - from[0];
+    let down = to[1] - from[1];
+    let square = right * right + down * down;
+    let along = (x - from[0]) * right + (y - from[1]) * down;
+    let share = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
+    (x - from[0] - share * right).hypot(y - from[1] - share * down)
+}
+
+/// Most states that undo returns to.
+const MOST_PAST: usize = 200;
+
+/// A value with its past states and the state that was last saved or opened.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Edited<T> {
+    now: T,
+    past: Vec<T>,
+    saved: T,
+}
+
+impl<T: Clone + PartialEq> Edited<T> {
+    /// The current value.
+    pub(super) fn now(&self) -> &T {
+        &self.now
+    }
+
+    /// Changes the value, as one step of undo.
+    pub(super) fn change(&mut self, change: impl FnOnce(&mut T)) {
+        let before = self.now.clone();
+        change(&mut self.now);
+        if self.now != before {
+            self.past.push(before);
+            let excess = self.past.len().saturating_sub(MOST_PAST);
+            self.past.drain(..excess);
+        }
+    }
+
+    /// Changes the value without a step of undo.
+    pub(super) fn adjust(&mut self, change: impl FnOnce(&mut T)) {
+        change(&mut self.now);
+    }
+
+    /// Whether there is a change to undo.
+    pub(super) fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    /// Returns to the value before the last change; whether there was one.
+    pub(super) fn undo(&mut self) -> bool {
+        let before = self.past.pop();
+        let undone = before.is_some();
+        self.now = before.unwrap_or_else(|| self.now.clone());
+        undone
+    }
+
+    /// Starts with a value from a file.
+    pub(super) fn open(&mut self, value: T) {
+        *self = Self { now: value.clone(), past: Vec::new(), saved: value };
+    }
+
+    /// Takes note that `value` is in a file.
+    pub(super) fn saved(&mut self, value: T) {
+        self.saved = value;
+    }
+
+    /// Whether the value differs from what is in a file.
+    pub(super) fn is_unsaved(&self) -> bool {
+        self.now != self.saved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: [usize; 2] = [100, 50];
+
+    #[test]
+    fn a_straight_line_keeps_its_ends_and_a_bend_its_corner() {
+        let points: Vec<[f64; 2]> = (0..=20).map(|step| [f64::from(step) * 2.0, 10.04]).collect();
+        assert_eq!(traced(&points, SIZE, 0.5), [[0.0, 10.0], [40.0, 10.0]]);
+        let down = (1..=10).map(|step| [40.0, 10.04 + f64::from(step)]);
+        let bent: Vec<[f64; 2]> = points.into_iter().chain(down).collect();
+        assert_eq!(traced(&bent, SIZE, 0.5), [[0.0, 10.0], [40.0, 10.0], [40.0, 20.0]]);
+    }
+
+    #[test]
+    fn a_line_ends_where_it_leaves_the_picture() {
+        let out = [[50.0, 25.0], [90.0, 25.0], [110.0, 25.0], [60.0, 40.0]];
+        assert_eq!(traced(&out, SIZE, 0.5), [[50.0, 25.0], [99.9, 25.0]]);
+        let into = [[50.0, -10.0], [50.0, 10.0], [60.0, 10.0]];
+        assert_eq!(traced(&into, SIZE, 0.5), [[50.0, 0.0], [50.0, 10.0], [60.0, 10.0]]);
+        assert_eq!(traced(&[[-5.0, 60.0], [120.0, 70.0]], SIZE, 0.5), [] as [[f64; 2]; 0]);
+        let across = [[-50.0, 25.0], [150.0, 25.0], [150.0, 45.0], [-50.0, 45.0]];
+        assert_eq!(traced(&across, SIZE, 0.5), [[0.0, 25.0], [99.9, 25.0]], "the first part alone");
+    }
+
+    #[test]
+    fn a_line_without_length_has_one_point_or_none() {
+        assert_eq!(traced(&[[3.0, 4.0]], SIZE, 0.5).len(), 0);
+        assert_eq!(traced(&[[3.0, 4.0], [3.02, 4.0]], SIZE, 0.5), [[3.0, 4.0]]);
+    }
+
+    #[test]
+    fn the_distance_from_a_segment_is_that_from_its_nearest_point() {
+        let segment = [[0.0, 0.0], [10.0, 0.0]];
+        assert_eq!(distance([5.0, 3.0], segment), 3.0);
+        assert_eq!(distance([13.0, 4.0], segment), 5.0);
+        assert_eq!(distance([3.0, 4.0], [[0.0, 0.0]; 2]), 5.0);
+    }
+
+    #[test]
+    fn undo_returns_to_each_state_and_tells_what_is_saved() {
+        let mut lines: Edited<Vec<u8>> = Edited::default();
+        lines.change(|lines| lines.push(1));
+        lines.change(|_| {});
+        lines.change(|lines| lines.push(2));
+        assert!(lines.is_unsaved() && lines.can_undo());
+        lines.saved(vec![1, 2]);
+        assert!(!lines.is_unsaved());
+        assert!(lines.undo());
+        assert_eq!(lines.now(), &[1]);
+        assert!(lines.is_unsaved(), "the file has more");
+        assert!(lines.undo() && !lines.undo(), "there were two changes");
+        lines.open(vec![7]);
+        assert!(!lines.is_unsaved() && !lines.can_undo());
+        for number in 0..300 {
+            lines.change(|lines| lines[0] = (number % 250) as u8);
+        }
+        assert_eq!((0..400).filter(|_| lines.undo()).count(), MOST_PAST);
     }
 }

@@ -18,8 +18,7 @@ use session::{
     Command, Event, HistoryShots, KeptPainting, Origin, PaintingState, Snapshot, blank_canvas,
 };
 use studio::files::{FileRequest, Files, Home, Preferences};
-use studio::panels::revisions;
-use studio::panels::{PanelContext, Request, Tools};
+use studio::panels::{PanelContext, Request, Tools, history};
 use studio::theme;
 
 use crate::harness::keep;
@@ -155,7 +154,7 @@ impl Bench {
         let mut cx =
             PanelContext { painting: &painting, tools: &mut self.tools, requests: &mut requests };
         ui.add_space(ui.available_height() - 340.0);
-        revisions::show(ui, &mut cx, &files.revisions);
+        history::show(ui, &mut cx, &files.revisions);
         files.show(ui);
         for request in requests {
             if let Request::File(request) = request {

@@ -1,19 +1,39 @@
-//! Revisions, exports, recordings, opened files and preferences.
+//! Revisions, exports, recordings, timelapses, preferences, kept mixtures, and drawings on the
+//! reference picture.
 
-use std::path::Path;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
 
-use eframe::egui::Event as Input;
+use artmap::passages::{MarkedArea, Marks};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{
+    Event as Input, Key, Modifiers, Pos2, ViewportCommand, ViewportEvent, ViewportId, vec2,
+};
+use egui_kittest::Node;
+use egui_kittest::kittest::{NodeT, Queryable};
 use graphics::export::{PictureFormat, picture_file};
+use image::AnimationDecoder;
+use image::codecs::png::PngDecoder;
+use paint::brush::HeadShape;
 use paint::export::{SpectralBands, layers_file, painting_maps, pigment_maps, spectral_file};
+use paint::pose::Sample;
 use paint::scene::{PixelsPerCell, fine_picture, scene};
-use paint::strokes::{Action, StrokeScript};
+use paint::strokes::{
+    Action, BrushSpec, LayerRef, Load, Recipe, Squeeze, Stroke, StrokeScript, StrokeTool, SurfaceId,
+};
+use painterly::guides::Guides;
+use session::swatches::{KeptMixture, SwatchBook, SwatchChange};
 use session::{Command, Origin};
-use studio::files::{FileRequest, Preferences, ReferenceChange};
+use spectra::swatch_file::read_gpl;
+use studio::files::{FileRequest, Preferences, ReferenceChange, SwatchFormat};
+use studio::panels::Mode;
+use web_time::{Duration, Instant};
 
 use super::bench::{
-    ask, change, click, document, folder, opened, painted, picture, save_as, shows, type_name,
-    until, window,
+    Window, ask, change, click, document, folder, opened, painted, picture, save_as, shows,
+    type_name, until, window,
 };
+use crate::harness::Window as StudioWindow;
 
 #[test]
 fn revisions_are_kept_listed_opened_and_deleted() {
@@ -223,4 +243,423 @@ fn preferences_apply_and_are_written() {
     assert_eq!(failures, []);
     assert_eq!(read, window.state_mut().files().preferences);
     assert!(read.replay_as_painted && !read.pen.follow, "one was ticked, one cleared");
+}
+
+/// A recording of two strokes of a second on the canvas of the bench.
+fn recorded(window: &Window) -> StrokeScript {
+    let mut script = window.state().script();
+    let spec = BrushSpec { shape: HeadShape::Round, size_mm: 3.0 };
+    script.brushes.insert("round".to_owned(), spec);
+    let brush = "round".to_owned();
+    let recipe = [("Ultramarine".to_owned(), 1.0)].into();
+    script.actions.push(Action::Load(Load { brush, recipe, vehicle: 0.1, amount_mm: 0.3 }));
+    for y_mm in [5.0, 10.0] {
+        let samples = (0..=20)
+            .map(|index: u32| {
+                let share = f64::from(index) / 20.0;
+                Sample::upright(share, 3.0 + 18.0 * share, y_mm, 0.6)
+            })
+            .collect();
+        let brush = "round".to_owned();
+        let on = SurfaceId::Canvas;
+        script.actions.push(Action::Stroke(Stroke { brush, on, tool: StrokeTool::Paint, samples }));
+    }
+    script
+}
+
+fn export(window: &mut Window, form: &str, name: &str) {
+    ask(window, FileRequest::ExportTimelapse);
+    click(window, form);
+    click(window, "One after");
+    picture(window, "timelapse");
+    click(window, "Choose a name");
+    type_name(window, name);
+    click(window, "Save");
+}
+
+#[test]
+fn a_timelapse_is_written_in_each_form() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    let script = recorded(&window);
+    window.state_mut().recorded = Some(script);
+    let path = |name: &str| folder.path().join(name);
+
+    export(&mut window, "GIF", "film.gif");
+    until(&mut window, "the GIF", |window| shows(window, "Exported") && path("film.gif").is_file());
+    let gif = std::fs::read(path("film.gif")).unwrap();
+    assert!(gif.starts_with(b"GIF89a") && gif[6..10] == [120, 0, 80, 0], "a pixel a cell");
+
+    export(&mut window, "Animated PNG", "film.png");
+    let left = path(".film.png.frames");
+    until(&mut window, "the APNG", |_| path("film.png").is_file() && !left.exists());
+    let apng = std::fs::read(path("film.png")).unwrap();
+    let apng = PngDecoder::new(Cursor::new(apng)).unwrap().apng().unwrap().into_frames();
+    let apng = apng.collect_frames().unwrap();
+    assert_eq!(apng.len(), 3, "the start, and one after each stroke");
+    assert_eq!(apng[2].delay().numer_denom_ms(), (2000, 1), "the end is held");
+    let differing = |a: usize, b: usize| {
+        let pairs = apng[a].buffer().pixels().zip(apng[b].buffer().pixels());
+        pairs.filter(|(a, b)| a != b).count()
+    };
+    assert!(differing(0, 1) > 200 && differing(1, 2) > 200, "each frame has one stroke more");
+
+    export(&mut window, "Folder of PNG frames", "film");
+    let frames = path("film.frames");
+    until(&mut window, "the frames", |_| frames.join("frame-0003.png").is_file());
+    let last = image::open(frames.join("frame-0003.png")).unwrap().into_rgba8();
+    assert!(last == *apng[2].buffer(), "the same picture");
+    assert!(frames.join("animation.json").is_file());
+}
+
+#[test]
+fn a_recording_that_cannot_be_played_is_told_of() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    let mut script = recorded(&window);
+    script.actions.push(Action::Merge { layer: LayerRef::Dry(3), with: None });
+    window.state_mut().recorded = Some(script);
+    export(&mut window, "GIF", "film.gif");
+    until(&mut window, "the reason", |window| {
+        window.query_all_by_label_contains("(merge)").next().is_some()
+    });
+    assert!(!folder.path().join("film.gif").exists(), "nothing is written");
+}
+
+fn kept(name: &str) -> KeptMixture {
+    let recipe: Recipe = [("Vermilion".to_owned(), 2.0), ("Zinc White".to_owned(), 1.0)].into();
+    KeptMixture {
+        name: name.to_owned(),
+        library: "Oils".to_owned(),
+        recipe,
+        vehicle: 0.1,
+        color: "#c06050".to_owned(),
+        light: "D65".to_owned(),
+    }
+}
+
+fn keep(window: &mut Window, name: &str) {
+    let change = SwatchChange::Keep(Box::new(kept(name)));
+    ask(window, FileRequest::Swatches(change));
+}
+
+fn names(window: &mut Window) -> Vec<String> {
+    let book = window.state_mut().files().swatches();
+    book.swatches.iter().map(|kept| kept.name.clone()).collect()
+}
+
+fn file(folder: &Path) -> Option<SwatchBook> {
+    let text = std::fs::read_to_string(folder.join("own").join("swatches.json")).ok()?;
+    SwatchBook::from_json("swatches.json", &text).ok()
+}
+
+#[test]
+fn mixtures_are_written_to_the_home_folder_and_read_at_the_next_start() {
+    let (folder, _) = folder();
+    let mut first = window(folder.path(), painted("A"));
+    keep(&mut first, "red");
+    keep(&mut first, "red");
+    assert_eq!(names(&mut first), ["red", "red 2"]);
+    until(&mut first, "the file", |_| file(folder.path()).is_some_and(|f| f.swatches.len() == 2));
+    ask(&mut first, FileRequest::Swatches(SwatchChange::Remove(0)));
+    first.state_mut().files().finish();
+    drop(first);
+    let mut next = window(folder.path(), painted("A"));
+    until(&mut next, "the list", |window| names(window) == ["red 2"]);
+}
+
+#[test]
+fn a_list_that_cannot_be_read_is_reported_and_not_overwritten() {
+    let (folder, _) = folder();
+    let own = folder.path().join("own");
+    std::fs::create_dir_all(&own).unwrap();
+    std::fs::write(own.join("swatches.json"), r#"{"format": "impasto-swatches"}"#).unwrap();
+    let mut window = window(folder.path(), painted("A"));
+    until(&mut window, "the report", |window| shows(window, "`version`"));
+    keep(&mut window, "red");
+    until(&mut window, "the new file", |_| file(folder.path()).is_some());
+    let aside = std::fs::read_to_string(own.join("swatches.broken.json")).unwrap();
+    assert_eq!(aside, r#"{"format": "impasto-swatches"}"#);
+}
+
+#[test]
+fn mixtures_go_to_other_programs_and_come_back() {
+    let (folder, _) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    keep(&mut window, "red");
+    for (format, name) in [(SwatchFormat::Gpl, "colours"), (SwatchFormat::Json, "mixtures")] {
+        ask(&mut window, FileRequest::ExportSwatches(format));
+        assert!(shows(&window, "Export the kept mixtures"));
+        type_name(&mut window, name);
+        window.key_press(Key::Enter);
+        let path = folder.path().join(format!("{name}.{}", format.ending()));
+        until(&mut window, "the file", |_| path.is_file());
+    }
+    let text = std::fs::read(folder.path().join("colours.gpl")).unwrap();
+    let colors = read_gpl("colours.gpl", &text).unwrap();
+    let library = window.state().painting.library.clone();
+    let viewing = window.state().painting.light.viewing.clone();
+    let wanted = library.color([("Vermilion", 2.0), ("Zinc White", 1.0)], &viewing).unwrap();
+    let hex = colors.swatches[0].color.srgb().unwrap().to_hex();
+    assert_eq!((colors.swatches[0].name.as_str(), hex), ("red", wanted.hex()));
+
+    ask(&mut window, FileRequest::Swatches(SwatchChange::Remove(0)));
+    ask(&mut window, FileRequest::ImportSwatches);
+    choose(&mut window, "mixtures.json");
+    until(&mut window, "the mixture", |window| names(window) == ["red"]);
+    ask(&mut window, FileRequest::ImportSwatches);
+    choose(&mut window, "colours.gpl");
+    until(&mut window, "the colours", |window| {
+        let colors = window.state_mut().files().take_colors();
+        colors.is_some_and(|colors| colors.swatches.len() == 1)
+    });
+    assert_eq!(names(&mut window), ["red"], "colours are no mixtures");
+}
+
+/// Row of a file in the browser, which is a button; notices may name the file too.
+fn row<'a>(window: &'a Window, name: &'a str) -> Option<Node<'a>> {
+    let mut named = window.query_all_by_label_contains(name);
+    named.find(|node| node.accesskit_node().role() == Role::Button)
+}
+
+/// Chooses a file that the browser lists.
+fn choose(window: &mut Window, name: &str) {
+    until(window, "the row", |window| row(window, name).is_some());
+    row(window, name).unwrap().click();
+    window.run_steps(4);
+    window.key_press(Key::Enter);
+    window.run_steps(4);
+}
+
+/// A window with a pinned picture of 600 x 400 pixels in a folder of its own.
+fn pinned_window(name: &'static str) -> (StudioWindow, PathBuf, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("orchard.png");
+    image::RgbImage::from_fn(600, 400, |x: u32, y: u32| {
+        image::Rgb([(x / 3) as u8, (y / 2) as u8, 90])
+    })
+    .save(&path)
+    .unwrap();
+    let mut window = StudioWindow::open(name);
+    pin(&mut window, &path);
+    (window, path, folder)
+}
+
+fn pin(window: &mut StudioWindow, path: &Path) {
+    let context = window.harness().ctx.clone();
+    window.studio_mut().panels.reference.open(&context, path);
+    wait_until(window, "the picture", |window| {
+        let fit = window.harness().query_by_label("Comb");
+        fit.is_some_and(|fit| !fit.accesskit_node().is_disabled())
+    });
+}
+
+/// Draws frames until `done`, at most 30 s.
+fn wait_until(
+    window: &mut StudioWindow,
+    what: &str,
+    mut done: impl FnMut(&mut StudioWindow) -> bool,
+) {
+    let start = Instant::now();
+    while !done(window) {
+        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}");
+        std::thread::sleep(Duration::from_millis(3));
+        window.harness().step();
+    }
+    window.harness().run_steps(4);
+}
+
+fn shows_words(window: &mut StudioWindow, words: &str) -> bool {
+    window.harness().query_all_by_label_contains(words).next().is_some()
+}
+
+/// Draws a line through places of the fitted picture.
+fn draw(window: &mut StudioWindow, places: &[[f32; 2]]) {
+    let panel = window.harness().get_by_label("Reference picture").rect();
+    let zoom = (panel.width() / 600.0).min(panel.height() / 400.0);
+    let along: Vec<Pos2> = places
+        .iter()
+        .map(|&[x, y]: &[f32; 2]| panel.center() + zoom * vec2(x - 300.0, y - 200.0))
+        .collect();
+    window.pen_stroke(&along);
+}
+
+/// Clicks the main button of the topmost dialog.
+fn click_last(window: &mut StudioWindow, label: &str) {
+    let button = window.harness().get_all_by_label(label).last().unwrap();
+    button.click();
+    window.harness().run_steps(6);
+}
+
+/// Requests closing the window. Returns whether it closes.
+fn closes(window: &mut StudioWindow) -> bool {
+    let viewports = &mut window.harness().input_mut().viewports;
+    viewports.entry(ViewportId::ROOT).or_default().events.push(ViewportEvent::Close);
+    window.harness().step();
+    let commands = &window.harness().output().viewport_output[&ViewportId::ROOT].commands;
+    let held = commands.iter().any(|command| matches!(command, ViewportCommand::CancelClose));
+    let viewports = &mut window.harness().input_mut().viewports;
+    viewports.entry(ViewportId::ROOT).or_default().events.clear();
+    window.harness().run_steps(4);
+    !held
+}
+
+#[test]
+fn marks_drawn_in_the_window_are_saved_and_read_back() {
+    let (mut window, path, _folder) = pinned_window("marks-saved");
+    window.click("Mark samples");
+    draw(&mut window, &[[100.0, 100.0], [200.0, 100.0], [300.0, 120.0]]);
+    draw(&mut window, &[[100.0, 300.0], [400.0, 300.0]]);
+    window.click("Spacing");
+    draw(&mut window, &[[200.0, 310.0], [200.0, 330.0]]);
+    window.save("marks-window");
+    window.click("Save marks\u{2026}");
+    window.save("marks-save");
+    click_last(&mut window, "Save");
+    let file = path.with_file_name("orchard.marks.toml");
+    wait_until(&mut window, "the file", |_| file.is_file());
+    let marks = Marks::open(&file).unwrap();
+    assert_eq!(marks.painting.as_deref(), Some("orchard.png"));
+    assert_eq!((marks.samples.len(), marks.samples[0].spacing), (2, None));
+    assert!((marks.samples[1].spacing_px().unwrap() - 20.0).abs() < 2.0, "{marks:?}");
+    let MarkedArea::Scribble(points) = &marks.samples[0].area else { panic!("{marks:?}") };
+    let [x, y] = points[0];
+    assert!((x - 100.0).hypot(y - 100.0) < 2.0, "{points:?}");
+    marks.check(600, 400).unwrap();
+    wait_until(&mut window, "the command", |window| shows_words(window, "impasto artmap sample"));
+    window.save("marks-saved-window");
+    assert!(closes(&mut window), "nothing is lost");
+    assert_eq!(window.studio().painting().unwrap().history_done, 0, "nothing was painted");
+}
+
+#[test]
+fn undo_over_the_picture_takes_the_last_mark_away() {
+    let (mut window, ..) = pinned_window("marks-undone");
+    window.click("Mark samples");
+    draw(&mut window, &[[100.0, 100.0], [300.0, 100.0]]);
+    draw(&mut window, &[[100.0, 200.0], [300.0, 200.0]]);
+    assert!(shows_words(&mut window, "Delete sample 2"));
+    window.key(Modifiers::COMMAND, Key::Z);
+    assert!(
+        !shows_words(&mut window, "Delete sample 2") && shows_words(&mut window, "Delete sample 1")
+    );
+    // Undo is for the painting again while the picture is hidden.
+    for key in [Key::Tab, Key::Z, Key::Tab] {
+        let modifiers = if key == Key::Z { Modifiers::COMMAND } else { Modifiers::NONE };
+        window.key(modifiers, key);
+    }
+    assert!(shows_words(&mut window, "Delete sample 1"), "it is not undone");
+}
+
+#[test]
+fn unsaved_lines_are_asked_for_before_the_window_closes() {
+    let (mut window, path, _folder) = pinned_window("marks-unsaved");
+    window.click("Comb");
+    draw(&mut window, &[[100.0, 100.0], [300.0, 100.0]]);
+    window.click("Mark samples");
+    draw(&mut window, &[[100.0, 200.0], [300.0, 200.0]]);
+    assert!(!closes(&mut window), "two drawings are unsaved");
+    assert!(shows_words(
+        &mut window,
+        "The marks and guides on the reference picture are in no file"
+    ));
+    window.save("marks-unsaved-question");
+    click_last(&mut window, "Save");
+    click_last(&mut window, "Save");
+    let file = path.with_file_name("orchard.marks.toml");
+    wait_until(&mut window, "the marks", |_| file.is_file());
+    wait_until(&mut window, "the next question", |window| {
+        shows_words(window, "The guides on the reference")
+    });
+    click_last(&mut window, "Save");
+    click_last(&mut window, "Save");
+    let file = path.with_file_name("orchard.guides.toml");
+    wait_until(&mut window, "the guides", |_| file.is_file());
+    let guides = Guides::open(&file).unwrap();
+    assert_eq!((guides.size_px, guides.lines.len()), ([600, 400], 1));
+    wait_until(&mut window, "the end", closes);
+}
+
+#[test]
+fn a_painting_is_asked_for_after_drawings_were_given_up() {
+    let (mut window, ..) = pinned_window("marks-given-up");
+    window.click("Mark samples");
+    draw(&mut window, &[[100.0, 200.0], [300.0, 200.0]]);
+    let recipe = [("Vermilion".to_owned(), 1.0)].into();
+    let x_mm = 10.0;
+    let y_mm = 10.0;
+    let volume_mm3 = 1.0;
+    let heap = Squeeze { on: SurfaceId::Canvas, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 };
+    window.studio_mut().ask(Command::Apply(Action::Squeeze(heap)));
+    window.settle();
+    assert!(!closes(&mut window), "both are unsaved");
+    click_last(&mut window, "Discard");
+    assert!(shows_words(&mut window, "Save the painting?"), "the painting is left");
+    click_last(&mut window, "Cancel");
+    assert!(shows_words(&mut window, "Delete sample 1"), "nothing was given up after all");
+    assert!(!closes(&mut window), "it asks again");
+    assert!(shows_words(&mut window, "The marks on the reference picture are in no file"));
+    click_last(&mut window, "Discard");
+    click_last(&mut window, "Discard");
+    assert!(closes(&mut window), "both were given up");
+}
+
+#[test]
+fn another_picture_replaces_lines_only_after_asking() {
+    let (mut window, path, _folder) = pinned_window("marks-replaced");
+    window.click("Mark samples");
+    draw(&mut window, &[[100.0, 200.0], [300.0, 200.0]]);
+    window.click("Close picture");
+    window.harness().run_steps(4);
+    assert!(shows_words(&mut window, "The marks on the reference picture are in no file"));
+    click_last(&mut window, "Cancel");
+    assert!(shows_words(&mut window, "Delete sample 1"), "the picture and its marks stay");
+    window.click("Close picture");
+    window.harness().run_steps(4);
+    click_last(&mut window, "Discard");
+    assert!(window.harness().query_by_label("Reference picture").is_none(), "it is closed");
+    pin(&mut window, &path);
+    assert!(!shows_words(&mut window, "Delete sample 1"), "the marks are gone");
+    assert!(closes(&mut window), "nothing is unsaved");
+}
+
+#[test]
+fn marks_are_opened_from_their_file() {
+    let (mut window, path, _folder) = pinned_window("marks-opened");
+    let text = "painting = \"orchard.png\"\n[[sample]]\nname = \"bark\"\n\
+                scribble = [[10, 10], [200, 40]]\nspacing = [[20, 30], [20, 42]]\n";
+    std::fs::write(path.with_file_name("bark.toml"), text).unwrap();
+    window.click("Mark samples");
+    window.click("Open marks\u{2026}");
+    wait_until(&mut window, "the list", |window| shows_words(window, "bark.toml"));
+    for key in [Key::ArrowDown, Key::Enter] {
+        window.key(Modifiers::NONE, key);
+    }
+    wait_until(&mut window, "the sample", |window| shows_words(window, "Delete bark"));
+    assert!(shows_words(&mut window, "12.0 px"), "its spacing");
+    assert!(closes(&mut window), "it is in a file");
+}
+
+#[test]
+fn a_recovered_desk_has_its_view_tool_brush_and_lines() {
+    let (mut window, _path, _folder) = pinned_window("desk");
+    window.click("Mark samples");
+    draw(&mut window, &[[60.0, 80.0], [260.0, 120.0]]);
+    let studio = window.studio_mut();
+    studio.tools.brush = "knife".to_owned();
+    studio.tools.mode = Mode::Rotate;
+    studio.canvas.view.rotate(0.5);
+    studio.canvas.view.fitted = false;
+    let desk = studio.desk();
+    assert_eq!(desk.reference.as_ref().unwrap().drawn().len(), 1);
+    drop(window);
+
+    let mut other = StudioWindow::open("desk again");
+    assert!(other.studio().desk() != desk);
+    let context = other.harness().ctx.clone();
+    other.studio_mut().set_up(&desk, &context);
+    wait_until(&mut other, "the lines", |window| {
+        window.studio().panels.reference.unsaved_drawings().len() == 1
+    });
+    assert_eq!(other.studio().desk(), desk);
 }

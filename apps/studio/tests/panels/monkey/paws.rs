@@ -1,16 +1,18 @@
-//! The window under the monkey's paws: clicks, drags, keys and text, and a record of them.
+//! The window under the monkey's paws: clicks, drags, keys and text, a record of them, and the
+//! messages that may appear.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use eframe::egui::accesskit::{Action, Role};
 use eframe::egui::{
-    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2,
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase,
+    Vec2,
 };
+use egui_kittest::kittest::NodeT;
 
-use super::dice::Dice;
-use super::refusals::is_refusal;
 use crate::harness::Window;
 
 /// Number of last actions that are told on a failure.
@@ -134,4 +136,125 @@ impl Drop for Monkey {
             let _ = std::io::stderr().write_all(told.as_bytes());
         }
     }
+}
+
+/// A generator of random numbers.
+pub(super) struct Dice(u64);
+
+impl Dice {
+    /// Begins with a seed.
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Any number below `count`.
+    pub(super) fn below(&mut self, count: usize) -> usize {
+        // SplitMix64.
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((bits ^ (bits >> 31)) % count as u64) as usize
+    }
+
+    /// A number from 0 to 1.
+    pub(super) fn share(&mut self) -> f32 {
+        self.below(1 << 20) as f32 / (1 << 20) as f32
+    }
+
+    /// Whether something happens that has a chance of `percent`.
+    pub(super) fn chance(&mut self, percent: usize) -> bool {
+        self.below(100) < percent
+    }
+
+    /// One of a list, which is not empty.
+    pub(super) fn of<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.below(list.len())]
+    }
+}
+
+/// Parts of these messages.
+const REFUSALS: [&str; 17] = [
+    "is too high for more",
+    "is piled as high as it can be",
+    "mm more at most, found",
+    "is still wet, so it cannot leave the palette",
+    "the layer has no ",
+    " already",
+    "is not on the palette now",
+    "one of the two layers is hidden",
+    "lies between the two layers",
+    "a recipe needs parts above 0",
+    "has no opacity of its own",
+    "on top of all layers",
+    "a painting is being opened",
+    "is not a valid file name",
+    // A brush that is made larger just after a change of the palette asks for the paint that it had.
+    "recipe: pigments of the palette",
+    // The panel shows a layer until the undo that was asked for before is done.
+    "there is no layer ",
+    // Marks of samples that are dropped on the window are no scene.
+    "format takes \"paint-volumes\"",
+];
+
+/// Whether a message is a refusal.
+pub(super) fn is_refusal(message: &str) -> bool {
+    REFUSALS.iter().any(|part| message.contains(part))
+}
+
+/// Something with a name that can be clicked, dragged or typed into.
+#[derive(Debug, Clone)]
+pub(super) struct Control {
+    pub(super) name: String,
+    pub(super) role: Role,
+    pub(super) rect: Rect,
+}
+
+impl Control {
+    /// Whether text can be typed into it.
+    pub(super) fn takes_text(&self) -> bool {
+        matches!(self.role, Role::TextInput | Role::MultilineTextInput | Role::SpinButton)
+    }
+
+    /// Its middle.
+    pub(super) fn middle(&self) -> Pos2 {
+        self.rect.center()
+    }
+}
+
+/// All controls whose middle is in the window.
+pub(super) fn controls(window: &mut Window) -> Vec<Control> {
+    let whole = window.whole();
+    let root = window.harness().root();
+    let mut found = Vec::new();
+    for node in root.children_recursive() {
+        let inner = node.accesskit_node();
+        let touched = inner.data().supports_action(Action::Click) || inner.role() == Role::Slider;
+        let Some(name) = inner.label().or_else(|| inner.value()) else { continue };
+        let rect = node.rect();
+        if touched && !inner.is_disabled() && whole.contains(rect.center()) {
+            found.push(Control { name, role: inner.role(), rect });
+        }
+    }
+    found
+}
+
+/// Whether a dialog lists a folder that is not below `home`.
+pub(super) fn lists_elsewhere(window: &mut Window, home: &Path) -> bool {
+    let root = window.harness().root();
+    root.children_recursive().any(|node| {
+        let inner = node.accesskit_node();
+        let is_folder =
+            inner.role() == Role::TextInput && inner.label().as_deref() == Some("Folder");
+        is_folder && !inner.value().is_some_and(|folder| Path::new(&folder).starts_with(home))
+    })
+}
+
+/// Cells of the canvas that the dialog of a new painting would begin, if it is open, in millions.
+pub(super) fn million_new_cells(window: &mut Window) -> Option<f64> {
+    let root = window.harness().root();
+    root.children_recursive().find_map(|node| {
+        let words = node.accesskit_node().label().or_else(|| node.accesskit_node().value())?;
+        words.split_once(" cells, ")?.1.strip_suffix(" million")?.parse().ok()
+    })
 }
