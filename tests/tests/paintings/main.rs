@@ -11,12 +11,6 @@ mod script_builder;
 #[path = "../../../render/paint/examples/paintings/glaze.rs"]
 mod glaze;
 
-#[path = "../../../render/paint/examples/paintings/field_path.rs"]
-mod field_path;
-
-#[path = "../../../render/paint/examples/paintings/growth.rs"]
-mod growth;
-
 #[path = "../../../render/paint/examples/paintings/landscape.rs"]
 mod landscape;
 

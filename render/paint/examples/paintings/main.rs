@@ -1,5 +1,5 @@
 //! Writes the stroke scripts of `paintings/`. The output is deterministic:
-//! `cargo run -p impasto-render --example paintings -- paintings`.
+//! `cargo run -p impasto-paint --example paintings -- paintings`.
 
 mod script_builder;
 mod color_study;

@@ -3,8 +3,8 @@
 use std::io::Cursor;
 
 use graphics::field::Field;
-use graphics::picture_formats::{CUT_OFF, is_cut_off_jpeg};
 use graphics::noise::{Hills, random};
+use graphics::picture_formats::{CUT_OFF, is_cut_off_jpeg};
 use image::{ImageReader, Limits};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
