@@ -1,6 +1,6 @@
 //! Paints two strokes that cross on a small canvas and saves painting and picture.
 //!
-//! `cargo run --release -p impasto-render --example paint_strokes -- strokes.exr strokes.png`
+//! `cargo run --release -p impasto-paint --example paint_strokes -- strokes.exr strokes.png`
 
 #![expect(clippy::print_stdout, reason = "an example prints what it did")]
 

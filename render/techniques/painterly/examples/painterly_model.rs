@@ -1,6 +1,6 @@
 //! Paints a 3D model in the brushwork of an art map.
 //!
-//! `cargo run --release -p impasto-render --example painterly_model -- STYLE MODEL OUT.png [TOML]`:
+//! `cargo run --release -p impasto-painterly --example painterly_model -- STYLE MODEL OUT.png [TOML]`:
 //! a style of painted samples (`oil-flat`), a sample model (`still-life`) or a file, and settings
 //! in TOML (`overlap.sharpness = 1`). Without arguments it paints the still life in flat oils.
 

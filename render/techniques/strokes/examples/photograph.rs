@@ -1,7 +1,7 @@
 //! Makes the picture that the README paints: two pears and a plum on a table in the light of a
 //! window, ray traced. CC0-1.0.
 //!
-//! `cargo run --release -p impasto-render --example photograph -- docs/images/still-life.png`
+//! `cargo run --release -p impasto-strokes --example photograph -- docs/images/still-life.png`
 //! gives the same bytes every time.
 
 use std::error::Error;

@@ -1,7 +1,7 @@
 //! Paints a photograph in strokes of oil paint and writes the painting, its picture and the
 //! script of strokes.
 //!
-//! `cargo run --release -p impasto-render --example strokes -- docs/images/still-life.png out`
+//! `cargo run --release -p impasto-strokes --example strokes -- docs/images/still-life.png out`
 //! writes `out/painting.exr`, `out/painting.png` and `out/strokes.json`.
 
 use std::error::Error;

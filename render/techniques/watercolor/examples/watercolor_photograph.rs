@@ -1,6 +1,6 @@
 //! Paints a photograph as a watercolour.
 //!
-//! `cargo run --release -p impasto-render --example watercolor_photograph -- PHOTOGRAPH OUT.png`;
+//! `cargo run --release -p impasto-watercolor --example watercolor_photograph -- PHOTOGRAPH OUT.png`;
 //! without arguments it paints the still life of the README into `watercolor.png`.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it did")]
