@@ -19,20 +19,16 @@ mod mapping;
 pub mod accuracy;
 pub mod camera;
 mod numbers;
-
 #[cfg(feature = "files")]
 mod zarr;
 pub mod cube;
-
 #[cfg(feature = "files")]
 pub mod store;
-
 #[cfg(feature = "files")]
 pub mod truth;
-
+mod surveyed;
 #[cfg(feature = "files")]
 pub mod blocks;
-mod surveyed;
 pub mod pictures;
 mod outcomes;
 

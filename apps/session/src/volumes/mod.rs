@@ -11,8 +11,8 @@
 //! the script that is saved agree to the bit.
 
 mod look;
-mod event;
 mod command;
+mod event;
 mod gesture;
 mod recorded;
 mod inbox;
@@ -25,7 +25,6 @@ mod hands;
 mod pictures;
 mod animation;
 mod worker;
-
 #[cfg(test)]
 mod paint_tests;
 

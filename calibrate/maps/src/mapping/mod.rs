@@ -1,7 +1,7 @@
 //! The front door of maps: a library and the wavelengths of a scan, ready for survey and map.
 
-pub(crate) mod groups;
 pub(crate) mod book;
+pub(crate) mod groups;
 pub(crate) mod survey;
 
 use std::ops::ControlFlow;

@@ -36,8 +36,8 @@
 //! layer holds more, channel `NAME.rest` has the rounding residue in mm, and the amount is
 //! the sum of both.
 
-mod header;
 mod channels;
+mod header;
 mod read;
 mod write;
 

@@ -1,7 +1,7 @@
 //! `impasto stencil`: pours paint over a scene drawn as a grey sketch, which turns to colour where
 //! the paint spreads.
-mod scene;
 mod options;
+mod scene;
 mod film;
 mod job;
 

@@ -89,13 +89,12 @@
 mod rows;
 mod tables;
 mod camera;
+mod action;
 mod file;
 mod check;
 mod text;
-mod action;
 mod events;
 mod record;
-
 #[cfg(test)]
 mod tests;
 

@@ -6,9 +6,11 @@ mod lattice;
 mod samples;
 mod pieces;
 mod graph;
-mod spill;
 mod grid;
+mod spill;
 mod spill_on_device;
+#[cfg(test)]
+mod tests;
 
 pub use graph::Graph;
 pub use grid::{Cells, Grid, MOST_FILMS, QUANTA_PER_FACE, Reach};
@@ -20,5 +22,3 @@ pub use spill_on_device::DeviceSpilling;
 
 pub(crate) use spill_on_device::SPILL;
 
-#[cfg(test)]
-mod tests;
