@@ -48,7 +48,6 @@ mod backend;
 mod srgb;
 pub mod warm_up;
 mod miniature;
-mod layers;
 mod meter;
 mod inbox;
 mod outbox;

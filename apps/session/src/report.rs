@@ -1,26 +1,37 @@
 //! State of the painting besides its pixels, for the front end.
 //!
 //! Colours of opaque films of paint.
+//!
+//! Summaries of the dry layers, computed while the worker is idle.
+//!
+//! The mask of the canvas, for the front end.
+//!
+//! Films of the paint that a brush holds: what it covers, and what it would lay now.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use paint::amount::mm_from_quanta;
-use paint::document::Slots;
+use paint::document::{LayerId, Slots};
 use paint::layer::SLOTS;
 use paint::light::Light;
-use paint::painting::TipLoad;
+use paint::mask::Mask;
+use paint::painting::{DryLayerState, Painting, PaintingError, TipLoad};
 use paint::session::{PaintingSession, SessionError};
 use paint::strokes::{BrushSpec, SurfaceId};
 use pigment::PigmentId;
+use pigment::curves::Curves;
 use pigment::library::PigmentLibrary;
-use pigment::palette::Appearance;
+use pigment::palette::{Appearance, Cards};
 use spectra::TristimulusWeights;
 
-use super::layers::{FilmSetting, Layers, Masks};
+use super::miniature::LayerSummary;
 use super::prepare::PreparedPainting;
 use super::srgb::SrgbBytes;
-use super::state::{BrushState, HistoryShots, PaintingState};
+use super::state::{
+    BrushState, BrushSwatch, FilmColor, HistoryShots, LayerState, MaskState, PaintingState,
+    Thumbnail,
+};
 
 /// Makes the reports, and caches what is slow to compute.
 #[derive(Debug)]
@@ -321,9 +332,211 @@ impl Colors {
     }
 }
 
+/// Summary of one layer.
+#[derive(Debug)]
+struct LayerEntry {
+    id: LayerId,
+    /// Whether the summary describes the dry paint as it is now.
+    current: bool,
+    summary: Option<LayerSummary>,
+    /// State that was sent last, and the light under which its thumbnail was rendered.
+    sent: Option<(LayerState, Arc<Light>)>,
+}
+
+/// Summaries of all dry layers.
+#[derive(Debug, Default)]
+pub(super) struct Layers {
+    changes: u64,
+    entries: Vec<LayerEntry>,
+}
+
+impl Layers {
+    /// Marks all summaries as outdated if dry paint of `painting` changed. Outdated summaries are
+    /// used until [`Self::summarize_next`] replaces them, each for the layer that it was made of,
+    /// wherever that lies now.
+    pub(super) fn update(&mut self, painting: &Painting) {
+        let dry = &painting.state().dry;
+        let same = dry.iter().map(|layer| layer.id).eq(self.entries.iter().map(|entry| entry.id));
+        if painting.dry_changes() == self.changes && same {
+            return;
+        }
+        self.changes = painting.dry_changes();
+        let mut former = std::mem::take(&mut self.entries);
+        self.entries = dry
+            .iter()
+            .map(|layer: &DryLayerState| {
+                let known = former.iter().position(|entry| entry.id == layer.id);
+                let known = known.map(|index| former.swap_remove(index));
+                LayerEntry {
+                    current: false,
+                    ..known.unwrap_or_else(|| LayerEntry {
+                        id: layer.id,
+                        current: false,
+                        summary: None,
+                        sent: None,
+                    })
+                }
+            })
+            .collect();
+    }
+
+    /// Whether a summary is outdated.
+    pub(super) fn is_behind(&self) -> bool {
+        self.entries.iter().any(|entry| !entry.current)
+    }
+
+    /// Computes the first summary that is outdated. Layers may have come or gone since the last
+    /// update, as states are sent less often than paint changes.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub(super) fn summarize_next(&mut self, painting: &mut Painting) -> Result<(), PaintingError> {
+        self.update(painting);
+        let outdated = self.entries.iter().position(|entry| !entry.current);
+        let Some(index) = outdated else { return Ok(()) };
+        let bounds = painting.bounds();
+        let cell_mm = painting.cell_mm();
+        let summary = LayerSummary::new(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
+        let entry = &mut self.entries[index];
+        (entry.current, entry.summary, entry.sent) = (true, Some(summary), None);
+        Ok(())
+    }
+
+    /// States of all layers. A layer without a summary has zeros and an empty thumbnail.
+    pub(super) fn states(&mut self, painting: &Painting, bytes: &SrgbBytes) -> Vec<LayerState> {
+        self.update(painting);
+        let light = painting.light();
+        let layers = self.entries.iter_mut().zip(&painting.state().dry);
+        let state = |(entry, dry): (&mut LayerEntry, &DryLayerState)| {
+            let Some(summary) = &entry.summary else { return blank(dry) };
+            if let Some((sent, under)) = &mut entry.sent
+                && (sent.slots, sent.opacity) == (dry.slots, dry.opacity)
+                && Arc::ptr_eq(under, light)
+            {
+                dry.name.clone_into(&mut sent.name);
+                sent.visible = dry.visible;
+                return sent.clone();
+            }
+            let state = summary.state(dry, painting, bytes);
+            entry.sent = Some((state.clone(), Arc::clone(light)));
+            state
+        };
+        layers.map(state).collect()
+    }
+}
+
+/// State of a layer that was not summarized yet.
+fn blank(dry: &DryLayerState) -> LayerState {
+    LayerState {
+        id: dry.id,
+        name: dry.name.clone(),
+        visible: dry.visible,
+        slots: dry.slots,
+        opacity: dry.opacity,
+        mean_mm: 0.0,
+        max_mm: 0.0,
+        coverage: 0.0,
+        thumbnail: Arc::new(Thumbnail { width: 1, height: 1, pixels: vec![[0; 4]] }),
+    }
+}
+
+/// Most lines of an outline: more would be slow to draw.
+const MOST_LINES: usize = 20_000;
+
+/// The state of the mask, made anew only when the mask is another one.
+#[derive(Debug, Default)]
+pub(super) struct Masks {
+    made: Option<(Arc<Mask>, Arc<MaskState>)>,
+}
+
+impl Masks {
+    /// State of `mask`.
+    pub(super) fn state(&mut self, mask: Option<&Arc<Mask>>) -> Option<Arc<MaskState>> {
+        let mask = mask?;
+        if let Some((of, state)) = &self.made
+            && Arc::ptr_eq(of, mask)
+        {
+            return Some(Arc::clone(state));
+        }
+        let state = Arc::new(state_of(mask));
+        self.made = Some((Arc::clone(mask), Arc::clone(&state)));
+        Some(state)
+    }
+}
+
+fn state_of(mask: &Mask) -> MaskState {
+    let bounds = mask.bounds();
+    let cells = (bounds.width * bounds.height).max(1);
+    let mut step = 1;
+    let mut outline = mask.outline(step);
+    while outline.len() > MOST_LINES {
+        step *= 2;
+        outline = mask.outline(step);
+    }
+    MaskState { outline, covered: mask.covered() as f64 / cells as f64 }
+}
+
+/// Ground and paint that films of a painting are made of.
+#[derive(Debug, Clone)]
+pub(super) struct FilmSetting {
+    /// Measured reflectance of the ground on the grid of the library.
+    pub(super) ground: Arc<Vec<f64>>,
+    /// S of the reference white per mm.
+    pub(super) scattering_per_mm: f64,
+}
+
+impl Colors {
+    /// Films of paint with these heights in mm by slot, of which the last is the vehicle. There
+    /// is none without pigment.
+    pub(super) fn swatch(
+        &self,
+        slots: &Slots,
+        heights_mm: &[f64; SLOTS + 1],
+        setting: &FilmSetting,
+    ) -> Option<BrushSwatch> {
+        let filled = slots.iter().zip(heights_mm).filter(|(_, mm)| **mm > 0.0);
+        let recipe: Vec<(PigmentId, f64)> =
+            filled.filter_map(|(slot, &mm)| Some(((*slot)?, mm))).collect();
+        let pigment_mm: f64 = recipe.iter().map(|(_, mm)| mm).sum();
+        let shares: Vec<_> = recipe.iter().map(|&(id, mm)| (id, mm / pigment_mm)).collect();
+        let mixture: Curves = self.library.mix(&shares).ok()?;
+        let cards = Cards::standard(self.library.grid);
+        let thickness = pigment_mm * setting.scattering_per_mm;
+        let over = |backing: &[f64]| mixture.film(thickness, backing, self.library.film());
+        let [black, white] = [over(&cards.black), over(&cards.white)];
+        let luminance = |reflectance: &[f64]| self.weights.xyz(reflectance).y;
+        Some(BrushSwatch {
+            opaque: self.film_color(&mixture.hiding(self.library.saunderson)),
+            ground: self.film_color(&setting.ground),
+            over_ground: self.film_color(&over(&setting.ground)),
+            cards: [&cards.black, &cards.white].map(|card| self.film_color(card)),
+            contrast: luminance(&black) / luminance(&white).max(f64::MIN_POSITIVE),
+            over_cards: [black, white].map(|film| self.film_color(&film)),
+            thickness_mm: heights_mm.iter().sum(),
+        })
+    }
+
+    fn film_color(&self, reflectance: &[f64]) -> FilmColor {
+        let Appearance { lab, srgb, .. } =
+            Appearance::of(self.weights.xyz(reflectance), self.weights.white());
+        FilmColor { lab, srgb: srgb.linear().mapped_into_gamut().encoded().to_bytes() }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::backend::Backend;
+    use super::super::prepare::{blank_canvas, prepare};
     use super::*;
+    use graphics::field::Field;
+    use graphics::gpu::BackendChoice;
+    use graphics::tile::Rect;
+    use paint::amount::mm_from_quanta;
+    use paint::document::{Document, Lighting, Medium};
+    use paint::ground::Ground;
+    use paint::light::Light;
+    use paint::scene::SpectralDocument;
+    use paint::strokes::{Action, Squeeze, SurfaceId};
     use pigment::library::PigmentLibrary;
     use pigment::palette::{Cards, Palette, Recipe};
 
@@ -361,5 +574,120 @@ mod tests {
             colors.of_slots(&slots, &parts),
             colors.of(&[(PigmentId(1), 0.75), (PigmentId(4), 0.25)])
         );
+    }
+
+    #[test]
+    fn a_layer_that_is_undone_before_its_summary_is_not_asked_for() {
+        let origin = blank_canvas(PigmentLibrary::van_gogh_oils(), 4.0, 3.0, 0.1);
+        let backend = &mut Backend::new(BackendChoice::Cpu);
+        let mut session = prepare(origin, backend, 1 << 24).unwrap().session;
+        let heap = Squeeze {
+            on: SurfaceId::Canvas,
+            recipe: [("Vermilion".to_owned(), 1.0)].into(),
+            vehicle: 0.0,
+            x_mm: 2.0,
+            y_mm: 1.5,
+            volume_mm3: 0.5,
+        };
+        session.apply(&Action::Squeeze(heap)).unwrap();
+        session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
+        let mut layers = Layers::default();
+        layers.update(session.canvas());
+        assert!(layers.is_behind());
+        session.apply(&Action::Undo {}).unwrap();
+        layers.summarize_next(session.canvas_mut()).unwrap();
+        assert!(!layers.is_behind() && layers.entries.is_empty());
+    }
+
+    #[test]
+    fn the_outline_of_a_speckled_mask_stays_short() {
+        let bounds = Rect { x: 0, y: 0, width: 401, height: 300 };
+        let mask = Arc::new(Mask::with_open(bounds, |cell| (cell * 7919) % 5 == 0));
+        assert!(mask.outline(1).len() > MOST_LINES);
+        let mut masks = Masks::default();
+        let state = masks.state(Some(&mask)).unwrap();
+        assert!((1..=MOST_LINES).contains(&state.outline.len()), "{}", state.outline.len());
+        assert!((state.covered - 0.8).abs() < 0.01, "{}", state.covered);
+        let again = masks.state(Some(&mask)).unwrap();
+        assert!(Arc::ptr_eq(&state, &again), "it is made once");
+        assert!(masks.state(None).is_none());
+    }
+
+    fn colors(illuminant: &str) -> (Colors, Slots) {
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
+        let light = Arc::new(Light::named(&library, illuminant, "1931-2").unwrap());
+        let mut slots = [None; SLOTS];
+        slots[1] = library.find("Zinc White").ok();
+        slots[4] = library.find("Ultramarine").ok();
+        (Colors::new(library, light), slots)
+    }
+
+    fn setting(reflectance: f64) -> FilmSetting {
+        let count = PigmentLibrary::van_gogh_oils().grid.count();
+        FilmSetting { ground: Arc::new(vec![reflectance; count]), scattering_per_mm: 50.0 }
+    }
+
+    fn heights(white: f64, blue: f64, vehicle: f64) -> [f64; SLOTS + 1] {
+        let mut heights = [0.0; SLOTS + 1];
+        (heights[1], heights[4], heights[SLOTS]) = (white, blue, vehicle);
+        heights
+    }
+
+    #[test]
+    fn a_thin_film_shows_what_is_below_and_a_thick_one_hides_it() {
+        let (colors, slots) = colors("D65");
+        let swatch = |scale: f64| {
+            let paint = heights(0.01 * scale, 0.02 * scale, 0.005 * scale);
+            colors.swatch(&slots, &paint, &setting(0.7)).unwrap()
+        };
+        let thin = swatch(0.1);
+        let thick = swatch(400.0);
+        assert!(thin.contrast < 0.5 && thick.contrast > 0.999, "{thin:?} {thick:?}");
+        assert!((thin.thickness_mm - 0.0035).abs() < 1e-12, "{}", thin.thickness_mm);
+        let apart = (thick.over_cards[0].lab.lightness - thick.opaque.lab.lightness).abs();
+        assert!(apart < 0.01, "{apart}");
+        assert_eq!(thin.opaque, thick.opaque, "an opaque film has no thickness");
+        let between = thin.over_ground.lab.lightness;
+        assert!(between > thin.opaque.lab.lightness && between < thin.ground.lab.lightness);
+    }
+
+    #[test]
+    fn a_film_over_the_ground_is_the_one_that_the_painting_shows() {
+        let (colors, slots) = colors("A");
+        let library = PigmentLibrary::van_gogh_oils();
+        let quanta = [300_u32, 900];
+        let cell_mm = 0.1;
+        let setting = setting(0.62);
+        let medium = Medium { scattering_per_mm: setting.scattering_per_mm, ..Medium::default() };
+        let ground = Ground {
+            name: "test".to_owned(),
+            height: Field::filled(1, 1, 0),
+            reflectance: setting.ground.to_vec(),
+            gloss: paint::optics::Gloss { strength: 0.0, exponent: 10.0 },
+        };
+        let mut document =
+            Document::bare("", cell_mm, ground, library, medium, slots, Lighting::default());
+        let mut cell = document.wet.cell(0);
+        (cell.pigments[1], cell.pigments[4]) = (quanta[0], quanta[1]);
+        document.wet.set_cell(0, cell);
+        let wanted = SpectralDocument::full(&document).measured_reflectance(0, 0);
+        let mm = quanta.map(|quanta| mm_from_quanta(1, cell_mm) * f64::from(quanta));
+        let swatch = colors.swatch(&slots, &heights(mm[0], mm[1], 0.2), &setting).unwrap();
+        let wanted = colors.film_color(&wanted).lab.to_array();
+        for (found, wanted) in swatch.over_ground.lab.to_array().into_iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-6, "{swatch:?} {wanted:?}");
+        }
+    }
+
+    #[test]
+    fn the_swatch_follows_the_light_and_medium_alone_has_none() {
+        let paint = heights(0.02, 0.01, 0.0);
+        let under = |light: &str| {
+            let (colors, slots) = colors(light);
+            colors.swatch(&slots, &paint, &setting(0.7)).unwrap().opaque.lab
+        };
+        assert_ne!(under("D65"), under("A"));
+        let (colors, slots) = colors("D65");
+        assert_eq!(colors.swatch(&slots, &heights(0.0, 0.0, 0.3), &setting(0.7)), None);
     }
 }

@@ -1,4 +1,17 @@
 //! The macros that declare settings and presets.
+//!
+//! Settings from TOML and to TOML: whole files, changes of single settings, comments.
+
+use std::path::Path;
+
+use toml::{Table as Toml, Value};
+
+use super::{Row, Table, Takes, as_written, text_of};
+use crate::hint::Explain;
+use crate::text::{
+    Checked, KeyPath, KeyStep, Source, TextError, USUAL_HINT, ValueFault, read_text,
+};
+use crate::{did_you_mean, name_list};
 
 /// Declares a table of settings, one row a setting. [The module](mod@crate::settings) has an example.
 ///
@@ -274,4 +287,315 @@ macro_rules! presets {
             }
         }
     };
+}
+
+/// Longest line of a comment.
+const WIDTH: usize = 90;
+
+/// Settings cannot be read.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+pub enum SettingsError {
+    /// The text has a fault.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// There is no preset of this name.
+    #[error("there is no preset `{name}`")]
+    #[hint(verbatim, "{}", way_to_preset(name, known))]
+    #[fault(Setting)]
+    Preset {
+        /// Name that was asked for.
+        name: String,
+        /// Names of all presets.
+        known: &'static [&'static str],
+    },
+}
+
+fn way_to_preset(name: &str, known: &[&str]) -> String {
+    did_you_mean(name, known.iter().copied()).unwrap_or_else(|| {
+        let names = name_list(known, known.len(), ", ");
+        format!("presets are {names}; a file of your own ends in .toml")
+    })
+}
+
+/// Reads a TOML file. Keys that it leaves out have the defaults.
+///
+/// # Errors
+/// [`SettingsError`] with file, line and key.
+pub fn open<T: Table>(path: &Path) -> Result<T, SettingsError> {
+    read(&path.display().to_string(), &read_text(path)?)
+}
+
+/// Parses the text of a file of settings. Errors call it `name`.
+///
+/// # Errors
+/// [`SettingsError`] with line and key.
+pub fn read<T: Table>(name: &str, text: &str) -> Result<T, SettingsError> {
+    let source = Source::toml(name, text)?;
+    let settings: T = typed(&source)?;
+    check(&settings, &KeyPath::default()).map_err(|fault| source.located(fault))?;
+    Ok(settings)
+}
+
+/// A copy of `settings` in which the keys of `text` (TOML) are replaced. Errors call the text `name`.
+///
+/// # Errors
+/// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its range.
+pub fn changed<T: Table>(settings: &T, name: &str, text: &str) -> Result<T, SettingsError> {
+    let source = Source::toml(name, text)?;
+    // The text is read alone first, so that errors give its lines and keys.
+    typed::<T>(&source)?;
+    let changed = changed_by(settings, &source.typed()?, &KeyPath::default());
+    Ok(changed.map_err(|fault| source.located(fault))?)
+}
+
+/// A copy of `settings` in which the keys of `changes` are replaced. Faults name keys below `base`.
+///
+/// # Errors
+/// The fault of the first value that does not fit.
+pub fn changed_by<T: Table>(
+    settings: &T,
+    changes: &Toml,
+    base: &KeyPath,
+) -> Result<T, Box<ValueFault>> {
+    let mut all = toml_of(settings, base)?;
+    merge(&mut all, changes);
+    let whole: Result<T, toml::de::Error> = all.try_into();
+    let changed = whole.map_err(|error| {
+        let hint = "a preset's file has each key with its meaning";
+        ValueFault::new(base, "keys and values of settings", error.message(), hint)
+    })?;
+    check(&changed, base)?;
+    Ok(changed)
+}
+
+fn merge(all: &mut Toml, changes: &Toml) {
+    for (key, change) in changes {
+        match (all.get_mut(key), change) {
+            (Some(Value::Table(all)), Value::Table(changes)) => merge(all, changes),
+            (_, change) => {
+                all.insert(key.clone(), change.clone());
+            }
+        }
+    }
+}
+
+/// Checks that every value is in its range, and those that belong together. Faults name keys below `base`.
+///
+/// # Errors
+/// The fault of the first value that does not fit.
+pub fn check<T: Table>(settings: &T, base: &KeyPath) -> Checked {
+    let usual = toml_of(&T::default(), base)?;
+    check_rows(T::ROWS, &toml_of(settings, base)?, &usual, base)?;
+    settings.check_together(base)
+}
+
+fn check_rows(rows: &[Row], table: &Toml, usual: &Toml, base: &KeyPath) -> Checked {
+    for row in rows {
+        let Some(value) = table.get(row.key) else { continue };
+        let key = base.key(row.key);
+        let usual = usual.get(row.key);
+        if let (Takes::Table(rows), Value::Table(table), Some(Value::Table(usual))) =
+            (row.takes, value, usual)
+        {
+            check_rows(rows, table, usual, &key)?;
+        } else if !row.takes.fits(value) {
+            let usual = usual.map(plain).or(row.example.map(str::to_owned)).unwrap_or_default();
+            let wanted = row.takes.to_string();
+            return Err(ValueFault::new(&key, wanted, plain(value), format!("{usual} is usual")));
+        }
+    }
+    Ok(())
+}
+
+/// A value as a message has it: whole numbers without a decimal point, texts without quotes.
+fn plain(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(number) => as_written(*number).to_string(),
+        other => text_of(other),
+    }
+}
+
+/// The whole text as settings. Where the parser knows no way out, the hint is the usual value.
+fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
+    source.typed().map_err(|mut error| {
+        if let TextError::Syntax { key: Some(key), hint, .. } = &mut error
+            && hint == USUAL_HINT
+        {
+            let all = Value::Table(Toml::try_from(T::default()).unwrap_or_default());
+            let usual = key.0.iter().try_fold(&all, |value, step| match step {
+                KeyStep::Key(key) => value.get(key),
+                KeyStep::Index(_) => None,
+            });
+            if let Some(usual) = usual.filter(|usual| !usual.is_table()) {
+                *hint = format!("{} is usual", plain(usual));
+            }
+        }
+        error
+    })
+}
+
+/// The settings as a table of TOML. It fails for whole numbers that TOML does not have.
+fn toml_of<T: Table>(settings: &T, base: &KeyPath) -> Result<Toml, Box<ValueFault>> {
+    Toml::try_from(settings).map_err(|error| {
+        ValueFault::new(base, "values of TOML", error, "whole numbers reach to 2^63 - 1")
+    })
+}
+
+/// The text of a TOML file of these settings: `title` as a comment, then each key below its meaning, unit
+/// and range. Reading it gives the same settings to the bit.
+#[must_use]
+pub fn documented<T: Table>(settings: &T, title: &str) -> String {
+    let mut text = comment(title);
+    let table = Toml::try_from(settings).unwrap_or_default();
+    document_rows(&mut text, T::ROWS, &table, "");
+    text
+}
+
+fn document_rows(text: &mut String, rows: &[Row], table: &Toml, path: &str) {
+    for row in rows {
+        let value = table.get(row.key);
+        if let Takes::Table(rows) = row.takes {
+            let path =
+                if path.is_empty() { row.key.to_owned() } else { format!("{path}.{}", row.key) };
+            let about =
+                if row.about.is_empty() { String::new() } else { format!(" # {}", row.about) };
+            text.push_str(&format!("\n[{path}]{about}\n"));
+            let nothing = Toml::new();
+            document_rows(text, rows, value.and_then(Value::as_table).unwrap_or(&nothing), &path);
+            continue;
+        }
+        if path.is_empty() {
+            text.push('\n');
+        }
+        text.push_str(&comment(&meaning(row)));
+        match (value, row.example) {
+            (Some(value), _) => text.push_str(&format!("{} = {}\n", row.key, text_of(value))),
+            (None, Some(example)) => text.push_str(&format!("# {} = \"{example}\"\n", row.key)),
+            (None, None) => {}
+        }
+    }
+}
+
+/// Meaning, unit and range of a setting in a sentence.
+fn meaning(row: &Row) -> String {
+    let range = row.takes.to_string();
+    let both: Vec<&str> = [row.unit, &range].into_iter().filter(|text| !text.is_empty()).collect();
+    match both.is_empty() {
+        true => format!("{}.", row.about),
+        false => format!("{} ({}).", row.about, both.join(", ")),
+    }
+}
+
+/// `text` as lines of a comment.
+fn comment(text: &str) -> String {
+    let mut lines = String::new();
+    let mut line = "#".to_owned();
+    for word in text.split_whitespace() {
+        if line.len() + 1 + word.len() > WIDTH {
+            lines.push_str(&line);
+            lines.push('\n');
+            line = "#".to_owned();
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    format!("{lines}{line}\n")
+}
+
+/// The lines of TOML that make `settings` of `base`.
+#[must_use]
+pub fn differences<T: Table>(settings: &T, base: &T) -> String {
+    let [own, base] = [settings, base].map(|table| Toml::try_from(table).unwrap_or_default());
+    let mut text = String::new();
+    difference_rows(&mut text, T::ROWS, &own, &base, "");
+    text
+}
+
+fn difference_rows(text: &mut String, rows: &[Row], own: &Toml, base: &Toml, path: &str) {
+    for row in rows {
+        let key = if path.is_empty() { row.key.to_owned() } else { format!("{path}.{}", row.key) };
+        match (row.takes, own.get(row.key), base.get(row.key)) {
+            (Takes::Table(rows), Some(Value::Table(own)), Some(Value::Table(base))) => {
+                difference_rows(text, rows, own, base, &key);
+            }
+            (_, Some(own), base) if Some(own) != base => {
+                text.push_str(&format!("{key} = {}\n", text_of(own)));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Every setting with its path, such as `edges.strength`, in the order of a file.
+#[must_use]
+pub fn rows<T: Table>() -> Vec<(String, &'static Row)> {
+    let mut all = Vec::new();
+    collect_rows(&mut all, T::ROWS, "");
+    all
+}
+
+fn collect_rows(all: &mut Vec<(String, &'static Row)>, rows: &'static [Row], path: &str) {
+    for row in rows {
+        let key = if path.is_empty() { row.key.to_owned() } else { format!("{path}.{}", row.key) };
+        match row.takes {
+            Takes::Table(rows) => collect_rows(all, rows, &key),
+            _ => all.push((key, row)),
+        }
+    }
+}
+
+/// All settings as a table in Markdown, for guides: key, default, values, meaning.
+#[must_use]
+pub fn guide_table<T: Table>() -> String {
+    let usual = Toml::try_from(T::default()).unwrap_or_default();
+    let mut text = "| key | default | takes | meaning |\n| --- | --- | --- | --- |\n".to_owned();
+    for (path, row) in rows::<T>() {
+        let mut value = Some(&usual).and_then(|table| table.get(path.split('.').next()?));
+        for key in path.split('.').skip(1) {
+            value = value.and_then(|value| value.get(key));
+        }
+        let value = value.map_or(String::new(), |value| format!("`{}`", text_of(value)));
+        let range = row.takes.to_string();
+        let takes: Vec<&str> =
+            [row.unit, &range].into_iter().filter(|text| !text.is_empty()).collect();
+        let takes = takes.join(", ");
+        text.push_str(&format!("| `{path}` | {value} | {takes} | {} |\n", row.about));
+    }
+    text
+}
+
+/// A number that is equal for equal settings, to the bit: FNV-1a (Fowler, Noll and Vo 1991) of all values in
+/// the order of their keys. Tests hold presets to it.
+#[must_use]
+pub fn digest<T: Table>(settings: &T) -> u64 {
+    let mut lines = Vec::new();
+    digest_lines(&mut lines, "", &Value::Table(Toml::try_from(settings).unwrap_or_default()));
+    lines.sort();
+    let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    lines.join("\n").bytes().fold(0xcbf2_9ce4_8422_2325, hash)
+}
+
+fn digest_lines(lines: &mut Vec<String>, path: &str, value: &Value) {
+    let Value::Table(table) = value else {
+        lines.push(format!("{path}={}", bits(value)));
+        return;
+    };
+    for (key, value) in table {
+        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        digest_lines(lines, &path, value);
+    }
+}
+
+/// A value as text that differs in every bit.
+fn bits(value: &Value) -> String {
+    match value {
+        Value::Float(number) if f64::from(*number as f32) == *number => {
+            format!("{:08x}", (*number as f32).to_bits())
+        }
+        Value::Float(number) => format!("{:016x}", number.to_bits()),
+        Value::String(text) => text.clone(),
+        Value::Array(list) => format!("[{}]", list.iter().map(bits).collect::<Vec<_>>().join(",")),
+        other => other.to_string(),
+    }
 }

@@ -52,7 +52,6 @@
 //! ```
 
 mod declared;
-mod read;
 
 use std::fmt;
 
@@ -62,7 +61,7 @@ use toml::Value;
 
 use crate::text::{Checked, KeyPath};
 
-pub use read::{
+pub use declared::{
     SettingsError, changed, changed_by, check, differences, digest, documented, guide_table, open,
     read as from_toml, rows,
 };

@@ -3,9 +3,9 @@
 use glam::Vec3;
 use graphics::gpu::{Kernel, Storage, layout};
 
-use super::acting::{Acting, Conditions};
 use super::forces::damping;
 use super::star::{LEAST_SHARE, RestingRadii};
+use super::step::{Acting, Conditions};
 use super::surface_lattice::{BOXES, SurfaceLattice};
 use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 

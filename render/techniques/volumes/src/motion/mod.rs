@@ -14,7 +14,6 @@ mod forces;
 mod surface_lattice;
 mod surroundings;
 mod star;
-mod acting;
 mod step;
 mod device_form;
 mod on_device;
@@ -25,11 +24,11 @@ mod acceptance;
 #[cfg(test)]
 mod device_tests;
 
-pub use acting::advance;
 pub use forces::{KeepIn, Push, kick};
 pub use on_device::DeviceMotion;
 pub use settings::{MotionError, MotionSettings};
 pub use star::Microstructure;
+pub use step::advance;
 pub use surface_lattice::SurfaceLattice;
 pub use surroundings::Surroundings;
 

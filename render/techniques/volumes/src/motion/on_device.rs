@@ -5,11 +5,11 @@ use std::sync::Arc;
 use graphics::gpu::{Buffer, Device, DeviceError, Recording, Rows};
 use rayon::prelude::*;
 
-use super::acting::{Acting, Conditions, conditions};
 use super::device_form::{
     MovedParticle, MovedVolume, PackedLattice, STEP, StepParams, pack, unpack, words_of_spheres,
 };
 use super::settings::{MotionError, MotionSettings};
+use super::step::{Acting, Conditions, conditions};
 use super::surface_lattice::SurfaceLattice;
 use super::surroundings::Surroundings;
 use crate::device_memory::DeviceMemory;
