@@ -461,4 +461,14 @@ mod tests {
             assert!(refused.contains("found `reflectance`"), "{text}: {refused}");
         }
     }
+
+    #[test]
+    fn absolute_irradiance_of_a_jaz_is_a_lamp() {
+        let text = "Jaz Data File\nReference Spectrum Present: Yes\n\
+            >>>>>Begin Processed\nW\tD\tS\tP\n400.0\t1\t50\t0.5\n700.0\t1\t20\t0.7\n>>>>>End\n";
+        for file in ["sun.JazIrrad", "b/sun.OVIrrad"] {
+            let lamp = lamp_from_bytes(file, text.as_bytes(), None);
+            assert!(lamp.is_ok(), "{lamp:?}");
+        }
+    }
 }

@@ -53,6 +53,7 @@ mod inbox;
 mod outbox;
 mod prepare;
 mod report;
+mod replay;
 mod worker;
 mod dispatch;
 mod open;

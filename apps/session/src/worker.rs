@@ -12,9 +12,9 @@ use super::event::{Event, Snapshot};
 use super::inbox::{Inbox, Wait};
 use super::meter::Meter;
 use super::miniature::Shots;
-use super::open::{Groups, Replay};
 use super::outbox::{Outbox, StrokeTiming, head_on_canvas, is_lifted, waiting_substeps};
 use super::prepare::PreparedPainting;
+use super::replay::{Groups, Replay};
 use super::report::Reporter;
 use super::state::Performance;
 

@@ -27,7 +27,10 @@ mod signals;
 mod whole;
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
-pub use replace::FileInPieces;
+mod pieces;
+
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+pub use pieces::FileInPieces;
 pub use replace::sync_folder;
 pub use signals::end_cleanly_on_signals;
 pub use temporary::abandon_writes;

@@ -8,9 +8,8 @@ use graphics::tile::Rect;
 
 use super::brush::{Head, Relief};
 use super::contact::Contact;
-use super::pose::{Pose, Sample};
-
 pub use super::pose::SampleDecimals;
+use super::pose::{Pose, Sample};
 
 /// Poses of a stroke, each at most one cell from the previous one, from the first sample to
 /// the last, where the brush is lifted.

@@ -4,8 +4,8 @@
 //! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always
 //! give equal grounds.
 
-mod relief;
 mod primer;
+mod relief;
 mod spec;
 
 use documents::hint::{Explain, Hint};

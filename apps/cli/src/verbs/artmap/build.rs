@@ -13,7 +13,7 @@ use artmap::synthesis::{Features, Stage, SynthesisSettings};
 use artmap::texel_file::TexelFileError;
 use clap::{Args, ValueEnum};
 
-use super::{
+use super::table::{
     FileAndSheet, csv_tiles, map_json, pigment_names, print_samples, print_tiles, sample_json,
     set_json, spacing, summary,
 };

@@ -9,7 +9,7 @@ use artmap::sheet::sheet;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use super::{FileAndSheet, pigment_names, print_samples, sample_json, set_json, spacing};
+use super::table::{FileAndSheet, pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::library_choice::quietly_chosen;

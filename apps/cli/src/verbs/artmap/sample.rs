@@ -17,7 +17,7 @@ use documents::file::is_standard_input;
 use documents::{counted, counted_as};
 use serde_json::{Value, json};
 
-use super::{FileAndSheet, Table, file_name, sample_json, set_json, size, source, spacing};
+use super::table::{FileAndSheet, Table, file_name, sample_json, set_json, size, source, spacing};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::output::Output;

@@ -12,15 +12,13 @@
 mod settings;
 mod forces;
 mod surface_lattice;
-mod surroundings;
 mod star;
+mod surroundings;
 mod step;
 mod device_form;
 mod on_device;
-
 #[cfg(test)]
 mod acceptance;
-
 #[cfg(test)]
 mod device_tests;
 

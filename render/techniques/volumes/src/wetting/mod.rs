@@ -21,4 +21,3 @@ pub use spill::{Birth, FASTEST_RATE, Spilling};
 pub use spill_on_device::DeviceSpilling;
 
 pub(crate) use spill_on_device::SPILL;
-

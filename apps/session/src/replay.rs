@@ -1,0 +1,248 @@
+//! A recording that is played, and actions that are undone together.
+//!
+//! The painting is known by the numbers of
+//! [`PaintingSession::history_numbers`](paint::session::PaintingSession::history_numbers), which rise
+//! and are never given twice.
+
+use paint::session::{PaintingSession, SessionError};
+use paint::strokes::{Action, SampleDecimals, Stroke, StrokeScript};
+use web_time::{Duration, Instant};
+
+use super::command::Pace;
+use super::event::Event;
+use super::outbox::{StrokeTiming, waiting_substeps};
+
+/// Maximum number of samples added in one step of a fast replay. A cancelled replay still paints
+/// the samples that were added, so this keeps the delay short.
+const AHEAD: usize = 64;
+
+/// Minimum time between two reports of progress.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
+
+/// A script and the position in it.
+#[derive(Debug)]
+pub(super) struct Replay {
+    script: StrokeScript,
+    pace: Pace,
+    /// Index of the next action, or of the open stroke.
+    pub(super) next: usize,
+    /// Number of samples of the open stroke that were added.
+    added: usize,
+    /// Time at which the first sample of the open stroke was due.
+    start: Instant,
+    /// Number of save actions so far; a replay skips them.
+    pub(super) unsaved: usize,
+    /// Time of the next report of progress.
+    progress_due: Instant,
+}
+
+/// Next step of a replay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Step {
+    /// Paint the samples of the open stroke.
+    Paint,
+    /// Wait until this time.
+    Wait(Instant),
+    /// Apply the next action.
+    Next,
+    /// The script has ended.
+    End,
+}
+
+impl Replay {
+    /// A replay from the first action.
+    pub(super) fn new(script: StrokeScript, pace: Pace) -> Self {
+        let now = Instant::now();
+        Self { script, pace, next: 0, added: 0, start: now, unsaved: 0, progress_due: now }
+    }
+
+    /// Index and key of the current action, such as `action 3 (stroke)`.
+    pub(super) fn current_action(&self) -> String {
+        let kind = self.script.actions.get(self.next).map_or("end", Action::kind);
+        format!("action {} ({kind})", self.next)
+    }
+
+    /// Number of actions played, such as `3 of 12 actions`.
+    pub(super) fn count(&self) -> String {
+        format!("{} of {} actions", self.next, self.script.actions.len())
+    }
+
+    /// Applies the next action, or begins its stroke.
+    ///
+    /// # Errors
+    /// [`SessionError`] if the session refuses the action.
+    pub(super) fn next_action(
+        &mut self,
+        session: &mut PaintingSession,
+        open: &mut Option<StrokeTiming>,
+    ) -> Result<Step, SessionError> {
+        let Some(action) = self.script.actions.get(self.next) else { return Ok(Step::End) };
+        match action {
+            Action::Stroke(stroke) => {
+                let decimals = SampleDecimals::RECORDING;
+                session.begin_stroke_as(stroke.tool, stroke.on, &stroke.brush, decimals)?;
+                *open = Some(StrokeTiming::default());
+                (self.added, self.start) = (0, Instant::now());
+                return Ok(Step::Paint);
+            }
+            Action::Save { .. } => self.unsaved += 1,
+            action => {
+                session.apply(action)?;
+            }
+        }
+        self.next += 1;
+        Ok(Step::Next)
+    }
+
+    /// Adds the samples that are due to the open stroke.
+    ///
+    /// # Errors
+    /// [`SessionError`] for an impossible sample.
+    pub(super) fn add_samples(
+        &mut self,
+        session: &mut PaintingSession,
+        timing: &mut StrokeTiming,
+    ) -> Result<Step, SessionError> {
+        let Some(Action::Stroke(Stroke { samples, .. })) = self.script.actions.get(self.next)
+        else {
+            return Ok(Step::End);
+        };
+        let now = Instant::now();
+        let first = samples.first().map_or(0.0, |sample| sample.seconds);
+        let added = self.added;
+        while let Some(sample) = samples.get(self.added) {
+            let arrived = match self.pace {
+                Pace::Fast if waiting_substeps(session) > 0 || self.added - added == AHEAD => break,
+                Pace::Fast => now,
+                Pace::AsPainted => {
+                    let due = self.start + Duration::from_secs_f64(sample.seconds - first);
+                    if due > now {
+                        if waiting_substeps(session) == 0 && self.added == added {
+                            return Ok(Step::Wait(due));
+                        }
+                        break;
+                    }
+                    due
+                }
+            };
+            timing.extend(session, sample, arrived)?;
+            self.added += 1;
+        }
+        if self.added == samples.len() {
+            session.lift()?;
+        }
+        Ok(Step::Paint)
+    }
+
+    /// The progress, if it is due for a report.
+    pub(super) fn progress(&mut self, now: Instant) -> Option<Event> {
+        if now < self.progress_due {
+            return None;
+        }
+        self.progress_due = now + PROGRESS_INTERVAL;
+        Some(self.progress_now())
+    }
+
+    pub(super) fn progress_now(&self) -> Event {
+        Event::Progress { done: self.next, of: self.script.actions.len() }
+    }
+}
+
+/// Groups of actions of the history.
+#[derive(Debug, Default)]
+pub(super) struct Groups {
+    /// Number of the state before the group that is being made.
+    open: Option<u64>,
+    /// Numbers of the states before and after each group.
+    whole: Vec<(u64, u64)>,
+}
+
+impl Groups {
+    /// Begins a group with the next action. `numbers` are those of all states that can be reached,
+    /// and `done` is the index of the present one.
+    pub(super) fn begin(&mut self, numbers: &[u64], done: usize) {
+        self.open = numbers.get(done).copied();
+    }
+
+    /// Ends the group that is being made. It counts if it has two actions or more.
+    pub(super) fn end(&mut self, numbers: &[u64], done: usize) {
+        let (Some(before), Some(&now)) = (self.open.take(), numbers.get(done)) else { return };
+        self.whole.retain(|(_, after)| numbers.contains(after));
+        if numbers.iter().filter(|&&number| (before + 1..=now).contains(&number)).count() > 1 {
+            self.whole.push((before, now));
+        }
+    }
+
+    /// Gives up the group that is being made: another action came between its own.
+    pub(super) fn give_up(&mut self) {
+        self.open = None;
+    }
+
+    /// Index of the state to which one undo leads, if the last action belongs to a group.
+    pub(super) fn undo_to(&self, numbers: &[u64], done: usize) -> Option<usize> {
+        let now = *numbers.get(done)?;
+        let (before, _) =
+            self.whole.iter().find(|(before, after)| (before + 1..=*after).contains(&now))?;
+        // The state before the group may be forgotten: then the first one that is known.
+        Some(numbers.partition_point(|number| number < before))
+    }
+
+    /// Index of the state to which one redo leads, if the next action belongs to a group.
+    pub(super) fn redo_to(&self, numbers: &[u64], done: usize) -> Option<usize> {
+        let now = *numbers.get(done)?;
+        let (_, after) =
+            self.whole.iter().find(|(before, after)| (*before..*after).contains(&now))?;
+        numbers.iter().position(|number| number == after)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// States 0 to 5, of which 2 to 4 are a group.
+    fn grouped() -> Groups {
+        let mut groups = Groups::default();
+        groups.begin(&[0, 1], 1);
+        groups.end(&[0, 1, 2, 3, 4], 4);
+        groups
+    }
+
+    #[test]
+    fn one_undo_and_one_redo_lead_over_a_whole_group() {
+        let groups = grouped();
+        let numbers = [0, 1, 2, 3, 4, 5];
+        let undo = |done| groups.undo_to(&numbers, done);
+        assert_eq!([undo(0), undo(1), undo(5)], [None; 3], "single actions");
+        // Also from within: the history panel leads there.
+        assert_eq!([undo(2), undo(3), undo(4)], [Some(1); 3]);
+        let redo = |done| groups.redo_to(&numbers, done);
+        assert_eq!([redo(0), redo(4), redo(5)], [None; 3]);
+        assert_eq!([redo(1), redo(2), redo(3)], [Some(4); 3]);
+    }
+
+    #[test]
+    fn a_group_whose_beginning_is_forgotten_is_undone_as_far_as_it_is_known() {
+        let groups = grouped();
+        assert_eq!(groups.undo_to(&[2, 3, 4], 2), Some(0));
+        // Another action took the place of its last ones.
+        assert_eq!(groups.redo_to(&[0, 1, 2, 9], 2), None);
+        assert_eq!(groups.undo_to(&[0, 1, 2, 9], 3), None);
+    }
+
+    #[test]
+    fn groups_of_one_action_and_those_that_were_given_up_do_not_count() {
+        let mut groups = Groups::default();
+        groups.begin(&[0], 0);
+        groups.end(&[0, 1], 1);
+        assert_eq!(groups.undo_to(&[0, 1], 1), None);
+        groups.begin(&[0, 1], 1);
+        groups.give_up();
+        groups.end(&[0, 1, 2, 3], 3);
+        assert_eq!(groups.undo_to(&[0, 1, 2, 3], 3), None);
+        let mut groups = grouped();
+        groups.begin(&[0, 1, 7], 2);
+        groups.end(&[0, 1, 7, 8, 9], 4);
+        assert_eq!(groups.whole, [(7, 9)], "one that cannot be reached any more is forgotten");
+    }
+}
