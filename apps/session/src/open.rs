@@ -1,15 +1,14 @@
 //! Opening paintings, playing recordings, and recovering after a lost device.
 
 use documents::hint::{Explain, Hint};
-use paint::session::{PaintingSession, SessionError};
-use paint::strokes::{Action, SampleDecimals, Stroke, StrokeScript};
+use paint::session::SessionError;
+use paint::strokes::StrokeScript;
 use pigment::library::PigmentLibrary;
-use web_time::{Duration, Instant};
+use web_time::Instant;
 
 use super::command::{Origin, Pace};
 use super::event::{Event, Snapshot};
 use super::miniature::Shots;
-use super::outbox::{StrokeTiming, waiting_substeps};
 use super::prepare::{OpenError, PreparedPainting, prepare, prepare_script};
 use super::replay::{Groups, Replay, Step};
 use super::report::Reporter;
