@@ -369,7 +369,7 @@ impl Layers {
                 let known = known.map(|index| former.swap_remove(index));
                 LayerEntry {
                     current: false,
-                    ..known.unwrap_or_else(|| LayerEntry {
+                    ..known.unwrap_or(LayerEntry {
                         id: layer.id,
                         current: false,
                         summary: None,
