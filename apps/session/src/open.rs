@@ -213,7 +213,7 @@ mod tests {
         let (_sender, receiver) = channel();
         let backend = Backend::new(BackendChoice::Cpu);
         let mut worker = WorkerLoop::new(Inbox::new(receiver), backend, 1 << 24, |event| {
-            events.borrow_mut().push(event)
+            events.borrow_mut().push(event);
         });
         worker.open(blank_canvas(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
         let heap = Action::Squeeze(Squeeze {
