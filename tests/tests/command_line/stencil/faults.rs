@@ -175,7 +175,7 @@ fn the_guide_has_a_row_for_every_setting() {
     let mut count = 0;
     for line in printed.lines() {
         if let Some(name) = line.strip_prefix('[') {
-            group = format!("{}.", name.trim_end_matches(']'));
+            group = format!("{}.", name.split(']').next().unwrap());
         } else if let Some((key, _)) = line.split_once(" = ").filter(|_| !line.starts_with('#')) {
             let name = format!("`{group}{key}`");
             assert!(
