@@ -217,8 +217,8 @@ fn cameras_that_see_nothing() {
     let shut = file("shut.toml", &format!("frames = 2\n{keyframe}field_of_view_deg = 0.0\n"));
     let sound = file("sound.toml", &format!("frames = 2\n{keyframe}"));
     let shape = "a path has `frames` and [[keyframe]] tables";
-    refused(&with(&[&folder.file("missing.toml")]), 2, "missing.toml: ", "check the path");
-    refused(&with(&[&torn]), 1, "torn.toml: line 2: ", shape);
+    refused(&with(&[&folder.file("missing.toml")]), 2, "missing.toml: ", "check that the file");
+    refused(&with(&[&torn]), 1, "torn.toml, line 2: ", shape);
     refused(&with(&[&empty]), 1, "empty.toml: `keyframe`: 0, not 1 to", shape);
     refused(&with(&[&none]), 1, "none.toml: `frames`: 0, not 1 to", shape);
     refused(&with(&[&shut]), 1, "`keyframe 1: field_of_view_deg`: `0` is not", shape);
