@@ -420,7 +420,7 @@ fn plain(value: &Value) -> String {
 fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
     source.typed().map_err(|mut error| {
         if let TextError::Syntax { key: Some(key), hint, .. } = &mut error
-            && hint == USUAL_HINT
+            && **hint == *USUAL_HINT
         {
             let all = Value::Table(Toml::try_from(T::default()).unwrap_or_default());
             let usual = key.0.iter().try_fold(&all, |value, step| match step {
@@ -428,7 +428,7 @@ fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
                 KeyStep::Index(_) => None,
             });
             if let Some(usual) = usual.filter(|usual| !usual.is_table()) {
-                *hint = format!("{} is usual", plain(usual));
+                *hint = format!("{} is usual", plain(usual)).into();
             }
         }
         error

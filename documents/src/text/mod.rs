@@ -96,13 +96,13 @@ impl<'t> Source<'t> {
                 file: file.to_owned(),
                 place: Place::line(text, error.span().map_or(0, |span| span.start)),
                 key: None,
-                reason: error.message().split_whitespace().collect::<Vec<_>>().join(" "),
+                reason: error.message().split_whitespace().collect::<Vec<_>>().join(" ").into(),
                 hint: hint
                     .unwrap_or(
                         "a line of TOML is `key = value`, `[table]` or `[[list]]`; text stands in \
                          quotes",
                     )
-                    .to_owned(),
+                    .into(),
             }),
         }
     }
@@ -118,8 +118,8 @@ impl<'t> Source<'t> {
                 file: file.to_owned(),
                 place: Place { line: error.line().max(1), column: Some(error.column().max(1)) },
                 key: None,
-                reason: without_place(&error.to_string()),
-                hint: "JSON is `{\"key\": value, ..}`; text stands in double quotes".to_owned(),
+                reason: without_place(&error.to_string()).into(),
+                hint: "JSON is `{\"key\": value, ..}`; text stands in double quotes".into(),
             });
         }
         let values = Node::of_json(text);
@@ -197,8 +197,8 @@ impl<'t> Source<'t> {
             file: self.file.to_owned(),
             place: self.place(bytes.start),
             key: self.values.path_at(&bytes),
-            reason,
-            hint: hint.unwrap_or_else(usual),
+            reason: reason.into(),
+            hint: hint.unwrap_or_else(usual).into(),
         }
     }
 
@@ -305,9 +305,9 @@ pub enum TextError {
         /// Path of the value. `None` where the text cannot be parsed at all.
         key: Option<KeyPath>,
         /// Reason, with the value.
-        reason: String,
+        reason: Box<str>,
         /// Sentence on the way out.
-        hint: String,
+        hint: Box<str>,
     },
     /// A value is wrong.
     #[error("{file}, {place}: {fault}")]

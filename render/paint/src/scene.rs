@@ -1,4 +1,4 @@
-//! Viewing of a painting at rest: the parameters of its [`Scene`](crate::optics::Scene), its
+//! Viewing of a painting at rest: the parameters of its [`Scene`], its
 //! picture without a paint engine, and the exact spectrum of every cell.
 //!
 //! Pictures are computed on all cores, with one pixel a cell or several. The reflectance by
@@ -239,7 +239,7 @@ impl PixelsPerCell {
     }
 }
 
-/// Picture of a document in linear sRGB, white at 1, like [`picture`](picture) but with
+/// Picture of a document in linear sRGB, white at 1, like [`picture`] but with
 /// `pixels` along the width and the height of every cell. Heights and the light of level
 /// paint between the centres of cells come from Mitchell and Netravali's (1988) bicubic filter,
 /// and relief and gloss are shaded at the finer grid. Even paint has its exact colour. Takes 21

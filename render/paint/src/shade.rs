@@ -156,7 +156,7 @@ pub struct ReliefLamp {
     pub ambient: f32,
     /// Slope for a height difference of one quantum over two cells, times the lamp's relief.
     pub slope: f32,
-    /// By [`TopMaterial`](TopMaterial): gloss with its strength times the share of direct
+    /// By [`TopMaterial`]: gloss with its strength times the share of direct
     /// light, and h_z to its exponent.
     pub gloss: [(Gloss, f32); 3],
     /// Cells towards the lamp that may shade this one.

@@ -289,7 +289,7 @@ fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
 const LIFT: f64 = 1.5;
 
 /// Iterator over the poses of a stroke. Its samples arrive in portions. The poses are the
-/// same to the bit as the poses of [`substeps`](substeps) for all samples at once.
+/// same to the bit as the poses of [`substeps`] for all samples at once.
 ///
 /// The curve to a sample depends on the one after it, so poses lag one sample behind until
 /// the path is finished. A dab (all samples at one position and pose) has no poses until

@@ -136,7 +136,7 @@ impl Explain for InvalidValue {
 /// Why a script cannot be read or played.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScriptError {
-    /// The file is longer than [`MAX_FILE_BYTES`](MAX_FILE_BYTES).
+    /// The file is longer than [`MAX_FILE_BYTES`].
     #[error("{file}: a script has at most {limit} bytes, found `{bytes}`")]
     TooLong {
         /// Name of the file.

@@ -113,7 +113,7 @@ pub struct Stage {
     pub picture: Picture,
 }
 
-/// Synthesises maps as [`key_maps`](key_maps) does, to the bit, with pictures of the steps in their
+/// Synthesises maps as [`key_maps`] does, to the bit, with pictures of the steps in their
 /// order:
 ///
 /// - `sample-1` and on: the samples, dark to light,
@@ -124,7 +124,7 @@ pub struct Stage {
 /// - `map-1-level-1` and on: the map of the sample at each level.
 ///
 /// # Errors
-/// As [`key_maps`](key_maps).
+/// As [`key_maps`].
 pub fn key_maps_with_stages(
     set: &SampleSet,
     settings: &SynthesisSettings,
