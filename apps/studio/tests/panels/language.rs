@@ -21,21 +21,29 @@ use super::volumes::scene;
 
 /// Sources whose texts are translated where they are shown: each text in them needs a
 /// translation. All other sources mark their texts with `tr`, `tr_format!` or `english`.
-const TABLES: [&str; 14] = [
-    "app/crop/frame.rs",
-    "app/entries/edit.rs",
-    "app/entries/file.rs",
-    "app/entries/help.rs",
-    "app/entries/tools.rs",
-    "app/entries/view.rs",
-    "app/first_steps.rs",
-    "app/guide/step.rs",
+const TABLES: [&str; 10] = [
+    "app/crop.rs",
+    "app/entries.rs",
+    "app/guide.rs",
     "app/intent.rs",
-    "app/side/table.rs",
-    "app/volumes/canvas.rs",
-    "app/volumes/entries.rs",
+    "app/perform.rs",
+    "app/side.rs",
+    "app/volumes/bars.rs",
     "app/volumes/intent.rs",
-    "files/new_canvas/format.rs",
+    "app/volumes/workspace.rs",
+    "files/new_canvas.rs",
+];
+
+/// What stands before texts of these sources that nobody sees: names of widgets, labels of the
+/// history, the title and numbers.
+const UNSEEN: [&str; 7] = [
+    "Id::unique(",
+    "Id::unique((",
+    "from_id_salt(",
+    "strip_prefix(",
+    "count(",
+    "format!(",
+    "skip_serializing_if =",
 ];
 
 /// All sources of the studio, by their paths below `src`.
@@ -60,8 +68,8 @@ fn sources() -> Vec<(String, String)> {
 }
 
 /// Texts between quotation marks of a source, without those of its tests, each with what stands
-/// before it.
-fn literals(source: &str) -> Vec<(&str, String)> {
+/// before and behind it.
+fn literals(source: &str) -> Vec<(&str, String, &str)> {
     let source = source.split("#[cfg(test)]").next().unwrap_or_default();
     let mut found = Vec::new();
     let mut at = 0;
@@ -74,7 +82,7 @@ fn literals(source: &str) -> Vec<(&str, String)> {
             at = start + rest[1..].find('\'').unwrap() + 2;
         } else if rest.starts_with('"') {
             let end = closing(rest);
-            found.push((&source[..start], text(&rest[1..end])));
+            found.push((&source[..start], text(&rest[1..end]), &rest[end + 1..]));
             at = start + end + 1;
         } else {
             at = start + 1;
@@ -132,11 +140,19 @@ fn is_shown(text: &str) -> bool {
     has_word && text.contains(|letter: char| letter == ' ' || letter.is_ascii_uppercase())
 }
 
+/// Whether a text is the name of a pigment in a recipe such as `[("Zinc White", 40.0)]`.
+fn is_paint_with_parts(before: &str, after: &str) -> bool {
+    let opens = before.strip_suffix('(').map(str::trim_end);
+    let opens = opens.is_some_and(|before| before.ends_with(['[', ',']));
+    let number = after.strip_prefix(", ").and_then(|rest| rest.split(')').next());
+    opens && number.is_some_and(|number| number.parse::<f64>().is_ok())
+}
+
 /// Every text that the window may show, with the source that has it.
 fn shown() -> Vec<(String, String)> {
     let mut found: Vec<(String, String)> = Vec::new();
     for (name, source) in sources() {
-        for (before, text) in literals(&source) {
+        for (before, text, after) in literals(&source) {
             let before = before.trim_end();
             let marks = ["tr(", "tr_format!(", "english("];
             let marked = marks.iter().any(|mark| {
@@ -144,7 +160,11 @@ fn shown() -> Vec<(String, String)> {
                 !before.ends_with(|last: char| last.is_alphanumeric() || last == '_')
             });
             let of_language = name.starts_with("language/");
-            if !of_language && (marked || (TABLES.contains(&name.as_str()) && is_shown(&text))) {
+            let of_table = TABLES.contains(&name.as_str())
+                && is_shown(&text)
+                && !UNSEEN.iter().any(|unseen| before.ends_with(unseen))
+                && !is_paint_with_parts(before, after);
+            if !of_language && (marked || of_table) {
                 found.push((text, name.clone()));
             }
         }

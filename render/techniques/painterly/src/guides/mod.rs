@@ -431,7 +431,7 @@ mod tests {
             (swap("[799.9, 599]", "[0, 0]"), "g.toml, line 10, guide 2: all points are at"),
             (
                 swap("[799.9, 599]", "[1, 2, 3]"),
-                "g.toml, line 10: [[guide]] 2, points 2: expected 2 numbers",
+                "g.toml, line 10: [[guide]] 2, points: expected 2 numbers, found 3",
             ),
             (
                 swap("800, 600", "800, 600, 3"),
