@@ -10,7 +10,7 @@ import pytest
 
 import impasto as im
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 OILS_CSV = ROOT / "measurements/van-gogh-oils.csv"
 OILS_JSON = ROOT / "measurements/van-gogh-oils.pigments.json"
 

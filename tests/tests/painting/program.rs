@@ -612,7 +612,7 @@ fn child() {
 /// A command that runs `impasto` with `arguments` in a child process.
 fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["--exact", "killed::child", "--ignored", "--nocapture", "--test-threads=1"]);
+    command.args(["--exact", "program::child", "--ignored", "--nocapture", "--test-threads=1"]);
     command.env(ARGUMENTS, arguments.join("\n")).stdout(Stdio::null()).stderr(Stdio::piped());
     command
 }
