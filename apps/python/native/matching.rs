@@ -5,9 +5,10 @@ use std::sync::Arc;
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SearchControl, SpectrumWeights,
-    Thickness, ViewingCondition,
+    ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SpectrumWeights, Thickness,
+    ViewingCondition,
 };
+use documents::Task;
 use documents::hint::Fault;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -143,8 +144,8 @@ pub(crate) fn recipes_for(
         let search = library.recipe_search(&options)?;
         let mut found = Vec::new();
         for target in &targets {
-            let control = SearchControl::until(reporter.cancellation().clone());
-            let Some(matched) = search.recipes_with_control(target, &control)? else { break };
+            let task = Task::from(reporter.cancellation().clone());
+            let matched = search.recipes_for(target, &task)?;
             reporter.tell(&matched.target.name);
             found.push((search.to_json(&matched, None).to_string(), remarks(&matched.remarks)));
         }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use calibrate::quadrature::{EffectiveQuadrature, FilmSet, MixtureSet, Quadrature};
+use documents::Task;
 use documents::hint::Fault;
 use pyo3::prelude::*;
 use serde_json::Value;
@@ -52,8 +53,8 @@ pub(crate) fn quadrature(
         let library = Arc::clone(&library);
         let weights = viewing.weights(library.grid)?;
         if method == "effective" {
-            let found =
-                EffectiveQuadrature::of_until(&viewing, &library, nodes, reporter.cancellation())?;
+            let task = Task::from(reporter.cancellation().clone());
+            let found = EffectiveQuadrature::of(&viewing, &library, nodes, &task)?;
             let error = |films: FilmSet| (mixtures > 0).then(|| found.error(&library, &films));
             let hiding = error(FilmSet::hiding(&library, &weights, mixtures, seed));
             let over = error(FilmSet::over_grounds(&library, &weights, mixtures, seed));
