@@ -8,7 +8,6 @@ use calibrate::matching::{
     ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SpectrumWeights, Thickness,
     ViewingCondition,
 };
-use documents::Task;
 use documents::hint::Fault;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -140,13 +139,12 @@ pub(crate) fn recipes_for(
     let targets: Vec<ColorTarget> =
         targets.iter().map(|target| target.target(py)).collect::<PyResult<_>>()?;
     let library: Arc<PigmentLibrary> = library.0.clone();
-    let found = run(py, progress, move |reporter| {
+    let found = run(py, progress, move |task| {
         let search = library.recipe_search(&options)?;
         let mut found = Vec::new();
         for target in &targets {
-            let task = Task::from(reporter.cancellation().clone());
-            let matched = search.recipes_for(target, &task)?;
-            reporter.tell(&matched.target.name);
+            let matched = search.recipes_for(target, &task.quiet())?;
+            task.stage(&matched.target.name);
             found.push((search.to_json(&matched, None).to_string(), remarks(&matched.remarks)));
         }
         Ok::<_, calibrate::matching::MatchError>(found)

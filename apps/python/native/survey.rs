@@ -1,8 +1,10 @@
 //! Surveys of scans, and their maps.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use documents::Task;
 use maps::blocks::RunError;
 use maps::store::Shard;
 use maps::{
@@ -94,11 +96,11 @@ impl Survey {
         let book = book.map(|text| Book::from_json(&text)).transpose();
         let book = book.raised(py, Exception::Reading)?;
         let library = library.0.clone();
-        let surveyed = run(py, progress, move |reporter| match book {
+        let surveyed = run(py, progress, move |task| match book {
             Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
             None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
-                reporter.tell("pixel");
-                reporter.flow()
+                task.stage("pixel");
+                flow(task)
             }),
         })?;
         surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
@@ -136,10 +138,10 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped = run(py, progress, move |reporter| {
+        let mapped = run(py, progress, move |task| {
             scan.map(&store, |state| {
-                reporter.tell(format!("{} of {} pixels", state.done, state.all));
-                reporter.flow()
+                task.stage(format_args!("{} of {} pixels", state.done, state.all));
+                flow(task)
             })
         })?;
         mapped.raised(py, Exception::Other).map(drop)
@@ -151,15 +153,20 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped = run(py, None, move |reporter| {
-            places.into_iter().take_while(|_: &usize| reporter.flow().is_continue()).try_fold(
+        let mapped = run(py, None, move |task| {
+            places.into_iter().take_while(|_: &usize| !task.is_cancelled()).try_fold(
                 0,
                 |pixels, place| {
-                    let counts = scan.map_shard(&store, place, |_| reporter.flow())?;
+                    let counts = scan.map_shard(&store, place, |_| flow(task))?;
                     Ok::<_, RunError<MapError>>(pixels + counts.map_or(0, |counts| counts.all()))
                 },
             )
         })?;
         mapped.raised(py, Exception::Other)
     }
+}
+
+/// Whether work goes on: not once the task was cancelled.
+fn flow(task: &Task) -> ControlFlow<()> {
+    if task.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -189,7 +189,7 @@ fn target(request: &MatchRequest) -> Target {
 }
 
 #[test]
-fn a_watched_search_finds_the_same_and_its_share_ends_at_one() {
+fn an_observed_search_finds_the_same_and_its_share_ends_at_one() {
     let library = oils();
     for at_most in 1..=4 {
         let plain = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);

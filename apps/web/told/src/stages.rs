@@ -1,5 +1,6 @@
 //! Stages and defects, which the page hears while a call runs.
 
+use documents::{Progress, Task};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
@@ -14,6 +15,11 @@ extern "C" {
 /// Tells the page the stage of long work.
 pub fn stage(text: &str) {
     hear_stage(text);
+}
+
+/// A task that tells the page the `text` of each report.
+pub fn task(text: impl Fn(&Progress) -> String + Send + Sync + 'static) -> Task {
+    Task::observed(move |progress| hear_stage(&text(progress)))
 }
 
 /// Tells the page of defects from now on.

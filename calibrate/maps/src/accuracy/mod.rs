@@ -9,9 +9,9 @@ mod trials;
 
 use std::ops::ControlFlow;
 
-use calibrate::fit::Watch;
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FittingError, LeftOut, PreparedFit, Readings, Residuals};
+use documents::Task;
 use pigment::library::PigmentLibrary;
 
 use crate::films::settings::{MapSettings, ModelError, PigmentGroup};
@@ -279,7 +279,7 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     PreparedFit::new(
         readings,
         &FitOptions { below_surface, ..FitOptions::default() },
-        Watch::default(),
+        &Task::default(),
     )
 }
 
