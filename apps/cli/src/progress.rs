@@ -57,6 +57,15 @@ impl Progress {
         Task::observed(move |progress| bar.set_position(before as u64 + progress.done))
     }
 
+    /// A task of other steps: the share of them that is done moves the bar.
+    pub(crate) fn task_of_any_steps(&self) -> Task {
+        let bar = self.bar.clone();
+        let length = bar.length().unwrap_or(0);
+        Task::observed(move |progress| {
+            bar.set_position(length * progress.done / progress.of.max(1));
+        })
+    }
+
     /// Counts one finished step. May be called from any thread.
     pub(crate) fn step(&self) {
         self.bar.inc(1);

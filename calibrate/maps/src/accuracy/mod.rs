@@ -7,8 +7,6 @@
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 mod trials;
 
-use std::ops::ControlFlow;
-
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FittingError, LeftOut, PreparedFit, Readings, Residuals};
 use documents::Task;
@@ -350,7 +348,7 @@ pub fn painting_trials(
         };
         let mapper = Mapper::new(known, &nm, &MapSettings { palette, ..settings.clone() })?;
         trials.searched.extend(painting.trials(&mapper, &mapper.search(&painting.spectra)?));
-        let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(()))?;
+        let book = mapper.survey(&painting.spectra, &Task::default())?;
         let maps = mapper.map_block(&book, &painting.spectra)?;
         trials.mapped.extend(painting.trials(&mapper, &maps));
         trials.beside.extend(painting.beside_truth(&mapper)?);
