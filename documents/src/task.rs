@@ -119,6 +119,34 @@ impl Task {
         self.shared.call();
     }
 
+    /// Reports the share of the work that is done, and ends a function by `?` once the work was asked to
+    /// end.
+    ///
+    /// ```
+    /// use documents::{Cancelled, Task};
+    ///
+    /// fn copy(task: &Task) -> Result<(), Cancelled> {
+    ///     task.reach(0.0)?;
+    ///     // The file is read.
+    ///     task.reach(0.5)?;
+    ///     // The copy is written.
+    ///     Ok(())
+    /// }
+    ///
+    /// let task = Task::default();
+    /// assert_eq!(copy(&task), Ok(()));
+    /// assert_eq!(task.progress().share(), Some(0.5));
+    /// task.cancel();
+    /// assert_eq!(copy(&task), Err(Cancelled));
+    /// ```
+    ///
+    /// # Errors
+    /// [`Cancelled`] from the first [`Self::cancel`] on.
+    pub fn reach(&self, done: f64) -> Result<(), Cancelled> {
+        self.share(done);
+        self.check()
+    }
+
     /// Reports that `done` of `of` steps are done.
     pub fn done(&self, done: u64, of: u64) {
         if self.part != Part::default() {
