@@ -108,8 +108,7 @@ impl Task {
 
     /// Reports that a stage begins. How much of the work is done stays as it was.
     pub fn stage(&self, text: impl fmt::Display) {
-        let text: Arc<str> = text.to_string().into();
-        *self.shared.stage.lock().unwrap_or_else(PoisonError::into_inner) = text;
+        self.shared.begin(text.to_string().into());
         self.shared.call();
     }
 
@@ -118,6 +117,34 @@ impl Task {
         let done = self.part.start + self.part.length * done.clamp(0.0, 1.0);
         self.shared.set((done.clamp(0.0, 1.0) * WHOLE as f64).round() as u64, WHOLE);
         self.shared.call();
+    }
+
+    /// Reports the share of the work that is done, and ends a function by `?` once the work was asked to
+    /// end.
+    ///
+    /// ```
+    /// use documents::{Cancelled, Task};
+    ///
+    /// fn copy(task: &Task) -> Result<(), Cancelled> {
+    ///     task.reach(0.0)?;
+    ///     // The file is read.
+    ///     task.reach(0.5)?;
+    ///     // The copy is written.
+    ///     Ok(())
+    /// }
+    ///
+    /// let task = Task::default();
+    /// assert_eq!(copy(&task), Ok(()));
+    /// assert_eq!(task.progress().share(), Some(0.5));
+    /// task.cancel();
+    /// assert_eq!(copy(&task), Err(Cancelled));
+    /// ```
+    ///
+    /// # Errors
+    /// [`Cancelled`] from the first [`Self::cancel`] on.
+    pub fn reach(&self, done: f64) -> Result<(), Cancelled> {
+        self.share(done);
+        self.check()
     }
 
     /// Reports that `done` of `of` steps are done.
@@ -133,7 +160,26 @@ impl Task {
     #[must_use]
     pub fn steps(&self, of: usize) -> Steps {
         self.done(0, of as u64);
-        Steps { task: self.clone(), done: AtomicU64::new(0), of: of as u64 }
+        Steps { task: self.clone(), stage: None, done: AtomicU64::new(0), of: of as u64 }
+    }
+
+    /// A counter of `of` steps of a stage. Each step reports the stage and the number of steps at once,
+    /// and nothing is reported before the first step. Threads may share it.
+    ///
+    /// ```
+    /// let task = documents::Task::default();
+    /// let left_out = task.steps_of("mixture left out", 12);
+    /// assert_eq!(&*task.progress().stage, "");
+    /// left_out.step();
+    /// assert_eq!(task.progress().to_string(), "mixture left out, 1 of 12");
+    /// ```
+    #[must_use]
+    pub fn steps_of(&self, stage: impl fmt::Display, of: usize) -> Steps {
+        let stage = Some(stage.to_string().into());
+        if self.part == Part::default() {
+            self.shared.set(0, of as u64);
+        }
+        Steps { task: self.clone(), stage, done: AtomicU64::new(0), of: of as u64 }
     }
 
     /// How far the work is.
@@ -183,6 +229,10 @@ impl fmt::Debug for Task {
 }
 
 impl Shared {
+    fn begin(&self, stage: Arc<str>) {
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+    }
+
     fn set(&self, done: u64, of: u64) {
         self.of.store(of, Ordering::Relaxed);
         self.done.store(done, Ordering::Relaxed);
@@ -205,14 +255,24 @@ impl Shared {
 #[derive(Debug)]
 pub struct Steps {
     task: Task,
+    stage: Option<Arc<str>>,
     done: AtomicU64,
     of: u64,
 }
 
 impl Steps {
+    /// The task that has these steps.
+    #[must_use]
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
     /// Reports that one more step is done.
     pub fn step(&self) {
         let done = 1 + self.done.fetch_add(1, Ordering::Relaxed);
+        if let Some(stage) = &self.stage {
+            self.task.shared.begin(Arc::clone(stage));
+        }
         if self.task.part != Part::default() {
             return self.task.share(done as f64 / self.of.max(1) as f64);
         }
@@ -328,6 +388,20 @@ mod tests {
             }
         });
         assert_eq!(task.progress().to_string(), "400 of 400");
+    }
+
+    #[test]
+    fn the_steps_of_a_stage_are_one_report_each() {
+        let heard = Arc::new(Mutex::new(Vec::new()));
+        let notes = Arc::clone(&heard);
+        let task = Task::observed(move |progress| notes.lock().unwrap().push(progress.to_string()));
+        task.steps(7).step();
+        let steps = task.steps_of("drawing", 2);
+        steps.step();
+        steps.step();
+        task.part(0.5..1.0).steps_of("writing", 2).step();
+        let wanted = ["0 of 7", "1 of 7", "drawing, 1 of 2", "drawing, 2 of 2", "writing, 75 %"];
+        assert_eq!(*heard.lock().unwrap(), wanted);
     }
 
     #[test]

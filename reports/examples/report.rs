@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 
 use calibrate::library::PigmentLibrary;
+use documents::Task;
 use reports::{Report, Subject};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -15,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let library = PigmentLibrary::van_gogh_oils();
     let viewing = spectra::Viewing::default();
     let subject = Subject::of_library(&library, &viewing, "report")?;
-    let report = Report::draw(&subject, &|| ())?;
+    let report = Report::draw(&subject, &Task::default())?;
     for (path, content) in report.files() {
         documents::file::write_whole(&folder.join(path), &content)?;
     }

@@ -9,12 +9,13 @@
 //!
 //! ```no_run
 //! use calibrate::library::PigmentLibrary;
+//! use documents::Task;
 //! use reports::{Report, Subject};
 //!
 //! let library = PigmentLibrary::van_gogh_oils();
 //! let viewing = spectra::Viewing::default();
 //! let subject = Subject::of_library(&library, &viewing, "my program")?;
-//! let report = Report::draw(&subject, &|| ())?;
+//! let report = Report::draw(&subject, &Task::default())?;
 //! for (path, content) in report.files() {
 //!     documents::file::write_whole(std::path::Path::new(&path), &content)?;
 //! }

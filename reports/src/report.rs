@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use calibrate::comparison::Comparison;
 use calibrate::evaluate::Summary;
 use calibrate::validation::Validation;
-use documents::name_list;
+use documents::{Task, name_list};
 
 use crate::figure::{Cell, Column, Figure, Table};
 #[cfg(feature = "pictures")]
@@ -36,7 +36,7 @@ const SECTIONS: [Drawer; 11] = [
     crate::light::section,
 ];
 
-/// Number of times that [`Report::draw`] and [`page_alone`] call `step`.
+/// Number of steps of [`Report::draw`] and [`page_alone`].
 pub const STEPS: usize = SECTIONS.len();
 
 /// A finished report.
@@ -135,20 +135,21 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
 }
 
 /// Draws all sections of `subject` as one HTML page with the numbers inside its figures: for a program
-/// without files. `step` is called [`STEPS`] times, after each section.
+/// without files. `task` counts the sections, of which there are [`STEPS`].
 ///
 /// # Panics
 /// If a drawing thread panics.
 #[must_use]
-pub fn page_alone(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> String {
-    html(&head(subject), &drawn(subject, step), Links::Within)
+pub fn page_alone(subject: &Subject<'_>, task: &Task) -> String {
+    html(&head(subject), &drawn(subject, task), Links::Within)
 }
 
 /// The sections that are not empty.
-fn drawn(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Vec<Section> {
+fn drawn(subject: &Subject<'_>, task: &Task) -> Vec<Section> {
+    let steps = task.steps_of("drawing", STEPS);
     let mut sections = on_all_cores(&SECTIONS, |section| {
         let section = section(subject);
-        step();
+        steps.step();
         section
     });
     sections.retain(|section| !section.is_empty());
@@ -157,16 +158,16 @@ fn drawn(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Vec<Section> {
 
 #[cfg(feature = "pictures")]
 impl Report {
-    /// Draws all sections of `subject` on all cores. `step` is called [`STEPS`] times, after each
-    /// section, for a display of progress.
+    /// Draws all sections of `subject` on all cores. `task` counts the sections, of which there are
+    /// [`STEPS`].
     ///
     /// # Errors
     /// [`PictureError`] if a figure cannot be rendered as PNG.
     ///
     /// # Panics
     /// If a drawing thread panics.
-    pub fn draw(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Result<Self, PictureError> {
-        let sections = drawn(subject, step);
+    pub fn draw(subject: &Subject<'_>, task: &Task) -> Result<Self, PictureError> {
+        let sections = drawn(subject, task);
         let figures: Vec<&Figure> = sections.iter().flat_map(Section::figures).collect();
         let pictures = on_all_cores(&figures, |figure| png(&figure.svg));
         let pictures = pictures.into_iter().collect::<Result<_, _>>()?;
@@ -543,9 +544,9 @@ mod tests {
         let library = calibrate::PigmentLibrary::van_gogh_oils();
         let viewing = spectra::Viewing::default();
         let subject = Subject::of_library(&library, &viewing, "test").unwrap();
-        let page = page_alone(&subject, &|| ());
+        let page = page_alone(&subject, &Task::default());
         let figures: Vec<Figure> =
-            drawn(&subject, &|| ()).iter().flat_map(Section::figures).cloned().collect();
+            drawn(&subject, &Task::default()).iter().flat_map(Section::figures).cloned().collect();
         assert!(figures.len() > 5, "{} figures", figures.len());
         let numbers = "href=\"data:text/csv;charset=utf-8,";
         assert_eq!(page.matches(numbers).count(), figures.len());

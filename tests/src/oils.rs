@@ -7,6 +7,7 @@ use calibrate::fit::{FitSettings, Method};
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
 use calibrate::observation::BelowSurface;
 use calibrate::swatch::SwatchSet;
+use documents::Task;
 use spectra::optics::{Specular, Surface};
 
 /// Saunderson surface for which the error limits of the oils are stated.
@@ -39,7 +40,8 @@ pub fn settings(method: Method) -> FitSettings {
 #[must_use]
 pub fn fitted(method: Method, surface: Surface) -> Calibration {
     let (set, white) = swatches();
-    calibrate(&set, white, surface, &settings(method), &Viewing::default()).expect("a fit")
+    calibrate(&set, white, surface, &settings(method), &Viewing::default(), &Task::default())
+        .expect("a fit")
 }
 
 /// The shipped pigment library of the oils.

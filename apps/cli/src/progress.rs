@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use documents::Task;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::console::Console;
@@ -50,6 +51,21 @@ impl Progress {
         Self { bar, done }
     }
 
+    /// A task whose steps move the bar. `before` steps of the bar are done when it begins.
+    pub(crate) fn task(&self, before: usize) -> Task {
+        let bar = self.bar.clone();
+        Task::observed(move |progress| bar.set_position(before as u64 + progress.done))
+    }
+
+    /// A task of other steps: the share of them that is done moves the bar.
+    pub(crate) fn task_of_any_steps(&self) -> Task {
+        let bar = self.bar.clone();
+        let length = bar.length().unwrap_or(0);
+        Task::observed(move |progress| {
+            bar.set_position(length * progress.done / progress.of.max(1));
+        })
+    }
+
     /// Counts one finished step. May be called from any thread.
     pub(crate) fn step(&self) {
         self.bar.inc(1);
@@ -91,9 +107,10 @@ impl Waiting {
         Self { bar, done }
     }
 
-    /// Replaces the label. May be called from any thread.
-    pub(crate) fn say(&self, label: String) {
-        self.bar.set_message(label);
+    /// A task whose stages follow `label` on the screen.
+    pub(crate) fn task(&self, label: &'static str) -> Task {
+        let bar = self.bar.clone();
+        Task::observed(move |progress| bar.set_message(format!("{label}: {}", progress.stage)))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use calibrate::fit::{Method, Smoothness, Watch};
+use calibrate::fit::{Method, Smoothness};
 use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions};
@@ -173,11 +173,9 @@ pub(crate) fn fit(
 ) -> PyResult<Fit> {
     let options = options.options(py)?;
     let readings = readings.0.clone();
-    let done = run(py, progress, move |reporter| {
-        let told = |stage| reporter.tell(stage);
-        let watch = Watch::new(&told).until(reporter.cancellation());
-        let prepared = PreparedFit::new(&readings, &options, watch)?;
-        let mut fit = prepared.fit_watched(watch)?;
+    let done = run(py, progress, move |task| {
+        let prepared = PreparedFit::new(&readings, &options, task)?;
+        let mut fit = prepared.fit(task)?;
         fit.remarks.splice(0..0, prepared.remarks);
         Ok::<_, calibrate::FittingError>(fit)
     })?;
@@ -196,10 +194,8 @@ pub(crate) fn validate(
 ) -> PyResult<Validation> {
     let options = ValidationOptions { fit: options.options(py)?, folds, with };
     let readings = readings.0.clone();
-    let done = run(py, progress, move |reporter| {
-        let told = |stage| reporter.tell(stage);
-        let watch = Watch::new(&told).until(reporter.cancellation());
-        PreparedFit::new(&readings, &options.fit, watch)?.validate(&options, watch)
+    let done = run(py, progress, move |task| {
+        PreparedFit::new(&readings, &options.fit, task)?.validate(&options, task)
     })?;
     done.map(Validation).raised(py, Exception::Fit)
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SearchControl, SpectrumWeights,
-    Thickness, ViewingCondition,
+    ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SpectrumWeights, Thickness,
+    ViewingCondition,
 };
 use documents::hint::Fault;
 use numpy::PyReadonlyArray1;
@@ -139,13 +139,12 @@ pub(crate) fn recipes_for(
     let targets: Vec<ColorTarget> =
         targets.iter().map(|target| target.target(py)).collect::<PyResult<_>>()?;
     let library: Arc<PigmentLibrary> = library.0.clone();
-    let found = run(py, progress, move |reporter| {
+    let found = run(py, progress, move |task| {
         let search = library.recipe_search(&options)?;
         let mut found = Vec::new();
         for target in &targets {
-            let control = SearchControl::until(reporter.cancellation().clone());
-            let Some(matched) = search.recipes_with_control(target, &control)? else { break };
-            reporter.tell(&matched.target.name);
+            let matched = search.recipes_for(target, &task.quiet())?;
+            task.stage(&matched.target.name);
             found.push((search.to_json(&matched, None).to_string(), remarks(&matched.remarks)));
         }
         Ok::<_, calibrate::matching::MatchError>(found)

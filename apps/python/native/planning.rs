@@ -2,7 +2,7 @@
 
 use calibrate::PigmentLibrary;
 use calibrate::fit::ExpectedNoise;
-use calibrate::plan::{MeasurementForm, PlanOptions, plan_until};
+use calibrate::plan::{MeasurementForm, PlanOptions};
 use pyo3::prelude::*;
 
 use crate::arrays::{GridNumbers, grid};
@@ -44,9 +44,7 @@ pub(crate) fn plan(
         balance: options.balance,
         noise,
     };
-    let planned = run(py, None, move |reporter| {
-        plan_until(&pigments, &white, &chosen, reporter.cancellation())
-    })?;
+    let planned = run(py, None, move |task| calibrate::plan(&pigments, &white, &chosen, task))?;
     let planned = planned.raised(py, Exception::Fit)?;
     Ok((planned.to_json().to_string(), planned.form(&form), remarks(&planned.remarks)))
 }

@@ -41,7 +41,7 @@ pub(crate) fn quadrature(
         let hint = "methods are gauss, moments, library and effective; the last two take a library";
         return Err(Exception::Other.with(py, Fault::Setting, &message, Some(hint)));
     }
-    let done = run(py, None, move |reporter| {
+    let done = run(py, None, move |task| {
         let Some(library) = library else {
             let rule = match method.as_str() {
                 "gauss" => Quadrature::gauss(&viewing, nodes)?,
@@ -52,8 +52,7 @@ pub(crate) fn quadrature(
         let library = Arc::clone(&library);
         let weights = viewing.weights(library.grid)?;
         if method == "effective" {
-            let found =
-                EffectiveQuadrature::of_until(&viewing, &library, nodes, reporter.cancellation())?;
+            let found = EffectiveQuadrature::of(&viewing, &library, nodes, task)?;
             let error = |films: FilmSet| (mixtures > 0).then(|| found.error(&library, &films));
             let hiding = error(FilmSet::hiding(&library, &weights, mixtures, seed));
             let over = error(FilmSet::over_grounds(&library, &weights, mixtures, seed));

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use calibrate::comparison::Comparable;
-use calibrate::fit::Watch;
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
 use documents::hint::Explain;
@@ -43,10 +42,9 @@ pub(crate) fn report(
         }
     };
     let readings = readings.map(|readings| Arc::clone(&readings.0));
-    let drawn = run(py, progress, move |reporter| {
+    let drawn = run(py, progress, move |task| {
         let mut subject =
             Subject::of_library(&library, &viewing, "impasto.report").map_err(boxed)?;
-        let step = || reporter.tell("drawing");
         if let Some(readings) = readings {
             let set = readings.swatches().map_err(boxed)?;
             let comparable = Comparable::of(&set, &library).map_err(boxed)?;
@@ -54,21 +52,19 @@ pub(crate) fn report(
             subject.cards = comparable.set.cards(&subject.weights);
             subject.comparison = Some(comparison);
             if validate {
-                let told = |stage| reporter.tell(stage);
-                let watch = Watch::new(&told).until(reporter.cancellation());
-                let left_out = comparable.left_out(&library, &viewing, watch).map_err(boxed)?;
+                let left_out = comparable.left_out(&library, &viewing, task).map_err(boxed)?;
                 subject.validation = left_out;
             }
         }
-        reporter.cancellation().check().map_err(boxed)?;
+        task.check().map_err(boxed)?;
         subject.quadratures = QuadratureTrial::all(&viewing, &library, &COUNTS).map_err(boxed)?;
-        reporter.cancellation().check().map_err(boxed)?;
+        task.check().map_err(boxed)?;
         subject.pair = pair;
         subject.cards = match subject.comparison {
             Some(_) => subject.cards,
             None => Cards::standard(library.grid),
         };
-        let report = Report::draw(&subject, &step).map_err(boxed)?;
+        let report = Report::draw(&subject, task).map_err(boxed)?;
         Ok::<_, Box<dyn Explain + Send>>(report.files())
     })?;
     drawn.map_err(|error| Exception::Fit.of(py, &*error))

@@ -1,14 +1,13 @@
-//! Long work beside Python: other threads of Python go on, Ctrl-C is obeyed, progress is told.
+//! Long work beside Python: other threads of Python go on, Ctrl-C is obeyed, progress is reported.
 
 use std::cell::OnceCell;
-use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use documents::Cancellation;
+use documents::{Progress, Task};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -19,50 +18,33 @@ const LOOK: Duration = Duration::from_millis(50);
 /// Name of the thread of the work.
 const THREAD: &str = "impasto-work";
 
-/// How work tells its stages, and learns that nobody waits for it any more.
-pub(crate) struct Reporter {
-    told: Mutex<Sender<String>>,
-    cancellation: Cancellation,
-}
-
-impl Reporter {
-    /// Tells a stage. Any thread may call it.
-    pub(crate) fn tell(&self, stage: impl ToString) {
-        if let Ok(told) = self.told.lock() {
-            // Nobody listens once the caller has given up.
-            let _ = told.send(stage.to_string());
-        }
-    }
-
-    /// Set once the caller was interrupted.
-    pub(crate) fn cancellation(&self) -> &Cancellation {
-        &self.cancellation
-    }
-
-    /// Whether work goes on: not once the caller was interrupted.
-    pub(crate) fn flow(&self) -> ControlFlow<()> {
-        if self.cancellation.is_cancelled() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
-}
-
-/// Does `work` on a thread of its own. Meanwhile `progress` is called with each stage as text, and
-/// signals are looked for. After Ctrl-C, or an exception of `progress`, the work is asked to end, and the
+/// Does `work` on a thread of its own. Meanwhile `progress` is called with the stage at each report, and
+/// signals are looked for. After Ctrl-C, or an exception of `progress`, the task is cancelled, and the
 /// call raises once its thread has ended.
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Reporter) -> T + Send + 'static,
+    work: impl FnOnce(&Task) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let cancellation = Cancellation::default();
-    let (told, stages) = channel();
+    run_with(py, progress, |progress| progress.stage.to_string(), work)
+}
+
+/// Does `work` like [`run`], where `progress` is called with the `text` of each report.
+pub(crate) fn run_with<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    text: fn(&Progress) -> String,
+    work: impl FnOnce(&Task) -> T + Send + 'static,
+) -> PyResult<T> {
+    let (reports, stages) = channel();
     let (done, result) = channel();
-    let reporter = Reporter { told: Mutex::new(told), cancellation: cancellation.clone() };
+    let task = Task::observed(move |progress| {
+        // Nobody listens once the caller has given up.
+        let _ = reports.send(text(progress));
+    });
+    let cancellation = task.cancellation().clone();
     let worker = started(move || {
-        let result = catch_unwind(AssertUnwindSafe(|| work(&reporter)));
+        let result = catch_unwind(AssertUnwindSafe(|| work(&task)));
         // Nobody listens once the caller has given up.
         let _ = done.send(result);
     })?;

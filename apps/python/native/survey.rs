@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use documents::Progress;
 use maps::blocks::RunError;
 use maps::store::Shard;
 use maps::{
@@ -15,7 +16,7 @@ use crate::cube::Cube;
 use crate::failure::{Exception, Raised};
 use crate::library::Library;
 use crate::residuals::Residuals;
-use crate::running::run;
+use crate::running::{run, run_with};
 
 /// Settings of a map, as the public face passes them.
 #[derive(FromPyObject)]
@@ -94,12 +95,10 @@ impl Survey {
         let book = book.map(|text| Book::from_json(&text)).transpose();
         let book = book.raised(py, Exception::Reading)?;
         let library = library.0.clone();
-        let surveyed = run(py, progress, move |reporter| match book {
+        let text = |_: &Progress| "pixel".to_owned();
+        let surveyed = run_with(py, progress, text, move |task| match book {
             Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
-            None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
-                reporter.tell("pixel");
-                reporter.flow()
-            }),
+            None => SurveyedScan::survey(cube, &library, &settings, region, task),
         })?;
         surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
     }
@@ -136,12 +135,8 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped = run(py, progress, move |reporter| {
-            scan.map(&store, |state| {
-                reporter.tell(format!("{} of {} pixels", state.done, state.all));
-                reporter.flow()
-            })
-        })?;
+        let text = |progress: &Progress| format!("{} of {} pixels", progress.done, progress.of);
+        let mapped = run_with(py, progress, text, move |task| scan.map(&store, task))?;
         mapped.raised(py, Exception::Other).map(drop)
     }
 
@@ -151,11 +146,11 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped = run(py, None, move |reporter| {
-            places.into_iter().take_while(|_: &usize| reporter.flow().is_continue()).try_fold(
+        let mapped = run(py, None, move |task| {
+            places.into_iter().take_while(|_: &usize| !task.is_cancelled()).try_fold(
                 0,
                 |pixels, place| {
-                    let counts = scan.map_shard(&store, place, |_| reporter.flow())?;
+                    let counts = scan.map_shard(&store, place, task)?;
                     Ok::<_, RunError<MapError>>(pixels + counts.map_or(0, |counts| counts.all()))
                 },
             )

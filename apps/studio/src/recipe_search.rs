@@ -3,10 +3,9 @@
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use documents::Task;
 use pigment::library::PigmentLibrary;
-use pigment::matching::{
-    MatchError, MatchRequest, RecipeMatch, SearchControl, Target, recipes_with_control,
-};
+use pigment::matching::{MatchError, MatchRequest, RecipeMatch, Target, recipes};
 use session::thread;
 
 /// A target colour, and the pigments and limits of the search.
@@ -40,7 +39,7 @@ pub struct RecipeSearch {
 
 #[derive(Debug)]
 struct Running {
-    control: Arc<SearchControl>,
+    task: Task,
     receiver: Receiver<SearchResult>,
 }
 
@@ -49,13 +48,13 @@ impl RecipeSearch {
     pub fn start(&mut self, request: SearchRequest, wake: impl FnOnce() + Send + 'static) {
         self.cancel();
         self.crashed = false;
-        let control = Arc::new(SearchControl::default());
+        let task = Task::default();
         let (sender, receiver) = channel();
-        self.running = Some(Running { control: Arc::clone(&control), receiver });
+        self.running = Some(Running { task: task.clone(), receiver });
         thread::start(move || {
             let SearchRequest { library, target, limits } = &request;
-            let recipes = recipes_with_control(library, target, limits, &control).transpose();
-            if let Some(recipes) = recipes {
+            let recipes = recipes(library, target, limits, &task);
+            if !matches!(recipes, Err(MatchError::Cancelled(_))) {
                 let _ = sender.send(SearchResult { request, recipes });
             }
             drop(sender);
@@ -66,7 +65,7 @@ impl RecipeSearch {
     /// Cancels the running search, if any. The last result is kept.
     pub fn cancel(&mut self) {
         if let Some(running) = self.running.take() {
-            running.control.cancel();
+            running.task.cancel();
         }
     }
 
@@ -89,7 +88,7 @@ impl RecipeSearch {
     /// Progress of the running search, 0 to 1; `None` if no search runs.
     #[must_use]
     pub fn progress(&self) -> Option<f64> {
-        self.running.as_ref().map(|running| running.control.progress())
+        self.running.as_ref().map(|running| running.task.progress().share().unwrap_or(0.0))
     }
 
     /// Result of the last search that ended, if any.
@@ -116,7 +115,7 @@ mod tests {
     use web_time::{Duration, Instant};
 
     use pigment::evaluate::Viewing;
-    use pigment::matching::{FilmKind, ViewingCondition, recipes};
+    use pigment::matching::{FilmKind, ViewingCondition};
     use spectra::color::Lab;
 
     use super::*;
@@ -165,7 +164,8 @@ mod tests {
         wakes.recv_timeout(Duration::from_secs(60)).unwrap();
         let result = search.result().unwrap();
         assert_eq!(result.request, request);
-        let wanted = recipes(&request.library, &request.target, &request.limits).unwrap();
+        let wanted =
+            recipes(&request.library, &request.target, &request.limits, &Task::default()).unwrap();
         assert_eq!(result.recipes.as_ref().unwrap(), &wanted);
         assert!(!wanted.is_empty(), "the oils can mix a brown");
     }
@@ -178,9 +178,9 @@ mod tests {
         let (ended, ends) = channel();
         let of_old = ended.clone();
         search.start(old, move || of_old.send("old").unwrap());
-        let control = Arc::clone(&search.running.as_ref().unwrap().control);
+        let task = search.running.as_ref().unwrap().task.clone();
         search.start(new.clone(), move || ended.send("new").unwrap());
-        assert!(control.cancelled(), "the older search was asked to stop");
+        assert!(task.is_cancelled(), "the older search was asked to stop");
         // Both threads must end soon, in either order.
         for _ in 0..2 {
             ends.recv_timeout(Duration::from_secs(20)).unwrap();
@@ -197,9 +197,9 @@ mod tests {
         wait(&mut search);
         let (ended, ends) = channel();
         search.start(long_request(), move || ended.send(()).unwrap());
-        let control = Arc::clone(&search.running.as_ref().unwrap().control);
+        let task = search.running.as_ref().unwrap().task.clone();
         search.cancel();
-        assert!(control.cancelled(), "the search was asked to stop");
+        assert!(task.is_cancelled(), "the search was asked to stop");
         assert_eq!(search.progress(), None);
         ends.recv_timeout(Duration::from_secs(20)).expect("a cancelled search ends within 20 s");
         search.update();

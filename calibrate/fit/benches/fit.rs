@@ -8,7 +8,7 @@ use calibrate::PigmentId;
 use calibrate::calibration::calibrate;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
-    FitSettings, Method, Problem, Refinement, Smoothness, Watch, fit_qp, fit_refined, fit_weighted,
+    FitSettings, Method, Problem, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
 };
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
@@ -18,6 +18,7 @@ use calibrate::swatch::SwatchSet;
 use calibrate::synthetic::SyntheticMixtures;
 use calibrate::validation::{ValidationPlan, leave_out};
 use divan::{Bencher, black_box};
+use documents::Task;
 use spectra::Grid;
 use spectra::optics::{Specular, Surface};
 
@@ -49,19 +50,23 @@ fn settings(method: Method) -> FitSettings {
 fn oil_library() -> PigmentLibrary {
     let (set, white) = oils();
     let settings = settings(Method::Refined);
-    calibrate(&set, white, SURFACE, &settings, &Viewing::default()).expect("a fit").library
+    calibrate(&set, white, SURFACE, &settings, &Viewing::default(), &Task::default())
+        .expect("a fit")
+        .library
 }
 
 #[divan::bench]
 fn qp_at_the_papers_size(bencher: Bencher<'_, '_>) {
     let (_, problem) = paper_size();
-    bencher.bench_local(|| fit_qp(black_box(&problem)));
+    let task = Task::default();
+    bencher.bench_local(|| fit_qp(black_box(&problem), &task));
 }
 
 #[divan::bench]
 fn weighted_at_the_papers_size(bencher: Bencher<'_, '_>) {
     let (_, problem) = paper_size();
-    bencher.bench_local(|| fit_weighted(black_box(&problem)));
+    let task = Task::default();
+    bencher.bench_local(|| fit_weighted(black_box(&problem), &task));
 }
 
 #[divan::bench(args = ["none", "auto"], sample_count = 10)]
@@ -69,8 +74,9 @@ fn refined_at_the_papers_size(bencher: Bencher<'_, '_>, smoothness: &str) {
     let (made, problem) = paper_size();
     let weights = Viewing::default().weights(made.grid).expect("weights");
     let smoothness = if smoothness == "none" { Smoothness::None } else { Smoothness::Auto };
-    bencher
-        .bench_local(|| fit_refined(black_box(&problem), &weights, Refinement::whole(smoothness)));
+    let how = Refinement::whole(smoothness);
+    let task = Task::default();
+    bencher.bench_local(|| fit_refined(black_box(&problem), &weights, how, &task));
 }
 
 /// 60 pigments, 2000 mixtures and 401 wavelengths: all that a workshop may ever measure.
@@ -82,7 +88,8 @@ fn refined_of_a_large_set(bencher: Bencher<'_, '_>) {
         Problem::new(made.grid, made.surface, &made.observations, PigmentId(0)).expect("a problem");
     let weights = Viewing::default().weights(grid).expect("weights");
     let how = Refinement::whole(Smoothness::Auto);
-    bencher.bench_local(|| fit_refined(black_box(&problem), &weights, how));
+    let task = Task::default();
+    bencher.bench_local(|| fit_refined(black_box(&problem), &weights, how, &task));
 }
 
 #[divan::bench]
@@ -95,7 +102,8 @@ fn fit_of_the_oils(bencher: Bencher<'_, '_>, method: &Method) {
     let (set, white) = oils();
     let settings = settings(*method);
     let viewing = Viewing::default();
-    bencher.bench_local(|| calibrate(&set, white, SURFACE, black_box(&settings), &viewing));
+    let task = Task::default();
+    bencher.bench_local(|| calibrate(&set, white, SURFACE, black_box(&settings), &viewing, &task));
 }
 
 #[divan::bench(sample_count = 3)]
@@ -103,14 +111,10 @@ fn leave_one_out_of_the_oils(bencher: Bencher<'_, '_>) {
     let (set, white) = oils();
     let settings = settings(Method::Refined);
     let viewing = Viewing::default();
-    let state = calibrate(&set, white, SURFACE, &settings, &viewing).expect("a fit").state;
-    let plan = ValidationPlan {
-        settings: &settings,
-        viewing: &viewing,
-        state,
-        folds: None,
-        watch: Watch::default(),
-    };
+    let task = Task::default();
+    let state = calibrate(&set, white, SURFACE, &settings, &viewing, &task).expect("a fit").state;
+    let plan =
+        ValidationPlan { settings: &settings, viewing: &viewing, state, folds: None, task: &task };
     bencher.bench_local(|| leave_out(&set, white, SURFACE, black_box(&plan), |_| true));
 }
 

@@ -1,5 +1,6 @@
 //! Calibration from absolute amounts: series of amounts and glazes of watercolour on one known backing.
 
+use documents::Task;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -9,8 +10,8 @@ use spectra::optics::{Surface, UnevenFilm};
 
 use crate::calibration::{Calibration, CalibrationError, pigment};
 use crate::fit::{
-    FiniteProblem, FitError, FitSettings, FitStage, MeasuredFilm, Refined, Refinement, Smoothness,
-    Watch, fit_finite, root_mean_square,
+    FiniteProblem, FitError, FitSettings, MeasuredFilm, Refined, Refinement, Smoothness,
+    fit_finite, root_mean_square,
 };
 use crate::measurement::MeasurementError;
 use crate::report;
@@ -65,34 +66,20 @@ pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
 /// Fits K and S per unit of amount by [`fit_finite`].
 ///
 /// # Errors
-/// [`CalibrationError`] if readings cannot be used or the fit fails. Readings below the surface's own
-/// reflection are treated as `settings` say.
+/// [`CalibrationError`] if readings cannot be used, the fit fails or `task` was cancelled. Readings below
+/// the surface's own reflection are treated as `settings` say.
 pub fn calibrate_absolute(
     set: &SwatchSet,
     film: UnevenFilm,
     settings: &FitSettings,
     viewing: &Viewing,
-) -> Result<Calibration, CalibrationError> {
-    calibrate_absolute_watched(set, film, settings, viewing, Watch::default())
-}
-
-/// Fits like [`calibrate_absolute`], reports the stages of the fit to `watch`, and ends when it asks for
-/// that.
-///
-/// # Errors
-/// [`CalibrationError`] if readings cannot be used or the fit fails.
-pub fn calibrate_absolute_watched(
-    set: &SwatchSet,
-    film: UnevenFilm,
-    settings: &FitSettings,
-    viewing: &Viewing,
-    watch: Watch<'_>,
+    task: &Task,
 ) -> Result<Calibration, CalibrationError> {
     let problem = films(set)?;
     let dark = report::below_surface(set, film.surface, settings.below_surface)?;
     let own = Viewing::default().weights(set.grid).expect("the method fits the grid");
-    let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
-    let fit = fit_finite(&problem, film, &own, how)?;
+    let how = Refinement::whole(settings.smoothness);
+    let fit = fit_finite(&problem, film, &own, how, task)?;
 
     let weights = viewing.weights(set.grid).expect("the method fits the grid");
     let films = problem.films.iter().enumerate().map(|(index, measured)| {
@@ -162,15 +149,15 @@ fn undetermined(fit: &Refined) -> Vec<PigmentId> {
 /// is its mean CIEDE2000 in five-fold cross-validation over seeded folds. Another model replaces the
 /// current one only if its score is lower by more than 3 %. With fewer than 20 films the plain model (0
 /// and 0) is returned without a test. The chosen k2 serves prediction only. It does not measure the
-/// surface, because unevenness has a similar effect. `watch` receives [`FitStage::FilmModel`] after each
-/// fit.
+/// surface, because unevenness has a similar effect. `task` counts the fits, of
+/// which there are [`CHOICE_FITS`].
 ///
 /// # Errors
-/// [`FitError`] from any fit.
+/// [`FitError`] from any fit, or if `task` was cancelled.
 pub fn chosen_film(
     problem: &FiniteProblem,
     surface: Surface,
-    watch: Watch<'_>,
+    task: &Task,
 ) -> Result<UnevenFilm, FitError> {
     let plain = UnevenFilm { surface: Surface { k2: 0.0, ..surface }, unevenness: 0.0 };
     if problem.films.len() < 4 * FOLDS {
@@ -178,6 +165,8 @@ pub fn chosen_film(
         return Ok(plain);
     }
     let weights = Viewing::default().weights(problem.grid).expect("the method fits the grid");
+    let quiet = task.quiet();
+    let fits = task.steps_of("choice of the film model", CHOICE_FITS);
     let score = |film: UnevenFilm| -> Result<f64, FitError> {
         let folds = folds(problem.films.len(), FOLDS);
         let errors: Vec<Vec<f64>> = folds
@@ -185,12 +174,9 @@ pub fn chosen_film(
             .map(|left_out| {
                 let kept = all_but(problem.films.len(), left_out);
                 let part = problem.with_films(&kept);
-                let how = Refinement {
-                    watch: watch.quiet(),
-                    ..Refinement::prediction(Smoothness::None, None)
-                };
-                let fit = fit_finite(&part, film, &weights, how)?;
-                watch.tell(FitStage::FilmModel);
+                let how = Refinement::prediction(Smoothness::None, None);
+                let fit = fit_finite(&part, film, &weights, how, &quiet)?;
+                fits.step();
                 Ok(errors(problem, &fit, film, left_out, &weights))
             })
             .collect::<Result<_, FitError>>()?;

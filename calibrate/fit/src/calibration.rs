@@ -1,12 +1,13 @@
 //! The main job: from swatches to a pigment library with its evidence.
 
+use documents::Task;
 use documents::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
-    Unidentified, Unknown, Watch, condition, fit_qp_watched, fit_refined, fit_weighted_watched,
-    linear_deviations, unidentified,
+    Unidentified, Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations,
+    unidentified,
 };
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
@@ -39,28 +40,14 @@ pub struct Calibration {
 /// its K/S with S = 1, marked as not identified. One without a masstone is left out.
 ///
 /// # Errors
-/// [`CalibrationError`] if readings cannot be used or the fit fails.
+/// [`CalibrationError`] if readings cannot be used, the fit fails or `task` was cancelled.
 pub fn calibrate(
     set: &SwatchSet,
     reference: PigmentId,
     surface: Surface,
     settings: &FitSettings,
     viewing: &Viewing,
-) -> Result<Calibration, CalibrationError> {
-    calibrate_watched(set, reference, surface, settings, viewing, Watch::default())
-}
-
-/// Fits like [`calibrate`], reports the stages of the fit to `watch`, and ends when it asks for that.
-///
-/// # Errors
-/// [`CalibrationError`] if readings cannot be used or the fit fails.
-pub fn calibrate_watched(
-    set: &SwatchSet,
-    reference: PigmentId,
-    surface: Surface,
-    settings: &FitSettings,
-    viewing: &Viewing,
-    watch: Watch<'_>,
+    task: &Task,
 ) -> Result<Calibration, CalibrationError> {
     let observations = observations(set, surface, settings.below_surface)?;
     let unknown = unidentified(observations.iter().map(|o| o.shares.as_slice()), reference);
@@ -68,8 +55,8 @@ pub fn calibrate_watched(
     let reference_among =
         identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
     let problem = Problem::new(set.grid, surface, &solvable, PigmentId(reference_among))?;
-    let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
-    let solution = solve(&problem, settings.method, how)?;
+    let how = Refinement::whole(settings.smoothness);
+    let solution = solve(&problem, settings.method, how, task)?;
     let condition = condition(&problem, &solution.curves);
 
     let mut pigments: Vec<(PigmentId, Pigment)> = identified
@@ -142,7 +129,8 @@ pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) 
 pub(crate) fn solve(
     problem: &Problem,
     method: Method,
-    how: Refinement<'_>,
+    how: Refinement,
+    task: &Task,
 ) -> Result<Solution, FitError> {
     let plain = |curves: Vec<Curves>| Solution {
         deviations: how.deviations.then(|| linear_deviations(problem, &curves)),
@@ -150,13 +138,14 @@ pub(crate) fn solve(
         state: None,
     };
     Ok(match method {
-        Method::Qp => plain(fit_qp_watched(problem, how.watch)?),
-        Method::Weighted => plain(fit_weighted_watched(problem, how.watch)?),
+        Method::Qp => plain(fit_qp(problem, task)?),
+        Method::Weighted => plain(fit_weighted(problem, task)?),
         Method::Refined => {
             // K and S must not depend on the light under which errors are computed.
             let weights =
                 Viewing::default().weights(problem.grid).expect("the method fits the grid");
-            let Refined { curves, deviations, state, .. } = fit_refined(problem, &weights, how)?;
+            let Refined { curves, deviations, state, .. } =
+                fit_refined(problem, &weights, how, task)?;
             Solution { curves, deviations, state: Some(state) }
         }
     })

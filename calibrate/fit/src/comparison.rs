@@ -1,15 +1,16 @@
 //! Comparison of a library with measurements: its prediction of each sample, and predictions of mixtures
 //! left out of the fit.
 
+use documents::Task;
 use documents::hint::{Explain, Hint};
 use pigment::palette::{MeasuredSample, Palette};
 use pigment::{PigmentId, Recipe};
 use spectra::optics::Surface;
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
-use crate::absolute::{calibrate_absolute_watched, films};
-use crate::calibration::{CalibrationError, calibrate_watched};
-use crate::fit::{FitSettings, MeasuredFilm, Watch};
+use crate::absolute::{calibrate_absolute, films};
+use crate::calibration::{CalibrationError, calibrate};
+use crate::fit::{FitSettings, MeasuredFilm};
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
 use crate::report::Scores;
@@ -226,28 +227,27 @@ impl Comparable {
     /// For a library without settings of its fit, [`FitSettings::default`] is assumed with dark readings
     /// read as black.
     ///
-    /// `watch` receives [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may
-    /// end the work.
+    /// `task` counts the mixtures that were left out.
     ///
     /// # Errors
-    /// [`CalibrationError`] from any fit.
+    /// [`CalibrationError`] from any fit, or if `task` was cancelled.
     pub fn left_out(
         &self,
         library: &PigmentLibrary,
         viewing: &Viewing,
-        watch: Watch<'_>,
+        task: &Task,
     ) -> Result<Option<Validation>, CalibrationError> {
         if self.mixtures(library) == 0 {
             return Ok(None);
         }
         let settings = settings(library);
         let set = self.fitted_again(library);
+        let quiet = task.quiet();
         let plan =
-            |state, folds| ValidationPlan { settings: &settings, viewing, state, folds, watch };
+            |state, folds| ValidationPlan { settings: &settings, viewing, state, folds, task };
         if library.amounts == AmountKind::Absolute {
             let film = library.film();
-            let state =
-                calibrate_absolute_watched(&set, film, &settings, viewing, watch.quiet())?.state;
+            let state = calibrate_absolute(&set, film, &settings, viewing, &quiet)?.state;
             return leave_out_films(&set, film, &plan(state, Some(DEFAULT_FOLDS))).map(Some);
         }
         let Some(reference) = library
@@ -258,8 +258,7 @@ impl Comparable {
             return Ok(None);
         };
         let surface: Surface = library.saunderson;
-        let state =
-            calibrate_watched(&set, reference, surface, &settings, viewing, watch.quiet())?.state;
+        let state = calibrate(&set, reference, surface, &settings, viewing, &quiet)?.state;
         leave_out(&set, reference, surface, &plan(state, None), |_| true).map(Some)
     }
 

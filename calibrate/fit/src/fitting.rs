@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use documents::Task;
 use documents::counted;
 use documents::hint::{Explain, Fault, Hint};
 use pigment::PigmentId;
@@ -11,9 +12,9 @@ use pigment::remark::Remark;
 use pigment::visible_band::{BandError, check_visible_band};
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
-use crate::absolute::{CHOICE_FITS, calibrate_absolute_watched, chosen_film, films};
-use crate::calibration::{Calibration, CalibrationError, calibrate_watched};
-use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness, Watch};
+use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
+use crate::calibration::{Calibration, CalibrationError, calibrate};
+use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness};
 use crate::measurement::{MeasurementError, k1_below};
 use crate::observation::{BelowSurface, Observation, check_backings, least_reading};
 use crate::readings::Readings;
@@ -80,8 +81,9 @@ pub struct FitOptions {
 /// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, or the
 /// fit fails.
 pub fn fit(readings: &Readings, options: &FitOptions) -> Result<Fit, FittingError> {
-    let prepared = PreparedFit::new(readings, options, Watch::default())?;
-    let mut fit = prepared.fit()?;
+    let task = Task::default();
+    let prepared = PreparedFit::new(readings, options, &task)?;
+    let mut fit = prepared.fit(&task)?;
     fit.remarks.splice(0..0, prepared.remarks);
     Ok(fit)
 }
@@ -163,20 +165,19 @@ pub enum FilmModel {
 }
 
 impl PreparedFit {
-    /// Number of times that [`Self::new`] reports
-    /// [`FitStage::FilmModel`](crate::fit::FitStage::FilmModel) if it chooses the film model of absolute
-    /// amounts.
+    /// Number of steps that [`Self::new`] reports if it chooses the film model of absolute amounts.
     pub const MODEL_FITS: usize = CHOICE_FITS;
 
-    /// Resolves the options: selects samples, finds the reference white and the surface. `watch` receives
-    /// each fit made to choose the film model of absolute amounts, and may end them.
+    /// Resolves the options: selects samples, finds the reference white and the surface. `task` counts the
+    /// fits that are made to choose the film model of absolute amounts.
     ///
     /// # Errors
-    /// [`FittingError`] if options exclude each other, a name is unknown, or readings cannot be used.
+    /// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, or
+    /// `task` was cancelled.
     pub fn new(
         readings: &Readings,
         options: &FitOptions,
-        watch: Watch<'_>,
+        task: &Task,
     ) -> Result<Self, FittingError> {
         let mut remarks = Vec::from_iter(check_visible_band(readings.table.grid)?);
         let set = without_excluded(readings.swatches()?, &options.exclude)?;
@@ -212,7 +213,7 @@ impl PreparedFit {
                 if options.reference.is_some() || options.method != Method::Refined {
                     return Err(FittingError::AbsoluteOptions);
                 }
-                FilmModel::Absolute(film_model(&set, options, watch, &mut remarks)?)
+                FilmModel::Absolute(film_model(&set, options, task, &mut remarks)?)
             }
         };
         let first = readings.inputs.first().map_or("", |input| input.path.as_str());
@@ -240,26 +241,32 @@ impl PreparedFit {
         &self.viewing
     }
 
-    /// Fits the library. The remarks are the fit's own.
+    /// Fits the library and reports the stages of the fit to `task`. The remarks are the fit's own.
+    ///
+    /// ```
+    /// use calibrate::{FitOptions, PreparedFit, Readings};
+    /// use documents::Task;
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.csv");
+    ///
+    /// let readings = Readings::open(path)?;
+    /// let task = Task::observed(|progress| eprintln!("{}", progress.stage));
+    /// let prepared = PreparedFit::new(&readings, &FitOptions::default(), &task)?;
+    /// // Another thread may cancel at any time.
+    /// task.cancel();
+    /// assert!(prepared.fit(&task).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
-    pub fn fit(&self) -> Result<Fit, FittingError> {
-        self.fit_watched(Watch::default())
-    }
-
-    /// Fits like [`Self::fit`], reports the stages of the fit to `watch`, and ends when it asks for that.
-    ///
-    /// # Errors
-    /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `watch` ends it.
-    pub fn fit_watched(&self, watch: Watch<'_>) -> Result<Fit, FittingError> {
+    /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `task` was cancelled.
+    pub fn fit(&self, task: &Task) -> Result<Fit, FittingError> {
         let Calibration { mut library, observations, condition, state } = match self.model {
             FilmModel::Relative { reference, surface } => {
                 let Self { set, settings, viewing, .. } = self;
-                calibrate_watched(set, reference, surface, settings, viewing, watch)?
+                calibrate(set, reference, surface, settings, viewing, task)?
             }
             FilmModel::Absolute(film) => {
-                calibrate_absolute_watched(&self.set, film, &self.settings, &self.viewing, watch)?
+                calibrate_absolute(&self.set, film, &self.settings, &self.viewing, task)?
             }
         };
         library.inputs = self.inputs.clone();
@@ -310,7 +317,7 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
 fn film_model(
     set: &SwatchSet,
     options: &FitOptions,
-    watch: Watch<'_>,
+    task: &Task,
     remarks: &mut Vec<Remark>,
 ) -> Result<UnevenFilm, FittingError> {
     let plain = Surface { k1: 0.0, k2: 0.0, specular: options.specular };
@@ -321,7 +328,7 @@ fn film_model(
         });
     }
     let problem = films(set)?;
-    let film = chosen_film(&problem, plain, watch).map_err(CalibrationError::from)?;
+    let film = chosen_film(&problem, plain, task).map_err(CalibrationError::from)?;
     remarks.push(Remark::note(format!(
         "film model by cross-validation: k2 = {}, unevenness {}",
         film.surface.k2, film.unevenness
@@ -616,7 +623,7 @@ mod tests {
         for (readings, below_surface) in [(&lighter, None), (&readings, Some(BelowSurface::Floor))]
         {
             let options = FitOptions { below_surface, ..FitOptions::default() };
-            let prepared = PreparedFit::new(readings, &options, Watch::default()).unwrap();
+            let prepared = PreparedFit::new(readings, &options, &Task::default()).unwrap();
             let FilmModel::Relative { surface, .. } = prepared.model else { panic!("relative") };
             assert_eq!(surface.k1, 0.03);
         }

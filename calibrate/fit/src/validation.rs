@@ -2,6 +2,7 @@
 //!
 //! This file holds the fits without some of the samples, their errors, and these errors as JSON.
 
+use documents::Task;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -11,8 +12,8 @@ use spectra::optics::{Surface, UnevenFilm};
 use crate::absolute::{all_but, films, folds};
 use crate::calibration::{CalibrationError, pigment, solve, without};
 use crate::fit::{
-    FitError, FitSettings, FitStage, Problem, RefinedState, Refinement, Unidentified, Watch,
-    fit_finite, unidentified,
+    FitError, FitSettings, Problem, RefinedState, Refinement, Unidentified, fit_finite,
+    unidentified,
 };
 use crate::fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, index_of};
 use crate::observation::{Observation, observations};
@@ -63,6 +64,9 @@ pub struct PigmentError {
     pub share: f64,
 }
 
+/// Stage of a validation, reported after each mixture.
+const LEFT_OUT: &str = "mixture left out";
+
 /// Settings of a validation: the fit, and the mixtures that are left out.
 #[derive(Debug)]
 pub struct ValidationPlan<'a> {
@@ -75,8 +79,8 @@ pub struct ValidationPlan<'a> {
     pub state: Option<RefinedState>,
     /// Number of seeded groups that are left out in turn, or `None` for each mixture by itself.
     pub folds: Option<usize>,
-    /// Receives [`FitStage::LeftOut`] after each mixture, from any thread, and may end the work.
-    pub watch: Watch<'a>,
+    /// Counts the mixtures that were left out.
+    pub task: &'a Task,
 }
 
 impl ValidationPlan<'_> {
@@ -90,8 +94,8 @@ impl ValidationPlan<'_> {
     ) -> Refits<'a> {
         let settings = self.settings;
         let state = self.state;
-        let watch = self.watch.quiet();
-        Refits { set, observations, reference, surface, settings, state, watch }
+        let task = self.task.quiet();
+        Refits { set, observations, reference, surface, settings, state, task }
     }
 
     fn groups(&self, candidates: &[usize]) -> Vec<Vec<usize>> {
@@ -130,10 +134,11 @@ pub fn leave_out(
     let refits = plan.refits(set, &observations, reference, surface);
     let candidates: Vec<usize> = refits.mixtures().filter(|&i| chosen(&observations[i])).collect();
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
+    let left_out = plan.task.steps_of(LEFT_OUT, candidates.len());
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
         let refit = refits.without(group)?;
         let predictions = group.iter().map(|&index| {
-            plan.watch.tell(FitStage::LeftOut);
+            left_out.step();
             let target = &observations[index];
             let film = |strength: f64| refit.film(target, surface, strength);
             Prediction {
@@ -240,12 +245,13 @@ pub fn leave_out_films(
     let candidates: Vec<usize> =
         (0..count).filter(|&i| problem.films[i].recipe.len() > 1).collect();
     let how = Refinement::prediction(plan.settings.smoothness, plan.state);
-    let how = Refinement { watch: plan.watch.quiet(), ..how };
+    let task = plan.task.quiet();
+    let left_out = plan.task.steps_of(LEFT_OUT, candidates.len());
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
         let part = problem.with_films(&all_but(count, group));
-        let fit = fit_finite(&part, film, &weights, how)?;
+        let fit = fit_finite(&part, film, &weights, how, &task)?;
         let predictions = group.iter().map(|&index| {
-            plan.watch.tell(FitStage::LeftOut);
+            left_out.step();
             Prediction { index, predicted: Some((problem.predicted(&fit, film, index), None)) }
         });
         Ok(predictions.collect())
@@ -305,7 +311,7 @@ pub(crate) struct Refits<'a> {
     pub(crate) settings: &'a FitSettings,
     pub(crate) state: Option<RefinedState>,
     /// Of each fit.
-    pub(crate) watch: Watch<'a>,
+    pub(crate) task: Task,
 }
 
 /// A fit of the other samples.
@@ -342,8 +348,7 @@ impl Refits<'_> {
             identified.iter().position(|&p| p == self.reference).ok_or(FitError::Reference)?;
         let problem = Problem::new(self.set.grid, self.surface, &solvable, PigmentId(among))?;
         let how = Refinement::prediction(self.settings.smoothness, self.state);
-        let how = Refinement { watch: self.watch, ..how };
-        let curves = solve(&problem, self.settings.method, how)?.curves;
+        let curves = solve(&problem, self.settings.method, how, &self.task)?.curves;
         Ok(Refit { grid: self.set.grid, curves, identified, unknown })
     }
 
@@ -498,8 +503,8 @@ pub fn validate(
     readings: &Readings,
     options: &ValidationOptions,
 ) -> Result<FitValidation, FittingError> {
-    let prepared = PreparedFit::new(readings, &options.fit, Watch::default())?;
-    prepared.validate(options, Watch::default())
+    let task = Task::default();
+    PreparedFit::new(readings, &options.fit, &task)?.validate(options, &task)
 }
 
 impl PreparedFit {
@@ -513,17 +518,17 @@ impl PreparedFit {
         Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
     }
 
-    /// Validates like [`validate`], with these readings and fit options. `watch` is told the stages of the
-    /// first fit and [`FitStage::LeftOut`] after each mixture, and may end the work.
+    /// Validates like [`validate`], with these readings and fit options. `task` receives the stages of the
+    /// first fit, and counts the mixtures that were left out.
     ///
     /// # Errors
     /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
     pub fn validate(
         &self,
         options: &ValidationOptions,
-        watch: Watch<'_>,
+        task: &Task,
     ) -> Result<FitValidation, FittingError> {
-        self.validate_fit(self.fit_watched(watch)?, options, watch)
+        self.validate_fit(self.fit(task)?, options, task)
     }
 
     /// Validates like [`Self::validate`], where `fit` is the fit of all samples that [`Self::fit`] made.
@@ -534,7 +539,7 @@ impl PreparedFit {
         &self,
         fit: Fit,
         options: &ValidationOptions,
-        watch: Watch<'_>,
+        task: &Task,
     ) -> Result<FitValidation, FittingError> {
         if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
             return Err(FittingError::Folds { folds });
@@ -550,7 +555,7 @@ impl PreparedFit {
             viewing: &viewing,
             state: fit.state,
             folds,
-            watch,
+            task,
         };
         let errors = match self.model {
             FilmModel::Relative { reference, surface } => {
@@ -569,11 +574,11 @@ impl PreparedFit {
     /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`],
     /// and returns the library of each fit. Mixtures without which the rest cannot be fitted, or a
     /// pigment would not be identified, are passed over, as are films of absolute amounts, which do not
-    /// hide. `watch` receives [`FitStage::LeftOut`] after each, from any thread.
+    /// hide. `task` counts the mixtures that were left out.
     ///
     /// # Errors
     /// [`FittingError`] if readings cannot be used, the fit of all samples fails, or the work was cancelled.
-    pub fn left_out(&self, watch: Watch<'_>) -> Result<Vec<LeftOut>, FittingError> {
+    pub fn left_out(&self, task: &Task) -> Result<Vec<LeftOut>, FittingError> {
         let FilmModel::Relative { reference, surface } = self.model else {
             return Ok(Vec::new());
         };
@@ -581,15 +586,16 @@ impl PreparedFit {
         let settings = &self.settings;
         let observations = observations(set, surface, settings.below_surface);
         let observations = observations.map_err(CalibrationError::from)?;
-        let state = self.fit_watched(watch.quiet())?.state;
+        let state = self.fit(&task.quiet())?.state;
         let viewing = self.viewing();
-        let plan = ValidationPlan { settings, viewing, state, folds: None, watch };
+        let plan = ValidationPlan { settings, viewing, state, folds: None, task };
         let refits = plan.refits(set, &observations, reference, surface);
         let mixtures: Vec<usize> = refits.mixtures().collect();
+        let steps = task.steps_of(LEFT_OUT, mixtures.len());
         let left_out = |&index: &usize| -> Result<Option<LeftOut>, FittingError> {
             let target = &observations[index];
             let refit = refits.without(&[index]);
-            watch.tell(FitStage::LeftOut);
+            steps.step();
             let refit = match refit {
                 Err(CalibrationError::Fit(error)) if !matches!(error, FitError::Cancelled(_)) => {
                     return Ok(None);

@@ -3,10 +3,9 @@
 //! Simulated pixels of 8 of 18 oils, noise 0.003, K and S off by 10 %: mapped with that error, and with
 //! the errors of left-out mixtures.
 
-use std::ops::ControlFlow;
-
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
+use documents::Task;
 use maps::accuracy::{Painting, PaintingPlan};
 use maps::{Book, MapSettings, Mapper, ModelError};
 use pigment::PigmentLibrary;
@@ -53,7 +52,7 @@ fn scan(bands: usize, model_error: Option<ModelError>) -> Scan {
 }
 
 fn book(scan: &Scan) -> Book {
-    scan.mapper.survey(&scan.spectra, &|| ControlFlow::Continue(())).expect("a book")
+    scan.mapper.survey(&scan.spectra, &Task::default()).expect("a book")
 }
 
 /// K and S off by 10 %.

@@ -17,7 +17,7 @@
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use calibrate::Readings;
-use calibrate::fit::Watch;
+use documents::Task;
 use maps::accuracy::{
     Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Told, Trial, choose_penalty,
     coverage, light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils,
@@ -51,10 +51,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     paintings("eight light pigments, K and S off by 10 %", (&oils, &oils), &light, &stated)?;
     paintings("any eight, K and S off by 10 %", (&oils, &oils), &plan, &stated)?;
     let halves = [prepared.half(0), prepared.half(1)];
-    let real = halves[0].fit()?.library;
-    let known = halves[1].fit()?.library;
+    let real = halves[0].fit(&Task::default())?.library;
+    let known = halves[1].fit(&Task::default())?.library;
     let model_error =
-        residuals_of(&halves[1].left_out(Watch::default())?).map(ModelError::Residuals);
+        residuals_of(&halves[1].left_out(&Task::default())?).map(ModelError::Residuals);
     let usual = MapSettings { model_error, ..stated.clone() };
     let exact = PaintingPlan { error: 0.0, ..plan.clone() };
     paintings("library from the other half", (&real, &known), &exact, &usual)?;
@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error::Error>> {
-    let samples = prepared.left_out(Watch::default())?;
+    let samples = prepared.left_out(&Task::default())?;
     let groups = oil_groups();
     let named = NamedGroups::of(&samples, &groups);
     println!("1. {} measured mixtures, each left out of its library", samples.len());

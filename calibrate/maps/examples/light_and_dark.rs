@@ -5,8 +5,8 @@
 
 use std::convert::Infallible;
 use std::error::Error;
-use std::ops::ControlFlow;
 
+use documents::Task;
 use maps::blocks::map_cube;
 use maps::cube::{Block, Cube, CubeOptions, CubeScale};
 use maps::pixel_maps::{BlockMaps, Mask};
@@ -53,6 +53,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         settings: serde_json::Map::new(),
     };
     let store = MapStore::create(out, &about, StoreMode::New)?;
-    map_cube(&cube, &store, light_and_dark, |_| ControlFlow::Continue(()))?;
+    map_cube(&cube, &store, light_and_dark, &Task::default())?;
     Ok(())
 }

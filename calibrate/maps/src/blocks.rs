@@ -1,9 +1,9 @@
 //! Maps a cube shard by shard, in bounded memory, and writes the maps to the disk.
 
 use std::error::Error;
-use std::ops::ControlFlow;
 use std::path::Path;
 
+use documents::Task;
 use documents::hint::{Explain, Fault, Hint};
 
 use crate::cube::{Block, Cube, CubeError};
@@ -16,21 +16,8 @@ pub use crate::pixel_maps::PixelCounts;
 /// Bytes of the values that are read at once. Together with the maps of a shard, a run stays below 1
 /// GB.
 const BLOCK_BYTES: usize = 192 << 20;
-/// Most pixels that are mapped at once, so that progress is told often.
+/// Most pixels that are mapped at once, so that progress is reported often.
 const MOST_PIXELS: usize = 256 * 2048;
-
-/// State of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MapProgress {
-    /// Pixels that are done, including finished shards.
-    pub done: u64,
-    /// Pixels of the run.
-    pub all: u64,
-    /// Shards that are written.
-    pub shards: usize,
-    /// Shards of the run.
-    pub all_shards: usize,
-}
 
 /// Result of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,7 +68,8 @@ impl<E: Explain + 'static> Explain for RunError<E> {
 /// time and may use all threads. Its result must depend on each pixel alone, so that the bytes of the
 /// store do not depend on the blocks.
 ///
-/// `progress` is called after each block. If it breaks, the run ends. The shard under way is not written.
+/// `task` counts the pixels that are done after each block, with those of finished shards. If it is
+/// cancelled, the run ends after the block under way, and the shard under way is not written.
 ///
 /// # Errors
 /// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.
@@ -89,37 +77,27 @@ pub fn map_cube<E: Error + 'static>(
     cube: &Cube,
     store: &MapStore,
     map: impl Fn(&Block) -> Result<BlockMaps, E>,
-    mut progress: impl FnMut(MapProgress) -> ControlFlow<()>,
+    task: &Task,
 ) -> Result<MapOutcome, RunError<E>> {
     let shards = store.shards();
-    let mut state = MapProgress {
-        done: 0,
-        all: shards.iter().map(pixels).sum(),
-        shards: 0,
-        all_shards: shards.len(),
-    };
+    let all = shards.iter().map(pixels).sum();
+    let mut done = 0;
     let mut outcome =
         MapOutcome { pixels: PixelCounts::default(), kept: 0, written: 0, cancelled: false };
     for shard in shards {
+        let before = done;
+        done += pixels(shard);
         if store.is_finished(shard) {
             outcome.kept += 1;
-            state.shards += 1;
-            state.done += pixels(shard);
             continue;
         }
-        let before = state.done;
-        let found = map_shard(cube, store, shard, &map, |done| {
-            state.done = before + done;
-            progress(state)
-        })?;
+        let found = map_shard_of(cube, store, shard, &map, (before, all), task)?;
         let Some(counts) = found else {
             outcome.cancelled = true;
             return Ok(outcome);
         };
         outcome.pixels.add_all(&counts);
         outcome.written += 1;
-        state.shards += 1;
-        state.done = before + pixels(shard);
     }
     Ok(outcome)
 }
@@ -128,9 +106,8 @@ fn pixels(shard: &Shard) -> u64 {
     shard.rows.len() as u64 * shard.columns.len() as u64
 }
 
-/// Maps one shard and writes it, whether it is finished or not. `progress` is called after each block
-/// with the pixels of the shard that are done; if it breaks, nothing is written and the result is
-/// `None`.
+/// Maps one shard and writes it, whether it is finished or not. `task` counts the pixels of the shard that
+/// are done after each block. If it is cancelled, nothing is written and the result is `None`.
 ///
 /// # Errors
 /// [`RunError`] if the cube cannot be read, a block not mapped or the shard not written.
@@ -139,7 +116,19 @@ pub fn map_shard<E: Error + 'static>(
     store: &MapStore,
     shard: &Shard,
     map: impl Fn(&Block) -> Result<BlockMaps, E>,
-    mut progress: impl FnMut(u64) -> ControlFlow<()>,
+    task: &Task,
+) -> Result<Option<PixelCounts>, RunError<E>> {
+    map_shard_of(cube, store, shard, &map, (0, pixels(shard)), task)
+}
+
+/// Maps a shard like [`map_shard`], as a part of `all` pixels of which those `before` it are done.
+fn map_shard_of<E: Error + 'static>(
+    cube: &Cube,
+    store: &MapStore,
+    shard: &Shard,
+    map: &impl Fn(&Block) -> Result<BlockMaps, E>,
+    (before, all): (u64, u64),
+    task: &Task,
 ) -> Result<Option<PixelCounts>, RunError<E>> {
     let width = shard.columns.len();
     let rows = cube.rows_within(BLOCK_BYTES, width).min((MOST_PIXELS / width).max(1));
@@ -155,7 +144,8 @@ pub fn map_shard<E: Error + 'static>(
         counts.add(&maps.mask);
         start = end;
         let done = (end - shard.rows.start) as u64 * width as u64;
-        if progress(done).is_break() {
+        task.done(before + done, all);
+        if task.is_cancelled() {
             return Ok(None);
         }
     }
@@ -172,21 +162,17 @@ impl SurveyedScan {
         MapStore::create(path, self.about(), mode)
     }
 
-    /// Maps every shard that is not finished, on all cores and in bounded memory. `progress` is called after
-    /// each block; if it breaks, the run ends, and the shard under way is not written.
+    /// Maps every shard that is not finished, on all cores and in bounded memory. `task` counts the
+    /// pixels that are done. If it is cancelled, the run ends, and the shard under way is not written.
     ///
     /// # Errors
     /// [`RunError`] if the scan cannot be read or the maps not be written.
-    pub fn map(
-        &self,
-        store: &MapStore,
-        progress: impl FnMut(MapProgress) -> ControlFlow<()>,
-    ) -> Result<MapOutcome, RunError<MapError>> {
-        map_cube(self.cube(), store, |block| self.map_block(block), progress)
+    pub fn map(&self, store: &MapStore, task: &Task) -> Result<MapOutcome, RunError<MapError>> {
+        map_cube(self.cube(), store, |block| self.map_block(block), task)
     }
 
     /// Maps the shard at `place` in the order of the store, unless it is finished. `None` if it was, or if
-    /// `progress`, called after each block with the number of finished pixels, broke.
+    /// `task`, which counts the pixels of the shard that are done, was cancelled.
     ///
     /// # Errors
     /// [`RunError`] if the scan cannot be read or the shard not be written.
@@ -194,11 +180,11 @@ impl SurveyedScan {
         &self,
         store: &MapStore,
         place: usize,
-        progress: impl FnMut(u64) -> ControlFlow<()>,
+        task: &Task,
     ) -> Result<Option<PixelCounts>, RunError<MapError>> {
         match store.shards().get(place) {
             Some(shard) if !store.is_finished(shard) => {
-                map_shard(self.cube(), store, shard, |block| self.map_block(block), progress)
+                map_shard(self.cube(), store, shard, |block| self.map_block(block), task)
             }
             _ => Ok(None),
         }

@@ -2,8 +2,9 @@
 //!
 //! A spot shows the measured spectrum of a pixel or a region beside the spectrum of its mapped mixture.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
+use documents::Task;
 use documents::hint::{Explain, Fault, Hint};
 use pigment::library::Input;
 use pigment::{PigmentLibrary, RecipeError};
@@ -39,20 +40,19 @@ pub struct FoundColumn {
 /// A scan that was surveyed with a library.
 ///
 /// ```no_run
-/// use std::ops::ControlFlow;
-///
+/// use documents::Task;
 /// use maps::{Cube, MapSettings, StoreMode, SurveyedScan};
 /// use pigment::PigmentLibrary;
 ///
 /// let oils = PigmentLibrary::van_gogh_oils();
 /// let cube = Cube::open("scan.hdr")?;
-/// let go_on = || ControlFlow::Continue(());
-/// let scan = SurveyedScan::survey(cube, &oils, &MapSettings::default(), None, &go_on)?;
+/// let task = Task::default();
+/// let scan = SurveyedScan::survey(cube, &oils, &MapSettings::default(), None, &task)?;
 /// for found in scan.palette() {
 ///     println!("{:5.1} % {}", 100.0 * found.part, found.column.name);
 /// }
 /// let store = scan.store("maps.zarr", StoreMode::New)?;
-/// scan.map(&store, |_| ControlFlow::Continue(()))?;
+/// scan.map(&store, &task)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -65,24 +65,23 @@ pub struct SurveyedScan {
 }
 
 impl SurveyedScan {
-    /// Surveys `region` of a scan, by default all of it. `progress` is called after each surveyed pixel, from
-    /// any thread; if it breaks, the survey ends.
+    /// Surveys `region` of a scan, by default all of it. `task` counts the surveyed pixels.
     ///
     /// # Errors
-    /// [`SurveyError`] if the scan cannot be read, does not fit the library and the settings, or `progress`
-    /// broke.
+    /// [`SurveyError`] if the scan cannot be read, does not fit the library and the settings, or `task`
+    /// was cancelled.
     pub fn survey(
         cube: Cube,
         library: &PigmentLibrary,
         settings: &MapSettings,
         region: Option<Region>,
-        progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+        task: &Task,
     ) -> Result<Self, SurveyError> {
         let cube = within(cube, library)?;
         let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
         let region = inside(&cube, region)?;
         let pixels = cube.spread(region.rows.clone(), region.columns.clone(), SURVEYED)?;
-        let book = mapper.survey(&pixels.values, progress)?;
+        let book = mapper.survey(&pixels.values, task)?;
         Self::of(cube, library, mapper, settings, region, book)
     }
 

@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use calibrate::Readings;
-use calibrate::fit::Watch;
+use documents::Task;
 use maps::accuracy::{
     Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Told, coverage, light_palette,
     missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, residuals_of,
@@ -33,7 +33,7 @@ fn plan(pixels: usize) -> PaintingPlan {
 
 #[test]
 fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
-    let samples = prepared_oils(&readings()).unwrap().left_out(Watch::default()).unwrap();
+    let samples = prepared_oils(&readings()).unwrap().left_out(&Task::default()).unwrap();
     assert_eq!(samples.len(), 65, "binary mixtures");
     let groups = oil_groups();
     let trials = swatch_trials(&samples, &MapSettings::default(), &groups).unwrap();
@@ -94,8 +94,8 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
 fn a_library_of_other_readings_serves_too() {
     let prepared = prepared_oils(&readings()).unwrap();
     let halves = [0, 1].map(|half| prepared.half(half));
-    let [real, known] = halves.each_ref().map(|half| half.fit().unwrap().library);
-    let residuals = residuals_of(&halves[1].left_out(Watch::default()).unwrap()).unwrap();
+    let [real, known] = halves.each_ref().map(|half| half.fit(&Task::default()).unwrap().library);
+    let residuals = residuals_of(&halves[1].left_out(&Task::default()).unwrap()).unwrap();
     let model_error = Some(ModelError::Residuals(residuals));
     let settings = MapSettings { model_error, ..stated() };
     let exact = PaintingPlan { error: 0.0, ..plan(100) };

@@ -2,11 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use calibrate::{Residuals, ResidualsError};
 use documents::hint::Explain;
+use documents::{Cancellation, Task};
 use maps::accuracy::{Painting, PaintingPlan};
 use maps::pixel_maps::{BlockMaps, Mask};
 use maps::{Book, Ground, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
@@ -41,13 +39,12 @@ fn bits(maps: &BlockMaps) -> Vec<u32> {
 #[test]
 fn a_pixel_depends_on_itself_and_the_book_only() {
     let (mapper, spectra) = scan(700);
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let whole = mapper.map_block(&book, &spectra).unwrap();
     assert!(whole.is_consistent(), "lengths");
     for pool in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(pool).build().unwrap();
-        let again =
-            pool.install(|| mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap());
+        let again = pool.install(|| mapper.survey(&spectra, &Task::default()).unwrap());
         assert_eq!(again.to_json().unwrap(), book.to_json().unwrap());
         for pixels in [1, 97, 700] {
             let pieces = spectra.chunks(pixels * 31);
@@ -67,7 +64,7 @@ fn a_pixel_depends_on_itself_and_the_book_only() {
 #[test]
 fn shares_sum_to_1_and_probabilities_are_probabilities() {
     let (mapper, spectra) = scan(300);
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let maps = mapper.map_block(&book, &spectra).unwrap();
     for pixel in maps.share.chunks_exact(maps.pigments) {
         assert!((pixel.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{pixel:?}");
@@ -80,7 +77,7 @@ fn shares_sum_to_1_and_probabilities_are_probabilities() {
 #[test]
 fn no_pixel_panics_and_bad_ones_are_masked() {
     let (mapper, spectra) = scan(200);
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let bad: Vec<(f32, Mask)> = vec![
         (f32::NAN, Mask::NotFinite),
         (f32::INFINITY, Mask::NotFinite),
@@ -122,12 +119,12 @@ fn no_pixel_panics_and_bad_ones_are_masked() {
 #[test]
 fn wrong_lengths_and_other_books_are_refused() {
     let (mapper, spectra) = scan(50);
-    let error = mapper.survey(&spectra[..40], &|| ControlFlow::Continue(())).unwrap_err();
+    let error = mapper.survey(&spectra[..40], &Task::default()).unwrap_err();
     assert_eq!(error, MapError::Length { values: 40, bands: 31 });
     assert!(error.hint().is_some(), "a way out");
-    let error = mapper.survey(&[f32::NAN; 62], &|| ControlFlow::Continue(())).unwrap_err();
+    let error = mapper.survey(&[f32::NAN; 62], &Task::default()).unwrap_err();
     assert_eq!(error, MapError::NothingToSurvey { pixels: 2 });
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let opened = mapper.open_book(&book).unwrap();
     let error = mapper.map(&opened, &spectra, &[Mask::Mapped]).unwrap_err();
     assert_eq!(error, MapError::Masks { masks: 1, pixels: 50 });
@@ -149,7 +146,7 @@ fn wrong_lengths_and_other_books_are_refused() {
 #[test]
 fn books_survive_their_file_and_broken_ones_are_refused() {
     let (mapper, spectra) = scan(40);
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let text = book.to_json().unwrap();
     let read = Book::from_json(&text).unwrap();
     assert_eq!(read, book);
@@ -189,7 +186,7 @@ fn bare_ground_is_told_and_paint_is_not_taken_for_it() {
         let bare = linen(&nm).into_iter().enumerate();
         spectra.extend(bare.map(|(band, r)| (r * factor + gloss + noise(band)) as f32));
     }
-    let book = knows.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = knows.survey(&spectra, &Task::default()).unwrap();
     assert_eq!(book.entries.len(), 300, "the ground is no part of the survey");
     let maps = knows.map_block(&book, &spectra).unwrap();
     let told = maps.mask.iter().map(|mask| *mask == Mask::Ground).collect::<Vec<bool>>();
@@ -197,7 +194,7 @@ fn bare_ground_is_told_and_paint_is_not_taken_for_it() {
     assert!(told[300..].iter().all(|ground| *ground), "the last 40 pixels");
     assert!(maps.share[300 * maps.pigments..].iter().all(|share| share.is_nan()), "no shares");
     // Without the spectrum of the ground these pixels are mapped as paint.
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let maps = mapper.map_block(&book, &spectra).unwrap();
     assert!(maps.mask.iter().all(|mask| *mask != Mask::Ground), "{:?}", maps.mask);
     let error = knows.map_block(&book, &spectra).unwrap_err();
@@ -215,7 +212,7 @@ fn a_survey_finds_the_palette_and_maps_know_it() {
     let plan = PaintingPlan { pixels: 400, palette: palette.clone(), ..PaintingPlan::default() };
     let painting = Painting::simulate(&oils, &oils, &plan);
     let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
-    let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&painting.spectra, &Task::default()).unwrap();
     let inside = |name: &str| {
         let place = mapper.pigments().iter().position(|known| known == name).unwrap();
         book.palette[place]
@@ -255,7 +252,7 @@ fn a_scan_of_two_paints_keeps_their_pigments() {
     let red = film(&[("Vermilion", 1.0)]);
     let spectra = [green.repeat(20), red.repeat(20)].concat();
     let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
-    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let place = |name: &str| mapper.pigments().iter().position(|known| known == name).unwrap();
     for name in ["Viridian", "Vermilion"] {
         assert!(book.palette[place(name)] > 0.9, "{name}: {:?}", book.palette);
@@ -325,7 +322,7 @@ fn books_of_other_residuals_are_refused_with_both() {
     let mut half = Residuals::van_gogh_oils();
     half.mixtures.truncate(32);
     let first = with(half.clone()).unwrap();
-    let book = first.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let book = first.survey(&spectra, &Task::default()).unwrap();
     let error = with(Residuals::van_gogh_oils()).unwrap().open_book(&book).unwrap_err();
     let words = error.to_string();
     assert!(words.contains("32 left-out") && words.contains(&half.sha256()), "{words}");
@@ -359,15 +356,18 @@ fn few_pigments_and_few_bands_suffice() {
 }
 
 #[test]
-fn a_survey_ends_when_its_progress_breaks() {
+fn a_survey_ends_when_it_is_cancelled() {
     let (mapper, spectra) = scan(20);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let called = AtomicUsize::new(0);
-    let third = || match called.fetch_add(1, Ordering::Relaxed) {
-        0 | 1 => ControlFlow::Continue(()),
-        _ => ControlFlow::Break(()),
-    };
-    let error = pool.install(|| mapper.survey(&spectra, &third).unwrap_err());
+    let cancellation = Cancellation::default();
+    let ends = cancellation.clone();
+    let task = Task::observed(move |progress| {
+        if progress.done == 3 {
+            ends.cancel();
+        }
+    });
+    let task = task.until(cancellation);
+    let error = pool.install(|| mapper.survey(&spectra, &task).unwrap_err());
     assert!(matches!(error, MapError::Cancelled(_)) && error.hint().is_some(), "{error:?}");
-    assert_eq!(called.into_inner(), 3, "pixels were searched after the break");
+    assert_eq!(task.progress().done, 3, "pixels were searched after the cancellation");
 }

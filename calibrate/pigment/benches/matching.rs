@@ -4,6 +4,7 @@
 //! about 112 s for 13 pigments.
 
 use divan::{Bencher, black_box};
+use documents::Task;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::matching::{FilmKind, MatchRequest, Target, Thickness, ViewingCondition, recipes};
@@ -37,7 +38,9 @@ fn search(bencher: Bencher<'_, '_>, lights: &[&str], change: impl Fn(&mut MatchR
     change(&mut request);
     let wanted = Lab { lightness: 49.5, a: -12.9, b: -13.5 };
     let target = Target::from_lab("", wanted, &request.conditions);
-    bencher.bench(|| recipes(black_box(&library), &target, &request).expect("recipes"));
+    bencher.bench(|| {
+        recipes(black_box(&library), &target, &request, &Task::default()).expect("recipes")
+    });
 }
 
 #[divan::bench(sample_count = 10)]

@@ -3,6 +3,7 @@
 //! Time limit on 2 cores: 2 s for a library of 60 pigments, with reading and the test films of the verb.
 
 use divan::{Bencher, black_box};
+use documents::Task;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::quadrature::EffectiveQuadrature;
@@ -40,6 +41,7 @@ fn pigments(count: usize) -> PigmentLibrary {
 fn effective(bencher: Bencher<'_, '_>, count: usize) {
     let library = pigments(count);
     bencher.bench(|| {
-        EffectiveQuadrature::of(&daylight(), black_box(&library), 8).expect("eight nodes")
+        EffectiveQuadrature::of(&daylight(), black_box(&library), 8, &Task::default())
+            .expect("eight nodes")
     });
 }

@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use documents::Cancellation;
+use documents::Task;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -179,13 +179,11 @@ fn even_parts(work: &[usize], count: usize) -> Vec<Range<usize>> {
 
 /// Stopping rule of [`minimise`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stop<'a> {
+pub(crate) struct Stop {
     /// Largest number of steps.
     pub(crate) iterations: usize,
     /// Stops when a step lowers the cost by less than this fraction of it.
     pub(crate) relative_decrease: f64,
-    /// Stops once this asks for it.
-    pub(crate) cancellation: Option<&'a Cancellation>,
 }
 
 /// Point of least cost that was found, with that cost.
@@ -196,11 +194,12 @@ pub(crate) struct Minimum {
 }
 
 /// Minimises from `start` within `lower..=upper`. `build` returns the normal equations at a point,
-/// `cost` the cost alone.
+/// `cost` the cost alone. Ends early, where it is, once `task` is cancelled.
 pub(crate) fn minimise(
     start: DVector<f64>,
     (lower, upper): (&DVector<f64>, &DVector<f64>),
-    stop: Stop<'_>,
+    stop: Stop,
+    task: &Task,
     mut build: impl FnMut(&DVector<f64>) -> NormalEquations,
     mut cost: impl FnMut(&DVector<f64>) -> f64,
 ) -> Minimum {
@@ -210,7 +209,7 @@ pub(crate) fn minimise(
     let mut damping = FIRST_DAMPING;
     let mut growth = 2.0;
     for _ in 0..stop.iterations {
-        if stop.cancellation.is_some_and(Cancellation::is_cancelled) {
+        if task.is_cancelled() {
             break;
         }
         let held: Vec<bool> = (0..point.len())
@@ -532,7 +531,8 @@ mod tests {
         minimise(
             DVector::from_vec(vec![-1.2, 0.4]),
             (&bounds.0, &bounds.1),
-            Stop { iterations: 500, relative_decrease: 1e-15, cancellation: None },
+            Stop { iterations: 500, relative_decrease: 1e-15 },
+            &Task::default(),
             |p| {
                 let [r1, r2] = rosenbrock_residuals(p);
                 let mut equations = NormalEquations::zeros(2);

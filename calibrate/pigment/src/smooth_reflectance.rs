@@ -6,6 +6,7 @@
 //! found. R is the reflectance below the surface, so that a paint under this surface can have it. Lagrange's
 //! conditions are solved by Newton's method.
 
+use documents::Task;
 use nalgebra::{DMatrix, DVector};
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, Xyz, ciede2000_metric, delta_e_ciede2000};
@@ -160,11 +161,12 @@ impl Problem<'_> {
             (xyz, metric.apply(by_lab))
         };
         let bound = DVector::from_element(start.len(), 6.0);
-        let stop = Stop { iterations: 500, relative_decrease: 1e-9, cancellation: None };
+        let stop = Stop { iterations: 500, relative_decrease: 1e-9 };
         minimise(
             start,
             (&-&bound, &bound),
             stop,
+            &Task::default(),
             |z: &DVector<f64>| {
                 let mut equations = NormalEquations::zeros(z.len());
                 let (xyz, color) = difference(z);

@@ -6,6 +6,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use documents::Task;
 use documents::hint::{Explain, Fault, Hint};
 use graphics::lanes::{greater, lesser, multiply_add};
 use pigment::PigmentId;
@@ -30,7 +31,9 @@ fn quadrature(
     library: &PigmentLibrary,
     viewing: &Viewing,
 ) -> Result<EffectiveQuadrature, QuadratureFailure> {
-    QUADRATURES.get(library, viewing, || EffectiveQuadrature::of(viewing, library, NODES))
+    QUADRATURES.get(library, viewing, || {
+        EffectiveQuadrature::of(viewing, library, NODES, &Task::default())
+    })
 }
 
 /// All that a quadrature depends on, and the quadrature.
@@ -304,7 +307,8 @@ mod tests {
         let oils = PigmentLibrary::van_gogh_oils();
         let mut tinted = oils.clone();
         tinted.pigments[0].absorption[3] *= 1.01;
-        let model = EffectiveQuadrature::of(&viewing("D65"), &oils, NODES).unwrap();
+        let model =
+            EffectiveQuadrature::of(&viewing("D65"), &oils, NODES, &Task::default()).unwrap();
         let fits = Cell::new(0);
         let ask = |library: &PigmentLibrary, light: &str| {
             let mut own = model.clone();
@@ -338,9 +342,9 @@ mod tests {
         let kept = KeptQuadratures(Mutex::new(Vec::new()));
         let oils = PigmentLibrary::van_gogh_oils();
         let viewing = viewing("D65");
-        let fault = EffectiveQuadrature::of(&viewing, &oils, 0).unwrap_err();
+        let fault = EffectiveQuadrature::of(&viewing, &oils, 0, &Task::default()).unwrap_err();
         assert_eq!(kept.get(&oils, &viewing, || Err(fault)), Err(fault));
-        let fitted = EffectiveQuadrature::of(&viewing, &oils, 3).unwrap();
+        let fitted = EffectiveQuadrature::of(&viewing, &oils, 3, &Task::default()).unwrap();
         assert_eq!(kept.get(&oils, &viewing, || Ok(fitted.clone())), Ok(fitted));
     }
 }

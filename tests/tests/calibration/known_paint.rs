@@ -5,13 +5,13 @@
 //!
 //! Swatches from the rows of a measurement file: scale, grid, repeated readings, backings, faults.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use calibrate::absolute::{calibrate_absolute, chosen_film, films};
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
-    FitError, FitSettings, FitStage, Problem, Refined, Refinement, Smoothness, Watch, condition,
-    fit_qp, fit_refined, fit_weighted,
+    FitError, FitSettings, Problem, Refined, Refinement, Smoothness, condition, fit_qp,
+    fit_refined, fit_weighted,
 };
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::{MeasurementError, MeasurementTable, Scale, ScaleChoice};
@@ -20,6 +20,7 @@ use calibrate::swatch::SwatchSet;
 use calibrate::synthetic::SyntheticMixtures;
 use calibrate::validation::{ValidationPlan, leave_out_films};
 use calibrate::{Curves, PigmentId};
+use documents::Task;
 use spectra::optics::{Layer, Surface, UnevenFilm, infinite_film};
 use suite::watercolors::Watercolors;
 
@@ -29,7 +30,7 @@ fn problem(made: &SyntheticMixtures) -> Problem {
 
 fn refined(made: &SyntheticMixtures, smoothness: Smoothness) -> Refined {
     let weights = Viewing::default().weights(made.grid).unwrap();
-    fit_refined(&problem(made), &weights, Refinement::whole(smoothness)).unwrap()
+    fit_refined(&problem(made), &weights, Refinement::whole(smoothness), &Task::default()).unwrap()
 }
 
 /// Largest error of the logarithm of `curve` (K or S) where the true value exceeds 0.01.
@@ -44,8 +45,8 @@ fn every_method_recovers_known_k_and_s_from_readings_without_noise() {
     let problem = problem(&made);
     let refined = refined(&made, Smoothness::None);
     let fits = [
-        ("qp", fit_qp(&problem).unwrap(), 0.05),
-        ("weighted", fit_weighted(&problem).unwrap(), 0.05),
+        ("qp", fit_qp(&problem, &Task::default()).unwrap(), 0.05),
+        ("weighted", fit_weighted(&problem, &Task::default()).unwrap(), 0.05),
         ("refined", refined.curves, 0.05),
     ];
     for (name, curves, bound) in fits {
@@ -94,7 +95,7 @@ fn the_program_ends_at_its_optimum() {
     // At the minimum of a convex program over nonnegative unknowns, the gradient is 0 for each
     // positive unknown and at least 0 for each unknown at 0.
     let made = SyntheticMixtures::paper_size(5, 0.002);
-    let curves = fit_qp(&problem(&made)).unwrap();
+    let curves = fit_qp(&problem(&made), &Task::default()).unwrap();
     let pigments = curves.len();
     for at in (0..made.grid.count()).step_by(10) {
         let mut gradient = vec![0.0; 2 * pigments];
@@ -143,7 +144,8 @@ fn any_number_of_wavelengths_will_do() {
         let observations: Vec<Observation> = made.observations.iter().map(cut).collect();
         let problem = Problem::new(grid, made.surface, &observations, PigmentId(0)).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
-        let fit = fit_refined(&problem, &weights, Refinement::whole(Smoothness::Auto)).unwrap();
+        let how = Refinement::whole(Smoothness::Auto);
+        let fit = fit_refined(&problem, &weights, how, &Task::default()).unwrap();
         let all = fit.curves.iter().flat_map(|curves| &curves.absorption);
         assert!(all.into_iter().all(|v| v.is_finite() && *v >= 0.0), "{count}");
     }
@@ -193,21 +195,25 @@ fn a_fit_is_the_same_to_the_bit_on_any_number_of_threads_and_tells_its_stages() 
     let made = SyntheticMixtures::of_size(7, 0.002, grid, 30, 120);
     let weights = Viewing::default().weights(grid).unwrap();
     let fit = |threads: usize| {
-        let stages = Mutex::new(Vec::new());
-        let told = |stage: FitStage| stages.lock().unwrap().push(stage);
-        let how = Refinement { watch: Watch::new(&told), ..Refinement::whole(Smoothness::Auto) };
+        let stages = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&stages);
+        let task = Task::observed(move |progress| {
+            heard.lock().unwrap().push(progress.stage.to_string());
+        });
+        let how = Refinement::whole(Smoothness::Auto);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let refined = pool.install(|| fit_refined(&problem(&made), &weights, how).unwrap());
-        (refined, stages.into_inner().unwrap())
+        let refined = pool.install(|| fit_refined(&problem(&made), &weights, how, &task).unwrap());
+        let stages = stages.lock().unwrap().clone();
+        (refined, stages)
     };
     let (one, stages) = fit(1);
     let three = fit(3).0;
     assert!(one == three, "a result depends on the number of threads");
-    assert_eq!(stages[0], FitStage::Programs { round: 1, of: 6 });
-    let place = |wanted: fn(&FitStage) -> bool| stages.iter().position(wanted).unwrap();
-    let spectra = place(|stage| matches!(stage, FitStage::Spectra { estimate: 1, round: 1 }));
-    let colors = place(|stage| *stage == FitStage::Colors);
-    let deviations = place(|stage| matches!(stage, FitStage::Deviations { done: 0, of: 120 }));
+    assert_eq!(stages[0], "quadratic programs, round 1 of 6");
+    let place = |wanted: &str| stages.iter().position(|stage| stage == wanted).unwrap();
+    let spectra = place("refinement by spectra, estimate 1, round 1");
+    let colors = place("refinement by colours");
+    let deviations = place("standard deviations, sample 0 of 120");
     assert!(spectra == 6 && spectra < colors && colors < deviations, "{stages:?}");
 }
 
@@ -216,10 +222,15 @@ const EVEN: UnevenFilm = UnevenFilm { surface: Surface::NONE, unevenness: 0.0 };
 #[test]
 fn ladders_and_mixtures_without_error_give_back_k_and_s() {
     let made = Watercolors::exact();
-    let library =
-        calibrate_absolute(&made.swatches(), EVEN, &FitSettings::default(), &Viewing::default())
-            .unwrap()
-            .library;
+    let library = calibrate_absolute(
+        &made.swatches(),
+        EVEN,
+        &FitSettings::default(),
+        &Viewing::default(),
+        &Task::default(),
+    )
+    .unwrap()
+    .library;
     let error = library.evidence.as_ref().unwrap().delta_e;
     assert!(error.max < 0.1, "{error:?}");
     let again = PigmentLibrary::from_json("library", &library.to_json()).unwrap();
@@ -252,7 +263,7 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
     // predicts these mixtures with a mean error of about 2.2.
     let set = Watercolors::hard(1).swatches();
     let problem = films(&set).unwrap();
-    let film = chosen_film(&problem, Surface::NONE, Watch::default()).unwrap();
+    let film = chosen_film(&problem, Surface::NONE, &Task::default()).unwrap();
     assert!(film.unevenness > 0.0 || film.surface.k2 > 0.0, "{film:?}");
     let settings = FitSettings::default();
     let viewing = Viewing::default();
@@ -261,13 +272,14 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
         viewing: &viewing,
         state: None,
         folds: Some(3),
-        watch: Watch::default(),
+        task: &Task::default(),
     };
     let chosen = leave_out_films(&set, film, &plan).unwrap();
     assert_eq!(chosen.per_sample.len(), 702, "three folds of 234 left-out mixtures");
     assert!(chosen.delta_e.mean < 2.0, "{:?}", chosen.delta_e);
     // The error of a sample is larger when the fit has not seen it.
-    let fitted = calibrate_absolute(&set, film, &settings, &viewing).unwrap().library;
+    let fitted =
+        calibrate_absolute(&set, film, &settings, &viewing, &Task::default()).unwrap().library;
     let fitted = fitted.evidence.unwrap().per_sample;
     let error = |name: &String| fitted.iter().find(|f| f.sample == *name).unwrap().delta_e;
     let same_films = chosen.per_sample.iter().map(|s| error(&s.sample)).sum::<f64>() / 702.0;
@@ -282,7 +294,15 @@ fn amounts_in_another_unit_change_only_the_unit_of_k_and_s() {
     let made = Watercolors::exact();
     let mut set = made.swatches();
     let fit = |set: &SwatchSet| {
-        calibrate_absolute(set, EVEN, &FitSettings::default(), &Viewing::default()).unwrap().library
+        calibrate_absolute(
+            set,
+            EVEN,
+            &FitSettings::default(),
+            &Viewing::default(),
+            &Task::default(),
+        )
+        .unwrap()
+        .library
     };
     let millilitres = fit(&set);
     set.swatches.iter_mut().flat_map(|s| &mut s.amounts).for_each(|amount| *amount *= 1000.0);
@@ -310,7 +330,7 @@ fn a_reading_below_the_surface_is_refused_or_named_also_of_the_bare_backing() {
     set.swatches.retain(|s| s.films[0].reflectance.iter().all(|r| *r > 0.03));
     let fit = |set: &SwatchSet, below| {
         let settings = FitSettings { below_surface: below, ..FitSettings::default() };
-        calibrate_absolute(set, film, &settings, &Viewing::default())
+        calibrate_absolute(set, film, &settings, &Viewing::default(), &Task::default())
     };
     assert!(fit(&set, BelowSurface::Refuse).is_ok());
     set.swatches[0].films[0].bare.as_mut().unwrap()[3] = 0.01;
@@ -326,8 +346,17 @@ fn few_films_are_fitted_without_holding_any_back() {
     set.swatches.truncate(1);
     let set = set.retaining(|_| true);
     let problem = films(&set).unwrap();
-    assert_eq!(chosen_film(&problem, Surface::NONE, Watch::default()).unwrap(), EVEN);
-    assert!(calibrate_absolute(&set, EVEN, &FitSettings::default(), &Viewing::default()).is_ok());
+    assert_eq!(chosen_film(&problem, Surface::NONE, &Task::default()).unwrap(), EVEN);
+    assert!(
+        calibrate_absolute(
+            &set,
+            EVEN,
+            &FitSettings::default(),
+            &Viewing::default(),
+            &Task::default()
+        )
+        .is_ok()
+    );
 }
 
 #[test]
@@ -340,8 +369,14 @@ fn thin_films_that_tell_little_of_scattering_are_told() {
         alone && (s.amounts[white] == 0.0 || s.amounts[white] < 0.015)
     };
     let ladders = set.retaining(kept);
-    let library =
-        calibrate_absolute(&ladders, EVEN, &FitSettings::default(), &Viewing::default()).unwrap();
+    let library = calibrate_absolute(
+        &ladders,
+        EVEN,
+        &FitSettings::default(),
+        &Viewing::default(),
+        &Task::default(),
+    )
+    .unwrap();
     let library = library.library;
     let warnings = &library.evidence.as_ref().unwrap().warnings;
     let said = |name: &str| {

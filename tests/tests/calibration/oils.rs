@@ -6,21 +6,21 @@
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use calibrate::calibration::CalibrationError;
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{FitError, FitSettings, FitStage, Method, Smoothness, Watch};
+use calibrate::fit::{FitError, FitSettings, Method, Smoothness};
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{MatchOptions, SearchControl};
+use calibrate::matching::{MatchError, MatchOptions};
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
-use calibrate::plan::{PlanError, PlanOptions, plan_until};
+use calibrate::plan::{PlanError, PlanOptions};
 use calibrate::quadrature::{EffectiveQuadrature, MixtureSet, Quadrature, QuadratureFailure};
 use calibrate::validation::{ValidationPlan, leave_out};
 use calibrate::{FitOptions, FittingError, PigmentId, PreparedFit, Readings, ValidationOptions};
-use documents::Cancellation;
 use documents::hint::{Explain, Fault};
+use documents::{Cancellation, Cancelled, Task};
 use spectra::optics::Surface;
 use spectra::{Illuminant, Observer};
 use suite::oils::{SURFACE, fitted, settings, swatches};
@@ -58,7 +58,7 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
         viewing: &viewing,
         state: None,
         folds: None,
-        watch: Watch::default(),
+        task: &Task::default(),
     };
     // The four mixtures with both white and black are not left out: their errors are small and
     // would lower the mean.
@@ -93,7 +93,7 @@ fn leaving_out_in_groups_predicts_every_mixture_once() {
         viewing: &viewing,
         state: None,
         folds: Some(5),
-        watch: Watch::default(),
+        task: &Task::default(),
     };
     let found = leave_out(&set, white, SURFACE, &plan, |_| true).unwrap();
     let mut names: Vec<&str> = found.per_sample.iter().map(|s| s.sample.as_str()).collect();
@@ -179,8 +179,15 @@ fn the_errors_are_told_under_the_light_asked_for_but_k_and_s_stay() {
     let (set, white) = swatches();
     let viewing = Viewing { illuminant: Illuminant::named("A").unwrap(), ..Viewing::default() };
     let settings = settings(Method::Refined);
-    let under_a =
-        calibrate::calibration::calibrate(&set, white, SURFACE, &settings, &viewing).unwrap();
+    let under_a = calibrate::calibration::calibrate(
+        &set,
+        white,
+        SURFACE,
+        &settings,
+        &viewing,
+        &Task::default(),
+    )
+    .unwrap();
     let under_d65 = fitted(Method::Refined, SURFACE);
     assert_eq!(under_a.library.pigments, under_d65.library.pigments);
     let mean =
@@ -297,21 +304,24 @@ fn names_are_found_exactly_then_without_case_then_by_their_start() {
     assert_eq!(library.find("red l"), Ok(PigmentId(lake)));
 }
 
-/// The stages that `work` tells, if it is asked to end at the first that `last` selects, and its error.
+/// The stages that `work` reports, if it is cancelled at the first that begins with `last`, and its error.
 fn until<T>(
-    last: impl Fn(&FitStage) -> bool + Sync,
-    work: impl FnOnce(Watch<'_>) -> Result<T, FittingError>,
-) -> (Vec<FitStage>, FittingError) {
+    last: &'static str,
+    work: impl FnOnce(&Task) -> Result<T, FittingError>,
+) -> (Vec<String>, FittingError) {
     let cancellation = Cancellation::default();
-    let stages = Mutex::new(Vec::new());
-    let told = |stage: FitStage| {
-        stages.lock().unwrap().push(stage);
-        if last(&stage) {
-            cancellation.cancel();
+    let stages = Arc::new(Mutex::new(Vec::new()));
+    let heard = Arc::clone(&stages);
+    let ends = cancellation.clone();
+    let task = Task::observed(move |progress| {
+        heard.lock().unwrap().push(progress.stage.to_string());
+        if progress.stage.starts_with(last) {
+            ends.cancel();
         }
-    };
-    let error = work(Watch::new(&told).until(&cancellation)).err().expect("it was cancelled");
-    (stages.into_inner().unwrap(), error)
+    });
+    let error = work(&task.until(cancellation)).err().expect("it was cancelled");
+    let stages = stages.lock().unwrap().clone();
+    (stages, error)
 }
 
 fn oils() -> Readings {
@@ -328,36 +338,35 @@ fn is_cancelled(error: &FittingError) -> bool {
 #[test]
 fn a_fit_ends_at_the_stage_where_it_is_asked_to() {
     let readings = oils();
-    let prepared = PreparedFit::new(&readings, &FitOptions::default(), Watch::default()).unwrap();
-    let lasts: [fn(&FitStage) -> bool; 4] = [
-        |stage| matches!(stage, FitStage::Programs { round: 2, .. }),
-        |stage| matches!(stage, FitStage::Spectra { estimate: 1, round: 2 }),
-        |stage| *stage == FitStage::Colors,
-        |stage| matches!(stage, FitStage::Deviations { .. }),
+    let prepared = PreparedFit::new(&readings, &FitOptions::default(), &Task::default()).unwrap();
+    let lasts = [
+        "quadratic programs, round 2 of ",
+        "refinement by spectra, estimate 1, round 2",
+        "refinement by colours",
+        "standard deviations, sample ",
     ];
     let mut before = 0;
     for last in lasts {
-        let (stages, error) = until(last, |watch| prepared.fit_watched(watch));
+        let (stages, error) = until(last, |task| prepared.fit(task));
         assert!(is_cancelled(&error), "{error:?}");
-        assert!(last(stages.last().unwrap()), "a stage follows: {stages:?}");
+        assert!(stages.last().unwrap().starts_with(last), "a stage follows: {stages:?}");
         assert!(stages.len() > before, "{stages:?}");
         before = stages.len();
     }
-    // A watch that never ends the work changes nothing.
-    let never = Cancellation::default();
-    let watched = prepared.fit_watched(Watch::default().until(&never)).unwrap();
-    assert!(watched == prepared.fit().unwrap(), "another fit");
+    // An observer changes nothing.
+    let observed = prepared.fit(&Task::observed(|_| ())).unwrap();
+    assert!(observed == prepared.fit(&Task::default()).unwrap(), "another fit");
 }
 
 #[test]
 fn a_validation_ends_before_most_of_its_mixtures() {
     let readings = oils();
     let options = ValidationOptions::default();
-    let prepared = PreparedFit::new(&readings, &options.fit, Watch::default()).unwrap();
-    let left_out = |stage: &FitStage| *stage == FitStage::LeftOut;
-    let (stages, error) = until(left_out, |watch| prepared.validate(&options, watch));
+    let prepared = PreparedFit::new(&readings, &options.fit, &Task::default()).unwrap();
+    let left_out = "mixture left out";
+    let (stages, error) = until(left_out, |task| prepared.validate(&options, task));
     assert!(is_cancelled(&error), "{error:?}");
-    let told = stages.iter().filter(|stage| left_out(stage)).count();
+    let told = stages.iter().filter(|stage| **stage == left_out).count();
     let all = prepared.mixtures(&options).unwrap();
     let at_once = rayon::current_num_threads();
     assert!(told <= at_once && 2 * told < all, "{told} of {all} on {at_once} threads");
@@ -369,10 +378,8 @@ fn the_choice_of_a_film_model_ends_before_most_of_its_fits() {
     std::fs::write(file.path(), Watercolors::hard(1).csv()).unwrap();
     let readings = Readings::open(file.path()).unwrap();
     let options = FitOptions { amounts: AmountKind::Absolute, ..FitOptions::default() };
-    let (stages, error) = until(
-        |stage| *stage == FitStage::FilmModel,
-        |watch| PreparedFit::new(&readings, &options, watch),
-    );
+    let (stages, error) =
+        until("choice of the film model", |task| PreparedFit::new(&readings, &options, task));
     assert!(is_cancelled(&error), "{error:?}");
     assert!(stages.len() <= rayon::current_num_threads().min(5), "{stages:?}");
 }
@@ -380,19 +387,19 @@ fn the_choice_of_a_film_model_ends_before_most_of_its_fits() {
 #[test]
 fn quadratures_plans_and_recipes_end_too() {
     let oils = PigmentLibrary::van_gogh_oils();
-    let cancellation = Cancellation::default();
-    cancellation.cancel();
-    let failure = EffectiveQuadrature::of_until(&Viewing::default(), &oils, 8, &cancellation);
+    let task = Task::default();
+    task.cancel();
+    let failure = EffectiveQuadrature::of(&Viewing::default(), &oils, 8, &task);
     let failure = failure.unwrap_err();
     assert!(matches!(failure, QuadratureFailure::Cancelled(_)) && failure.hint().is_some());
     let options = PlanOptions { prior: Some(oils.clone()), ..PlanOptions::default() };
-    let error = plan_until(&["Cobalt Blue", "Viridian"], "Zinc White", &options, &cancellation);
+    let error = calibrate::plan(&["Cobalt Blue", "Viridian"], "Zinc White", &options, &task);
     let error = error.unwrap_err();
     assert!(matches!(error, PlanError::Cancelled(_)) && error.hint().is_some(), "{error:?}");
     let search = oils.recipe_search(&MatchOptions::default()).unwrap();
-    let control = SearchControl::until(cancellation);
     let target = "#4a7d8c".parse().unwrap();
-    assert_eq!(search.recipes_with_control(&target, &control).unwrap(), None);
-    let free = search.recipes_with_control(&target, &SearchControl::default()).unwrap();
-    assert_eq!(free.unwrap(), search.recipes_for(&target).unwrap());
+    let error = search.recipes_for(&target, &task).unwrap_err();
+    assert_eq!(error, MatchError::Cancelled(Cancelled));
+    let free = search.recipes_for(&target, &Task::default()).unwrap();
+    assert_eq!(free, oils.recipes_for(&target, &MatchOptions::default()).unwrap());
 }

@@ -10,6 +10,7 @@ use calibrate::matching::{
     FilmKind, MatchError, MatchRequest, RecipeMatch, RequiredPigment, Target, recipes,
 };
 use calibrate::{PigmentId, Recipe};
+use documents::Task;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::color::{Lab, delta_e_cie76, delta_e_ciede2000};
@@ -96,7 +97,7 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     let mut reached = 0;
     for (number, wanted) in targets(&library, &request.allowed, 200).into_iter().enumerate() {
         let target = Target::from_lab("", wanted, &conditions);
-        let found = recipes(&library, &target, &request).unwrap()[0].distance;
+        let found = recipes(&library, &target, &request, &Task::default()).unwrap()[0].distance;
         // Only a colour nearer than the one found matters. CIEDE2000 is at least a twelfth of CIE 1976 at these
         // chromas, and at least the difference of lightness by its greatest weight, 1.748: farther ones are skipped.
         let nearest = every.iter().fold(found, |least, &color| {
@@ -131,8 +132,13 @@ fn whole_parts_are_as_near_as_every_whole_recipe() {
         }
     }
     for wanted in targets(&library, &request.allowed, 60) {
-        let found =
-            recipes(&library, &Target::from_lab("", wanted, &conditions), &request).unwrap();
+        let found = recipes(
+            &library,
+            &Target::from_lab("", wanted, &conditions),
+            &request,
+            &Task::default(),
+        )
+        .unwrap();
         let parts = found[0].parts.as_ref().unwrap();
         assert!(parts.iter().sum::<u32>() <= 9 && parts.iter().all(|part| *part > 0), "{parts:?}");
         let nearest = every.iter().map(|&color| delta_e_ciede2000(wanted, color));
@@ -166,7 +172,7 @@ fn a_mixture_is_found_again_from_its_color_under_three_lights() {
         let target = target_of(&library, &mixed, &conditions);
         let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
         request.tolerance = 1e-3;
-        let found = &recipes(&library, &target, &request).unwrap()[0];
+        let found = &recipes(&library, &target, &request, &Task::default()).unwrap()[0];
         let mut wanted = pigments.to_vec();
         wanted.sort_unstable();
         assert_eq!(sorted(found), wanted, "{names:?}");
@@ -195,7 +201,7 @@ fn lights_that_count_rank_metameric_recipes_lower() {
             .for_each(|(condition, weight)| condition.weight = weight);
         let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
         request.allowed.retain(|&pigment| pigment != blue);
-        let best = recipes(&library, &target, &request).unwrap().remove(0);
+        let best = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
         let squares: f64 = best.delta_e.iter().map(|difference| difference * difference).sum();
         (best.delta_e[0], (squares / 3.0).sqrt())
     };
@@ -214,7 +220,7 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     (request.tolerance, request.count) = (0.5, 10);
     let nearest =
         |found: &[RecipeMatch]| found.iter().map(|r| r.distance).fold(f64::INFINITY, f64::min);
-    let found = recipes(&library, &target, &request).unwrap();
+    let found = recipes(&library, &target, &request, &Task::default()).unwrap();
     let equal = |found: &[RecipeMatch]| -> Vec<RecipeMatch> {
         let most = nearest(found) + 0.5;
         found.iter().filter(|recipe| recipe.distance <= most).cloned().collect()
@@ -232,7 +238,7 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     );
 
     request.costs = (0..library.pigments.len()).map(|index| (index * 7 % 11) as f64).collect();
-    let priced = recipes(&library, &target, &request).unwrap();
+    let priced = recipes(&library, &target, &request, &Task::default()).unwrap();
     let costs: Vec<f64> = equal(&priced).iter().map(|recipe| recipe.cost.unwrap()).collect();
     assert!(costs.len() > 1 && costs.is_sorted(), "{costs:?}");
     assert!(found.iter().all(|recipe| recipe.cost.is_none()));
@@ -248,7 +254,7 @@ fn a_pigment_that_brings_nothing_is_not_shown() {
     request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
     // More than the 56 sets of one to four of six pigments.
     request.count = 100;
-    let found = recipes(&library, &target, &request).unwrap();
+    let found = recipes(&library, &target, &request, &Task::default()).unwrap();
     assert!((2..56).contains(&found.len()), "{} recipes", found.len());
     for (place, recipe) in found.iter().enumerate() {
         assert!(recipe.shares.parts().is_sorted_by(|a, b| a.1 >= b.1), "{recipe:?}");
@@ -265,8 +271,8 @@ fn the_same_request_gives_the_same_recipes() {
     let conditions = conditions(&["D65", "FL11"]);
     let target = Target::from_lab("", Lab { lightness: 35.0, a: -20.0, b: -5.0 }, &conditions);
     let request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
-    let first = recipes(&library, &target, &request).unwrap();
-    assert_eq!(first, recipes(&library, &target, &request).unwrap());
+    let first = recipes(&library, &target, &request, &Task::default()).unwrap();
+    assert_eq!(first, recipes(&library, &target, &request, &Task::default()).unwrap());
 }
 
 fn required_pigment(&(pigment, share): &(PigmentId, Option<f64>)) -> RequiredPigment {
@@ -304,7 +310,7 @@ fn every_recipe_keeps_every_limit() {
             (request.at_most, request.least_share, request.count) = (at_most, least, 20);
             for wanted in colors_within_limits() {
                 let target = Target::from_lab("", wanted, &conditions);
-                let found = recipes(&library, &target, &request).unwrap();
+                let found = recipes(&library, &target, &request, &Task::default()).unwrap();
                 assert!(!found.is_empty(), "no recipe for {wanted:?}");
                 for recipe in found {
                     let sum: f64 = recipe.shares.iter().map(|(_, share)| share).sum();
@@ -334,7 +340,8 @@ fn a_wider_choice_is_never_farther() {
         for at_most in 1..=4 {
             let mut request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
             (request.at_most, request.tolerance) = (at_most, 0.0);
-            let nearest = recipes(&library, &target, &request).unwrap()[0].distance;
+            let nearest =
+                recipes(&library, &target, &request, &Task::default()).unwrap()[0].distance;
             assert!(nearest <= before + 1e-9, "{at_most} pigments: {nearest} after {before}");
             before = nearest;
         }
@@ -359,7 +366,7 @@ fn what_no_recipe_can_meet_is_refused() {
     let refusal = |change: &dyn Fn(&mut MatchRequest)| {
         let mut request = good.clone();
         change(&mut request);
-        recipes(&library, &wanted, &request).unwrap_err()
+        recipes(&library, &wanted, &request, &Task::default()).unwrap_err()
     };
     assert_eq!(refusal(&|r| r.allowed.clear()), MatchError::NoPigments);
     assert_eq!(refusal(&|r| r.conditions.clear()), MatchError::NoLight);
@@ -390,7 +397,7 @@ fn a_least_share_that_leaves_no_room_gives_no_recipe_of_that_size() {
     let wanted = Target::from_lab("", Lab { lightness: 50.0, a: 0.0, b: 0.0 }, &conditions);
     let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
     request.least_share = 0.4;
-    let found = recipes(&library, &wanted, &request).unwrap();
+    let found = recipes(&library, &wanted, &request, &Task::default()).unwrap();
     assert!(found.iter().all(|recipe| recipe.shares.len() <= 2), "{found:?}");
 }
 
@@ -402,7 +409,7 @@ fn whole_parts_keep_the_least_share() {
     (request.least_share, request.whole_parts) = (0.2, Some(12));
     for wanted in colors_within_limits() {
         let target = Target::from_lab("", wanted, &conditions);
-        for recipe in recipes(&library, &target, &request).unwrap() {
+        for recipe in recipes(&library, &target, &request, &Task::default()).unwrap() {
             assert!(recipe.shares.iter().all(|(_, share)| *share >= 0.2 - 1e-9), "{recipe:?}");
         }
     }

@@ -9,6 +9,7 @@ use calibrate::matching::{
     SpectrumWeights, Thickness, recipes,
 };
 use calibrate::{Recipe, Viewing};
+use documents::Task;
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::{Reflectance, Spectrum};
 
@@ -27,13 +28,13 @@ fn a_glaze_over_a_ground_is_found_with_its_thickness() {
     let kind = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Between(0.05, 5.0) };
     let mut request = MatchRequest::new(&library, conditions.clone(), kind);
     request.allowed = vec![white, blue];
-    let found = recipes(&library, &target, &request).unwrap().remove(0);
+    let found = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
     assert!(found.distance < 1e-3, "{found:?}");
     assert!((found.thickness.unwrap() - 0.6).abs() < 1e-3, "{:?}", found.thickness);
     assert!((found.shares.parts()[0].1 - 0.7).abs() < 1e-3, "{:?}", found.shares);
 
     request.film = FilmKind::Over { ground, thickness: Thickness::Fixed(2.0) };
-    let other = recipes(&library, &target, &request).unwrap().remove(0);
+    let other = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
     assert_eq!(other.thickness, Some(2.0));
     assert!(other.distance > 0.5, "a film of another thickness has another colour: {other:?}");
 }
@@ -48,7 +49,7 @@ fn the_reflectance_told_is_that_of_the_recipe() {
     let over = FilmKind::Over { ground: ground.clone(), thickness: Thickness::Fixed(0.8) };
     for film in [FilmKind::Hiding, over] {
         let request = MatchRequest::new(&library, conditions.clone(), film.clone());
-        for recipe in recipes(&library, &target, &request).unwrap() {
+        for recipe in recipes(&library, &target, &request, &Task::default()).unwrap() {
             let mixture = library.mix(&recipe.shares).unwrap();
             let mixed = match film {
                 FilmKind::Hiding => mixture.hiding(library.saunderson),
@@ -78,12 +79,15 @@ fn absolute_amounts_are_found_over_paper() {
     let film = MatchRequest::usual_film(&library, paper);
     let mut request = MatchRequest::new(&library, conditions, film);
     request.allowed = vec![red, blue];
-    let found = recipes(&library, &target, &request).unwrap().remove(0);
+    let found = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
     let amounts: Vec<f64> =
         found.shares.iter().map(|(_, share)| share * found.thickness.unwrap()).collect();
     suite::golden::assert_near("amounts", &amounts, &[0.5, 0.3], 1e-3);
     request.film = FilmKind::Hiding;
-    assert_eq!(recipes(&library, &target, &request), Err(MatchError::AbsoluteHiding));
+    assert_eq!(
+        recipes(&library, &target, &request, &Task::default()),
+        Err(MatchError::AbsoluteHiding)
+    );
 }
 
 #[test]
@@ -95,7 +99,7 @@ fn absolute_amounts_cost_what_is_laid() {
     request.costs = (0..library.pigments.len()).map(|index| 1.0 + index as f64).collect();
     let wanted = Lab { lightness: 60.0, a: -5.0, b: -20.0 };
     let target = calibrate::matching::Target::from_lab("", wanted, &conditions);
-    for recipe in recipes(&library, &target, &request).unwrap() {
+    for recipe in recipes(&library, &target, &request, &Task::default()).unwrap() {
         let amount = recipe.thickness.unwrap();
         let parts =
             recipe.shares.iter().map(|(pigment, share)| share * request.costs[pigment.index()]);
@@ -125,7 +129,7 @@ fn absolute_amounts_stay_within_what_was_measured() {
         let film = MatchRequest::usual_film(&library, paper.clone());
         let mut request = MatchRequest::new(&library, conditions.clone(), film);
         (request.allowed, request.tolerance, request.count) = (pair.to_vec(), 0.0, 10);
-        let found = recipes(&library, &target, &request).unwrap();
+        let found = recipes(&library, &target, &request, &Task::default()).unwrap();
         for recipe in &found {
             assert!(
                 amounts(recipe)
@@ -151,7 +155,7 @@ fn absolute_amounts_stay_within_what_was_measured() {
             assert!(found[0].distance <= apart + 0.01, "{wished:?}: {apart} with {tried:?}");
         }
         request.amounts.clear();
-        let free = recipes(&library, &target, &request).unwrap().remove(0);
+        let free = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
         assert!(free.distance < 1e-3 && free.at_limit.is_empty(), "{wished:?}: {free:?}");
     }
 }

@@ -9,10 +9,10 @@ use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
     ColorTarget, FilmKind, MatchError, MatchOptions, MatchRequest, Metric, RecipeMatch,
-    RequiredName, RequiredPigment, SearchControl, SpectrumWeights, Target, Thickness,
-    ToleranceOrigin, recipes, recipes_with_control,
+    RequiredName, RequiredPigment, SpectrumWeights, Target, Thickness, ToleranceOrigin, recipes,
 };
 use documents::hint::Explain;
+use documents::{Cancelled, Task};
 use spectra::color::Lab;
 use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum, Viewing};
 
@@ -189,18 +189,18 @@ fn target(request: &MatchRequest) -> Target {
 }
 
 #[test]
-fn a_watched_search_finds_the_same_and_its_share_ends_at_one() {
+fn an_observed_search_finds_the_same_and_its_share_ends_at_one() {
     let library = oils();
     for at_most in 1..=4 {
         let plain = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
         let whole_parts = (at_most == 3).then_some(12);
         let request = MatchRequest { at_most, whole_parts, ..plain };
         let target = target(&request);
-        let control = SearchControl::default();
-        assert_eq!(control.progress(), 0.0);
-        let watched = recipes_with_control(&library, &target, &request, &control).unwrap().unwrap();
-        assert_eq!(watched, recipes(&library, &target, &request).unwrap());
-        assert_eq!(control.progress(), 1.0, "up to {at_most} pigments");
+        let task = Task::default();
+        assert_eq!(task.progress().share(), None);
+        let watched = recipes(&library, &target, &request, &task).unwrap();
+        assert_eq!(watched, recipes(&library, &target, &request, &Task::default()).unwrap());
+        assert_eq!(task.progress().share(), Some(1.0), "up to {at_most} pigments");
     }
 }
 
@@ -210,9 +210,9 @@ fn with_required_pigments_the_share_ends_at_one_too() {
     let mut request = MatchRequest::new(&library, conditions(&["D65"]), FilmKind::Hiding);
     request.required =
         [0, 3].map(|id| RequiredPigment { pigment: PigmentId(id), share: None }).to_vec();
-    let control = SearchControl::default();
-    recipes_with_control(&library, &target(&request), &request, &control).unwrap().unwrap();
-    assert_eq!(control.progress(), 1.0);
+    let task = Task::default();
+    recipes(&library, &target(&request), &request, &task).unwrap();
+    assert_eq!(task.progress().share(), Some(1.0));
 }
 
 #[test]
@@ -221,19 +221,21 @@ fn a_search_that_is_stopped_gives_nothing_and_ends_early() {
     let mut request = MatchRequest::new(&library, conditions(&["D65", "A"]), FilmKind::Hiding);
     request.at_most = 8;
     let target = target(&request);
-    let control = SearchControl::default();
-    control.cancel();
-    assert_eq!(recipes_with_control(&library, &target, &request, &control).unwrap(), None);
-    assert_eq!(control.progress(), 0.0, "nothing was tried");
-    let running = SearchControl::default();
+    let task = Task::default();
+    task.cancel();
+    let cancelled = Err(MatchError::Cancelled(Cancelled));
+    assert_eq!(recipes(&library, &target, &request, &task), cancelled);
+    assert_eq!(task.progress().share(), Some(0.0), "nothing was tried");
+    let running = Task::default();
+    let share = || running.progress().share().unwrap_or(0.0);
     thread::scope(|scope| {
-        let search = scope.spawn(|| recipes_with_control(&library, &target, &request, &running));
+        let search = scope.spawn(|| recipes(&library, &target, &request, &running));
         let patience = Instant::now() + Duration::from_secs(60);
-        while running.progress() == 0.0 && Instant::now() < patience {
+        while share() == 0.0 && Instant::now() < patience {
             thread::sleep(Duration::from_micros(100));
         }
         running.cancel();
-        assert_eq!(search.join().unwrap().unwrap(), None);
+        assert_eq!(search.join().unwrap(), cancelled);
     });
-    assert!(running.progress() > 0.0 && running.progress() < 1.0, "{}", running.progress());
+    assert!(share() > 0.0 && share() < 1.0, "{}", share());
 }

@@ -5,6 +5,7 @@ use calibrate::library::AmountKind;
 use calibrate::palette::{
     Cards, MixingRow, PainterRules, Palette, graded, hiding_powers, mixing_chart,
 };
+use documents::Task;
 use reports::figure::{Cell, Figure};
 use reports::style::{Color, PAPER};
 use reports::{Report, Subject};
@@ -33,7 +34,7 @@ fn report_of(library: &PigmentLibrary, pair: Option<(PigmentId, PigmentId)>) -> 
     let viewing = Viewing::default();
     let subject = Subject::of_library(library, &viewing, "impasto report").unwrap();
     let subject = Subject { pair, ..subject };
-    Report::draw(&subject, &|| ()).unwrap()
+    Report::draw(&subject, &Task::default()).unwrap()
 }
 
 fn report_of_oils(oils: &Oils) -> Report {
@@ -48,7 +49,7 @@ fn report_of_oils(oils: &Oils) -> Report {
         cards: oils.palette().cards().clone(),
         pair: None,
     };
-    Report::draw(&subject, &|| ()).unwrap()
+    Report::draw(&subject, &Task::default()).unwrap()
 }
 
 fn figure<'a>(report: &'a Report, name: &str) -> &'a Figure {

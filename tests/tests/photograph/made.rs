@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::quadrature::EffectiveQuadrature;
+use documents::Task;
 use paint::document::{Medium, Slots};
 use paint::layer::SLOTS;
 use rand::{RngExt, SeedableRng};
@@ -26,7 +27,8 @@ pub(crate) static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
     let path = repository("measurements/van-gogh-oils.pigments.json");
     let text = std::fs::read_to_string(&path).unwrap();
     let library = PigmentLibrary::from_json(&path, &text).unwrap();
-    let quadrature = EffectiveQuadrature::of(&Viewing::default(), &library, 8).unwrap();
+    let quadrature =
+        EffectiveQuadrature::of(&Viewing::default(), &library, 8, &Task::default()).unwrap();
     let ground = vec![0.85; library.grid.count()];
     let slots = [
         "Zinc White",

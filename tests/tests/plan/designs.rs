@@ -10,7 +10,7 @@ use calibrate::plan::{
     Information, PaintSet, PlanError, PlanOptions, SwatchRecipe, candidates, optimal, usual,
 };
 use calibrate::{PigmentId, Recipe};
-use documents::Cancellation;
+use documents::Task;
 use documents::hint::Explain;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -80,7 +80,8 @@ impl Bench {
         let problem =
             Problem::new(self.oils.grid, surface, &observations, PaintSet::WHITE).unwrap();
         let weights = Viewing::default().weights(self.oils.grid).unwrap();
-        fit_refined(&problem, &weights, Refinement::prediction(Smoothness::None, None)).unwrap()
+        let how = Refinement::prediction(Smoothness::None, None);
+        fit_refined(&problem, &weights, how, &Task::default()).unwrap()
     }
 
     /// Errors of ln K and ln S by pigment and wavelength, each with the standard deviation
@@ -128,7 +129,7 @@ impl Bench {
 fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_chance() {
     let bench = bench();
     let start = usual(&bench.paints, &bench.pool, 20).unwrap();
-    let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
+    let best = optimal(&bench.information, &start, 1, &Task::default()).unwrap();
     let random: Vec<Vec<usize>> = (0..6).map(|seed| bench.random(20, seed)).collect();
     let chance = random.iter().map(|design| bench.typical_error(design)).sum::<f64>() / 6.0;
     let best_error = bench.typical_error(&best);
@@ -146,8 +147,7 @@ fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_ch
 fn the_predicted_deviations_are_of_the_size_of_the_errors() {
     let bench = bench();
     let start = usual(&bench.paints, &bench.pool, 24).unwrap();
-    for design in [optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap(), start]
-    {
+    for design in [optimal(&bench.information, &start, 1, &Task::default()).unwrap(), start] {
         let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
         // The prediction is linear, which holds for relative deviations below about a third.
         let known = pulls.filter(|(_, deviation)| *deviation < 0.3);
@@ -166,7 +166,7 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
 fn no_single_exchange_improves_the_optimal_plan() {
     let bench = bench();
     let start = usual(&bench.paints, &bench.pool, 14).unwrap();
-    let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
+    let best = optimal(&bench.information, &start, 1, &Task::default()).unwrap();
     let reached = bench.information.log_determinant(&best);
     assert!(reached > bench.information.log_determinant(&start), "{reached}");
     assert_eq!(best[0], 0, "the masstone of the white stays");
@@ -180,7 +180,7 @@ fn no_single_exchange_improves_the_optimal_plan() {
     }
     assert_eq!(
         best,
-        optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap(),
+        optimal(&bench.information, &start, 1, &Task::default()).unwrap(),
         "the plan is reproducible"
     );
 }
@@ -207,7 +207,7 @@ fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
             unidentified(shares(&start).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
             "usual of {count}"
         );
-        let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
+        let best = optimal(&bench.information, &start, 1, &Task::default()).unwrap();
         assert!(
             unidentified(shares(&best).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
             "optimal of {count}"
@@ -221,7 +221,8 @@ fn impossible_noise_is_refused_before_the_search() {
     for (constant, even) in impossible {
         let noise = Some(ExpectedNoise { constant, even });
         let options = PlanOptions { prior: Some(oils()), noise, ..PlanOptions::default() };
-        let error = calibrate::plan(&["Viridian"], "Zinc White", &options).unwrap_err();
+        let error =
+            calibrate::plan(&["Viridian"], "Zinc White", &options, &Task::default()).unwrap_err();
         assert!(matches!(error, PlanError::Noise { .. }), "{constant}, {even}: {error}");
         assert!(error.hint().is_some());
     }

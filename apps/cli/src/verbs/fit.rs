@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{FitStage, Method, Smoothness, Watch};
+use calibrate::fit::{Method, Smoothness};
 use calibrate::library::{AmountKind, SampleEvidence};
 use calibrate::observation::BelowSurface;
 use calibrate::{Fit as CalibrationOptionsFit, FitOptions, PreparedFit, Readings};
@@ -77,7 +77,7 @@ impl Fit {
         if let Some(half) = self.half {
             prepared = prepared.half(usize::from(half));
         }
-        let fit = watched_fit(&prepared, console)?;
+        let fit = fit_of_all(&prepared, console)?;
         console.remarks(&fit.remarks)?;
         let wrote = output.is_some();
         if let Some(output) = output {
@@ -263,21 +263,19 @@ pub(super) fn prepare_fit(
     let steps = if chooses_model { PreparedFit::MODEL_FITS } else { 0 };
     let progress =
         Progress::new(steps, "choosing the film model", console.shows_progress() && chooses_model);
-    let told = |_| progress.step();
-    let prepared = PreparedFit::new(readings, options, Watch::new(&told))?;
+    let prepared = PreparedFit::new(readings, options, &progress.task(0))?;
     progress.done();
     console.remarks(&prepared.remarks)?;
     Ok(prepared)
 }
 
 /// Fits all samples, and shows the stages of the fit.
-pub(super) fn watched_fit(
+pub(super) fn fit_of_all(
     prepared: &PreparedFit,
     console: &Console<'_>,
 ) -> Result<CalibrationOptionsFit> {
     let waiting = Waiting::new("fitting", console.shows_progress());
-    let told = |stage: FitStage| waiting.say(format!("fitting: {stage}"));
-    Ok(prepared.fit_watched(Watch::new(&told))?)
+    Ok(prepared.fit(&waiting.task("fitting"))?)
 }
 
 /// Parses a finite number of 0 and up.

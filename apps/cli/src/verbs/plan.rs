@@ -8,6 +8,7 @@ use calibrate::fit::ExpectedNoise;
 use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanOptions};
 use calibrate::{PigmentId, Recipe};
 use clap::Args;
+use documents::Task;
 use spectra::Grid;
 
 use crate::console::Console;
@@ -121,7 +122,7 @@ impl Plan {
             balance: self.balance,
             noise,
         };
-        let planned = || calibrate::plan(pigments, &self.white, &options);
+        let planned = || calibrate::plan(pigments, &self.white, &options, &Task::default());
         let plan = waited("choosing swatches", console, planned)?;
         console.remarks(&plan.remarks)?;
         if let Some(output) = output {

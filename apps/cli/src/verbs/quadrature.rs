@@ -8,6 +8,7 @@ use calibrate::quadrature::{
     EffectiveQuadrature, FilmSet, MixtureSet, Quadrature as Rule, QuadratureError,
 };
 use clap::{Args, ValueEnum};
+use documents::Task;
 use serde_json::{Value, json};
 use spectra::TristimulusWeights;
 
@@ -126,7 +127,7 @@ impl Quadrature {
         console: &mut Console<'_>,
     ) -> Result<()> {
         let effective = waited("fitting wavelengths", console, || {
-            EffectiveQuadrature::of(viewing, library, self.nodes)
+            EffectiveQuadrature::of(viewing, library, self.nodes, &Task::default())
         })?;
         let weights = color_weights(viewing, library.grid, console)?;
         let draw = |films: fn(&PigmentLibrary, &TristimulusWeights, usize, u64) -> FilmSet| {

@@ -13,6 +13,7 @@ use calibrate::matching::{
     SpectrumWeights, Thickness, ToleranceOrigin,
 };
 use clap::{Args, ValueEnum};
+use documents::Task;
 use serde_json::{Map, Value, json};
 use spectra::color::{Lab, Rgb, RgbSpace};
 
@@ -127,7 +128,7 @@ impl Match {
         let progress = Progress::new(all_targets.len(), "matching", console.shows_progress());
         let mut found = Vec::new();
         for target in &all_targets {
-            found.push(search.recipes_for(target)?);
+            found.push(search.recipes_for(target, &Task::default())?);
             progress.step();
         }
         progress.done();

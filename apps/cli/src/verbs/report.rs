@@ -4,7 +4,6 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use calibrate::comparison::{Comparable, Comparison};
-use calibrate::fit::Watch;
 use calibrate::library::PigmentLibrary;
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
@@ -97,12 +96,11 @@ impl Report {
         let measured = measured.filter(|_| !self.no_validation);
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
         let progress = Progress::new(mixtures + STEPS, "drawing", console.shows_progress());
-        let step = || progress.step();
-        let told = |_| progress.step();
+        let task = progress.task(0);
         // In parallel, so that cores that finish one task help with the other.
         let (validation, quadratures) = std::thread::scope(|scope| {
             let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
-            let left_out = measured.map(|set| set.left_out(&library, &viewing, Watch::new(&told)));
+            let left_out = measured.map(|set| set.left_out(&library, &viewing, &task));
             (left_out.transpose(), trials.join().expect("quadrature trials do not panic"))
         });
         let validation = validation?;
@@ -118,7 +116,7 @@ impl Report {
             quadratures,
             pair,
         };
-        let report = reports::Report::draw(&subject, &step)?;
+        let report = reports::Report::draw(&subject, &progress.task(mixtures))?;
         progress.done();
         self.write(&report, &figures, &inputs, console)?;
         self.print(&report, &subject, console)

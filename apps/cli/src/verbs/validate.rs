@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use calibrate::fit::Watch;
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
 use calibrate::{FittingError, ValidationOptions};
@@ -11,7 +10,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::fit;
-use super::fit::{CalibrationOptions, prepare_fit, watched_fit};
+use super::fit::{CalibrationOptions, fit_of_all, prepare_fit};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::Output;
@@ -72,14 +71,13 @@ impl Validate {
         let prepared = prepare_fit(&readings, &options.fit, console)?;
         let mixtures = prepared.mixtures(&options)?;
         let fit_start = Instant::now();
-        let fit = watched_fit(&prepared, console)?;
+        let fit = fit_of_all(&prepared, console)?;
         let by_groups = options.folds.is_some() || options.fit.amounts == AmountKind::Absolute;
         if let Some(advice) = folds_advice(mixtures, fit_start.elapsed(), by_groups) {
             console.remarks(&[advice])?;
         }
         let progress = Progress::new(mixtures, "leaving out", console.shows_progress());
-        let told = |_| progress.step();
-        let validation = prepared.validate_fit(fit, &options, Watch::new(&told))?;
+        let validation = prepared.validate_fit(fit, &options, &progress.task(0))?;
         progress.done();
         if let Some(output) = residuals {
             output.write(validation.residuals()?.to_json(), console)?;

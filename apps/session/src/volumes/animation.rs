@@ -3,6 +3,7 @@
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use documents::Task;
 use documents::file::write_whole;
 use graphics::encoding::encoded_from_linear;
 use graphics::export::{Apng, ColorTable, Frame, FrameError, FrameRate, Gif, frame_of};
@@ -28,8 +29,7 @@ const FRAME_STEPS: u64 = STEPS_A_SECOND / RATE;
 
 /// Writes all pictures of a recording from its start to its end in the file `path`: a GIF, or an
 /// animated PNG if its name ends in `.png` or `.apng`. `size` is the picture's in the window, which
-/// is reduced to at most 720 pixels. `report` is told the share that is done; if it returns false,
-/// nothing is written.
+/// is reduced to at most 720 pixels. If `task` is cancelled, nothing is written.
 ///
 /// # Errors
 /// [`FileFailure`] if the recording cannot be played or the file cannot be written.
@@ -37,7 +37,7 @@ pub fn animation(
     recording: &SceneRecording,
     size: [usize; 2],
     path: &Path,
-    mut report: impl FnMut(f64) -> bool,
+    task: &Task,
 ) -> Result<(), FileFailure> {
     let text = Subject::Text { text: recording.text.to_string(), folder: recording.folder.clone() };
     let mut player = Player { scene: Scene::open(&text)?, sight: None };
@@ -47,8 +47,8 @@ pub fn animation(
     let last = player.scene.end() / FRAME_STEPS;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let bytes = match ending.to_ascii_lowercase().as_str() {
-        "png" | "apng" => apng(&mut player, size, last, &mut report)?,
-        _ => gif(&mut player, size, last, &mut report)?,
+        "png" | "apng" => apng(&mut player, size, last, task)?,
+        _ => gif(&mut player, size, last, task)?,
     };
     match bytes {
         Some(bytes) => write_whole(path, &bytes).map_err(|error| FileFailure::explained(&error)),
@@ -89,14 +89,14 @@ fn apng(
     player: &mut Player,
     [width, height]: [usize; 2],
     last: u64,
-    report: &mut impl FnMut(f64) -> bool,
+    task: &Task,
 ) -> Result<Option<Vec<u8>>, FileFailure> {
     let mut bytes = Vec::new();
     let mut file = BufWriter::new(&mut bytes);
     let mut apng =
         Apng::new(&mut file, (width, height), rate()?, last as usize + 1).map_err(failed)?;
     for number in 0..=last {
-        if !report(number as f64 / (last + 1) as f64) {
+        if task.reach(number as f64 / (last + 1) as f64).is_err() {
             return Ok(None);
         }
         apng.push(&player.frame(number)?).map_err(failed)?;
@@ -111,7 +111,7 @@ fn gif(
     player: &mut Player,
     [width, height]: [usize; 2],
     last: u64,
-    report: &mut impl FnMut(f64) -> bool,
+    task: &Task,
 ) -> Result<Option<Vec<u8>>, FileFailure> {
     // The colours of the last frames are those of all: colour only comes in.
     let sampled = (0..=SAMPLED).map(|number| player.frame(last * number / SAMPLED));
@@ -119,7 +119,7 @@ fn gif(
     let gif = Gif::new(Vec::new(), (width, height), rate()?, &table);
     let mut gif = gif.map_err(failed)?;
     for number in 0..=last {
-        if !report(0.3 + 0.7 * number as f64 / (last + 1) as f64) {
+        if task.reach(0.3 + 0.7 * number as f64 / (last + 1) as f64).is_err() {
             return Ok(None);
         }
         gif.push(&player.frame(number)?).map_err(failed)?;

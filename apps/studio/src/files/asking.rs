@@ -10,6 +10,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use documents::Task;
 use eframe::egui::Ui;
 use graphics::export::PictureFormat;
 use graphics::picture_formats;
@@ -25,7 +26,7 @@ use super::dialogs::{self, Choice};
 use super::exporting::{
     Export, ExportKind, SceneAnswer, SceneExport, ScenePurpose, TimelapseExport,
 };
-use super::job::{JobError, Progress};
+use super::job::JobError;
 use super::new_dialog::NewAnswer;
 use super::opened;
 use super::preferences::Preferences;
@@ -433,9 +434,9 @@ impl Files {
         let palette = Arc::clone(&snapshot.palette);
         let revision = snapshot.revision;
         let epoch = self.epoch;
-        self.start_job(JobKind::Shown, tr("cropping the painting").to_owned(), move |progress| {
+        self.start_job(JobKind::Shown, tr("cropping the painting").to_owned(), move |task| {
             let cropped = canvas.cropped(rect);
-            progress.report(0.2)?;
+            task.reach(0.2)?;
             let bytes =
                 paint::file::write(&cropped).map_err(|error| Problem::from_error(&error))?;
             let canvas = Box::new(cropped);
@@ -644,11 +645,11 @@ impl Files {
     pub(crate) fn export_scene(
         &mut self,
         path: PathBuf,
-        work: impl FnOnce(&Path, &Progress) -> Result<Option<Problem>, JobError> + Send + 'static,
+        work: impl FnOnce(&Path, &Task) -> Result<Option<Problem>, JobError> + Send + 'static,
     ) {
         let label = tr_format!("exporting {path}", path = file_name(&path));
-        self.start_job(JobKind::Shown, label, move |progress| {
-            let remark = work(&path, progress)?;
+        self.start_job(JobKind::Shown, label, move |task| {
+            let remark = work(&path, task)?;
             Ok(Finished::Exported { path, remark })
         });
     }

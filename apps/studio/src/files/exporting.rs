@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use documents::Task;
 use documents::file::{disk, write_whole};
 use documents::hint::Explain;
 use eframe::egui::{DragValue, Grid, Ui};
@@ -23,7 +24,7 @@ use pigment::library::PigmentLibrary;
 use session::{Autosave, LostSession};
 use web_time::Instant;
 
-use super::job::{JobError, Progress};
+use super::job::JobError;
 use super::problem::Problem;
 use crate::language::tr;
 
@@ -75,10 +76,10 @@ pub(crate) fn export(
     document: &Document,
     light: &Light,
     path: &Path,
-    progress: &Progress,
+    task: &Task,
 ) -> Result<Option<Problem>, JobError> {
     let problem = |error: graphics::export::ExportError| Problem::without_hint(&error);
-    progress.report(0.0)?;
+    task.reach(0.0)?;
     match kind {
         ExportKind::Picture(format) => {
             let scene = scene(document, light);
@@ -86,19 +87,18 @@ pub(crate) fn export(
                 1 => picture(document, &scene),
                 _ => fine_picture(document, &scene, pixels),
             };
-            progress.report(0.5)?;
+            task.reach(0.5)?;
             let pixel_mm = document.cell_mm / pixels.count() as f64;
             let file = picture_file(&picture, pixel_mm, format).map_err(problem)?;
-            progress.report(0.9)?;
+            task.reach(0.9)?;
             write_whole(path, &file.bytes).map_err(Problem::from)?;
             Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
         }
         ExportKind::Layers => {
             let count = (document.dry.len() + 2) as f64;
-            let file = layers_file(document, light, |done| {
-                progress.report(0.9 * done as f64 / count).is_ok()
-            })
-            .map_err(problem)?;
+            let file =
+                layers_file(document, light, |done| task.reach(0.9 * done as f64 / count).is_ok())
+                    .map_err(problem)?;
             let Some(file) = file else { return Err(JobError::Cancelled) };
             write_whole(path, &file.bytes).map_err(Problem::from)?;
             Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
@@ -107,22 +107,22 @@ pub(crate) fn export(
             let picture = picture(document, &scene(document, light));
             let rows = document.wet.height().max(1) as f64;
             let file = spectral_file(document, light, &picture, bands, |row| {
-                progress.report(0.1 + 0.7 * row as f64 / rows).is_ok()
+                task.reach(0.1 + 0.7 * row as f64 / rows).is_ok()
             })
             .map_err(problem)?;
             let Some(bytes) = file else { return Err(JobError::Cancelled) };
-            progress.report(0.9)?;
+            task.reach(0.9)?;
             write_whole(path, &bytes).map_err(Problem::from)?;
             Ok(None)
         }
         ExportKind::PigmentMaps => {
             let maps = painting_maps(document);
-            progress.report(0.3)?;
+            task.reach(0.3)?;
             let files = pigment_maps("painting", &maps, document.cell_mm).map_err(problem)?;
             disk::create_dir_all(path).map_err(|error| Problem::io(path, "created", &error))?;
             let count = files.len() as f64;
             for (index, file) in files.into_iter().enumerate() {
-                progress.report(0.6 + 0.4 * index as f64 / count)?;
+                task.reach(0.6 + 0.4 * index as f64 / count)?;
                 write_whole(&path.join(file.name), &file.bytes).map_err(Problem::from)?;
             }
             Ok(None)
@@ -312,16 +312,16 @@ impl Recorded {
         &self,
         export: &TimelapseExport,
         path: &Path,
-        progress: &Progress,
+        task: &Task,
     ) -> Result<(), JobError> {
-        progress.report(0.0)?;
+        task.reach(0.0)?;
         let problem = |error: &dyn Explain| Problem::from_error(error);
         let files = export.files(path)?;
         let timelapse =
             Timelapse::new(&self.script, export.settings()).map_err(|error| problem(&error))?;
         let mut session = self.session()?;
         let written = timelapse
-            .write(&mut session, &files, |done| match progress.report(done) {
+            .write(&mut session, &files, |done| match task.reach(done) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             })
@@ -503,9 +503,9 @@ mod tests {
         ] {
             let kind = ExportKind::Picture(format);
             let path = folder.path().join(format!("green.{}", kind.ending()));
-            let progress = Progress::default();
+            let task = Task::default();
             let chosen = Export { kind, pixels };
-            let remark = export(chosen, &document, &light, &path, &progress).unwrap();
+            let remark = export(chosen, &document, &light, &path, &task).unwrap();
             assert_eq!(remark.is_some(), told, "{format:?}: {remark:?}");
             let name = path.display().to_string();
             assert!(remark.is_none_or(|remark| remark.text.starts_with(&name)), "{format:?}");

@@ -1,8 +1,8 @@
 //! Long work on a thread of its own, with progress, cancellation and a result.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use documents::{Cancelled, Task};
 
 use super::problem::Problem;
 use session::thread;
@@ -22,28 +22,9 @@ impl From<Problem> for JobError {
     }
 }
 
-/// Passed to the work of a job, which reports its progress with it and ends if it was
-/// cancelled.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Progress(Arc<Shared>);
-
-#[derive(Debug, Default)]
-struct Shared {
-    /// Thousandths of the work done, plus one; 0 while it is not known.
-    thousandths: AtomicU32,
-    cancelled: AtomicBool,
-}
-
-impl Progress {
-    /// Reports the fraction of the work that is done, 0 to 1. Fails if the job was
-    /// cancelled, so that `?` ends the work.
-    ///
-    /// # Errors
-    /// [`JobError::Cancelled`].
-    pub(crate) fn report(&self, fraction: f64) -> Result<(), JobError> {
-        let thousandths = 1 + (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
-        self.0.thousandths.store(thousandths, Ordering::Relaxed);
-        if self.0.cancelled.load(Ordering::Relaxed) { Err(JobError::Cancelled) } else { Ok(()) }
+impl From<Cancelled> for JobError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
     }
 }
 
@@ -51,7 +32,7 @@ impl Progress {
 #[derive(Debug)]
 pub(crate) struct Job<T> {
     label: String,
-    progress: Progress,
+    task: Task,
     result: Receiver<Result<T, JobError>>,
 }
 
@@ -60,18 +41,18 @@ impl<T: Send + 'static> Job<T> {
     pub(crate) fn start(
         label: impl Into<String>,
         wake: impl FnOnce() + Send + 'static,
-        work: impl FnOnce(&Progress) -> Result<T, JobError> + Send + 'static,
+        work: impl FnOnce(&Task) -> Result<T, JobError> + Send + 'static,
     ) -> Self {
         let (sender, result) = channel();
-        let progress = Progress::default();
-        let reporter = progress.clone();
+        let task = Task::default();
+        let of_work = task.clone();
         thread::start(move || {
             let _waking = OnDrop(Some(wake));
             // If the work panics, the channel is closed, and `poll` reports it.
-            let result = work(&reporter);
+            let result = work(&of_work);
             let _ = sender.send(result);
         });
-        Self { label: label.into(), progress, result }
+        Self { label: label.into(), task, result }
     }
 
     /// Description of the work for the painter.
@@ -83,14 +64,13 @@ impl<T: Send + 'static> Job<T> {
     /// Fraction of the work that is done, 0 to 1, if it is known.
     #[must_use]
     pub(crate) fn fraction(&self) -> Option<f32> {
-        let thousandths = self.progress.0.thousandths.load(Ordering::Relaxed);
-        thousandths.checked_sub(1).map(|thousandths| thousandths as f32 / 1000.0)
+        self.task.progress().share().map(|share| share as f32)
     }
 
-    /// Cancels the work at its next progress report. A result may still arrive if it was
+    /// Cancels the work at its next report. A result may still arrive if it was
     /// already done.
     pub(crate) fn cancel(&self) {
-        self.progress.0.cancelled.store(true, Ordering::Relaxed);
+        self.task.cancel();
     }
 
     /// Takes the result when it is available.
@@ -165,8 +145,8 @@ mod tests {
         let mut job = Job::start(
             "counting",
             move || woken.send(()).unwrap_or_default(),
-            move |progress| {
-                progress.report(0.5)?;
+            move |task| {
+                task.reach(0.5)?;
                 let _ = wait.recv();
                 Ok(7)
             },
@@ -185,9 +165,9 @@ mod tests {
         let job = Job::<()>::start(
             "turning",
             || {},
-            |progress| {
+            |task| {
                 loop {
-                    progress.report(0.1)?;
+                    task.reach(0.1)?;
                 }
             },
         );

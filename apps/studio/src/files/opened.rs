@@ -9,6 +9,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use documents::Task;
 use documents::file::disk::File;
 use documents::file::{disk, write_whole};
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
@@ -26,7 +27,7 @@ use serde::Deserialize;
 use spectra::lamp_from_bytes;
 use web_time::SystemTime;
 
-use super::job::{JobError, Progress};
+use super::job::JobError;
 use super::problem::Problem;
 use crate::language::{tr, tr_format};
 
@@ -78,7 +79,7 @@ const MAX_PAINTING_BYTES: u64 = 16 << 30;
 ///
 /// # Errors
 /// [`JobError`] if the file cannot be read, is of an unknown kind, or is invalid.
-pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError> {
+pub(crate) fn read(path: &Path, task: &Task) -> Result<Opened, JobError> {
     let (kind, mut file, length) = kind(path)?;
     let name = path.display().to_string();
     // A picture is decoded where it is shown.
@@ -90,7 +91,7 @@ pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError>
         let text = format!("{name}: the file must have at most {limit} bytes, found `{length}`");
         return Err(Problem::new(text, OPENABLE).into());
     }
-    let bytes = read_all(path, &mut file, length, progress)?;
+    let bytes = read_all(path, &mut file, length, task)?;
     let opened = match kind {
         Kind::OpenExr => {
             match paint::file::read(&name, &bytes) {
@@ -116,7 +117,7 @@ pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError>
             Opened::Lamp
         }
     };
-    progress.report(1.0)?;
+    task.reach(1.0)?;
     Ok(opened)
 }
 
@@ -155,16 +156,11 @@ fn kind(path: &Path) -> Result<(Kind, File, u64), Problem> {
 }
 
 /// Reads the whole file and reports progress up to one half.
-fn read_all(
-    path: &Path,
-    file: &mut File,
-    length: u64,
-    progress: &Progress,
-) -> Result<Vec<u8>, JobError> {
+fn read_all(path: &Path, file: &mut File, length: u64, task: &Task) -> Result<Vec<u8>, JobError> {
     const PIECE: u64 = 8 << 20;
     let mut bytes = Vec::with_capacity(length as usize);
     loop {
-        progress.report(0.5 * bytes.len() as f64 / length.max(1) as f64)?;
+        task.reach(0.5 * bytes.len() as f64 / length.max(1) as f64)?;
         let read = file.take(PIECE).read_to_end(&mut bytes);
         if read.map_err(|error| Problem::io(path, "read", &error))? == 0 {
             return Ok(bytes);
@@ -256,15 +252,15 @@ pub(super) fn keep(
     path: &Path,
     document: &Document,
     light: &Light,
-    progress: &Progress,
+    task: &Task,
 ) -> Result<PathBuf, JobError> {
     let folder = folder(path);
     disk::create_dir_all(&folder).map_err(|error| Problem::io(&folder, "created", &error))?;
     let number = 1 + numbers(&folder)?.into_iter().map(|(number, _)| number).max().unwrap_or(0);
     let bytes = paint::file::write(document).map_err(|error| Problem::from_error(&error))?;
-    progress.report(0.5)?;
+    task.reach(0.5)?;
     let thumbnail = thumbnail(document, light);
-    progress.report(0.9)?;
+    task.reach(0.9)?;
     let mut png = std::io::Cursor::new(Vec::new());
     thumbnail
         .write_to(&mut png, image::ImageFormat::Png)
@@ -281,12 +277,12 @@ pub(super) fn keep(
 ///
 /// # Errors
 /// [`JobError`] if the folder cannot be read.
-pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, JobError> {
+pub(super) fn list(path: &Path, task: &Task) -> Result<Vec<Revision>, JobError> {
     let mut found = numbers(&folder(path))?;
     found.sort_unstable_by_key(|(number, _)| std::cmp::Reverse(*number));
     let mut revisions = Vec::with_capacity(found.len());
     for (number, path) in found {
-        progress.report(0.0)?;
+        task.reach(0.0)?;
         let Ok(file) = disk::metadata(&path) else { continue };
         let thumbnail = read_thumbnail(&path.with_extension("png"));
         let bytes = file.len();
@@ -408,7 +404,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        read(&path, &Progress::default())
+        read(&path, &Task::default())
     }
 
     fn failure(name: &str, bytes: &[u8]) -> Problem {
@@ -477,10 +473,10 @@ mod tests {
             assert!(failure.text.contains(name), "{name}: {failure:?}");
             assert!(failure.hint.is_some(), "{name}: {failure:?}");
         }
-        let missing = read(Path::new("/no/such/file.exr"), &Progress::default());
+        let missing = read(Path::new("/no/such/file.exr"), &Task::default());
         assert!(matches!(missing, Err(JobError::Failed(_))), "{missing:?}");
         let folder = tempfile::tempdir().unwrap();
-        let opened_as = read(folder.path(), &Progress::default());
+        let opened_as = read(folder.path(), &Task::default());
         assert!(matches!(opened_as, Err(JobError::Failed(_))), "a folder: {opened_as:?}");
     }
 
@@ -495,7 +491,7 @@ mod tests {
         let path = folder.path().join("strokes.json");
         let opened_as = |script: &StrokeScript| {
             std::fs::write(&path, script.to_json().unwrap()).unwrap();
-            match read(&path, &Progress::default()) {
+            match read(&path, &Task::default()) {
                 Ok(Opened::Recording { script, library, remarks }) => (script, library, remarks),
                 other => panic!("no recording: {other:?}"),
             }

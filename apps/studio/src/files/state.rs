@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use documents::Task;
 use eframe::egui::{Context, Ui, ViewportCommand};
 use session::brushes::BrushSet;
 use session::swatches::SwatchBook;
@@ -15,7 +16,7 @@ use web_time::Instant;
 use super::browser::{Browser, Thumbnails};
 use super::desk::Desk;
 use super::exporting::{Export, SceneFiles, ScenePurpose, TimelapseExport};
-use super::job::{Job, JobError, Progress};
+use super::job::{Job, JobError};
 use super::new_dialog::{CanvasPicture, NewDialog};
 use super::opened::RevisionList;
 use super::preferences::{Home, Preferences};
@@ -258,7 +259,7 @@ impl Files {
         &mut self,
         kind: JobKind,
         label: String,
-        work: impl FnOnce(&Progress) -> Result<Finished, JobError> + Send + 'static,
+        work: impl FnOnce(&Task) -> Result<Finished, JobError> + Send + 'static,
     ) {
         let ctx = self.ctx.clone();
         let job = Job::start(label, move || ctx.request_repaint(), work);

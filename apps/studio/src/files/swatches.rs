@@ -5,6 +5,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use documents::Task;
 use documents::file::{disk, write_whole};
 use paint::document::Document;
 use paint::strokes::StrokeScript;
@@ -18,7 +19,7 @@ use strokes::{Photograph, first_layer};
 
 use super::asking::PICTURES;
 use super::browser::{BrowserOptions, Filter};
-use super::job::{JobError, Progress};
+use super::job::JobError;
 use super::new_dialog::{CanvasPicture, NewDialog};
 use super::problem::Problem;
 use super::request::{ReadSwatches, SwatchFormat, read_swatches};
@@ -351,8 +352,8 @@ impl Files {
         library: Box<PigmentLibrary>,
     ) {
         let label = tr_format!("mixing the colours of {path}", path = file_name(&path));
-        self.start_job(JobKind::Shown, label, move |progress| {
-            let document = on_picture(&path, &script, &library, progress)?;
+        self.start_job(JobKind::Shown, label, move |task| {
+            let document = on_picture(&path, &script, &library, task)?;
             let bytes =
                 paint::file::write(&document).map_err(|error| Problem::from_error(&error))?;
             Ok(Finished::Begun(Box::new(document), Arc::new(bytes)))
@@ -434,15 +435,15 @@ fn on_picture(
     path: &Path,
     script: &StrokeScript,
     library: &PigmentLibrary,
-    progress: &Progress,
+    task: &Task,
 ) -> Result<Document, JobError> {
     let photograph = Photograph::open(path).map_err(|error| Problem::from_error(&error))?;
-    progress.report(0.1)?;
+    task.reach(0.1)?;
     let surfaces = script.surfaces(library, None);
     let (mut document, _) = surfaces.map_err(|error| Problem::from_error(&error))?;
-    progress.report(0.3)?;
+    task.reach(0.3)?;
     let layer = first_layer(&photograph, &document).map_err(|error| Problem::from_error(&error))?;
-    progress.report(0.9)?;
+    task.reach(0.9)?;
     document.push_dry(document.slots, layer);
     Ok(document)
 }

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError};
 
+use documents::Task;
 use documents::file::{disk, write_whole};
 use eframe::egui::{
     Align, Align2, Area, Context, Frame, Id, Layout, Order, ProgressBar, RichText, Spinner, Ui,
@@ -23,7 +24,7 @@ use web_time::{Duration, Instant, SystemTime};
 use super::desk::{Desk, digest_of};
 use super::exporting;
 use super::exporting::{Recorded, TimelapseExport};
-use super::job::{JobError, Progress, on_one_core};
+use super::job::{JobError, on_one_core};
 use super::opened::{self, Opened};
 use super::problem::{Problem, ago};
 use super::request::ReferenceChange;
@@ -50,26 +51,26 @@ impl Files {
                 let label = tr_format!("saving {path}", path = file_name(&path));
                 let palette = snapshot.palette.clone();
                 let brushes = snapshot.brushes.clone();
-                self.start_job(JobKind::Saving, label, move |progress| {
-                    write_painting(&path, &canvas, (&palette, &brushes), progress)?;
+                self.start_job(JobKind::Saving, label, move |task| {
+                    write_painting(&path, &canvas, (&palette, &brushes), task)?;
                     Ok(Finished::Saved { path, revision, epoch, next, keep_revision })
                 });
             }
             Purpose::Revision { path } => {
                 let light = self.light_of(&canvas);
                 let label = tr("keeping a revision").to_owned();
-                self.start_job(JobKind::Shown, label, move |progress| {
+                self.start_job(JobKind::Shown, label, move |task| {
                     let light = light()?;
-                    let kept = opened::keep(&path, &canvas, &light, progress)?;
+                    let kept = opened::keep(&path, &canvas, &light, task)?;
                     Ok(Finished::RevisionKept(kept))
                 });
             }
             Purpose::Export { export, path } => {
                 let light = self.light_of(&canvas);
                 let label = tr_format!("exporting {path}", path = file_name(&path));
-                self.start_job(JobKind::Shown, label, move |progress| {
+                self.start_job(JobKind::Shown, label, move |task| {
                     let light = light()?;
-                    let remark = exporting::export(export, &canvas, &light, &path, progress)?;
+                    let remark = exporting::export(export, &canvas, &light, &path, task)?;
                     Ok(Finished::Exported { path, remark })
                 });
             }
@@ -100,8 +101,8 @@ impl Files {
         let undo_bytes = self.preferences.undo_mib << 20;
         let recorded = Recorded { script, library, start, undo_bytes };
         let label = tr_format!("timelapse {path}", path = file_name(&path));
-        self.start_job(JobKind::Shown, label, move |progress| {
-            on_one_core(|| recorded.write_timelapse(&export, &path, progress))?;
+        self.start_job(JobKind::Shown, label, move |task| {
+            on_one_core(|| recorded.write_timelapse(&export, &path, task))?;
             Ok(Finished::Exported { path, remark: None })
         });
     }
@@ -149,8 +150,8 @@ impl Files {
         // Absolute, so that a later change of the working folder has no effect.
         let path = disk::absolute(&path).unwrap_or(path);
         let label = tr_format!("reading {path}", path = file_name(&path));
-        self.start_job(JobKind::Shown, label, move |progress| {
-            let opened = opened::read(&path, progress)?;
+        self.start_job(JobKind::Shown, label, move |task| {
+            let opened = opened::read(&path, task)?;
             Ok(Finished::Read { path, opened })
         });
     }
@@ -158,8 +159,8 @@ impl Files {
     /// Starts reading a revision.
     pub(super) fn read_revision(&mut self, path: PathBuf) {
         let label = tr_format!("reading revision {path}", path = file_name(&path));
-        self.start_job(JobKind::Shown, label, move |progress| {
-            let (document, bytes) = read_painting(&path, progress)?;
+        self.start_job(JobKind::Shown, label, move |task| {
+            let (document, bytes) = read_painting(&path, task)?;
             Ok(Finished::RevisionRead(document, bytes))
         });
     }
@@ -172,8 +173,8 @@ impl Files {
             return;
         };
         let label = tr("looking for revisions").to_owned();
-        self.start_job(JobKind::Background, label, move |progress| {
-            let revisions = opened::list(&path, progress)?;
+        self.start_job(JobKind::Background, label, move |task| {
+            let revisions = opened::list(&path, task)?;
             Ok(Finished::Listed { epoch, revisions })
         });
     }
@@ -407,11 +408,11 @@ impl Files {
         let Some(at) = sessions.position(|lost| lost.folder() == folder) else { return };
         let lost = self.lost_sessions.remove(at);
         let label = tr_format!("recovering {title}", title = lost.meta.title);
-        self.start_job(JobKind::Shown, label, move |progress| {
+        self.start_job(JobKind::Shown, label, move |task| {
             let [canvas, palette] = lost.files();
             let title = &lost.meta.title;
-            let canvas = read_autosaved(&canvas, title, progress)?;
-            let palette = read_autosaved(&palette, title, progress)?;
+            let canvas = read_autosaved(&canvas, title, task)?;
+            let palette = read_autosaved(&palette, title, task)?;
             // The painting is worth more than what lies beside it.
             let mut remarks = Vec::new();
             let work = lost.work().unwrap_or_else(|failure| {
@@ -634,11 +635,11 @@ fn write_painting(
     path: &Path,
     canvas: &Document,
     (palette, brushes): (&Document, &[KeptBrush]),
-    progress: &Progress,
+    task: &Task,
 ) -> Result<(), JobError> {
     let bytes = paint::file::write_with_table(canvas, palette, brushes)
         .map_err(|error| Problem::from_error(&error))?;
-    progress.report(0.8)?;
+    task.reach(0.8)?;
     write_whole(path, &bytes).map_err(Problem::from)?;
     Ok(())
 }
@@ -646,9 +647,9 @@ fn write_painting(
 /// Reads a painting, and returns the content of its file too.
 pub(super) fn read_painting(
     path: &Path,
-    progress: &Progress,
+    task: &Task,
 ) -> Result<(Box<Document>, Arc<Vec<u8>>), JobError> {
-    match opened::read(path, progress)? {
+    match opened::read(path, task)? {
         Opened::Painting { document, bytes, .. } => Ok((document, bytes)),
         _ => {
             let text = tr_format!("{path}: is not a painting", path = path.display());
@@ -659,16 +660,12 @@ pub(super) fn read_painting(
 
 /// Reads a file of the autosave of `title`. The painter never chose the file's name, so that a
 /// problem names the autosave instead.
-fn read_autosaved(
-    path: &Path,
-    title: &str,
-    progress: &Progress,
-) -> Result<Box<Document>, JobError> {
+fn read_autosaved(path: &Path, title: &str, task: &Task) -> Result<Box<Document>, JobError> {
     let named = |problem: Problem| {
         let autosave = tr_format!("the autosave of {title}", title);
         Problem { text: problem.text.replace(&path.display().to_string(), &autosave), ..problem }
     };
-    match read_painting(path, progress) {
+    match read_painting(path, task) {
         Ok((document, _)) => Ok(document),
         Err(JobError::Failed(problem)) => Err(named(problem).into()),
         Err(cancelled) => Err(cancelled),

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use documents::Task;
 use eframe::egui::{Key, OutputCommand, Role, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -148,7 +149,7 @@ fn library_recipes(
     request.allowed.sort_unstable();
     request.whole_parts = Some(40);
     request.count = 3;
-    recipes(&painting.library, target, &request).unwrap()
+    recipes(&painting.library, target, &request, &Task::default()).unwrap()
 }
 
 fn conditions(painting: &PaintingState) -> Vec<ViewingCondition> {

@@ -1,9 +1,10 @@
 //! The worker of scenes, driven by commands as the window does.
 
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex};
 use web_time::{Duration, Instant};
 
+use documents::Task;
 use graphics::camera::{Camera, Framing};
 use session::volumes::{
     Grip, Inside, Look, SceneImage, ScenePen, ScenePicture, SceneRecording, SceneState, Subject,
@@ -247,17 +248,19 @@ fn an_animation_is_written_whole_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     for (name, start) in [("a.gif", &b"GIF89a"[..]), ("b.png", &b"\x89PNG\r\n\x1a\n"[..])] {
         let path = folder.path().join(name);
-        let mut shares = Vec::new();
-        session::volumes::animation(&recording, [80, 60], &path, |share| {
-            shares.push(share);
-            true
-        })
-        .unwrap();
+        let shares = Arc::new(Mutex::new(Vec::new()));
+        let heard = Arc::clone(&shares);
+        let task = Task::observed(move |progress| {
+            heard.lock().unwrap().extend(progress.share());
+        });
+        session::volumes::animation(&recording, [80, 60], &path, &task).unwrap();
+        let shares = shares.lock().unwrap().clone();
         let bytes = std::fs::read(&path).unwrap();
         assert!(bytes.starts_with(start), "{name} has {} bytes", bytes.len());
         assert!(shares.len() > 4 && shares.is_sorted(), "{shares:?}");
         let given_up = folder.path().join(format!("none-{name}"));
-        session::volumes::animation(&recording, [80, 60], &given_up, |_| false).unwrap();
+        task.cancel();
+        session::volumes::animation(&recording, [80, 60], &given_up, &task).unwrap();
         assert!(!given_up.exists(), "it was given up");
     }
 }

@@ -1,6 +1,6 @@
 //! Fits of libraries to readings.
 
-use calibrate::fit::{FitStage, Method, Smoothness, Watch};
+use calibrate::fit::{Method, Smoothness};
 use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, PreparedFit};
@@ -99,10 +99,9 @@ impl Fit {
     #[wasm_bindgen(constructor)]
     pub fn of(readings: &Readings, options: &str) -> Result<Fit> {
         let options = Options::read(options)?;
-        let told = |stage: FitStage| told::stage(&stage.to_string());
-        let watch = Watch::new(&told);
-        let prepared = PreparedFit::new(&readings.0, &options, watch).told()?;
-        let mut fit = prepared.fit_watched(watch).told()?;
+        let task = told::task(|progress| progress.stage.to_string());
+        let prepared = PreparedFit::new(&readings.0, &options, &task).told()?;
+        let mut fit = prepared.fit(&task).told()?;
         fit.remarks.splice(0..0, prepared.remarks);
         Ok(Self(fit))
     }

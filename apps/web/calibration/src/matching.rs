@@ -1,7 +1,8 @@
 //! Recipes for target colours.
 
 use calibrate::Backing;
-use calibrate::matching::{MatchOptions, RequiredName, SearchControl, Thickness, ViewingCondition};
+use calibrate::matching::{MatchOptions, RequiredName, Thickness, ViewingCondition};
+use documents::Task;
 use serde::Deserialize;
 use wasm_bindgen::prelude::*;
 
@@ -58,8 +59,7 @@ impl Library {
         let target = targets.targets.get(place);
         let target = target.ok_or_else(|| setting("no such colour", "choose another"))?;
         let search = self.0.recipe_search(&options).told()?;
-        let found = search.recipes_with_control(target, &SearchControl::default()).told()?;
-        let found = found.ok_or_else(|| setting("the search was ended", "start it again"))?;
+        let found = search.recipes_for(target, &Task::default()).told()?;
         let mut told = search.to_json(&found, None);
         told["remarks"] = remarks(&found.remarks);
         Ok(told.to_string())

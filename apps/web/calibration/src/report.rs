@@ -1,13 +1,10 @@
 //! The report on a library.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use calibrate::Viewing;
 use calibrate::comparison::Comparable;
-use calibrate::fit::{FitStage, Watch};
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
-use reports::{STEPS, Subject, page_alone};
+use reports::{Subject, page_alone};
 use wasm_bindgen::prelude::*;
 
 use crate::failure::{Result, Told, options};
@@ -41,14 +38,11 @@ impl Library {
         subject.comparison = Some(comparable.with(library, &viewing).told()?);
         subject.cards = comparable.set.cards(&subject.weights);
         if validate {
-            let done = AtomicUsize::new(0);
             let of = comparable.mixtures(library);
-            let told = |_: FitStage| {
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                told::stage(&format!("mixture left out, {} of {of}", done.min(of)));
-            };
-            subject.validation =
-                comparable.left_out(library, &viewing, Watch::new(&told)).told()?;
+            let task = told::task(move |progress| {
+                format!("{}, {} of {of}", progress.stage, progress.done)
+            });
+            subject.validation = comparable.left_out(library, &viewing, &task).told()?;
         }
         drawn(subject)
     }
@@ -67,10 +61,7 @@ impl Library {
 fn drawn(mut subject: Subject<'_>) -> Result<String> {
     told::stage("few wavelengths instead of many");
     subject.quadratures = QuadratureTrial::all(subject.viewing, subject.library, &COUNTS).told()?;
-    let done = AtomicUsize::new(0);
-    let step = || {
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        told::stage(&format!("figures, {done} of {STEPS} sections"));
-    };
-    Ok(page_alone(&subject, &step))
+    let task =
+        told::task(|progress| format!("figures, {} of {} sections", progress.done, progress.of));
+    Ok(page_alone(&subject, &task))
 }

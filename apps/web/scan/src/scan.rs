@@ -1,8 +1,5 @@
 //! A scan of the page: opened, surveyed and mapped with a library.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use maps::cube::{Block, CubeOptions, ScanFile};
 use maps::pictures::OverviewSums;
 use maps::{Cube, Region, SURVEYED, Spot, SurveyedScan};
@@ -18,7 +15,7 @@ use crate::slices::scan_files;
 
 /// Bytes of the values that are read at once.
 const BLOCK_BYTES: usize = 64 << 20;
-/// Most pixels that are mapped at once, so that progress is told often.
+/// Most pixels that are mapped at once, so that progress is reported often.
 const MOST_PIXELS: usize = 4096;
 /// Bytes of the sums of all maps at most.
 const SUM_BYTES: usize = 256 << 20;
@@ -74,12 +71,8 @@ impl Scan {
             Some(region) => pixels(region.rows.len(), region.columns.len()),
             None => pixels(cube.lines(), cube.samples()),
         };
-        let told = Percent::new("surveying", about);
-        let scan = SurveyedScan::survey(cube, &library, &settings, region, &|| {
-            told.add(1);
-            ControlFlow::Continue(())
-        });
-        let scan = scan.told()?;
+        let task = told::task_in_percent("surveying", about);
+        let scan = SurveyedScan::survey(cube, &library, &settings, region, &task).told()?;
         let sums = map_all(&scan, chosen.every())?;
         stage("drawing");
         let mapped = Mapped::of(&scan, &sums.finish(), &library, chosen.every())?;
@@ -111,7 +104,8 @@ fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
         OverviewSums::new(pigments, (height, width), longest((height, width), pigments.len()));
     let together = scan.cube().rows_within(BLOCK_BYTES, columns.len());
     let together = together.min((MOST_PIXELS / width).max(1));
-    let told = Percent::new("mapping", height * width);
+    let all = height * width;
+    let task = told::task_in_percent("mapping", all);
     let mut block = Block::default();
     let mut row = Block::default();
     for start in (0..height).step_by(together) {
@@ -133,7 +127,7 @@ fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
         }
         let mapped = scan.map_block(&block).told()?;
         sums.add(start..end, 0..width, &mapped.as_kept());
-        told.add((end - start) * width);
+        task.done((end * width) as u64, all as u64);
     }
     Ok(sums)
 }
@@ -148,27 +142,4 @@ fn longest((height, width): (usize, usize), pigments: usize) -> usize {
         step += 1;
     }
     long.div_ceil(step)
-}
-
-/// Tells the page each further percent of some work.
-struct Percent {
-    name: &'static str,
-    all: usize,
-    done: AtomicUsize,
-}
-
-impl Percent {
-    fn new(name: &'static str, all: usize) -> Self {
-        stage(name);
-        Self { name, all: all.max(1), done: AtomicUsize::new(0) }
-    }
-
-    fn add(&self, count: usize) {
-        let before = self.done.fetch_add(count, Ordering::Relaxed);
-        let percent = |done: usize| 100 * done.min(self.all) / self.all;
-        let now = percent(before + count);
-        if now > percent(before) {
-            stage(&format!("{}, {now} %", self.name));
-        }
-    }
 }

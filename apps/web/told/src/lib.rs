@@ -6,4 +6,4 @@ mod refusal;
 mod stages;
 
 pub use refusal::{Controls, Result, hint_text, options, refusal, setting};
-pub use stages::{begin, stage};
+pub use stages::{begin, stage, task, task_in_percent};

@@ -1,5 +1,8 @@
 //! Stages and defects, which the page hears while a call runs.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use documents::{Progress, Task};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
@@ -14,6 +17,24 @@ extern "C" {
 /// Tells the page the stage of long work.
 pub fn stage(text: &str) {
     hear_stage(text);
+}
+
+/// A task that tells the page the `text` of each report.
+pub fn task(text: impl Fn(&Progress) -> String + Send + Sync + 'static) -> Task {
+    Task::observed(move |progress| hear_stage(&text(progress)))
+}
+
+/// A task that tells the page `name`, then each further percent of `all` steps.
+pub fn task_in_percent(name: &'static str, all: usize) -> Task {
+    hear_stage(name);
+    let all = all.max(1) as u64;
+    let before = AtomicU64::new(0);
+    Task::observed(move |progress| {
+        let now = 100 * progress.done.min(all) / all;
+        if now > before.fetch_max(now, Ordering::Relaxed) {
+            hear_stage(&format!("{name}, {now} %"));
+        }
+    })
 }
 
 /// Tells the page of defects from now on.

@@ -1,5 +1,6 @@
 //! Fit of absolute amounts on known backings, by the finite layer equation.
 
+use documents::Task;
 use spectra::optics::UnevenFilm;
 use spectra::{Grid, TristimulusWeights};
 
@@ -76,12 +77,13 @@ impl FiniteProblem {
 /// minimised, see [`super::fit_refined`].
 ///
 /// # Errors
-/// [`FitError::Empty`] without films, [`FitError::Cancelled`] if `how.watch` ends it.
+/// [`FitError::Empty`] without films, [`FitError::Cancelled`] if `task` was cancelled.
 pub fn fit_finite(
     problem: &FiniteProblem,
     film: UnevenFilm,
     weights: &TristimulusWeights,
-    how: Refinement<'_>,
+    how: Refinement,
+    task: &Task,
 ) -> Result<Refined, FitError> {
     if problem.films.is_empty() {
         return Err(FitError::Empty);
@@ -114,14 +116,14 @@ pub fn fit_finite(
     let start = Start { film, recipes: &recipes, target: &reflectance, backing: &backing };
     let curves: Vec<(Vec<f64>, f64)> =
         (0..problem.pigments).map(|pigment| start.of(pigment, layout.wavelengths)).collect();
-    how.watch.check()?;
+    task.check()?;
     let start = CurveTable {
         absorption: curves.iter().map(|(k, _)| k.clone()).collect(),
         scattering: curves.iter().map(|(_, s)| vec![*s; layout.wavelengths]).collect(),
     };
     let forward = Finite { film, backing: &backing };
     let data = Data::new(layout, forward, &recipes, &reflectance, problem.reading_sd);
-    let mut refined = refine(&data, &start, weights, problem.grid, how)?;
+    let mut refined = refine(&data, &start, weights, problem.grid, how, task)?;
     for curves in refined.curves.iter_mut().chain(refined.deviations.iter_mut().flatten()) {
         let values = curves.absorption.iter_mut().chain(&mut curves.scattering);
         values.for_each(|value| *value /= unit);

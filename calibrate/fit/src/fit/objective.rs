@@ -3,12 +3,13 @@
 //! The noise model sets the weight of each residual. One part of the noise is perceptually uniform (for
 //! example errors of mixing and weighing), the other is constant in reflectance (errors of the instrument).
 
+use documents::Task;
 use pigment::evaluate::percentile;
 use rayon::prelude::*;
 
 use super::banded::{Banded, BandedCholesky, ColumnsMut, Spare};
 use super::forward::{ColorResidual, ColorTerm, Data, Forward, Linear};
-use super::problem::{LOWER, UPPER, Watch};
+use super::problem::{LOWER, UPPER};
 
 /// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of 10.
 /// It only keeps unknowns that no sample determines from diverging.
@@ -53,7 +54,7 @@ pub(super) struct Objective<'a, F> {
     pub(super) color: Option<ColorPart<'a>>,
     pub(super) spare: Spare,
     /// Ends a descent before its time.
-    pub(super) watch: Watch<'a>,
+    pub(super) task: &'a Task,
 }
 
 /// Colour term of the cost.
@@ -191,11 +192,11 @@ impl<F: Forward> Objective<'_, F> {
     }
 
     /// Moves `unknowns` downhill until one step lowers the cost by less than the fraction `relative`, or
-    /// for `iterations` steps, or until the watch ends the fit.
+    /// for `iterations` steps, or until the fit is cancelled.
     pub(super) fn descend(&self, unknowns: &mut Vec<f64>, iterations: usize, relative: f64) {
         let mut damping: f64 = FIRST_DAMPING;
         let mut local = self.local(unknowns);
-        for _ in (0..iterations).take_while(|_| !self.watch.is_cancelled()) {
+        for _ in (0..iterations).take_while(|_| !self.task.is_cancelled()) {
             let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { break };
             let decrease = local.cost - cost;
             *unknowns = trial;

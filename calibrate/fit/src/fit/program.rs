@@ -3,12 +3,13 @@
 
 use clarabel::algebra::{CscMatrix, MatrixMathMut};
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
+use documents::Task;
 use nalgebra::{DMatrix, DVector};
 use pigment::Curves;
 use rayon::prelude::*;
 use spectra::optics::{infinite_film_from_ratio, infinite_film_slope};
 
-use super::problem::{CurveTable, FitError, FitStage, Problem, Watch};
+use super::problem::{CurveTable, FitError, Problem};
 
 /// Unknowns from which the minimum without bounds is tried first: fewer take the solver no time.
 const MANY: usize = 64;
@@ -23,28 +24,24 @@ const LEAST_PIVOT: f64 = 1e-4;
 /// Returns K and S by pigment.
 ///
 /// # Errors
-/// [`FitError::Solver`] if the solver does not reach its tolerance.
-pub fn fit_qp(problem: &Problem) -> Result<Vec<Curves>, FitError> {
-    fit_qp_watched(problem, Watch::default())
-}
-
-/// Fits like [`fit_qp`], until `watch` ends it.
-pub(crate) fn fit_qp_watched(problem: &Problem, watch: Watch<'_>) -> Result<Vec<Curves>, FitError> {
+/// [`FitError::Solver`] if the solver does not reach its tolerance, [`FitError::Cancelled`] if `task` was
+/// cancelled.
+pub fn fit_qp(problem: &Problem, task: &Task) -> Result<Vec<Curves>, FitError> {
     let rows = vec![1.0; problem.recipes.len()];
-    Ok(solve_all(problem, watch, |_| rows.clone())?.into_curves(problem.grid))
+    Ok(solve_all(problem, task, |_| rows.clone())?.into_curves(problem.grid))
 }
 
 /// Solves the program at every wavelength, on all cores, with row weights from `weights`.
 pub(super) fn solve_all(
     problem: &Problem,
-    watch: Watch<'_>,
+    task: &Task,
     weights: impl Fn(usize) -> Vec<f64> + Sync,
 ) -> Result<CurveTable, FitError> {
     let count = problem.grid.count();
     let solved: Vec<Vec<f64>> = (0..count)
         .into_par_iter()
         .map(|at| {
-            watch.check()?;
+            task.check()?;
             let program = Program::new(problem, at, &weights(at));
             let many = program.free.len() >= MANY;
             let free = many.then(|| program.solve_freely()).flatten();
@@ -177,20 +174,13 @@ const LEAST_SCATTERING: f64 = 1e-3;
 /// Returns K and S by pigment.
 ///
 /// # Errors
-/// [`FitError::Solver`] if the solver does not reach its tolerance.
-pub fn fit_weighted(problem: &Problem) -> Result<Vec<Curves>, FitError> {
-    fit_weighted_watched(problem, Watch::default())
+/// [`FitError::Solver`] if the solver does not reach its tolerance, [`FitError::Cancelled`] if `task` was
+/// cancelled.
+pub fn fit_weighted(problem: &Problem, task: &Task) -> Result<Vec<Curves>, FitError> {
+    Ok(weighted(problem, task)?.into_curves(problem.grid))
 }
 
-/// Fits like [`fit_weighted`], and reports the rounds to `watch`.
-pub(crate) fn fit_weighted_watched(
-    problem: &Problem,
-    watch: Watch<'_>,
-) -> Result<Vec<Curves>, FitError> {
-    Ok(weighted(problem, watch)?.into_curves(problem.grid))
-}
-
-pub(super) fn weighted(problem: &Problem, watch: Watch<'_>) -> Result<CurveTable, FitError> {
+pub(super) fn weighted(problem: &Problem, task: &Task) -> Result<CurveTable, FitError> {
     let wavelengths = problem.grid.count();
     let slope = |ratio: f64| {
         let r = infinite_film_from_ratio(ratio).min(1.0 - 1e-9);
@@ -201,9 +191,9 @@ pub(super) fn weighted(problem: &Problem, watch: Watch<'_>) -> Result<CurveTable
     let mut scattering = vec![vec![1.0f64; wavelengths]; problem.recipes.len()];
     let mut best: Option<(Vec<f64>, CurveTable)> = None;
     for round in 1..=ROUNDS {
-        watch.check()?;
-        watch.tell(FitStage::Programs { round, of: ROUNDS });
-        let curves = solve_all(problem, watch, |at| {
+        task.check()?;
+        task.stage(format_args!("quadratic programs, round {round} of {ROUNDS}"));
+        let curves = solve_all(problem, task, |at| {
             let pairs = slopes.iter().zip(&scattering);
             pairs.map(|(slope, s)| slope[at] / f64::max(s[at], LEAST_SCATTERING)).collect()
         })?;

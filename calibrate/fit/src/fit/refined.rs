@@ -2,6 +2,7 @@
 //!
 //! Plans use the same equations to forecast the information that planned mixtures will give.
 
+use documents::Task;
 use pigment::evaluate::{Viewing, percentile};
 use pigment::fit_settings::Smoothness;
 use pigment::{Curves, PigmentId};
@@ -12,7 +13,7 @@ use spectra::{Grid, TristimulusWeights};
 use super::banded::{BandedCholesky, Spare, TOGETHER};
 use super::forward::{ColorTerm, Data, Forward};
 use super::objective::{ColorPart, ExpectedNoise, Noise, Objective, RIDGE};
-use super::problem::{CurveTable, FitError, FitStage, Layout, OFF_ZERO, Problem, Watch};
+use super::problem::{CurveTable, FitError, Layout, OFF_ZERO, Problem};
 use super::program::weighted;
 
 /// Knee of the spectral loss, in standard deviations (chosen by eye).
@@ -78,28 +79,26 @@ pub struct RefinedState {
 
 /// Settings of one refinement.
 #[derive(Debug, Clone, Copy)]
-pub struct Refinement<'a> {
+pub struct Refinement {
     /// Smoothing of K and S over wavelength.
     pub smoothness: Smoothness,
     /// Estimates of another fit of nearly the same data, to be reused, or `None` to estimate them.
     pub state: Option<RefinedState>,
     /// Whether standard deviations are computed. Predictions do without them.
     pub deviations: bool,
-    /// Receives the stages of the fit, and may end it.
-    pub watch: Watch<'a>,
 }
 
-impl Refinement<'_> {
+impl Refinement {
     /// Refinement with standard deviations, all estimates made from the data.
     #[must_use]
     pub fn whole(smoothness: Smoothness) -> Self {
-        Self { smoothness, state: None, deviations: true, watch: Watch::default() }
+        Self { smoothness, state: None, deviations: true }
     }
 
     /// Refinement without standard deviations, for a prediction.
     #[must_use]
     pub fn prediction(smoothness: Smoothness, state: Option<RefinedState>) -> Self {
-        Self { smoothness, state, deviations: false, watch: Watch::default() }
+        Self { smoothness, state, deviations: false }
     }
 }
 
@@ -117,30 +116,32 @@ impl Refinement<'_> {
 ///
 /// # Errors
 /// [`FitError`] from [`super::fit_weighted`], from which the refinement starts, and
-/// [`FitError::Cancelled`] if `how.watch` ends it.
+/// [`FitError::Cancelled`] if `task` was cancelled.
 pub fn fit_refined(
     problem: &Problem,
     weights: &TristimulusWeights,
-    how: Refinement<'_>,
+    how: Refinement,
+    task: &Task,
 ) -> Result<Refined, FitError> {
     // A weighted fit may set a pigment to 0, where its logarithm has no slope.
-    let start = weighted(problem, how.watch)?.into_curves(problem.grid);
+    let start = weighted(problem, task)?.into_curves(problem.grid);
     let start = CurveTable::off_zero(&start, OFF_ZERO);
     let data = Data::hiding(problem);
-    refine(&data, &start, weights, problem.grid, how)
+    refine(&data, &start, weights, problem.grid, how, task)
 }
 
 /// Refines `start` under any optical model.
 ///
 /// # Errors
-/// [`FitError::Cancelled`] if the watch ends the fit: the loops below then end early, and the last check
+/// [`FitError::Cancelled`] if `task` was cancelled: the loops below then end early, and the last check
 /// refuses what they leave.
 pub(super) fn refine<F: Forward>(
     data: &Data<'_, F>,
     start: &CurveTable,
     weights: &TristimulusWeights,
     grid: Grid,
-    how: Refinement<'_>,
+    how: Refinement,
+    task: &Task,
 ) -> Result<Refined, FitError> {
     let smoothness = how.smoothness;
     let layout = data.layout;
@@ -168,11 +169,9 @@ pub(super) fn refine<F: Forward>(
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
         spare: Spare::default(),
-        watch: how.watch,
+        task,
     };
-    let watched =
-        |estimate: usize| move |round: usize| how.watch.tell(FitStage::Spectra { estimate, round });
-    settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, watched(1));
+    settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, 1);
     let rounds = if !estimate {
         0
     } else if smoothness == Smoothness::Auto && layout.wavelengths > 2 {
@@ -181,9 +180,9 @@ pub(super) fn refine<F: Forward>(
         1
     };
     for round in 0..rounds {
-        how.watch.check()?;
+        task.check()?;
         state.noise_ratio = noise.likeliest_ratio(&data.values(&layout.curves(&unknowns)));
-        settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, watched(round + 2));
+        settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, round + 2);
         if round + 1 == rounds {
             break;
         }
@@ -195,8 +194,8 @@ pub(super) fn refine<F: Forward>(
         objective.smoothness = next;
     }
 
-    how.watch.check()?;
-    how.watch.tell(FitStage::Colors);
+    task.check()?;
+    task.stage("refinement by colours");
     let differences: Vec<f64> = data
         .values(&layout.curves(&unknowns))
         .iter()
@@ -212,35 +211,37 @@ pub(super) fn refine<F: Forward>(
     let curves = layout.curves(&unknowns);
     let mut deviations = None;
     let mut scattering_known = Vec::new();
-    how.watch.check()?;
+    task.check()?;
     if how.deviations {
-        let table = standard_deviations(&objective, &unknowns, &curves, how.watch);
+        let table = standard_deviations(&objective, &unknowns, &curves);
         deviations = Some(table.into_curves(grid));
         objective.smoothness = 0.0;
         scattering_known = share_of_scattering_known(&objective, &unknowns);
     }
-    how.watch.check()?;
+    task.check()?;
     Ok(Refined { curves: curves.into_curves(grid), deviations, scattering_known, state })
 }
 
-/// Descends while the residuals' scale is set anew from their median in each round, until it settles.
+/// Descends for one estimate of noise and smoothness, while the residuals' scale is set anew from their median in each round, until it settles.
 fn settle<F: Forward>(
     objective: &mut Objective<'_, F>,
     noise: &Noise,
     ratio: f64,
     unknowns: &mut Vec<f64>,
-    watch: impl Fn(usize),
+    estimate: usize,
 ) {
     let mut before = f64::INFINITY;
     for round in 0..SCALE_ROUNDS {
-        watch(round + 1);
+        objective
+            .task
+            .stage(format_args!("refinement by spectra, estimate {estimate}, round {}", round + 1));
         let values = objective.data.values(&objective.data.layout.curves(unknowns));
         let (weights, sd) = noise.weights(ratio, &values, before / SCALE_FALL);
         objective.weights = weights;
         let settled = round >= LEAST_SCALE_ROUNDS && (sd / before - 1.0).abs() < SETTLED_SCALE;
         before = sd;
         objective.descend(unknowns, SCALE_STEPS[usize::from(settled)], SCALE_DECREASE);
-        if settled || objective.watch.is_cancelled() {
+        if settled || objective.task.is_cancelled() {
             break;
         }
     }
@@ -285,7 +286,6 @@ pub(super) fn standard_deviations<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
     curves: &CurveTable,
-    watch: Watch<'_>,
 ) -> CurveTable {
     let layout = objective.data.layout;
     let per = layout.per_wavelength();
@@ -293,7 +293,7 @@ pub(super) fn standard_deviations<F: Forward>(
     let mut variances = vec![RIDGE.recip(); layout.len()];
     if let Some(factor) = objective.local(unknowns).matrix.cholesky() {
         let inverse = factor.inverse_band();
-        let spread = spread_of_gradients(objective, unknowns, &factor, watch);
+        let spread = spread_of_gradients(objective, unknowns, &factor);
         for (i, variance) in variances.iter_mut().enumerate() {
             *variance = f64::max(inverse.at(i, i), spread[i]);
         }
@@ -317,22 +317,23 @@ pub(super) fn standard_deviations<F: Forward>(
 }
 
 /// Sum over samples of the squared steps that their own gradients alone would make, by unknown. Samples
-/// are added in their order, on any number of threads. Incomplete if the watch ends the fit.
+/// are added in their order, on any number of threads. Incomplete if the fit is cancelled.
 fn spread_of_gradients<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
     factor: &BandedCholesky,
-    watch: Watch<'_>,
 ) -> Vec<f64> {
     let layout = objective.data.layout;
     let linear = objective.data.linear(&layout.curves(unknowns));
     let samples: Vec<usize> = (0..objective.data.recipes.len()).collect();
     let mut spread = vec![0.0; layout.len()];
     for several in samples.chunks(TOGETHER * rayon::current_num_threads()) {
-        if watch.is_cancelled() {
+        if objective.task.is_cancelled() {
             break;
         }
-        watch.tell(FitStage::Deviations { done: several[0], of: samples.len() });
+        let of = samples.len();
+        let done = several[0];
+        objective.task.stage(format_args!("standard deviations, sample {done} of {of}"));
         let steps = several.par_chunks(TOGETHER).map(|group| {
             let mut right = vec![[0.0; TOGETHER]; layout.len()];
             for (place, &index) in group.iter().enumerate() {

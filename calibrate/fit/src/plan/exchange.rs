@@ -4,7 +4,7 @@
 //! The information on K and S is estimated from a library of similar paint. Fedorov's exchange then
 //! improves the design one recipe at a time.
 
-use documents::{Cancellation, Cancelled};
+use documents::{Cancelled, Task};
 use nalgebra::DMatrix;
 use pigment::evaluate::percentile;
 use pigment::library::PigmentLibrary;
@@ -29,22 +29,22 @@ const LEAST_GAIN: f64 = 1e-9;
 /// returned, so it is never worse than `start`. Nothing is random.
 ///
 /// # Errors
-/// [`Cancelled`] once `cancellation` asks for it.
+/// [`Cancelled`] once `task` is cancelled.
 pub fn optimal(
     information: &Information,
     start: &[usize],
     kept: usize,
-    cancellation: &Cancellation,
+    task: &Task,
 ) -> Result<Vec<usize>, Cancelled> {
     let mut greedy = start[..kept].to_vec();
     let mut state = State::of(information, &greedy);
     while greedy.len() < start.len() {
-        cancellation.check()?;
+        task.check()?;
         let (best, _) = state.best(&greedy).expect("the pool contains the start");
         state.change(best, 1.0);
         greedy.push(best);
     }
-    let exchanged = |design| exchanged(information, design, kept, cancellation);
+    let exchanged = |design| exchanged(information, design, kept, task);
     let mut first = exchanged(start.to_vec())?;
     let mut second = exchanged(greedy)?;
     first[kept..].sort_unstable();
@@ -57,14 +57,14 @@ fn exchanged(
     information: &Information,
     mut design: Vec<usize>,
     kept: usize,
-    cancellation: &Cancellation,
+    task: &Task,
 ) -> Result<Vec<usize>, Cancelled> {
     for _ in 0..SWEEPS {
         // Computed anew in each sweep, so that rounding errors do not add up.
         let mut state = State::of(information, &design);
         let mut changed = false;
         for place in kept..design.len() {
-            cancellation.check()?;
+            task.check()?;
             let leaving = design[place];
             state.change(leaving, -1.0);
             let stay = state.gain(leaving);

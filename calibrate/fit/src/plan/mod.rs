@@ -8,7 +8,7 @@
 mod paints;
 mod exchange;
 
-use documents::{Cancellation, Cancelled};
+use documents::{Cancelled, Task};
 use pigment::remark::Remark;
 use pigment::{PigmentId, PigmentLibrary, Recipe};
 use serde_json::{Map, Value, json};
@@ -93,33 +93,25 @@ pub struct Plan {
 ///
 /// ```
 /// use calibrate::plan::{MeasurementForm, PlanOptions};
+/// use documents::Task;
 ///
-/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &PlanOptions::default())?;
+/// let options = PlanOptions::default();
+/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &options, &Task::default())?;
 /// assert_eq!(plan.swatches[0].name, "01 Titanium White masstone");
 /// let csv = plan.form(&MeasurementForm::default());
 /// assert!(csv.starts_with(b"sample,film,backing,replicate,Titanium White,Cobalt Blue,400"));
 /// # Ok::<(), calibrate::plan::PlanError>(())
 /// ```
 ///
+/// Many swatches of many paints take minutes, and `task` can end the plan before.
+///
 /// # Errors
-/// [`PlanError`] for impossible names, masses, noise or numbers of swatches.
+/// [`PlanError`] for impossible names, masses, noise or numbers of swatches, or if `task` was cancelled.
 pub fn plan<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
     options: &PlanOptions,
-) -> Result<Plan, PlanError> {
-    plan_until(pigments, white, options, &Cancellation::default())
-}
-
-/// Plans like [`plan`], until `cancellation` ends it: many swatches of many paints take minutes.
-///
-/// # Errors
-/// [`PlanError`] for impossible names, masses, noise or numbers of swatches, or if the plan was cancelled.
-pub fn plan_until<N: AsRef<str>>(
-    pigments: &[N],
-    white: &str,
-    options: &PlanOptions,
-    cancellation: &Cancellation,
+    task: &Task,
 ) -> Result<Plan, PlanError> {
     if let Some(noise) = options.noise.filter(|noise| !noise.is_possible()) {
         return Err(PlanError::Noise { constant: noise.constant, even: noise.even });
@@ -135,8 +127,7 @@ pub fn plan_until<N: AsRef<str>>(
         let ids =
             paints.names.iter().map(|name| prior.find(name)).collect::<Result<Vec<_>, _>>()?;
         remarks = reservations(prior, &ids);
-        let (best, prediction) =
-            best_design(prior, (&ids, &pool), &design, options.noise, cancellation)?;
+        let (best, prediction) = best_design(prior, (&ids, &pool), &design, options.noise, task)?;
         (design, forecast) = (best, Some(prediction));
     }
     let recipes: Vec<SwatchRecipe> = design.iter().map(|&index| pool[index].clone()).collect();
@@ -208,14 +199,14 @@ fn best_design(
     (ids, pool): (&[PigmentId], &[SwatchRecipe]),
     usual: &[usize],
     noise: Option<ExpectedNoise>,
-    cancellation: &Cancellation,
+    task: &Task,
 ) -> Result<(Vec<usize>, Forecast), Cancelled> {
     let left = prior.evidence.as_ref();
     let left = left.map_or(MIXING_ERROR, |evidence| evidence.rms.max(LEAST_MIXING_ERROR));
     let noise = noise.unwrap_or(ExpectedNoise { constant: INSTRUMENT_ERROR, even: left });
     let information = Information::new(prior, ids, pool, noise);
     // The first swatch of the usual design is the white alone, which every plan must contain.
-    let design = optimal(&information, usual, 1, cancellation)?;
+    let design = optimal(&information, usual, 1, task)?;
     let forecast = Forecast {
         usual_efficiency: information.efficiency(usual, &design),
         deviations: information.deviations(&design),

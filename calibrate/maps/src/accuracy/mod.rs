@@ -7,11 +7,9 @@
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 mod trials;
 
-use std::ops::ControlFlow;
-
-use calibrate::fit::Watch;
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FittingError, LeftOut, PreparedFit, Readings, Residuals};
+use documents::Task;
 use pigment::library::PigmentLibrary;
 
 use crate::films::settings::{MapSettings, ModelError, PigmentGroup};
@@ -279,7 +277,7 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     PreparedFit::new(
         readings,
         &FitOptions { below_surface, ..FitOptions::default() },
-        Watch::default(),
+        &Task::default(),
     )
 }
 
@@ -350,7 +348,7 @@ pub fn painting_trials(
         };
         let mapper = Mapper::new(known, &nm, &MapSettings { palette, ..settings.clone() })?;
         trials.searched.extend(painting.trials(&mapper, &mapper.search(&painting.spectra)?));
-        let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(()))?;
+        let book = mapper.survey(&painting.spectra, &Task::default())?;
         let maps = mapper.map_block(&book, &painting.spectra)?;
         trials.mapped.extend(painting.trials(&mapper, &maps));
         trials.beside.extend(painting.beside_truth(&mapper)?);

@@ -4,8 +4,7 @@ pub(crate) mod book;
 pub(crate) mod groups;
 pub(crate) mod survey;
 
-use std::ops::ControlFlow;
-
+use documents::Task;
 use pigment::library::{Input, PigmentLibrary};
 use rayon::prelude::*;
 
@@ -30,8 +29,7 @@ const TOGETHER: usize = 256;
 /// Maps the pigments of a library in scans of certain wavelengths.
 ///
 /// ```
-/// use std::ops::ControlFlow;
-///
+/// use documents::Task;
 /// use maps::{MapSettings, Mapper};
 /// use pigment::PigmentLibrary;
 ///
@@ -41,7 +39,7 @@ const TOGETHER: usize = 256;
 /// let recipe = oils.recipe([("Zinc White", 0.8), ("Viridian", 0.2)])?;
 /// let green: Vec<f32> =
 ///     oils.mix(recipe)?.hiding(oils.saunderson).iter().map(|r| *r as f32).collect();
-/// let book = mapper.survey(&green, &|| ControlFlow::Continue(()))?;
+/// let book = mapper.survey(&green, &Task::default())?;
 /// let maps = mapper.map_block(&book, &green)?;
 /// let viridian = mapper.columns().iter().position(|column| column.name == "Viridian").unwrap();
 /// assert!((maps.share[viridian] - 0.2).abs() < 0.01, "{}", maps.share[viridian]);
@@ -134,16 +132,15 @@ impl Mapper {
     }
 
     /// Surveys pixels of a scan: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
-    /// each. Every k-th pixel is searched whole, so that about 20,000 are. `progress` is called after each of
-    /// them, from any thread; if it breaks, the survey ends.
+    /// each. Every k-th pixel is searched whole, so that about 20,000 are. `task` counts them.
     ///
     /// # Errors
     /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped,
-    /// [`MapError::Cancelled`] if `progress` broke.
+    /// [`MapError::Cancelled`] if `task` was cancelled.
     pub fn survey(
         &self,
         spectra: &[f32],
-        progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+        task: &Task,
     ) -> Result<Book, MapError> {
         let pixels = self.pixels(spectra)?;
         let chosen = pixels.clone().step_by(survey_step(pixels.len()));
@@ -155,7 +152,7 @@ impl Mapper {
         }
         let names = self.pigments().to_vec();
         let book = Book::new(self.identity.clone(), self.model_error.words(), names);
-        Ok(survey(&self.prepared, book, &folded, progress)?)
+        Ok(survey(&self.prepared, book, &folded, task)?)
     }
 
     /// Prepares the book of a survey for [`Mapper::map`], once for all blocks of a scan.

@@ -4,9 +4,8 @@
 //! nowhere is therefore unlikely wherever it would do as well as others, above all in dark paint.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
-use documents::{Cancellation, Cancelled};
+use documents::{Cancelled, Task};
 use rayon::prelude::*;
 
 use super::book::{Book, BookEntry, BookSet, Folded, Prepared, SetFrequency};
@@ -26,23 +25,20 @@ pub fn survey_step(pixels: usize) -> usize {
 }
 
 /// Searches the pixels of `folded` whole, finds their palette, and fills the empty `book`. Pixels that are nearest
-/// to one film of the engine's table are one paint. `progress` is called after each pixel,
-/// from any thread; if it breaks, the survey ends.
+/// to one film of the engine's table are one paint. `task` counts the pixels.
 pub(crate) fn survey(
     prepared: &Prepared,
     mut book: Book,
     folded: &[Folded],
-    progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+    task: &Task,
 ) -> Result<Book, Cancelled> {
     let engine = &prepared.engine;
-    let ended = Cancellation::default();
+    let steps = task.steps_of("surveying", folded.len());
     let search = |scratch: &mut Scratch, folded: &Folded| {
-        ended.check()?;
+        task.check()?;
         let place = engine.table.nearest(&folded.point);
         engine.search(&folded.pixel, place, scratch);
-        if progress().is_break() {
-            ended.cancel();
-        }
+        steps.step();
         let best = scratch.found.first().map_or(0.0, |set| set.score);
         let near = scratch.found.iter().take_while(|set| set.score < best + NEGLIGIBLE);
         Ok((place, near.copied().collect::<Vec<SetFit>>()))
@@ -51,7 +47,7 @@ pub(crate) fn survey(
         .par_iter()
         .map_init(|| Scratch::new(&engine.films), search)
         .collect::<Result<_, _>>()?;
-    ended.check()?;
+    task.check()?;
     let (paints, mut found): (Vec<usize>, Vec<Vec<SetFit>>) = found.into_iter().unzip();
     book.palette = palette(&found, &paints, &prepared.entries, excess(engine, &found));
     let informed = engine.scores.with_palette(&book.palette);

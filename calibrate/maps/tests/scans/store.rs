@@ -1,10 +1,11 @@
 //! Maps as a Zarr store: created, written shard by shard, resumed, read back and drawn.
 
 use std::cell::Cell;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use documents::hint::Explain;
+use documents::{Cancellation, Task};
 use maps::blocks::{RunError, map_cube};
 use maps::cube::{Block, Cube, CubeError, CubeOptions, CubeScale};
 use maps::pictures::{Overview, Ramp, picture_png};
@@ -306,15 +307,13 @@ fn a_cube_is_mapped_cancelled_and_resumed_to_the_same_bytes() {
     let path = folder.path().join("whole.zarr");
     let store = MapStore::create(&path, &about, StoreMode::New).unwrap();
     assert_eq!(store.shards().len(), 2);
-    let mut last = None;
-    let outcome = map_cube(&cube, &store, map, |progress| {
-        let done = last.map_or(0, |before: maps::blocks::MapProgress| before.done);
-        assert!(progress.done > done && progress.all == (LINES * SAMPLES) as u64);
-        last = Some(progress);
-        ControlFlow::Continue(())
-    })
-    .unwrap();
-    assert_eq!(last.unwrap().done, (LINES * SAMPLES) as u64);
+    let last = AtomicU64::new(0);
+    let task = Task::observed(move |progress| {
+        let before = last.swap(progress.done, Ordering::Relaxed);
+        assert!(progress.done > before && progress.of == (LINES * SAMPLES) as u64);
+    });
+    let outcome = map_cube(&cube, &store, map, &task).unwrap();
+    assert_eq!(task.progress().done, (LINES * SAMPLES) as u64);
     let masks = cube.read_rows(0..LINES).unwrap().mask;
     let ignored = masks.iter().filter(|mask| **mask == Mask::Ignored).count() as u64;
     assert!(ignored > 1000, "{ignored} pixels ignored");
@@ -324,11 +323,15 @@ fn a_cube_is_mapped_cancelled_and_resumed_to_the_same_bytes() {
 
     let path = folder.path().join("cancelled.zarr");
     let store = MapStore::create(&path, &about, StoreMode::New).unwrap();
-    let outcome = map_cube(&cube, &store, map, |progress| match progress.shards {
-        0 => ControlFlow::Continue(()),
-        _ => ControlFlow::Break(()),
-    })
-    .unwrap();
+    let first = (store.shards()[0].rows.len() * SAMPLES) as u64;
+    let cancellation = Cancellation::default();
+    let ends = cancellation.clone();
+    let task = Task::observed(move |progress| {
+        if progress.done > first {
+            ends.cancel();
+        }
+    });
+    let outcome = map_cube(&cube, &store, map, &task.until(cancellation)).unwrap();
     assert_eq!((outcome.written, outcome.cancelled), (1, true));
     let finished: Vec<bool> = store.shards().iter().map(|s| store.is_finished(s)).collect();
     assert_eq!(finished, [true, false], "the shard under way is not written");
@@ -342,7 +345,7 @@ fn a_cube_is_mapped_cancelled_and_resumed_to_the_same_bytes() {
             assert!(block.rows.start >= 2048, "the first shard is kept");
             map(block)
         },
-        |_| ControlFlow::Continue(()),
+        &Task::default(),
     )
     .unwrap();
     assert_eq!((outcome.written, outcome.kept), (1, 1));
@@ -366,7 +369,7 @@ fn a_region_of_the_scan_is_mapped() {
             found.set(block.pixels());
             map(block)
         },
-        |_| ControlFlow::Continue(()),
+        &Task::default(),
     )
     .unwrap();
     assert_eq!(found.get(), 800);
@@ -380,7 +383,7 @@ fn a_cube_that_cannot_be_read_leaves_no_shard() {
     std::fs::write(path.with_extension("raw"), vec![7; LINES * SAMPLES]).unwrap();
     let about = about(LINES, SAMPLES, 2);
     let store = MapStore::create(folder.path().join("maps.zarr"), &about, StoreMode::New).unwrap();
-    let error = map_cube(&cube, &store, map, |_| ControlFlow::Continue(())).unwrap_err();
+    let error = map_cube(&cube, &store, map, &Task::default()).unwrap_err();
     assert!(matches!(error, RunError::Cube(_)), "{error}");
     assert!(error.to_string().contains("scan.raw") && error.hint().is_some(), "{error}");
     assert!(store.shards().iter().all(|shard| !store.is_finished(shard)), "a half shard");

@@ -8,6 +8,7 @@
 //!
 //! The search returns the smallest addition that brings the colour near enough to the target.
 
+use documents::Task;
 use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::optics::absorption_over_scattering;
@@ -17,7 +18,7 @@ use super::forward::{Forward, Scratch};
 use super::options::find_all;
 use super::recipe_search::spectrum_of;
 use super::request::{FilmKind, MatchError, MatchRequest, RequiredPigment};
-use super::search::{Candidate, SearchControl, descend, search, within_limits};
+use super::search::{Candidate, descend, search, within_limits};
 use super::target::{ColorTarget, Metric, Target, TargetColor, ViewingCondition};
 use crate::evaluate::{Remark, check_visible_band, lab};
 use crate::least_squares::MAX_PIGMENTS;
@@ -459,7 +460,7 @@ impl Additions<'_> {
     /// those that come nearest, the nearest first.
     pub(super) fn find(&self, forward: &Forward<'_>, target: &Target) -> (Vec<Addition>, bool) {
         let whole = self.request(None);
-        let found = search(forward, &whole, target, &SearchControl::default());
+        let found = search(forward, &whole, target, &Task::default().steps(0));
         let mut sets: Vec<Candidate> = found.into_iter().filter(|c| c.pigments.len() > 1).collect();
         let near = sets.iter().filter(|set| set.distance <= self.tolerance).count();
 

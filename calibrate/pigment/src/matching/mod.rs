@@ -19,13 +19,12 @@ pub use correction::{Batch, Correction, CorrectionOptions, Corrections, USUAL_CO
 pub use options::{
     MatchOptions, PriceError, PriceList, RequiredName, ToleranceOrigin, parse_price,
 };
-pub use ranking::{AmountLimit, RecipeMatch, few_parts, recipes, recipes_with_control};
+pub use ranking::{AmountLimit, RecipeMatch, few_parts, recipes};
 pub use recipe_search::{RecipeMatches, RecipeSearch};
 pub use request::{
     FilmKind, MatchError, MatchRequest, RequiredPigment, Thickness, USUAL_SPECTRUM_TOLERANCE,
     USUAL_TOLERANCE,
 };
-pub use search::SearchControl;
 pub use target::{
     ColorTarget, Metric, SpectralTarget, SpectrumWeights, Target, TargetColor, ViewingCondition,
 };

@@ -1,12 +1,13 @@
 //! Selection and order of the recipes that are returned, and recipes in small whole parts.
 
+use documents::{Steps, Task};
 use rayon::prelude::*;
 use spectra::TristimulusWeights;
 use spectra::color::{Lab, Xyz, delta_e_ciede2000, metamerism_index};
 
 use super::forward::{Forward, Scratch};
 use super::request::{FilmKind, MatchError, MatchRequest, USUAL_TOLERANCE};
-use super::search::{Candidate, SearchControl, search};
+use super::search::{Candidate, expected, search};
 use super::target::Target;
 use crate::evaluate::lab;
 use crate::library::{AmountKind, PigmentLibrary};
@@ -62,8 +63,11 @@ pub enum AmountLimit {
 /// A recipe that adds a pigment to another one of the list without coming nearer by more than the
 /// tolerance is left out.
 ///
+/// `task` counts the sets of pigments that have been tried. If it is cancelled, each thread finishes its
+/// current recipe.
+///
 /// # Errors
-/// [`MatchError`] if the request cannot be met.
+/// [`MatchError`] if the request cannot be met, or `task` was cancelled.
 ///
 /// # Panics
 /// If a pigment of the request is not in the library, or a ground or target does not fit its grid and
@@ -72,61 +76,42 @@ pub fn recipes(
     library: &PigmentLibrary,
     target: &Target,
     request: &MatchRequest,
+    task: &Task,
 ) -> Result<Vec<RecipeMatch>, MatchError> {
-    Ok(recipes_with_control(library, target, request, &SearchControl::default())?
-        .unwrap_or_default())
-}
-
-/// Searches recipes like [`recipes`], under the control of another thread. Returns `None` if the search
-/// was cancelled.
-///
-/// # Errors
-/// [`MatchError`] if the request cannot be met.
-///
-/// # Panics
-/// If a pigment of the request is not in the library, or a ground or target does not fit its grid and
-/// viewing conditions.
-pub fn recipes_with_control(
-    library: &PigmentLibrary,
-    target: &Target,
-    request: &MatchRequest,
-    control: &SearchControl,
-) -> Result<Option<Vec<RecipeMatch>>, MatchError> {
-    Ok(recipes_and_nearest(library, target, request, control)?.map(|(recipes, _)| recipes))
+    Ok(recipes_and_nearest(library, target, request, task)?.0)
 }
 
 /// Recipes, and the distance of the nearest of all, which the list may leave out because another is as near
-/// within the tolerance. `None` if the search was cancelled.
+/// within the tolerance.
 pub(super) fn recipes_and_nearest(
     library: &PigmentLibrary,
     target: &Target,
     request: &MatchRequest,
-    control: &SearchControl,
-) -> Result<Option<(Vec<RecipeMatch>, f64)>, MatchError> {
+    task: &Task,
+) -> Result<(Vec<RecipeMatch>, f64), MatchError> {
     request.check(library)?;
     if request.metric.spectrum_weights().is_some() && target.spectrum.is_none() {
         return Err(MatchError::NoSpectrum { name: target.name.clone() });
     }
     let forward = Forward::new(library, request).expect("the method fits the grid");
-    let candidates = search(&forward, request, target, control);
+    let steps = task.steps(expected(request));
+    let candidates = search(&forward, request, target, &steps);
     let found: Vec<Found> = match request.whole_parts {
         None => candidates.into_iter().map(|candidate| (None, candidate)).collect(),
         Some(most) => {
             let wanted = SPARE_RECIPES * request.count;
-            in_whole_parts(&forward, request, target, &candidates, (most, wanted), control)
+            in_whole_parts(&forward, request, target, &candidates, (most, wanted), &steps)
                 .into_iter()
                 .map(|(parts, candidate)| (Some(parts), candidate))
                 .collect()
         }
     };
-    if control.cancelled() {
-        return Ok(None);
-    }
+    task.check()?;
     let cost = |candidate: &Candidate| cost(library, request, candidate);
     let nearest = found.iter().map(|(_, c)| c.distance).fold(f64::INFINITY, f64::min);
     let ranked = ranked(found, nearest, request, &cost);
     let recipes = ranked.into_iter().map(|found| recipe(&forward, request, target, found, &cost));
-    Ok(Some((recipes.collect(), nearest)))
+    Ok((recipes.collect(), nearest))
 }
 
 /// Number of recipes in whole parts searched for each one returned. More are searched because those that add
@@ -280,10 +265,10 @@ pub(super) fn in_whole_parts(
     target: &Target,
     candidates: &[Candidate],
     (most, wanted): (u32, usize),
-    control: &SearchControl,
+    steps: &Steps,
 ) -> Vec<(Vec<u32>, Candidate)> {
     let search = |scratch: &mut Scratch, candidate: &Candidate, every: bool| {
-        if control.cancelled() {
+        if steps.task().is_cancelled() {
             return None;
         }
         let mut set = Set { forward, request, target, candidate, scratch };
@@ -296,7 +281,7 @@ pub(super) fn in_whole_parts(
     let rounded: Vec<Option<(Vec<u32>, Candidate)>> = candidates
         .par_iter()
         .map_init(Scratch::default, |scratch, candidate| {
-            control.step();
+            steps.step();
             search(scratch, candidate, false)
         })
         .collect();

@@ -1,15 +1,15 @@
 //! The search for recipes by name: options in, recipes out, with a fallback for distant targets, and the
 //! recipes as JSON for programs.
 
+use documents::Task;
 use documents::hint::Hint;
 use serde_json::{Map, Value, json};
 use spectra::Grid;
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace};
 
 use super::options::{MatchOptions, ToleranceOrigin};
-use super::ranking::{AmountLimit, RecipeMatch, recipes_and_nearest, recipes_with_control};
+use super::ranking::{AmountLimit, RecipeMatch, recipes, recipes_and_nearest};
 use super::request::{FilmKind, MatchError, MatchRequest, USUAL_TOLERANCE};
-use super::search::SearchControl;
 use super::target::{ColorTarget, Metric, SpectralTarget, Target, TargetColor, ViewingCondition};
 use crate::color::IlluminantChange;
 use crate::evaluate::{Remark, WANTED_NM, check_visible_band};
@@ -116,30 +116,22 @@ impl PigmentLibrary {
         target: &ColorTarget,
         options: &MatchOptions,
     ) -> Result<RecipeMatches, MatchError> {
-        self.recipe_search(options)?.recipes_for(target)
+        self.recipe_search(options)?.recipes_for(target, &Task::default())
     }
 }
 
 impl RecipeSearch<'_> {
-    /// Searches recipes for one target.
+    /// Searches recipes for one target. `task` counts the sets of pigments that were tried in the first of
+    /// the searches that a target may take.
     ///
     /// # Errors
-    /// [`MatchError`] if no recipe fits the options, or a spectrum has no visible wavelength.
-    pub fn recipes_for(&self, target: &ColorTarget) -> Result<RecipeMatches, MatchError> {
-        let found = self.recipes_with_control(target, &SearchControl::default())?;
-        found.ok_or(MatchError::NoRecipe)
-    }
-
-    /// Searches recipes like [`Self::recipes_for`], under the control of another thread. Returns `None` if
-    /// the search was cancelled. The progress counts one of the searches that a target may take.
-    ///
-    /// # Errors
-    /// [`MatchError`] if no recipe fits the options, or a spectrum has no visible wavelength.
-    pub fn recipes_with_control(
+    /// [`MatchError`] if no recipe fits the options, a spectrum has no visible wavelength, or `task` was
+    /// cancelled.
+    pub fn recipes_for(
         &self,
         target: &ColorTarget,
-        control: &SearchControl,
-    ) -> Result<Option<RecipeMatches>, MatchError> {
+        task: &Task,
+    ) -> Result<RecipeMatches, MatchError> {
         let mut remarks = self.remarks.clone();
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
@@ -147,13 +139,13 @@ impl RecipeSearch<'_> {
         let MatchRequest { metric, conditions, .. } = &self.request;
         let spectrum = spectrum_of(target, self.library.grid, (*metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(&self.request.conditions)? };
-        let found = recipes_and_nearest(self.library, &target, &self.request, control)?;
-        let Some((found, nearest)) = found else { return Ok(None) };
+        let (found, nearest) = recipes_and_nearest(self.library, &target, &self.request, task)?;
+        let further = task.quiet();
         if found.is_empty() {
             return Err(MatchError::NoRecipe);
         }
         let mut matches = RecipeMatches {
-            beyond_measured: self.nearest_beyond_measured(&target, nearest, control)?,
+            beyond_measured: self.nearest_beyond_measured(&target, nearest, &further)?,
             target,
             recipes: found,
             by_cie1976: Vec::new(),
@@ -163,10 +155,9 @@ impl RecipeSearch<'_> {
         if matches.nearest() > FAR && self.request.metric == Metric::Ciede2000 {
             let metric = Metric::Cie1976;
             let request = MatchRequest { metric, count: 1, ..self.request.clone() };
-            let found = recipes_with_control(self.library, &matches.target, &request, control)?;
-            matches.by_cie1976 = found.unwrap_or_default();
+            matches.by_cie1976 = recipes(self.library, &matches.target, &request, &further)?;
         }
-        Ok((!control.cancelled()).then_some(matches))
+        Ok(matches)
     }
 
     /// Distance of the nearest recipe of any amounts, if limits of amounts keep it from being found.
@@ -174,14 +165,14 @@ impl RecipeSearch<'_> {
         &self,
         target: &Target,
         nearest: f64,
-        control: &SearchControl,
+        task: &Task,
     ) -> Result<Option<f64>, MatchError> {
         if self.request.amounts.iter().all(Option::is_none) {
             return Ok(None);
         }
         let request = MatchRequest { amounts: Vec::new(), count: 1, ..self.request.clone() };
-        let found = recipes_and_nearest(self.library, target, &request, control)?;
-        Ok(found.map(|(_, free)| free).filter(|free| *free < nearest - USUAL_TOLERANCE))
+        let (_, free) = recipes_and_nearest(self.library, target, &request, task)?;
+        Ok((free < nearest - USUAL_TOLERANCE).then_some(free))
     }
 }
 

@@ -1,6 +1,7 @@
 //! A request for recipes with pigments given by their places in a library, the film that a recipe makes, and
 //! the reasons why there are no recipes.
 
+use documents::Cancelled;
 use documents::hint::Explain;
 use spectra::InterpolateError;
 
@@ -267,6 +268,9 @@ impl Thickness {
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[fault(Setting)]
 pub enum MatchError {
+    /// The search was asked to end before its time.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// No pigment may take part.
     #[error("no pigment is left to mix with")]
     #[hint("allow more of the library's pigments")]

@@ -1,12 +1,10 @@
 //! Search over all sets of pigments.
 //!
-//! Each set becomes a [`Candidate`]: its pigments with the shares of the nearest recipe. [`SearchControl`] reports
-//! progress and cancels a search that runs on other threads.
+//! Each set becomes a [`Candidate`]: its pigments with the shares of the nearest recipe.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-use documents::Cancellation;
+use documents::Steps;
 use rayon::prelude::*;
 
 use super::forward::{Forward, Scratch};
@@ -23,15 +21,14 @@ const FAR: f64 = 2.0;
 /// only the nearest smaller recipes are extended.
 const MOST_SETS: usize = 30_000;
 
-/// Returns the nearest recipe of each set of pigments that was tried, nearest first. A search that
-/// was cancelled has not tried all sets.
+/// Returns the nearest recipe of each set of pigments that was tried, nearest first. Each set is one of
+/// the `steps`, about [`expected`] in all. A search that was cancelled has not tried all sets.
 pub(super) fn search(
     forward: &Forward<'_>,
     request: &MatchRequest,
     target: &Target,
-    control: &SearchControl,
+    steps: &Steps,
 ) -> Vec<Candidate> {
-    control.set_total(expected(request));
     let strength = strengths(forward);
     let mut found: Vec<Candidate> = Vec::new();
     let mut sets = first_sets(request);
@@ -40,10 +37,10 @@ pub(super) fn search(
         let tried: Vec<(Vec<PigmentId>, Option<Candidate>)> = sets
             .par_iter()
             .map_init(Scratch::default, |scratch, (set, parent)| {
-                if control.cancelled() {
+                if steps.task().is_cancelled() {
                     return (set.clone(), None);
                 }
-                control.step();
+                steps.step();
                 let starts = starts(request, set, parent.as_ref(), &strength);
                 let ends =
                     starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
@@ -51,7 +48,7 @@ pub(super) fn search(
             })
             .collect();
         size += 1;
-        let goes_on = size <= request.at_most && !control.cancelled();
+        let goes_on = size <= request.at_most && !steps.task().is_cancelled();
         let grown = if goes_on { grown(request, &tried) } else { BTreeMap::new() };
         found.extend(tried.into_iter().filter_map(|(_, candidate)| candidate));
         if grown.is_empty() {
@@ -60,7 +57,7 @@ pub(super) fn search(
         sets = grown;
     }
     // Beyond the gamut the distance has several minima, many of them near one pigment.
-    if found.iter().all(|candidate| candidate.distance > FAR) && !control.cancelled() {
+    if found.iter().all(|candidate| candidate.distance > FAR) && !steps.task().is_cancelled() {
         found.par_iter_mut().for_each_init(Scratch::default, |scratch, candidate| {
             for corner in corners(request, &candidate.pigments) {
                 let end = descend(forward, request, target, &corner, scratch);
@@ -77,7 +74,7 @@ pub(super) fn search(
 }
 
 /// Number of sets that will be tried, doubled where each is also rounded to whole parts.
-fn expected(request: &MatchRequest) -> usize {
+pub(super) fn expected(request: &MatchRequest) -> usize {
     let fixed = request.required.len();
     let free = request.allowed.len() - fixed.min(request.allowed.len());
     let sizes = usize::from(fixed == 0)..=request.at_most.saturating_sub(fixed);
@@ -229,54 +226,6 @@ impl Candidate {
     /// Share of `pigment`, 0 if it is not in the recipe.
     pub(super) fn share(&self, pigment: PigmentId) -> f64 {
         self.pigments.iter().position(|&p| p == pigment).map_or(0.0, |at| self.shares[at])
-    }
-}
-
-/// Progress of a running search for recipes, and the request to cancel it. Shared between threads.
-#[derive(Debug, Default)]
-pub struct SearchControl {
-    done: AtomicUsize,
-    total: AtomicUsize,
-    cancellation: Cancellation,
-}
-
-impl SearchControl {
-    /// Control of a search that ends early when `cancellation` asks for it.
-    #[must_use]
-    pub fn until(cancellation: Cancellation) -> Self {
-        Self { cancellation, ..Self::default() }
-    }
-
-    /// Asks the search to end soon: each thread finishes its current recipe.
-    pub fn cancel(&self) {
-        self.cancellation.cancel();
-    }
-
-    /// Whether the search was asked to end.
-    #[must_use]
-    pub fn cancelled(&self) -> bool {
-        self.cancellation.is_cancelled()
-    }
-
-    /// Fraction of the sets of pigments that have been tried, 0 to 1.
-    #[must_use]
-    pub fn progress(&self) -> f64 {
-        let total = self.total.load(Ordering::Relaxed);
-        if total == 0 {
-            0.0
-        } else {
-            (self.done.load(Ordering::Relaxed) as f64 / total as f64).min(1.0)
-        }
-    }
-
-    /// Sets the number of steps of the whole search.
-    pub(super) fn set_total(&self, steps: usize) {
-        self.total.store(steps, Ordering::Relaxed);
-    }
-
-    /// Counts one step as done.
-    pub(super) fn step(&self) {
-        self.done.fetch_add(1, Ordering::Relaxed);
     }
 }
 

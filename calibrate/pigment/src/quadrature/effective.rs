@@ -350,6 +350,7 @@ impl EffectiveQuadrature {
 mod tests {
     use super::*;
     use crate::evaluate::Viewing;
+    use documents::Task;
     use spectra::{Illuminant, Observer};
 
     fn viewing(illuminant: &str) -> Viewing {
@@ -374,7 +375,8 @@ mod tests {
         let oils = PigmentLibrary::van_gogh_oils();
         let rule = Quadrature::library(&viewing("D65"), &oils, 8).unwrap();
         let interpolated = EffectiveQuadrature::interpolated(rule, &oils);
-        let effective = EffectiveQuadrature::of(&viewing("D65"), &oils, 8).unwrap();
+        let effective =
+            EffectiveQuadrature::of(&viewing("D65"), &oils, 8, &Task::default()).unwrap();
         let [hiding, over] = unseen("D65", &effective, &oils);
         let [before, before_over] = unseen("D65", &interpolated, &oils);
         assert!(hiding.mean < 0.5 * before.mean, "{hiding:?} {before:?}");
@@ -385,7 +387,8 @@ mod tests {
     fn unseen_films_keep_their_colours_under_any_light() {
         let oils = PigmentLibrary::van_gogh_oils();
         for light in ["A", "D50", "D65", "E", "FL2", "FL11", "HP1", "LED-B3"] {
-            let effective = EffectiveQuadrature::of(&viewing(light), &oils, 8).unwrap();
+            let effective =
+                EffectiveQuadrature::of(&viewing(light), &oils, 8, &Task::default()).unwrap();
             let [hiding, over] = unseen(light, &effective, &oils);
             let summary = format!("{light}: {hiding:?}, over grounds {over:?}");
             assert!(hiding.mean < 0.05 && hiding.p95 < 0.17 && hiding.max < 0.70, "{summary}");
@@ -409,7 +412,8 @@ mod tests {
     #[test]
     fn white_stays_white_and_coefficients_stay_above_zero() {
         let oils = PigmentLibrary::van_gogh_oils();
-        let effective = EffectiveQuadrature::of(&viewing("FL11"), &oils, 8).unwrap();
+        let effective =
+            EffectiveQuadrature::of(&viewing("FL11"), &oils, 8, &Task::default()).unwrap();
         let white = effective.rule.xyz(&[1.0; 8]).to_array();
         for (found, wanted) in white.into_iter().zip(effective.rule.white.to_array()) {
             assert!((found - wanted).abs() < 1e-8, "{found} for {wanted}");
@@ -424,7 +428,9 @@ mod tests {
         let oils = PigmentLibrary::van_gogh_oils();
         let fitted = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| EffectiveQuadrature::of(&viewing("D65"), &oils, 5).unwrap())
+            pool.install(|| {
+                EffectiveQuadrature::of(&viewing("D65"), &oils, 5, &Task::default()).unwrap()
+            })
         };
         assert_eq!(fitted(1), fitted(3));
     }
@@ -434,11 +440,13 @@ mod tests {
         let mut library = PigmentLibrary::van_gogh_oils();
         library.pigments.truncate(1);
         library.reference = None;
-        let effective = EffectiveQuadrature::of(&viewing("D65"), &library, 3).unwrap();
+        let effective =
+            EffectiveQuadrature::of(&viewing("D65"), &library, 3, &Task::default()).unwrap();
         let [hiding, over] = unseen("D65", &effective, &library);
         assert!(hiding.max < 0.20 && over.max < 4.0, "{hiding:?} {over:?}");
         // Eight wavelengths have more unknowns than one masstone determines.
-        let eight = EffectiveQuadrature::of(&viewing("D65"), &library, 8).unwrap();
+        let eight =
+            EffectiveQuadrature::of(&viewing("D65"), &library, 8, &Task::default()).unwrap();
         let [hiding, over] = unseen("D65", &eight, &library);
         assert!(hiding.max < 0.01 && over.max < 0.2, "{hiding:?} {over:?}");
     }

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use documents::Cancellation;
+use documents::Task;
 use nalgebra::DVector;
 use rayon::prelude::*;
 use spectra::Grid;
@@ -28,9 +28,8 @@ const WORST: f64 = 0.02;
 /// Seed of the films of both fits.
 const SEED: u64 = 2004;
 /// Stopping rules of the two fits. A later step gains less than the choice of the films does.
-const FIRST_STOP: Stop<'static> =
-    Stop { iterations: 100, relative_decrease: 1e-3, cancellation: None };
-const SECOND_STOP: Stop<'static> = Stop { iterations: 20, ..FIRST_STOP };
+const FIRST_STOP: Stop = Stop { iterations: 100, relative_decrease: 1e-3 };
+const SECOND_STOP: Stop = Stop { iterations: 20, ..FIRST_STOP };
 
 impl EffectiveQuadrature {
     /// Fits wavelengths, weights, and K and S of every pigment, so that films of `library` keep their
@@ -42,44 +41,32 @@ impl EffectiveQuadrature {
     /// colour error after the first fit. Few films show the edge of a pigment's absorption next to a line of
     /// a lamp, and a small random set misses them.
     ///
+    /// Many wavelengths of many pigments take minutes, and `task` can end the fit before.
+    ///
     /// # Errors
-    /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
+    /// [`QuadratureFailure`] for 0 nodes, or more than 32, or if `task` was cancelled.
     pub fn of(
         viewing: &Viewing,
         library: &PigmentLibrary,
         count: usize,
-    ) -> Result<Self, QuadratureFailure> {
-        Self::of_until(viewing, library, count, &Cancellation::default())
-    }
-
-    /// Fits like [`Self::of`], until `cancellation` ends it: many wavelengths of many pigments take minutes.
-    ///
-    /// # Errors
-    /// [`QuadratureFailure`] for 0 nodes, or more than 32, or if the fit was cancelled.
-    pub fn of_until(
-        viewing: &Viewing,
-        library: &PigmentLibrary,
-        count: usize,
-        cancellation: &Cancellation,
+        task: &Task,
     ) -> Result<Self, QuadratureFailure> {
         let start = Quadrature::library(viewing, library, count)?;
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
-        let stops =
-            [FIRST_STOP, SECOND_STOP].map(|stop| Stop { cancellation: Some(cancellation), ..stop });
         let pigments = library.pigments.len();
 
         let films = LEAST_FILMS.max(FILMS_A_PIGMENT * pigments);
         let films = FilmSet::for_fitting(library, &weights, films, SEED);
         let mut problem = Problem::new(start, library, films);
-        let first = problem.solve(problem.first_point(), Nodes::Fixed, stops[0]);
-        cancellation.check()?;
+        let first = problem.solve(problem.first_point(), Nodes::Fixed, FIRST_STOP, task);
+        task.check()?;
 
         let count = LEAST_CANDIDATES.max(CANDIDATES_A_PIGMENT * pigments);
         let candidates = FilmSet::candidates(library, &weights, count, SEED);
         let errors = problem.at(&first).errors(library, &candidates);
         problem.add_worst(candidates, &errors, (WORST * count as f64) as usize);
-        let second = problem.solve(first, Nodes::Free, stops[1]);
-        cancellation.check()?;
+        let second = problem.solve(first, Nodes::Free, SECOND_STOP, task);
+        task.check()?;
         Ok(problem.at(&second))
     }
 }
@@ -170,12 +157,19 @@ impl Problem {
     }
 
     /// The fit from `point`, or where it stands once it was cancelled.
-    pub(super) fn solve(&self, point: DVector<f64>, nodes: Nodes, stop: Stop<'_>) -> DVector<f64> {
+    pub(super) fn solve(
+        &self,
+        point: DVector<f64>,
+        nodes: Nodes,
+        stop: Stop,
+        task: &Task,
+    ) -> DVector<f64> {
         let (lower, upper) = self.bounds(nodes);
         minimise(
             point,
             (&lower, &upper),
             stop,
+            task,
             |point: &_| self.equations(point),
             |point: &_| self.cost(point),
         )

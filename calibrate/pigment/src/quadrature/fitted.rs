@@ -3,6 +3,7 @@
 
 use std::ops::RangeInclusive;
 
+use documents::Task;
 use nalgebra::DVector;
 use rayon::prelude::*;
 use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
@@ -20,7 +21,7 @@ const TRAINING: usize = 700;
 /// Seed of the training set.
 const TRAINING_SEED: u64 = 2004;
 /// Stopping rule of each fit.
-const STOP: Stop<'static> = Stop { iterations: 120, relative_decrease: 1e-6, cancellation: None };
+const STOP: Stop = Stop { iterations: 120, relative_decrease: 1e-6 };
 /// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a good
 /// fit never reaches it.
 const LARGEST_WEIGHT: f64 = 1e3;
@@ -115,8 +116,14 @@ impl<'a> Problem<'a> {
         let mut upper = DVector::from_element(point.len(), LARGEST_WEIGHT);
         lower.rows_mut(0, n).fill(NODE_BAND_NM[0]);
         upper.rows_mut(0, n).fill(NODE_BAND_NM[1]);
-        let minimum =
-            minimise(point, (&lower, &upper), STOP, |p| self.equations(p), |p| self.cost(p));
+        let minimum = minimise(
+            point,
+            (&lower, &upper),
+            STOP,
+            &Task::default(),
+            |p| self.equations(p),
+            |p| self.cost(p),
+        );
         (minimum.cost, self.quadrature(&minimum.point))
     }
 

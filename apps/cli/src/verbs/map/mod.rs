@@ -10,12 +10,12 @@
 
 mod page;
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use calibrate::remark::Remark;
 use calibrate::{PigmentLibrary, Residuals};
 use clap::Args;
+use documents::Task;
 use maps::cube::{CubeOptions, CubeScale, DarkReading};
 use maps::pictures::Overview;
 use maps::truth::{CHI2_RISEN, Comparison, Truth, compare};
@@ -34,7 +34,7 @@ use crate::progress::{Progress, Waiting};
 /// Squares along the longer side of the pictures.
 const PICTURE: usize = 1600;
 /// Steps of the progress bar.
-const STEPS: u64 = 1000;
+const STEPS: usize = 1000;
 
 /// Map the pigments of a library in a spectral scan
 ///
@@ -116,9 +116,7 @@ impl Map {
                     .context(|| format!("{} cannot be used", path.display()))?;
                 SurveyedScan::with_book(cube, &library, &settings, region, book)?
             }
-            None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
-                ControlFlow::Continue(())
-            })?,
+            None => SurveyedScan::survey(cube, &library, &settings, region, &Task::default())?,
         };
         drop(waiting);
         console.remarks(self.pigments.remark(&scan).as_slice())?;
@@ -168,15 +166,8 @@ impl Map {
     fn map(&self, scan: &SurveyedScan, output: &PathBuf, console: &mut Console<'_>) -> Result<()> {
         let mode = if self.resume { StoreMode::Resume } else { StoreMode::New };
         let store = scan.store(output, mode)?;
-        let bar = Progress::new(STEPS as usize, "mapping", console.shows_progress());
-        let mut steps = 0;
-        let outcome = scan.map(&store, |state| {
-            while steps < STEPS * state.done / state.all.max(1) {
-                bar.step();
-                steps += 1;
-            }
-            ControlFlow::Continue(())
-        });
+        let bar = Progress::new(STEPS, "mapping", console.shows_progress());
+        let outcome = scan.map(&store, &bar.task_of_any_steps());
         bar.done();
         let outcome = outcome?;
         if outcome.kept > 0 {

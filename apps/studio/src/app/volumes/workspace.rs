@@ -511,13 +511,11 @@ impl Volumes {
             Some((SceneExport::Animation, path)) => {
                 let recording = Arc::clone(recording);
                 let size = self.told.1;
-                files.export_scene(path, move |path, progress| {
-                    session::volumes::animation(&recording, size, path, |share| {
-                        progress.report(share).is_ok()
-                    })
-                    .map_err(Problem::from)?;
+                files.export_scene(path, move |path, task| {
+                    session::volumes::animation(&recording, size, path, task)
+                        .map_err(Problem::from)?;
                     // Nothing was written if it was cancelled.
-                    progress.report(1.0)?;
+                    task.reach(1.0)?;
                     Ok(None)
                 });
             }
@@ -549,16 +547,16 @@ impl Volumes {
         files: &mut Files,
     ) {
         let Some((export, path)) = self.take_awaited(number) else { return };
-        files.export_scene(path, move |path, progress| {
+        files.export_scene(path, move |path, task| {
             if let SceneExport::OfPainting(export) = export {
                 let Lighting { illuminant, observer, .. } = &document.lighting;
                 let light = Light::named(&document.library, illuminant, observer);
                 let light = light.map_err(|error| Problem::from_error(&error))?;
-                return files::export(export, &document, &light, path, progress);
+                return files::export(export, &document, &light, path, task);
             }
             let bytes = paint::file::write(&document);
             let bytes = bytes.map_err(|error| Problem::from_error(&error))?;
-            progress.report(0.8)?;
+            task.reach(0.8)?;
             write_whole(path, &bytes).map_err(Problem::from)?;
             Ok(None)
         });

@@ -3,11 +3,12 @@
 use std::cmp::Reverse;
 use std::path::Path;
 
+use documents::Task;
 use documents::file::disk;
 use graphics::picture_formats::ENDINGS;
 use web_time::SystemTime;
 
-use crate::files::job::{JobError, Progress};
+use crate::files::job::JobError;
 use crate::files::preferences::BrowserOrder;
 use crate::files::problem::Problem;
 use crate::language::english;
@@ -70,13 +71,13 @@ pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [
 ///
 /// # Errors
 /// [`JobError`] if the folder cannot be read.
-pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, JobError> {
+pub(super) fn entries(folder: &Path, task: &Task) -> Result<Vec<Entry>, JobError> {
     let mut entries = Vec::new();
     for entry in disk::read_dir(folder)
         .map_err(|error: std::io::Error| Problem::io(folder, "read", &error))?
         .take(MAX_ENTRIES)
     {
-        progress.report(0.0)?;
+        task.reach(0.0)?;
         let Ok(entry) = entry else { continue };
         // A name that is not valid Unicode could not be typed or shown.
         let Ok(name) = entry.file_name().into_string() else { continue };
@@ -153,7 +154,7 @@ mod tests {
             std::fs::write(folder.path().join(name), "x").unwrap();
         }
         std::fs::create_dir(folder.path().join("zebra")).unwrap();
-        let entries = entries(folder.path(), &Progress::default()).unwrap();
+        let entries = entries(folder.path(), &Task::default()).unwrap();
         let names: Vec<_> = entries.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(names, ["zebra", "A.exr", "b9.exr", "b10.exr"]);
         assert_eq!((entries[0].folder, entries[1].bytes), (true, 1));
@@ -180,7 +181,7 @@ mod tests {
 
     #[test]
     fn a_missing_folder_is_reported() {
-        let listed = entries(Path::new("/no/such/folder"), &Progress::default());
+        let listed = entries(Path::new("/no/such/folder"), &Task::default());
         assert!(matches!(listed, Err(JobError::Failed(_))), "{listed:?}");
     }
 

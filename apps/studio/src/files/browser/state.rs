@@ -147,7 +147,7 @@ impl Browser {
         self.reading = Some(Job::start(
             tr("reading the folder"),
             move || wake.request_repaint(),
-            move |progress| entries(&read, progress),
+            move |task| entries(&read, task),
         ));
         self.folder = folder;
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use documents::Task;
 use documents::hint::Explain;
 use paint::layer::{SLOTS, Slots};
 use pigment::library::AmountKind;
@@ -267,7 +268,7 @@ fn mixture_at(
 /// Nearest mixture to a colour, with its own colour.
 fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesError> {
     let target = ColorTarget { name: String::new(), color: TargetColor::Lab(lab) };
-    let mut found = search.recipes_for(&target)?;
+    let mut found = search.recipes_for(&target, &Task::default())?;
     let best = found.recipes.swap_remove(0);
     Ok((best.lab[0], best.shares))
 }
