@@ -13,7 +13,7 @@ mod surface;
 mod output;
 mod engine;
 mod pictures;
-mod setting_changes;
+mod technique;
 mod subject;
 mod palette;
 mod animation;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use documents::file::{FileAction, FileError, STANDARD_INPUT, check_writable, write_whole};
 use graphics::encoding::over_white;
 use graphics::export::{frame_of, frame_png};
-use graphics::field::Field;
+use paint::technique::Stage;
 
 use crate::console::Console;
 use crate::failure::{Context, Failure, Result};
@@ -182,9 +182,6 @@ pub(crate) fn is_stream(path: &Path) -> bool {
     path == Path::new(STANDARD_INPUT)
 }
 
-/// The name of a stage and its picture, encoded sRGB with coverage.
-pub(crate) type NamedStage = (String, Field<[f32; 4]>);
-
 /// A folder that stages can be written to; it is made with the first.
 pub(crate) struct StageFolder(OutputFolder);
 
@@ -208,10 +205,10 @@ impl StageFolder {
     }
 
     /// Writes the stages.
-    pub(crate) fn write(&self, stages: &[NamedStage], console: &mut Console<'_>) -> Result<()> {
-        let outputs = self.outputs(stages.iter().map(|(name, _)| name.as_str()))?;
-        for (output, (_, picture)) in outputs.into_iter().zip(stages) {
-            output.put(frame_png(&frame_of(&over_white(picture)))?)?;
+    pub(crate) fn write(&self, stages: &[Stage], console: &mut Console<'_>) -> Result<()> {
+        let outputs = self.outputs(stages.iter().map(|stage| stage.name.as_str()))?;
+        for (output, stage) in outputs.into_iter().zip(stages) {
+            output.put(frame_png(&frame_of(&over_white(&stage.picture)))?)?;
         }
         self.told(console)
     }

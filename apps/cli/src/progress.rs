@@ -32,6 +32,13 @@ fn shown_late(bar: &ProgressBar, terminal: bool) -> Arc<AtomicBool> {
     done
 }
 
+/// The style of a bar that counts steps.
+fn counting() -> ProgressStyle {
+    ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} {eta}")
+        .expect("the template is constant and valid")
+        .progress_chars("=> ")
+}
+
 /// Progress bar that counts steps. Shown only on a terminal, after one second, also before its first step.
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -40,12 +47,9 @@ pub(crate) struct Progress {
 
 impl Progress {
     pub(crate) fn new(steps: usize, label: &'static str, terminal: bool) -> Self {
-        let style = ProgressStyle::with_template("{msg} [{bar:40}] {pos}/{len} {eta}")
-            .expect("the template is constant and valid")
-            .progress_chars("=> ");
         let hidden = ProgressDrawTarget::hidden();
         let bar = ProgressBar::with_draw_target(Some(steps as u64), hidden)
-            .with_style(style)
+            .with_style(counting())
             .with_message(label);
         let done = shown_late(&bar, terminal);
         Self { bar, done }
@@ -69,11 +73,6 @@ impl Progress {
     /// Counts one finished step. May be called from any thread.
     pub(crate) fn step(&self) {
         self.bar.inc(1);
-    }
-
-    /// Adds `steps` to the expected total.
-    pub(crate) fn expect(&self, steps: usize) {
-        self.bar.inc_length(steps as u64);
     }
 
     /// Clears the bar.
@@ -119,4 +118,22 @@ impl Drop for Waiting {
         self.done.store(true, Ordering::Relaxed);
         self.bar.finish_and_clear();
     }
+}
+
+/// Does long work behind a spinner that becomes a bar once the task counts steps. Shown only on a terminal,
+/// after one second.
+pub(crate) fn followed<T>(console: &Console<'_>, work: impl FnOnce(&Task) -> T) -> T {
+    let waiting = Waiting::new("", console.shows_progress());
+    let bar = waiting.bar.clone();
+    let task = Task::observed(move |progress| {
+        bar.set_message(progress.stage.to_string());
+        if progress.of > 0 {
+            if bar.length().is_none() {
+                bar.set_style(counting());
+            }
+            bar.set_length(progress.of);
+            bar.set_position(progress.done);
+        }
+    });
+    work(&task)
 }

@@ -119,6 +119,12 @@ macro_rules! settings {
                 $($($check(self, base)?;)?)?
                 ::core::result::Result::Ok(())
             }
+
+            fn numbers(&self) -> ::std::vec::Vec<::core::option::Option<f64>> {
+                let own: ::std::vec::Vec<::core::option::Option<f64>> =
+                    ::std::vec![$($crate::settings!(@number self.$field, $takes)),*];
+                [own, $($crate::settings::Table::numbers(&self.$group)),*].concat()
+            }
         }
 
         $($crate::settings!(@$file $name);)?
@@ -178,6 +184,9 @@ macro_rules! settings {
     (@scales $scales:ident) => { $crate::settings::Scales::$scales };
     (@example) => { ::core::option::Option::None };
     (@example $example:literal) => { ::core::option::Option::Some($example) };
+    (@number $value:expr, Number) => { ::core::option::Option::Some($value as f64) };
+    (@number $value:expr, Whole) => { ::core::option::Option::Some($value as f64) };
+    (@number $value:expr, $takes:ident) => { ::core::option::Option::None };
     (@scale $value:expr, $by:expr,) => {};
     (@scale $value:expr, $by:expr, Length) => { $value *= $by };
     (@scale $value:expr, $by:expr, Area) => { $value *= $by * $by };
@@ -236,14 +245,14 @@ macro_rules! presets {
 
         impl $name {
             /// All presets, in the order in which programs list them.
-            pub const ALL: [Self; [$($word),*].len()] = [$(Self::$variant),*];
+            pub const ALL: [Self; Self::NAMES.len()] = [$(Self::$variant),*];
 
             /// Names of all presets.
             const NAMES: &'static [&'static str] = &[$($word),*];
 
             /// The name in lower case, which `parse` accepts.
             #[must_use]
-            pub fn name(self) -> &'static str {
+            pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $word,)* }
             }
 
@@ -271,7 +280,25 @@ macro_rules! presets {
             /// The text of a TOML file of all settings of the preset, with a comment above each key.
             #[must_use]
             pub fn text(self) -> ::std::string::String {
-                self.settings().documented(self.about())
+                $crate::settings::documented(&self.settings(), self.about())
+            }
+        }
+
+        impl $crate::settings::Preset for $name {
+            type Settings = $settings;
+
+            const ALL: &'static [Self] = &Self::ALL;
+
+            fn name(self) -> &'static str {
+                self.name()
+            }
+
+            fn settings(self) -> $settings {
+                self.settings()
+            }
+
+            fn text(self) -> ::std::string::String {
+                self.text()
             }
         }
 
@@ -358,7 +385,7 @@ pub fn changed_by<T: Table>(
     base: &KeyPath,
 ) -> Result<T, Box<ValueFault>> {
     let mut all = toml_of(settings, base)?;
-    merge(&mut all, changes);
+    merge(&mut all, changes, T::ROWS);
     let whole: Result<T, toml::de::Error> = all.try_into();
     let changed = whole.map_err(|error| {
         let hint = "a preset's file has each key with its meaning";
@@ -368,11 +395,15 @@ pub fn changed_by<T: Table>(
     Ok(changed)
 }
 
-fn merge(all: &mut Toml, changes: &Toml) {
+/// Replaces the keys of `changes`. Only tables of settings are merged key by key.
+fn merge(all: &mut Toml, changes: &Toml, rows: &[Row]) {
     for (key, change) in changes {
-        match (all.get_mut(key), change) {
-            (Some(Value::Table(all)), Value::Table(changes)) => merge(all, changes),
-            (_, change) => {
+        let takes = rows.iter().find(|row| row.key == key.as_str()).map(|row| row.takes);
+        match (all.get_mut(key), change, takes) {
+            (Some(Value::Table(all)), Value::Table(changes), Some(Takes::Table(rows))) => {
+                merge(all, changes, rows);
+            }
+            (_, change, _) => {
                 all.insert(key.clone(), change.clone());
             }
         }
@@ -405,6 +436,37 @@ fn check_rows(rows: &[Row], table: &Toml, usual: &Toml, base: &KeyPath) -> Check
         }
     }
     Ok(())
+}
+
+/// A number that lies outside of its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutOfRange {
+    /// Path of the setting, such as `edges.strength`.
+    pub key: String,
+    /// Its row.
+    pub row: &'static Row,
+    /// Its value.
+    pub value: f64,
+    /// The least value that it takes.
+    pub least: f64,
+    /// The greatest value that it takes.
+    pub most: f64,
+}
+
+/// The first number of `settings` that lies outside of its range, for errors of their own words. [`check`]
+/// finds every fault of a file.
+#[must_use]
+pub fn out_of_range<T: Table>(settings: &T) -> Option<OutOfRange> {
+    let all = rows::<T>().into_iter().zip(settings.numbers());
+    all.filter_map(|((key, row), value)| Some((key, row, value?))).find_map(|(key, row, value)| {
+        let (least, most) = match row.takes {
+            Takes::Number(least, most) => (least, most),
+            Takes::Whole(least, most) => (least as f64, most as f64),
+            _ => return None,
+        };
+        let fits = (least..=most).contains(&as_written(value));
+        (!fits).then_some(OutOfRange { key, row, value, least, most })
+    })
 }
 
 /// A value as a message has it: whole numbers without a decimal point, texts without quotes.

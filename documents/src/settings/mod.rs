@@ -54,6 +54,7 @@
 mod declared;
 
 use std::fmt;
+use std::str::FromStr;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -62,8 +63,8 @@ use toml::Value;
 use crate::text::{Checked, KeyPath};
 
 pub use declared::{
-    SettingsError, changed, changed_by, check, differences, digest, documented, guide_table, open,
-    read as from_toml, rows,
+    OutOfRange, SettingsError, changed, changed_by, check, differences, digest, documented,
+    guide_table, open, out_of_range, read as from_toml, rows,
 };
 
 /// A table of settings, which [`settings!`](crate::settings!) implements.
@@ -79,6 +80,28 @@ pub trait Table: Serialize + DeserializeOwned + Default + Clone {
     /// # Errors
     /// The fault of a value that does not fit those beside it.
     fn check_together(&self, base: &KeyPath) -> Checked;
+
+    /// The values of all settings in the order of [`rows`]: those of the rows `Number` and `Whole`, `None` for
+    /// all others.
+    fn numbers(&self) -> Vec<Option<f64>>;
+}
+
+/// Settings that ship under a name, which [`presets!`](crate::presets!) declares.
+pub trait Preset: Copy + Send + Sync + FromStr<Err = SettingsError> + 'static {
+    /// The settings that have this name.
+    type Settings: Table;
+
+    /// All presets, in the order in which programs list them.
+    const ALL: &'static [Self];
+
+    /// The name in lower case, which `parse` accepts.
+    fn name(self) -> &'static str;
+
+    /// The settings of the preset.
+    fn settings(self) -> Self::Settings;
+
+    /// The text of a TOML file of all settings of the preset, with a comment above each key.
+    fn text(self) -> String;
 }
 
 /// A setting: where it stands, the values that it takes, and what it does.
@@ -115,10 +138,14 @@ pub enum Takes {
     Words(&'static [&'static str]),
     /// Any text, such as a path.
     Text,
+    /// A list of texts, such as names of pigments.
+    Texts,
     /// `true` or `false`.
     Switch,
     /// A colour written `#rrggbb`.
     Color,
+    /// A table in one line whose type checks itself, such as `{ kind = "linen" }`.
+    Inline,
     /// A table of settings.
     Table(&'static [Row]),
 }
@@ -154,7 +181,8 @@ impl Takes {
             (Self::Words(words), Value::String(word)) => words.contains(&word.as_str()),
             (Self::Text, Value::String(_)) | (Self::Switch, Value::Boolean(_)) => true,
             (Self::Color, Value::String(text)) => is_color(text),
-            (Self::Table(_), Value::Table(_)) => true,
+            (Self::Texts, Value::Array(list)) => list.iter().all(Value::is_str),
+            (Self::Inline | Self::Table(_), Value::Table(_)) => true,
             _ => false,
         }
     }
@@ -181,7 +209,8 @@ impl fmt::Display for Takes {
                 f.write_str(&quoted.join(", "))
             }
             Self::Color => f.write_str("a colour written #rrggbb"),
-            Self::Any | Self::Text | Self::Switch | Self::Table(_) => Ok(()),
+            Self::Texts => f.write_str("a list of texts"),
+            Self::Any | Self::Text | Self::Switch | Self::Inline | Self::Table(_) => Ok(()),
         }
     }
 }
@@ -248,6 +277,8 @@ mod tests {
             (words, "\"b\"", "\"c\""),
             (Takes::Text, "\"\"", "1"),
             (Takes::Switch, "false", "0"),
+            (Takes::Texts, "[\"a\", \"b\"]", "[\"a\", 1]"),
+            (Takes::Inline, "{ kind = \"linen\" }", "\"linen\""),
             (Takes::Color, "\"#fBf9f4\"", "\"#fbf9f\""),
             (Takes::Color, "\"#000000\"", "\"#00000\u{e9}\""),
         ] {

@@ -35,8 +35,8 @@
 //! and CPU and GPU agree to the bit. Light is computed in f32 at eight wavelengths chosen for
 //! the illuminant.
 //!
-//! Out of scope: meshes, painting techniques (crate `render`), fitting pigments
-//! (crate `calibrate`).
+//! Out of scope: meshes, the painting techniques themselves (what they have in common is
+//! [`technique::Technique`]), fitting pigments (crate `calibrate`).
 //!
 //! Modules are listed in order of dependence: each uses only modules above it.
 
@@ -65,6 +65,7 @@ pub mod file;
 pub mod session;
 pub mod export;
 pub mod timelapse;
+pub mod technique;
 
 pub use brush::HeadShape;
 pub use document::Canvas;

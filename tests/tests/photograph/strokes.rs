@@ -6,6 +6,7 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
+use documents::Task;
 use graphics::field::Field;
 use paint::document::Document;
 use paint::engine::PaintEngine;
@@ -13,8 +14,8 @@ use paint::painting::Painting;
 use paint::session::{PaintingSession, ReplayReport};
 use paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
 use strokes::{
-    LevelReport, Order, PaintProgress, Painter, Picture, Plan, PlanError, PlannedStroke,
-    black_compensated, plan_layer, rebuild_picture,
+    LevelReport, Order, Painter, Picture, Plan, PlanError, PlannedStroke, black_compensated,
+    plan_layer, rebuild_picture,
 };
 
 use crate::made::{HIDING, STUDIO};
@@ -295,15 +296,12 @@ struct Finished {
 fn painted(plan: &Plan) -> Finished {
     let mut script = bare_script();
     let mut session = PaintingSession::new(opened(&script), None).unwrap();
-    let mut told = (0, 0);
     let target = target();
     let painter = Painter { target: &target, separation: &HIDING, plan };
-    let levels = painter
-        .paint(&mut session, &mut script, |painted| match painted {
-            PaintProgress::Planned(strokes) => told.0 += strokes,
-            PaintProgress::Stroke => told.1 += 1,
-        })
-        .unwrap();
+    let task = Task::default();
+    let levels = painter.paint(&mut session, &mut script, &task).unwrap();
+    let progress = task.progress();
+    let told = (progress.of as usize, progress.done as usize);
     Finished { script, session, levels, told }
 }
 

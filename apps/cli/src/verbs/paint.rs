@@ -20,8 +20,8 @@ use paint::session::{PaintingSession, ReplayError, ReplayReport};
 use paint::strokes::{Action, ScriptLibrary, SideTable, StrokeScript};
 use serde_json::{Map, Value, json};
 use strokes::{
-    ColorErrors, LevelReport, PaintProgress, PaintedPhotograph, Photograph, SeparatedFiles,
-    StrokePainter, StrokePainterError, StrokeSettings, StrokeSettingsError,
+    ColorErrors, LevelReport, PaintedPhotograph, Photograph, SeparatedFiles, StrokePainter,
+    StrokePainterError, StrokeSettings, StrokeSettingsError, Subject,
 };
 
 use crate::animation::{TimelapseOptions, TimelapseReport};
@@ -32,8 +32,9 @@ use crate::library_choice::{ChosenLibrary, quietly_chosen};
 use crate::output::{Output, OutputFolder, create_folder};
 use crate::palette::pigment_names;
 use crate::pictures::{Exports, gamut_remark, grounds};
-use crate::progress::{Progress, Waiting};
+use crate::progress::Progress;
 use crate::readings::library;
+use crate::technique::{painted, prepared};
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
 ///
@@ -475,10 +476,9 @@ impl PhotographOptions {
         let exports = exports.open(&inputs)?;
         let strokes_out = self.strokes_out.as_ref().map(|path| Output::open(path, &inputs));
         let strokes_out = strokes_out.transpose()?;
-        let waiting = Waiting::new("mixing colours", console.shows_progress());
-        let painter =
-            StrokePainter::new(&photograph, &library, &settings).map_err(painter_failure)?;
-        drop(waiting);
+        let subject = Subject { photograph: &photograph, library: &library };
+        let painter = prepared::<StrokePainter>(subject, &settings, console);
+        let mut painter = painter.map_err(painter_failure)?;
         if let Some(folder) = &self.separate {
             let separated = painter.separate()?;
             save_files(folder, &separated.files)?;
@@ -488,13 +488,7 @@ impl PhotographOptions {
             }
         }
         let engine = engine.engine(&painter.ground().height, console)?;
-        let bar = Progress::new(0, "painting", console.shows_progress());
-        let painted = painter.paint_with(engine, |progress| match progress {
-            PaintProgress::Planned(strokes) => bar.expect(strokes),
-            PaintProgress::Stroke => bar.step(),
-        });
-        bar.done();
-        let mut painted = painted?;
+        let mut painted = painted(&mut painter, engine, console)?;
         if let Some(path) = library_path {
             painted.script.library = Some(path.display().to_string());
         }

@@ -1,7 +1,5 @@
 //! `impasto watercolor`: paints photographs and meshes as watercolors.
 //!
-//! Options for the style of a watercolor: a preset, a file of settings, single settings.
-//!
 //! Options for painting with calibrated pigments instead of the colour model of Bousseau et al.
 //! (2006).
 //!
@@ -9,39 +7,36 @@
 //!
 //! Settings of one watercolor, and the summary of the result.
 //!
-//! `impasto watercolor` of a photograph.
-//!
-//! `impasto watercolor` of a mesh: a picture, or the frames of a moving camera.
+//! One run: the picture of a photograph or a mesh, or the frames of a moving camera.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use graphics::camera::Camera;
+use documents::Task;
 use graphics::compute::Compute;
 use graphics::encoding::{encoded_from_linear, linear_from_encoded};
 use graphics::export::frame_of;
-use graphics::mesh::Mesh;
 use graphics::picture::Photograph;
+use paint::document::{Document, Lighting};
+use paint::engine::PaintEngine;
+use paint::light::Light;
+use paint::painting::Painting;
+use paint::technique::Technique;
 use serde_json::json;
-use watercolor::{GlazePainter, Masks, ModelPainter, PhotographPainter, Preset, Settings, Stage};
+use watercolor::{Form, GlazePainter, Masks, Settings, WatercolorPainter};
 
 use crate::animation::{Animation, AnimationOptions, FramesDigest};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
-use crate::output::{NamedStage, Output, StageFolder};
+use crate::output::{Output, StageFolder};
 use crate::palette::palette;
 use crate::pictures::{Exports, OpenExports};
-use crate::progress::{Waiting, waited};
-use crate::readings::{library, text, viewing};
-use crate::setting_changes::changes;
+use crate::progress::followed;
+use crate::readings::{library, viewing};
 use crate::subject::{PictureViews, Subject, SubjectOptions};
 use crate::surface::ground;
-use paint::document::{Document, Document as MeshDocument, Lighting};
-use paint::engine::PaintEngine;
-use paint::light::Light;
-use paint::painting::Painting;
+use crate::technique::{ShowPreset, StyleOptions, Styled, painted, prepared, write_stages};
 
 /// Paint a photograph or a 3D model as a watercolor
 ///
@@ -56,9 +51,8 @@ pub(crate) struct Watercolor {
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,
-    /// Print the settings of a preset, each with its meaning, and do nothing else
-    #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
-    show_preset: Option<Preset>,
+    #[command(flatten)]
+    show_preset: ShowPreset<WatercolorPainter>,
     #[command(flatten)]
     backend: BackendOption,
     /// Print JSON: size, backend, regions, frames, pigments
@@ -69,7 +63,7 @@ pub(crate) struct Watercolor {
     #[command(flatten)]
     subject_options: SubjectOptions,
     #[command(flatten)]
-    style: StyleOptions,
+    style: StyleOptions<WatercolorPainter>,
     #[command(flatten)]
     animation: AnimationOptions,
     #[command(flatten)]
@@ -78,8 +72,8 @@ pub(crate) struct Watercolor {
 
 impl Watercolor {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        if let Some(preset) = self.show_preset {
-            return console.line(preset.text().trim_end());
+        if self.show_preset.print(console)? {
+            return Ok(());
         }
         let path = self.subject.clone().unwrap_or_default();
         if !self.outputs.any() && !self.animation.any() {
@@ -88,7 +82,10 @@ impl Watercolor {
                 "add --picture watercolor.png, --stages FOLDER, or --animation turning.gif",
             ));
         }
-        let (settings, mut inputs) = self.style.settings()?;
+        let settings = self.style.settings()?;
+        let pictures = settings.paper.scan.iter().chain(&settings.toon.greys);
+        let mut inputs: Vec<PathBuf> = self.style.input().cloned().into_iter().collect();
+        inputs.extend(pictures.map(PathBuf::from));
         inputs.extend(self.pigments.input().cloned());
         let (subject, files) = self.subject_options.subject(&path, PictureViews::Front)?;
         inputs.extend(files);
@@ -112,14 +109,7 @@ impl Watercolor {
         let title = title.unwrap_or_default();
         let job = Job { title, settings, glazes, outputs, animation };
         let compute = self.backend.compute(console)?;
-        let summary = match subject {
-            Subject::Photograph(photograph, width) => {
-                paint(compute, job, &photograph, width, console)?
-            }
-            Subject::Mesh(mesh, cameras, size) => {
-                paint_mesh(compute, job, *mesh, &cameras, size, console)?
-            }
-        };
+        let summary = job.paint(subject, compute, console)?;
         print(&summary, self.json, console)
     }
 }
@@ -153,54 +143,8 @@ fn print(summary: &Summary, as_json: bool, console: &mut Console<'_>) -> Result<
     console.line(line)
 }
 
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Style")]
-struct StyleOptions {
-    /// Preset of settings that ships with impasto [default: settings between the presets]
-    #[arg(long, value_name = "NAME", value_parser = preset_names())]
-    preset: Option<Preset>,
-    /// Settings from a file (TOML); others keep the values of the preset
-    #[arg(long, value_name = "FILE")]
-    settings: Option<PathBuf>,
-    /// Change one setting, such as `edges.strength=2` or `paper.kind=rough`; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
-impl StyleOptions {
-    /// Reads the settings. Returns them with the paths of the files that they use.
-    fn settings(&self) -> Result<(Settings, Vec<PathBuf>)> {
-        let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
-        let mut inputs = Vec::new();
-        if let Some(path) = &self.settings {
-            let name = path.display().to_string();
-            let text = text(path)?;
-            let before = settings.clone();
-            (settings.paper.scan, settings.toon.greys) = (None, None);
-            settings = settings.changed(&name, &text)?;
-            // Paths of pictures are relative to the settings file.
-            let folder = path.parent().unwrap_or(Path::new(""));
-            let beside = |named: Option<String>, before: Option<String>| {
-                named.map(|file| folder.join(file).display().to_string()).or(before)
-            };
-            settings.paper.scan = beside(settings.paper.scan, before.paper.scan);
-            settings.toon.greys = beside(settings.toon.greys, before.toon.greys);
-            inputs.push(path.clone());
-        }
-        for change in changes(&self.set, "edges.strength=2")? {
-            let changed = settings.changed(&change.name, &change.toml);
-            settings = changed.map_err(|error| Failure::from(error).of_option())?;
-        }
-        let pictures = settings.paper.scan.iter().chain(&settings.toon.greys);
-        inputs.extend(pictures.map(PathBuf::from));
-        Ok((settings, inputs))
-    }
-}
-
-/// Parses the name of a preset; an error lists the names.
-fn preset_names() -> impl TypedValueParser<Value = Preset> {
-    let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
-    names.try_map(|name| name.parse::<Preset>())
+impl Styled for WatercolorPainter {
+    const USUAL: &'static str = "settings between the presets";
 }
 
 #[derive(Debug, Args)]
@@ -332,20 +276,10 @@ impl OutputOptions {
 }
 
 impl OpenOutputs {
-    /// Whether the stages are to be written.
-    fn wants_stages(&self) -> bool {
-        self.stages.is_some()
-    }
-
     /// Reads the masks.
     fn masks(&self) -> Result<Masks> {
         let open = |path: &Option<PathBuf>| path.as_deref().map(Photograph::open).transpose();
         Ok(Masks { dry_brush: open(&self.dry_brush_mask)?, density: open(&self.density_mask)? })
-    }
-
-    /// Writes the stages, numbered from 1 in their order.
-    fn write_stages(&self, stages: &[NamedStage], console: &mut Console<'_>) -> Result<()> {
-        self.stages.as_ref().map_or(Ok(()), |folder| folder.write(stages, console))
     }
 }
 
@@ -372,150 +306,102 @@ struct Summary {
     pigments: Vec<String>,
 }
 
-/// Paints a photograph, and writes the picture and the stages.
-fn paint(
-    compute: Compute,
-    job: Job,
-    photograph: &Photograph,
-    width: usize,
-    console: &mut Console<'_>,
-) -> Result<Summary> {
-    let Job { title, settings, mut glazes, outputs, .. } = job;
-    let mut painter = PhotographPainter::new(settings)
-        .with_compute(compute)
-        .with_width_px(width)
-        .with_masks(outputs.masks()?);
-    let waiting = Waiting::new("finding regions", console.shows_progress());
-    let prepared = painter.prepare(photograph)?;
-    let regions = Some(prepared.regions);
-    drop(waiting);
-    let mut stages: Vec<NamedStage> = Vec::new();
-    let mut picture = None;
-    if outputs.wants_stages() {
-        let (width, height) = painter.picture_size(photograph);
-        stages.push(("photograph".to_owned(), photograph.with_opacity(width, height)));
-        stages.push(("regions".to_owned(), prepared.flat_regions()));
-        let mut keep = |stage: Stage, color| {
-            stages.push((stage.name().to_owned(), color));
-        };
-        picture = Some(painter.paint_prepared(&prepared, Some(&mut keep))?);
-        outputs.write_stages(&stages, console)?;
-    }
-    if outputs.exports.any() {
-        match &mut glazes {
-            None => {
-                let px_mm = prepared.textures.paper.px_mm;
-                let picture = match picture {
-                    Some(picture) => picture,
-                    None => waited("painting", console, || painter.finish(prepared))?,
-                };
-                outputs.exports.write_picture(&linear_from_encoded(&picture), px_mm, console)?;
+impl Job {
+    /// Paints the subject. The picture and the stages show a mesh from the first camera, the animation from
+    /// all cameras.
+    fn paint(
+        self,
+        subject: Subject,
+        compute: Compute,
+        console: &mut Console<'_>,
+    ) -> Result<Summary> {
+        let Self { title, settings, mut glazes, outputs, animation } = self;
+        let masks = outputs.masks()?;
+        let mut digest = FramesDigest::default().add(&env!("CARGO_PKG_VERSION")).add(&settings);
+        let (form, cameras, size) = match subject {
+            Subject::Photograph(photograph, width) => {
+                (Form::Photograph(photograph, width), None, None)
             }
-            Some(glazes) => {
-                let waiting = Waiting::new("mixing glazes", console.shows_progress());
-                let wash = &prepared.wash;
-                let textures = &prepared.textures;
-                let document = glazes.paint(&title, wash, textures, &prepared.settings)?;
-                let mut painting = open_painting(document, glazes)?;
-                drop(waiting);
-                outputs.exports.write(&mut painting, console)?;
+            Subject::Mesh(mesh, cameras, size) => {
+                digest = digest.add(&cameras);
+                if animation.is_some() {
+                    digest = digest.add(&mesh).add(&compute.name()).add(&glazes);
+                    // The settings hold only the paths of these pictures, so add their content.
+                    digest = digest.add(&settings.paper.scan.as_ref().map(std::fs::read));
+                    digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
+                    digest = digest.add(&masks.controls(size.0, size.1));
+                }
+                (Form::Model(mesh, size), Some(cameras), Some(size))
+            }
+        };
+        let subject = watercolor::Subject { form, masks, compute };
+        let mut painter = prepared::<WatercolorPainter>(subject, &settings, console)?;
+        let size = size.unwrap_or_else(|| painter.size());
+        let view = match &cameras {
+            None => None,
+            Some(cameras) => Some(cameras.first().ok_or_else(|| {
+                Failure::data("the camera path has no frames", "give frames = 60")
+            })?),
+        };
+        let count = cameras.as_ref().map_or(1, Vec::len);
+        let recording = match animation {
+            Some(animation) => Some(animation.begin(digest, count, size)?),
+            None => None,
+        };
+        if let Some(folder) = &outputs.stages {
+            write_stages(&mut painter, view, folder, console)?;
+        }
+        if outputs.exports.any() {
+            match &mut glazes {
+                None => {
+                    let px_mm = painter.px_mm();
+                    let picture = painted(&mut painter, view, console)?;
+                    outputs.exports.write_picture(
+                        &linear_from_encoded(&picture),
+                        px_mm,
+                        console,
+                    )?;
+                }
+                Some(glazes) => {
+                    let mut painting = followed(console, |task| -> Result<Painting> {
+                        let document = painter.painting(view, (glazes, &title), task)?;
+                        open_painting(document, glazes)
+                    })?;
+                    outputs.exports.write(&mut painting, console)?;
+                }
             }
         }
+        let mut frames = None;
+        if let Some(recording) = recording {
+            if let Some(glazes) = &mut glazes {
+                // Pigments are chosen from the first camera, so that a resumed run chooses the same.
+                painter.choose_pigments(view, glazes)?;
+            }
+            let task = Task::default();
+            let found = recording.paint(console, |index| {
+                let view = cameras.as_ref().map(|cameras| &cameras[index]);
+                let picture = match &mut glazes {
+                    None => painter.paint(view, &task)?,
+                    Some(glazes) => {
+                        let document = painter.painting(view, (glazes, "frame"), &task)?;
+                        encoded_from_linear(&open_painting(document, glazes)?.picture()?)
+                    }
+                };
+                Ok(frame_of(&picture))
+            })?;
+            frames = Some((count, found));
+        }
+        Ok(Summary {
+            size,
+            backend: painter.compute_name().to_owned(),
+            regions: painter.regions(),
+            frames,
+            pigments: pigment_names(glazes.as_ref()),
+        })
     }
-    Ok(Summary {
-        size: painter.picture_size(photograph),
-        backend: painter.compute_name().to_owned(),
-        regions,
-        frames: None,
-        pigments: pigment_names(glazes.as_ref()),
-    })
 }
 
 /// Names of the pigments that the glazes use; empty without glazes.
 fn pigment_names(glazes: Option<&GlazePainter>) -> Vec<String> {
     glazes.iter().flat_map(|glazes| glazes.pigments()).map(str::to_owned).collect()
-}
-
-/// Paints a mesh. The picture and the stages show it from the first camera, the animation from all
-/// cameras.
-fn paint_mesh(
-    compute: Compute,
-    job: Job,
-    mesh: Mesh,
-    cameras: &[Camera],
-    size: (usize, usize),
-    console: &mut Console<'_>,
-) -> Result<Summary> {
-    let Job { title, settings, mut glazes, outputs, animation } = job;
-    let (width, height) = size;
-    let controls = outputs.masks()?.controls(width, height);
-    let mut digest =
-        FramesDigest::default().add(&env!("CARGO_PKG_VERSION")).add(&settings).add(&cameras);
-    if animation.is_some() {
-        digest = digest.add(&mesh).add(&compute.name()).add(&glazes);
-        // The settings hold only the paths of these pictures, so add their content.
-        digest = digest.add(&settings.paper.scan.as_ref().map(std::fs::read));
-        digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
-        digest = digest.add(&controls);
-    }
-    let mut painter = waited("preparing the model", console, || {
-        ModelPainter::new(compute, mesh, &settings, size)
-    })?;
-    painter.set_controls(controls);
-    let Some(first) = cameras.first() else {
-        return Err(Failure::data("the camera path has no frames", "give frames = 60"));
-    };
-    let recording = match animation {
-        Some(animation) => Some(animation.begin(digest, cameras.len(), size)?),
-        None => None,
-    };
-    if outputs.wants_stages() {
-        let mut stages = vec![("surface".to_owned(), painter.unlit(first)?)];
-        let mut keep = |stage: Stage, color| stages.push((stage.name().to_owned(), color));
-        painter.paint_stages(first, Some(&mut keep))?;
-        outputs.write_stages(&stages, console)?;
-    }
-    if outputs.exports.any() {
-        match &mut glazes {
-            None => {
-                let painted = waited("painting", console, || painter.paint(first))?;
-                let picture = linear_from_encoded(&painted);
-                outputs.exports.write_picture(&picture, painter.paper().px_mm, console)?;
-            }
-            Some(glazes) => {
-                let document = waited("painting", console, || -> Result<MeshDocument> {
-                    let (wash, textures) = painter.wash(first)?;
-                    Ok(glazes.paint(&title, &wash, &textures, painter.settings())?)
-                })?;
-                outputs.exports.write(&mut open_painting(document, glazes)?, console)?;
-            }
-        }
-    }
-    let mut frames = None;
-    if let Some(recording) = recording {
-        if let Some(glazes) = &mut glazes {
-            // Pigments are chosen from the first camera, so that a resumed run chooses the same.
-            glazes.choose(&painter.wash(first)?.0)?;
-        }
-        let found = recording.paint(console, |index| {
-            let camera = &cameras[index];
-            let picture = match &mut glazes {
-                None => painter.paint(camera)?,
-                Some(glazes) => {
-                    let (wash, textures) = painter.wash(camera)?;
-                    let document = glazes.paint("frame", &wash, &textures, painter.settings())?;
-                    encoded_from_linear(&open_painting(document, glazes)?.picture()?)
-                }
-            };
-            Ok(frame_of(&picture))
-        })?;
-        frames = Some((cameras.len(), found));
-    }
-    Ok(Summary {
-        size,
-        backend: painter.compute_name().to_owned(),
-        regions: None,
-        frames,
-        pigments: pigment_names(glazes.as_ref()),
-    })
 }

@@ -46,7 +46,8 @@ pub enum GroundRelief {
 }
 
 /// Kind of ground by name, for programs that let users choose one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum GroundKind {
     /// Primed linen in plain weave.
     #[default]

@@ -38,15 +38,17 @@ mod painter;
 mod painting;
 mod model;
 mod picture;
+mod subject;
 
 use graphics::gpu::Kernel;
 
 use passes::PASSES;
 
 pub use color_paint::{ColorPaint, ColorPaintError, ColorPaintSettings, FilmHeight};
+pub use paint::technique::Stage;
 pub use paint_tones::{Amounts, PaintOfMapsError, paint_layer};
 pub use painter::{Brushwork, Painter, PainterError};
-pub use painting::{CompositingError, Stage};
+pub use painting::CompositingError;
 pub use passes::PaintedPicture;
 pub use picture::{FlowPicture, PictureForm};
 pub use regions::{Region, RegionArea, Regions, RegionsError};
@@ -56,6 +58,7 @@ pub use settings::{
     StrokeDirection, StrokeSettings, ToneSource, Zoom,
 };
 pub use splats::StrokeSplat;
+pub use subject::{Form, Subject, View};
 
 /// Every compute kernel of models in brushwork.
 #[must_use]

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
+use documents::Cancelled;
 use documents::hint::Explain;
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -577,6 +578,9 @@ pub enum PainterError {
         /// The time asked for.
         seconds: f64,
     },
+    /// The work was asked to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The camera looks nowhere.
     #[error("the camera at {eye} looks at {target}, with {up} upwards")]
     #[hint("place the eye away from its target, and let upwards point elsewhere than there")]

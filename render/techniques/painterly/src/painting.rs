@@ -12,6 +12,7 @@ use graphics::export::{ExportError, float_exr};
 use graphics::field::Field;
 use paint::document::{Document, Lighting, Medium};
 use paint::ground::GroundSpec;
+use paint::technique::Stage;
 
 use super::color_paint::{ColorPaint, ColorPaintSettings};
 use super::paint_tones::{Amounts, paint_layer};
@@ -112,15 +113,6 @@ impl Painter {
 
 /// Depths of the subject are shown from this grey (far) to white (near).
 const FAR: f32 = 0.15;
-
-/// A picture of a step, encoded sRGB with cover.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stage {
-    /// Its content, in lower case with hyphens.
-    pub name: String,
-    /// The picture.
-    pub picture: Field<[f32; 4]>,
-}
 
 impl Painter {
     /// The steps to the picture that [`Self::paint`] gives: depth. Of each layer the strokes (each

@@ -8,6 +8,7 @@ use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
 
+use documents::Task;
 use graphics::export::PictureFormat;
 use graphics::gpu::BackendChoice;
 use paint::export::PaintingExports;
@@ -25,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings =
         StrokeSettings { width_mm: 60.0, title: "Still life".to_owned(), ..Default::default() };
     let painter = StrokePainter::new(&photograph, &oils, &settings)?;
-    let mut painted = painter.paint(BackendChoice::Auto, |_| {})?;
+    let mut painted = painter.paint(BackendChoice::Auto, &Task::default())?;
 
     let mut out = std::io::stdout().lock();
     writeln!(out, "palette: {}", painter.pigments().join(", "))?;

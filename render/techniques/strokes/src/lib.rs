@@ -13,6 +13,7 @@ mod deposit_curve;
 mod painter;
 mod stroke_painter;
 mod first_layer;
+mod subject;
 
 pub use first_layer::{FirstLayerError, first_layer};
 pub use graphics::orientation::OrientationField;
@@ -21,9 +22,10 @@ pub use paint::separation::{
     ChosenPalette, ColorErrors, FilmMaterials, OUT_OF_GAMUT, PaintFilm, Separation,
     SeparationError, SeparationSettings, choose_palette, rebuild_picture,
 };
-pub use painter::{LevelReport, PaintProgress, Painter, PainterError};
+pub use painter::{LevelReport, Painter, PainterError};
 pub use planned_strokes::{PlannedStroke, plan_layer};
-pub use settings::{Order, Plan, PlanError, StrokeSettings, StrokeSettingsError};
+pub use settings::{Order, Plan, PlanError, StrokePreset, StrokeSettings, StrokeSettingsError};
 pub use stroke_painter::{
     PaintedPhotograph, SeparatedFiles, StrokePainter, StrokePainterError, black_compensated,
 };
+pub use subject::Subject;

@@ -9,6 +9,7 @@ use super::deposit_curve::DepositCurve;
 use super::planned_strokes::{BLUR_SIZES, LevelTarget, PlannedStroke, plan_strokes};
 use super::settings::Plan;
 use documents::hint::Explain;
+use documents::{Cancelled, Task};
 use graphics::blurred;
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -59,22 +60,35 @@ pub struct LevelReport {
     pub mean_error: f64,
 }
 
-/// Progress of a painter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PaintProgress {
-    /// This many more strokes have been planned.
-    Planned(usize),
+/// The count of strokes as a task shows it.
+struct Count<'a> {
+    task: &'a Task,
+    painted: u64,
+    planned: u64,
+}
+
+impl Count<'_> {
+    /// This many more strokes are planned.
+    fn expect(&mut self, strokes: usize) {
+        self.planned += strokes as u64;
+        self.task.done(self.painted, self.planned);
+    }
+
     /// One stroke has been painted.
-    Stroke,
+    fn step(&mut self) {
+        self.painted += 1;
+        self.task.done(self.painted, self.planned);
+    }
 }
 
 impl Painter<'_> {
     /// Paints on the bare canvas of `session`, which `script` describes. All actions are
-    /// added to the script, which then gives the same painting bit for bit. `progress` is
-    /// called when strokes have been planned, and after each stroke.
+    /// added to the script, which then gives the same painting bit for bit. `task` counts the
+    /// strokes of all those planned so far.
     ///
     /// # Errors
-    /// [`PainterError`] for brushes that do not suit the canvas, or if the device was lost.
+    /// [`PainterError`] for brushes that do not suit the canvas, if the device was lost, or if
+    /// `task` was cancelled.
     ///
     /// # Panics
     /// If the target and the canvas differ in size, or the plan fails [`Plan::check`].
@@ -82,9 +96,10 @@ impl Painter<'_> {
         &self,
         session: &mut PaintingSession,
         script: &mut StrokeScript,
-        mut progress: impl FnMut(PaintProgress),
+        task: &Task,
     ) -> Result<Vec<LevelReport>, PainterError> {
         self.plan.check().expect("the plan is valid");
+        let mut count = Count { task, painted: 0, planned: 0 };
         let mut reports = Vec::with_capacity(self.plan.sizes_mm.len());
         let cell_mm = session.canvas().cell_mm();
         let mut painted = colors(session.canvas_mut())?;
@@ -100,17 +115,18 @@ impl Painter<'_> {
             let target = LevelTarget::new(self.target, self.separation, size_mm / cell_mm, level);
             let mut curve = None;
             for round in 0..ROUNDS {
+                task.check()?;
                 let planned = self.planned(&target, &painted, round, cell_mm);
                 if planned.is_empty() {
                     break;
                 }
-                progress(PaintProgress::Planned(planned.len()));
+                count.expect(planned.len());
                 let curve = match &curve {
                     Some(curve) => curve,
                     None => curve.insert(self.measured(session.canvas(), &brush)?),
                 };
                 let round = round_script(script, level, &brush, &planned, curve);
-                let played = play(round, session, script, &mut progress)?;
+                let played = play(round, session, script, &mut count)?;
                 report.strokes += played.strokes;
                 report.substeps += played.substeps;
                 painted = colors(session.canvas_mut())?;
@@ -255,7 +271,7 @@ fn play(
     round: StrokeScript,
     session: &mut PaintingSession,
     script: &mut StrokeScript,
-    progress: &mut impl FnMut(PaintProgress),
+    count: &mut Count<'_>,
 ) -> Result<ReplayReport, PainterError> {
     let mut kinds = round.actions.iter().map(Action::kind);
     let report = round.replay(
@@ -263,11 +279,15 @@ fn play(
         |_, _| Ok(()),
         || {
             if kinds.next() == Some("stroke") {
-                progress(PaintProgress::Stroke);
+                count.step();
             }
-            ControlFlow::Continue(())
+            match count.task.is_cancelled() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
         },
     )?;
+    count.task.check()?;
     script.brushes.extend(round.brushes);
     script.actions.extend(round.actions);
     Ok(report)
@@ -284,4 +304,7 @@ pub enum PainterError {
     #[error("a stroke could not be painted")]
     #[hint(inner)]
     Stroke(#[from] ReplayError<Infallible>),
+    /// The work was asked to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }

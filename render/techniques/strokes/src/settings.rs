@@ -2,6 +2,8 @@
 //! them: brushes from coarse to fine, and rules for each of them.
 
 use documents::hint::Explain;
+use documents::settings::{OutOfRange, out_of_range};
+use documents::text::{Checked, KeyPath, ValueFault};
 use paint::canvas::Canvas;
 use paint::ground::GroundKind;
 use paint::strokes::MAX_CELLS;
@@ -14,50 +16,37 @@ const NARROWEST_MM: f64 = 0.2;
 /// Greatest width of a brush in mm.
 const BROADEST_MM: f64 = 100.0;
 
-/// How to paint a photograph in strokes, or to separate it into pigments.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StrokeSettings {
-    /// Title of the painting, empty by default.
-    pub title: String,
-    /// Width of the painting in mm, 5 to 5000, by default 200. Its height follows the shape
-    /// of the photograph.
-    pub width_mm: f64,
-    /// Width and height of a cell in mm, 0.02 to 5, by default 0.25. Time grows with the
-    /// square of the resolution.
-    pub cell_mm: f64,
-    /// Ground to paint on, by default linen.
-    pub ground: GroundKind,
-    /// Names of up to eight pigments of the library. If empty (the default), those are chosen
-    /// that come nearest to the photograph's colours.
-    pub palette: Vec<String>,
-    /// Widths of the brushes in mm in any order: two cells or more, 0.2 to 100 mm, and not
-    /// wider than the painting. If empty (the default), 16, 8, 4, 2 and 1 mm for a painting
-    /// 200 mm wide, and in proportion.
-    pub brushes_mm: Vec<f64>,
-    /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0.5 to 100, by
-    /// default 6. Less takes more strokes.
-    pub tolerance: f64,
-    /// Seed of all random choices, by default 1.
-    pub seed: u64,
-    /// Whether paint must hide the ground, by default true. If false, the ground may show
-    /// through, which reaches lighter and more saturated colours. That is for separations
-    /// only: strokes overlap, so their paint must hide.
-    pub hides: bool,
+documents::settings! {
+    /// How to paint a photograph in strokes, or to separate it into pigments.
+    pub struct StrokeSettings: File(brushes_fit) {
+        title: String = String::new(), Text => "Title of the painting";
+        width_mm: f64 = 200.0, Number(5.0, 5000.0), "mm" => "Width of the painting; its height follows the shape of the photograph";
+        cell_mm: f64 = 0.25, Number(0.02, 5.0), "mm" => "Width and height of a cell; time grows with the square of the resolution";
+        ground: GroundKind = GroundKind::Linen, Words(&["linen", "paper", "panel", "wood"]) => "Ground to paint on";
+        palette: Vec<String> = Vec::new(), Texts => "Names of up to eight pigments of the library; [] chooses those that come nearest to the photograph's colours";
+        brushes_mm: Vec<f64> = Vec::new(), Numbers(0.2, 100.0), "mm" => "Widths of the brushes in any order, each two cells or more and not wider than the painting; [] takes 16, 8, 4, 2 and 1 mm for a painting 200 mm wide, and in proportion";
+        tolerance: f64 = 6.0, Number(0.5, 100.0), "CIELAB" => "Difference (CIE 1976) above which strokes are painted; less takes more strokes";
+        seed: u64 = 1, Any => "Seed of all random choices";
+        hides: bool = true, Switch => "Whether paint must hide the ground; if not, lighter and purer colours are reached, for separations only, because strokes overlap";
+    }
 }
 
-impl Default for StrokeSettings {
-    fn default() -> Self {
-        Self {
-            title: String::new(),
-            width_mm: 200.0,
-            cell_mm: 0.25,
-            ground: GroundKind::Linen,
-            palette: Vec::new(),
-            brushes_mm: Vec::new(),
-            tolerance: 6.0,
-            seed: 1,
-            hides: true,
-        }
+documents::presets! {
+    /// Settings that ship under a name. There is none: brushes and pigments follow the photograph.
+    pub enum StrokePreset of StrokeSettings {}
+}
+
+/// Checks that brushes suit cells and painting.
+fn brushes_fit(settings: &StrokeSettings, base: &KeyPath) -> Checked {
+    let [least, most] = settings.brush_limits_mm();
+    match settings.brushes_mm.iter().find(|mm| !(least..=most).contains(*mm)) {
+        None => Ok(()),
+        Some(mm) => Err(ValueFault::new(
+            &base.key("brushes_mm"),
+            format!("{least} to {most} mm in these cells on this width"),
+            mm,
+            "a smaller cell_mm takes narrower brushes",
+        )),
     }
 }
 
@@ -67,20 +56,17 @@ impl StrokeSettings {
     /// # Errors
     /// [`StrokeSettingsError::OutOfRange`] for the first number out of range.
     pub fn check(&self) -> Result<(), StrokeSettingsError> {
-        let broadest = self.width_mm.min(BROADEST_MM);
-        let numbers = [
-            ("width_mm", self.width_mm, 5.0, 5000.0),
-            ("cell_mm", self.cell_mm, 0.02, 5.0),
-            ("tolerance", self.tolerance, 0.5, 100.0),
-        ];
-        let brushes =
-            self.brushes_mm.iter().map(|&mm| ("brushes_mm", mm, self.narrowest_mm(), broadest));
-        for (setting, value, least, most) in numbers.into_iter().chain(brushes) {
-            if !(least..=most).contains(&value) {
-                return Err(StrokeSettingsError::OutOfRange { setting, value, least, most });
+        if let Some(OutOfRange { row, value, least, most, .. }) = out_of_range(self) {
+            return Err(StrokeSettingsError::OutOfRange { setting: row.key, value, least, most });
+        }
+        let [least, most] = self.brush_limits_mm();
+        match self.brushes_mm.iter().find(|mm| !(least..=most).contains(*mm)) {
+            None => Ok(()),
+            Some(&value) => {
+                let setting = "brushes_mm";
+                Err(StrokeSettingsError::OutOfRange { setting, value, least, most })
             }
         }
-        Ok(())
     }
 
     /// Canvas for a photograph of this width and height in pixels.
@@ -115,6 +101,11 @@ impl StrokeSettings {
 
     fn narrowest_mm(&self) -> f64 {
         (NARROWEST_CELLS * self.cell_mm).max(NARROWEST_MM)
+    }
+
+    /// Least and greatest width of a brush.
+    fn brush_limits_mm(&self) -> [f64; 2] {
+        [self.narrowest_mm(), self.width_mm.min(BROADEST_MM)]
     }
 }
 
@@ -163,66 +154,25 @@ pub enum Order {
     DarkToLight,
 }
 
-/// Plan for painting a photograph, one level per brush. Lengths without a unit are in widths
-/// of the level's brush.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Plan {
-    /// Width of the brush of each level in mm, coarse to fine, 0.05 to 1000.
-    pub sizes_mm: Vec<f64>,
-    /// Difference in CIELAB (CIE 1976) above which strokes are painted, 0 to 200. Less takes
-    /// more strokes.
-    pub tolerance: f64,
-    /// Greatest difference in CIELAB (CIE 1976), 0 to 1000, between a stroke's colour and the
-    /// picture along the stroke.
-    pub departure: f64,
-    /// Least length of a stroke in brush widths, 0 to 1000.
-    pub shortest: f64,
-    /// Greatest length of a stroke in brush widths, `shortest` to 1000.
-    pub longest: f64,
-    /// Side of the squares in each of which one stroke may begin, in brush widths, 0.1 to 100.
-    pub spacing: f64,
-    /// Curvature of strokes: 0 straight, 1 along the structure of the picture.
-    pub bending: f64,
-    /// Most strokes of a level. Those with the largest difference are kept.
-    pub most_strokes: usize,
-    /// Thickness in mm that black strokes have at least, 0.001 to 10.
-    pub darks_mm: f64,
-    /// Thickness in mm that white strokes have at least, 0.001 to 10. A brush lays at most
-    /// 0.06 of its width.
-    pub lights_mm: f64,
-    /// Pressure of the brush in the middle of a stroke, 0..1.
-    pub pressure: f64,
-    /// Pressure at both ends of a stroke relative to its middle, 0..1.
-    pub ends: f64,
-    /// Speed of the brush in brush widths per second, 0.001 to 1e6.
-    pub speed: f64,
-    /// Order of the strokes of a level.
-    pub order: Order,
-    /// Seed of all random choices.
-    pub seed: u64,
-}
-
-impl Default for Plan {
-    /// Plan for a painting about 200 mm wide.
-    fn default() -> Self {
-        Self {
-            sizes_mm: vec![16.0, 8.0, 4.0, 2.0, 1.0],
-            tolerance: 6.0,
-            departure: 12.0,
-            shortest: 3.0,
-            longest: 12.0,
-            spacing: 0.5,
-            bending: 0.7,
-            most_strokes: 30_000,
-            darks_mm: 0.04,
-            lights_mm: 0.35,
-            pressure: 0.6,
-            ends: 0.15,
-            speed: 10.0,
-            order: Order::DarkToLight,
-            seed: 1,
-        }
+documents::settings! {
+    /// Plan for painting a photograph, one level per brush, by default for a painting about 200 mm wide.
+    /// Lengths without a unit are in widths of the level's brush.
+    pub struct Plan {
+        sizes_mm: Vec<f64> = vec![16.0, 8.0, 4.0, 2.0, 1.0], Numbers(0.05, 1000.0), "mm" => "Width of the brush of each level, coarse to fine";
+        tolerance: f64 = 6.0, Number(0.0, 200.0) => "Difference in CIELAB (CIE 1976) above which strokes are painted; less takes more strokes";
+        departure: f64 = 12.0, Number(0.0, 1000.0) => "Greatest difference in CIELAB (CIE 1976) between a stroke's colour and the picture along the stroke";
+        shortest: f64 = 3.0, Number(0.0, 1000.0), "brush sizes" => "Least length of a stroke";
+        longest: f64 = 12.0, Number(0.0, 1000.0), "brush sizes" => "Greatest length of a stroke, not below the least";
+        spacing: f64 = 0.5, Number(0.1, 100.0), "brush sizes" => "Side of the squares in each of which one stroke may begin";
+        bending: f64 = 0.7, Number(0.0, 1.0) => "Curvature of strokes: 0 straight, 1 along the structure of the picture";
+        most_strokes: usize = 30_000, Any => "Most strokes of a level; those with the largest difference are painted";
+        darks_mm: f64 = 0.04, Number(0.001, 10.0), "mm" => "Thickness that black strokes have at least";
+        lights_mm: f64 = 0.35, Number(0.001, 10.0), "mm" => "Thickness that white strokes have at least; a brush lays at most 0.06 of its width";
+        pressure: f64 = 0.6, Number(0.0, 1.0) => "Pressure of the brush in the middle of a stroke";
+        ends: f64 = 0.15, Number(0.0, 1.0) => "Pressure at both ends of a stroke relative to its middle";
+        speed: f64 = 10.0, Number(0.001, 1e6), "brush sizes a second" => "Speed of the brush";
+        order: Order = Order::DarkToLight, Words(&["shuffled", "dark-to-light"]) => "Order of the strokes of a level";
+        seed: u64 = 1, Any => "Seed of all random choices";
     }
 }
 
@@ -244,24 +194,19 @@ impl Plan {
             return Err(PlanError::NoBrush);
         }
         if let Some(&size) = self.sizes_mm.iter().find(|size| !(0.05..=1000.0).contains(*size)) {
-            let wanted = "0.05 to 1000 mm";
+            let wanted = "0.05 to 1000 mm".to_owned();
             return Err(PlanError::Number { field: "sizes_mm", value: size, wanted });
         }
-        for (field, value, least, most, wanted) in [
-            ("tolerance", self.tolerance, 0.0, 200.0, "0 to 200"),
-            ("departure", self.departure, 0.0, 1000.0, "0 to 1000"),
-            ("shortest", self.shortest, 0.0, 1000.0, "0 to 1000 brush sizes"),
-            ("longest", self.longest, self.shortest, 1000.0, "from `shortest` to 1000 brush sizes"),
-            ("spacing", self.spacing, 0.1, 100.0, "0.1 to 100 brush sizes"),
-            ("bending", self.bending, 0.0, 1.0, "0 to 1"),
-            ("darks_mm", self.darks_mm, 0.001, 10.0, "0.001 to 10 mm"),
-            ("lights_mm", self.lights_mm, 0.001, 10.0, "0.001 to 10 mm"),
-            ("pressure", self.pressure, 0.0, 1.0, "0 to 1"),
-            ("ends", self.ends, 0.0, 1.0, "0 to 1"),
-            ("speed", self.speed, 1e-3, 1e6, "0.001 to 1000000 brush sizes a second"),
-        ] {
-            if !(least..=most).contains(&value) {
-                return Err(PlanError::Number { field, value, wanted });
+        let longest = self.longest;
+        match out_of_range(self) {
+            Some(OutOfRange { row, value, .. }) if row.key != "longest" => {
+                let wanted = format!("{} {}", row.takes, row.unit).trim_end().to_owned();
+                return Err(PlanError::Number { field: row.key, value, wanted });
+            }
+            _ if (self.shortest..=1000.0).contains(&longest) => {}
+            _ => {
+                let wanted = "from `shortest` to 1000 brush sizes".to_owned();
+                return Err(PlanError::Number { field: "longest", value: longest, wanted });
             }
         }
         Ok(())
@@ -282,6 +227,62 @@ pub enum PlanError {
         /// Value of the field.
         value: f64,
         /// Human-readable range of the field.
-        wanted: &'static str,
+        wanted: String,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use documents::settings::differences;
+
+    use super::*;
+
+    #[test]
+    fn settings_of_a_file_are_checked_like_those_of_code() {
+        let settings = StrokeSettings {
+            width_mm: 60.0,
+            palette: vec!["Vermilion".to_owned()],
+            brushes_mm: vec![8.0, 1.0],
+            ..StrokeSettings::default()
+        };
+        let changes = differences(&settings, &StrokeSettings::default());
+        let text = "width_mm = 60.0\npalette = [\"Vermilion\"]\nbrushes_mm = [8.0, 1.0]\n";
+        assert_eq!(changes, text);
+        assert_eq!(StrokeSettings::from_toml("mine.toml", text).unwrap(), settings);
+        let all = settings.documented("Mine");
+        assert_eq!(StrokeSettings::from_toml("mine.toml", &all).unwrap(), settings);
+        assert_eq!((settings.check(), settings.valid().is_ok()), (Ok(()), true));
+        for (text, by_code, by_file) in [
+            ("cell_mm = 9", "cell_mm is 0.02 to 5, found `9`", "cell_mm takes 0.02 to 5"),
+            (
+                "brushes_mm = [1.0, 0.4]",
+                "brushes_mm is 0.5 to 60, found `0.4`",
+                "brushes_mm takes 0.5 to 60 mm in these cells on this width, found `0.4`",
+            ),
+        ] {
+            let mut settings = StrokeSettings { width_mm: 60.0, ..StrokeSettings::default() };
+            match text {
+                "cell_mm = 9" => settings.cell_mm = 9.0,
+                _ => settings.brushes_mm = vec![1.0, 0.4],
+            }
+            assert_eq!(settings.check().unwrap_err().to_string(), by_code);
+            let text = format!("width_mm = 60\n{text}");
+            let error = StrokeSettings::from_toml("mine.toml", &text).unwrap_err().to_string();
+            assert!(error.starts_with(&format!("mine.toml, line 2: {by_file}")), "{error}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_a_plan_are_refused_by_their_rows() {
+        let with = |change: fn(&mut Plan)| {
+            let mut plan = Plan::default();
+            change(&mut plan);
+            plan.check().unwrap_err().to_string()
+        };
+        let wide = with(|plan| plan.speed = 1e7);
+        assert_eq!(wide, "speed is 0.001 to 1000000 brush sizes a second, found `10000000`");
+        assert_eq!(with(|plan| plan.bending = f64::NAN), "bending is 0 to 1, found `NaN`");
+        let short = with(|plan| plan.longest = 1.0);
+        assert_eq!(short, "longest is from `shortest` to 1000 brush sizes, found `1`");
+    }
 }

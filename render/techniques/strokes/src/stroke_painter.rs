@@ -2,6 +2,7 @@
 //! canvas, palette, light and tones that paint reaches.
 
 use documents::hint::Explain;
+use documents::{Cancelled, Task};
 use graphics::export::{ExportError, png8};
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, DeviceError};
@@ -25,7 +26,7 @@ use rayon::prelude::*;
 use serde_json::json;
 use spectra::color::Rgb;
 
-use super::painter::{LevelReport, PaintProgress, Painter, PainterError};
+use super::painter::{LevelReport, Painter, PainterError};
 use super::settings::{Plan, StrokeSettings, StrokeSettingsError};
 
 /// Heights of the films of a painted photograph in mm (chosen by eye: the thinnest still
@@ -35,6 +36,7 @@ const FILM_MM: [f64; 2] = [0.03, 0.12];
 /// Paints one photograph in strokes of calibrated paint.
 ///
 /// ```no_run
+/// use documents::Task;
 /// use graphics::gpu::BackendChoice;
 /// use graphics::picture::Photograph;
 /// use pigment::PigmentLibrary;
@@ -44,7 +46,7 @@ const FILM_MM: [f64; 2] = [0.03, 0.12];
 /// let oils = PigmentLibrary::van_gogh_oils();
 /// let photograph = Photograph::open("wheat.jpg".as_ref())?;
 /// let painter = StrokePainter::new(&photograph, &oils, &StrokeSettings::default())?;
-/// let mut painted = painter.paint(BackendChoice::Auto, |_| {})?;
+/// let mut painted = painter.paint(BackendChoice::Auto, &Task::default())?;
 /// println!("{}: {:.1} CIEDE2000", painter.pigments().join(", "), painted.error.mean);
 /// painted.painting_mut().document()?.save("wheat.exr".as_ref())?;
 /// # Ok(())
@@ -150,30 +152,31 @@ impl StrokePainter {
         &self.ground
     }
 
-    /// Paints on the device that `backend` chooses. `progress` is called when strokes have
-    /// been planned, and after each stroke.
+    /// Paints on the device that `backend` chooses. `task` counts the strokes of all those
+    /// planned so far.
     ///
     /// # Errors
-    /// [`StrokePainterError`] if the device cannot be used, or was lost.
+    /// [`StrokePainterError`] if the device cannot be used or was lost, or if `task` was
+    /// cancelled.
     pub fn paint(
         &self,
         backend: BackendChoice,
-        progress: impl FnMut(PaintProgress),
+        task: &Task,
     ) -> Result<PaintedPhotograph, StrokePainterError> {
         let opened = PaintEngine::open(backend, &self.ground.height)?;
-        self.paint_with(opened.engine, progress)
+        self.paint_with(opened.engine, task)
     }
 
     /// Paints with an engine that has been opened over the heights of
-    /// [`StrokePainter::ground`]. For `progress` see [`StrokePainter::paint`].
+    /// [`StrokePainter::ground`]. For `task` see [`StrokePainter::paint`].
     ///
     /// # Errors
-    /// [`StrokePainterError`] if the engine was opened over another ground, or its device
-    /// was lost.
+    /// [`StrokePainterError`] if the engine was opened over another ground, if its device
+    /// was lost, or if `task` was cancelled.
     pub fn paint_with(
         &self,
         engine: PaintEngine,
-        progress: impl FnMut(PaintProgress),
+        task: &Task,
     ) -> Result<PaintedPhotograph, StrokePainterError> {
         let mut script = self.script.clone();
         let bare = script.bare(&self.library, &self.resolved, self.ground.clone());
@@ -181,7 +184,7 @@ impl StrokePainter {
         let mut session = PaintingSession::new(Painting::open(bare, engine, 0)?, None)?;
         let painter =
             Painter { target: &self.target, separation: &self.separation, plan: &self.plan };
-        let levels = painter.paint(&mut session, &mut script, progress)?;
+        let levels = painter.paint(&mut session, &mut script, task)?;
         let finest_mm = levels.last().map_or(0.0, |level| level.size_mm);
         let blur_cells = Painter::blur_cells(finest_mm, self.cell_mm());
         let error = painter.errors(session.canvas_mut(), blur_cells)?;
@@ -256,6 +259,9 @@ pub enum StrokePainterError {
     /// The painting cannot go on.
     #[error(transparent)]
     Strokes(#[from] PainterError),
+    /// The work was asked to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Start of the file names.

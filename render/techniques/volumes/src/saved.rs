@@ -10,7 +10,7 @@
 //! 16 bytes with the name of the format, 4 with its version, 32 with the SHA-256 digest of whose
 //! state it is, the state, and 32 with the digest of all that.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use glam::Vec3;
 use paint::layer::Cell;
 use sha2::{Digest, Sha256};
@@ -50,7 +50,8 @@ macro_rules! stored {
 pub(crate) use stored;
 
 /// A saved state cannot be used. Whoever reads it starts from the beginning instead.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
+#[hint("leave the file out to start from the beginning")]
 pub enum SavedError {
     /// The file holds something else.
     #[error("not a saved {kind}")]
@@ -74,16 +75,6 @@ pub enum SavedError {
     /// The file was cut short or changed.
     #[error("cut short or damaged")]
     Damaged,
-}
-
-impl Explain for SavedError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("leave the file out to start from the beginning"))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Input
-    }
 }
 
 /// A value that is stored as bytes and read again to the bit.

@@ -20,6 +20,7 @@ mod pipeline;
 mod photograph_painter;
 mod model_painter;
 mod glaze;
+mod subject;
 
 pub use effects::{
     ColorRange, DensityLayer, DryBrushReach, PaperShading, apply_density, apply_dry_brush,
@@ -40,6 +41,7 @@ pub use settings::{
     SettingsError, ToneSettings, ToonSettings, WashSettings, WetSettings, WobbleSettings,
 };
 pub use shadow_map::ShadowMap;
+pub use subject::{Form, Subject, WatercolorError, WatercolorPainter};
 pub use textures::{
     BrushTouch, FineHeights, PaperImage, PaperTexture, PaperTextureError, Quantiles, TextureImages,
     Textures, back_runs, dispersion, turbulent_flow,

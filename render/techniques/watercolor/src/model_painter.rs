@@ -167,6 +167,12 @@ impl ModelPainter {
         &self.textures.paper.texture
     }
 
+    /// Width and height of the pictures in pixels.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
     /// Name of the device that computes: `cpu`, or the name of a graphics adapter.
     #[must_use]
     pub fn compute_name(&self) -> &str {

@@ -1,9 +1,9 @@
 //! `impasto artmap paint`: samples painted by the engine in a style.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use artmap::painted::{PaintedSettings, Style, painted_samples};
+use artmap::painted::{PaintedSettings, Style};
 use artmap::sample::file;
 use artmap::sheet::sheet;
 use clap::Args;
@@ -13,8 +13,7 @@ use super::table::{FileAndSheet, pigment_names, print_samples, sample_json, set_
 use crate::console::Console;
 use crate::failure::Result;
 use crate::library_choice::quietly_chosen;
-use crate::progress::Waiting;
-use crate::readings::is_toml;
+use crate::technique::{samples, style_of};
 
 /// Paint samples with the engine: tones of one hue, from dark to light, in the strokes of a style
 ///
@@ -68,7 +67,7 @@ impl Paint {
             return console.line(Style::text(name)?.trim_end());
         }
         let named = self.style.clone().unwrap_or_default();
-        let (style, file) = style(&named)?;
+        let (style, file) = style_of(&named)?;
         let path = self.library.as_deref().or(self.pigments.as_deref());
         let chosen = quietly_chosen(path, console)?;
         let inputs: Vec<PathBuf> = chosen.inputs().into_iter().chain(file).collect();
@@ -80,9 +79,7 @@ impl Paint {
             tones: self.tones,
             seed: self.seed,
         };
-        let waiting = Waiting::new("painting samples", console.shows_progress());
-        let set = painted_samples(&style, &settings)?;
-        drop(waiting);
+        let set = samples(&style, &settings, console)?;
         files.write(file::write(&set)?, || sheet(&set), console)?;
         if self.csv {
             return console.csv_rows(&set.samples.iter().map(sample_json).collect::<Vec<_>>());
@@ -100,12 +97,4 @@ impl Paint {
         ))?;
         print_samples(&set, console)
     }
-}
-
-/// The style that ships with this name, or the style in a file, with its path.
-fn style(named: &Path) -> Result<(Style, Option<PathBuf>)> {
-    if is_toml(named) {
-        return Ok((Style::open(named)?, Some(named.to_owned())));
-    }
-    Ok((Style::named(&named.to_string_lossy())?, None))
 }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
-use artmap::painted::{PaintedSettings, Style, painted_samples};
+use artmap::painted::{PaintedSettings, Style};
 use artmap::synthesis::SynthesisSettings;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
@@ -18,14 +18,12 @@ use graphics::camera::Camera;
 use graphics::compute::Compute;
 use graphics::encoding::{linear_from_encoded, over_white};
 use graphics::export::frame_of;
-use graphics::mesh::{Guide, Mesh};
-use graphics::picture::Photograph;
 use paint::document::Slots;
 use paint::engine::PaintEngine;
 use paint::ground::{GroundKind, GroundSpec};
 use paint::light::Light;
 use paint::painting::Painting;
-use painterly::{Brushwork, Painter, PictureForm, Region, RegionArea, Regions, Settings};
+use painterly::{Brushwork, Form, Painter, Region, RegionArea, Regions, Settings, Subject, View};
 use serde_json::json;
 use spectra::Viewing;
 
@@ -36,25 +34,17 @@ use crate::library_choice::quietly_chosen;
 use crate::output::{Output, OutputFolder, StageFolder};
 use crate::palette::palette;
 use crate::pictures::{OpenExports, PX_MM, grounds};
-use crate::progress::{Waiting, waited};
+use crate::progress::waited;
 use crate::readings::is_toml;
+use crate::technique::{painted, prepared, samples, style_of, write_stages};
 
 /// A subject, and the pictures of it.
 pub(super) struct Scene {
-    pub(super) subject: SceneSubject,
+    pub(super) form: Form,
     /// The cameras of all frames, at least one.
     pub(super) cameras: Vec<Camera>,
     /// Width and height of a picture in pixels.
     pub(super) size: (usize, usize),
-}
-
-/// A subject.
-#[derive(Debug)]
-pub(super) enum SceneSubject {
-    /// A mesh with its guides.
-    Model(Box<Mesh>, Vec<Guide>),
-    /// A picture with its form.
-    Picture(Photograph, PictureForm),
 }
 
 /// A subject, and its outputs.
@@ -75,18 +65,11 @@ impl Job {
     pub(super) fn paint(self, maps: &Maps, console: &mut Console<'_>) -> Result<Summary> {
         let Self { compute, settings, scene, painting, exports, stages, exr_frames, animation } =
             self;
-        let Scene { subject, cameras, size } = scene;
+        let Scene { form, cameras, size } = scene;
         let brushwork = maps.brushwork();
-        let painter = waited("laying out strokes", console, || match &subject {
-            SceneSubject::Model(mesh, guides) => {
-                Painter::of_model_with(mesh, &brushwork, guides, &settings)
-            }
-            SceneSubject::Picture(photograph, form) => {
-                Painter::of_picture_with(photograph, &brushwork, form, &settings)
-            }
-        })?;
         let backend = compute.name().to_owned();
-        let mut painter = painter.on(compute)?;
+        let subject = Subject { form: &form, brushwork: &brushwork, compute };
+        let mut painter = prepared::<Painter>(subject, &settings, console)?;
         let recording = match animation {
             None => None,
             Some(animation) => {
@@ -94,17 +77,16 @@ impl Job {
                     .add(&env!("CARGO_PKG_VERSION"))
                     .add(&settings)
                     .add(&cameras)
-                    .add(&subject)
+                    .add(&form)
                     .add(&brushwork)
                     .add(&backend);
                 Some(animation.begin(digest, cameras.len(), size)?)
             }
         };
+        let first = View { camera: &cameras[0], size, seconds: 0.0 };
         let layers = painter.splats(&cameras[0], size, 0.0)?.1.iter().map(Vec::len).collect();
         if let Some(folder) = stages {
-            let stages = painter.stages(&cameras[0], size, 0.0)?.into_iter();
-            let stages: Vec<_> = stages.map(|stage| (stage.name, stage.picture)).collect();
-            folder.write(&stages, console)?;
+            write_stages(&mut painter, first, &folder, console)?;
         }
         match painting {
             _ if !exports.any() => {}
@@ -120,9 +102,8 @@ impl Job {
                 exports.write(&mut Painting::open_under(document, light, engine, 0)?, console)?;
             }
             None => {
-                let painted =
-                    waited("painting", console, || painter.paint(&cameras[0], size, 0.0))?;
-                let linear = linear_from_encoded(&over_white(&painted.color));
+                let picture = painted(&mut painter, first, console)?;
+                let linear = linear_from_encoded(&over_white(&picture.color));
                 exports.write_picture(&linear, PX_MM, console)?;
             }
         }
@@ -306,13 +287,11 @@ impl Maps {
 
 /// A map of samples painted in a style.
 fn styled(style: &str, console: &Console<'_>) -> Result<ArtMap> {
-    let style = match is_toml(Path::new(style)) {
-        true => Style::open(Path::new(style))?,
-        false => Style::named(style)?,
-    };
-    let _waiting = Waiting::new("painting samples", console.shows_progress());
-    let samples = painted_samples(&style, &PaintedSettings::default())?;
-    Ok(ArtMap::of(&samples, &SynthesisSettings::default())?)
+    let (style, _) = style_of(Path::new(style))?;
+    let samples = samples(&style, &PaintedSettings::default(), console)?;
+    let made =
+        waited("painting samples", console, || ArtMap::of(&samples, &SynthesisSettings::default()));
+    Ok(made?)
 }
 
 /// Material, if one is named, and file of an option `--map`.

@@ -1,19 +1,16 @@
 //! `impasto painterly`: paints 3D models and pictures in the brushwork of art maps.
 //!
 //! Options for directions of strokes and the depth of a picture.
-//!
-//! Options for settings: a preset, a file, single settings.
 
 mod job;
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
 use graphics::camera::{Camera, PictureView};
 use graphics::mesh::{Guide, Mesh};
 use painterly::guides::Guides;
-use painterly::{FlowPicture, PictureForm, Preset, Settings};
+use painterly::{FlowPicture, Form, Painter, PictureForm, Preset, Settings};
 
 use crate::animation::{Animation, AnimationOptions};
 use crate::console::Console;
@@ -21,10 +18,10 @@ use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use crate::output::StageFolder;
 use crate::pictures::Exports;
-use crate::readings::{is_toml, text};
-use crate::setting_changes::changes;
+use crate::readings::is_toml;
 use crate::subject::{PictureViews, Subject, SubjectOptions};
-use job::{BrushworkOptions, ExrFrames, Job, PigmentOptions, Scene, SceneSubject};
+use crate::technique::{ShowPreset, StyleOptions, Styled};
+use job::{BrushworkOptions, ExrFrames, Job, PigmentOptions, Scene};
 
 /// Paint a 3D model or a photograph in the brushwork of a painting
 ///
@@ -38,9 +35,8 @@ pub(crate) struct Painterly {
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,
-    /// Print the settings of a preset, each with its meaning, and do nothing else
-    #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
-    show_preset: Option<Preset>,
+    #[command(flatten)]
+    show_preset: ShowPreset<Painter>,
     #[command(flatten)]
     exports: Exports,
     /// Write each frame into this folder as OpenEXR, for compositing: colour and cover, depth, height
@@ -64,7 +60,7 @@ pub(crate) struct Painterly {
     #[command(flatten)]
     brushwork: BrushworkOptions,
     #[command(flatten)]
-    settings: SettingsOptions,
+    settings: StyleOptions<Painter>,
     #[command(flatten)]
     subject_options: SubjectOptions,
     #[command(flatten)]
@@ -77,8 +73,8 @@ pub(crate) struct Painterly {
 
 impl Painterly {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        if let Some(preset) = self.show_preset {
-            return console.line(preset.text().trim_end());
+        if self.show_preset.print(console)? {
+            return Ok(());
         }
         if !self.exports.any()
             && !self.animation.any()
@@ -122,7 +118,8 @@ impl Painterly {
         let exr_frames = exr_frames
             .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
             .transpose()?;
-        let maps = self.brushwork.maps(self.settings.style(), console)?;
+        let preset = self.settings.preset().unwrap_or(Preset::Impressionist);
+        let maps = self.brushwork.maps(preset.style(), console)?;
         let compute = self.backend.compute(console)?;
         let job =
             Job { compute, settings, scene, painting, exports, stages, exr_frames, animation };
@@ -132,10 +129,10 @@ impl Painterly {
 
     /// The subject with the cameras of all frames.
     fn scene(&self, subject: Subject, settings: &Settings) -> Result<Scene> {
-        let (subject, cameras, size) = match subject {
+        let (form, cameras, size) = match subject {
             Subject::Mesh(mesh, cameras, size) => {
                 let guides = self.form.of_model(&mesh)?;
-                (SceneSubject::Model(mesh, guides), cameras, size)
+                (Form::Model(mesh, guides), cameras, size)
             }
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
@@ -145,10 +142,10 @@ impl Painterly {
                 let view = PictureView::of(photograph.size());
                 let turns = self.subject_options.picture_turns()?;
                 let cameras = turns.into_iter().map(|[right, up]| view.turned(right, up));
-                (SceneSubject::Picture(photograph, form), cameras.collect(), size)
+                (Form::Picture(photograph, form), cameras.collect(), size)
             }
         };
-        Ok(Scene { subject, cameras: self.frames(cameras, settings)?, size })
+        Ok(Scene { form, cameras: self.frames(cameras, settings)?, size })
     }
 
     /// The cameras of all frames.
@@ -244,49 +241,6 @@ impl FormOptions {
     }
 }
 
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Style")]
-struct SettingsOptions {
-    /// Preset of settings that ships with impasto [default: settings of their own]
-    #[arg(long, value_name = "NAME", value_parser = preset_names())]
-    preset: Option<Preset>,
-    /// Settings from a file (TOML); others keep the values of the preset
-    #[arg(long, value_name = "FILE")]
-    settings: Option<PathBuf>,
-    /// Change one setting, such as `overlap.sharpness=8` or `colour.from=model`; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
-impl SettingsOptions {
-    /// Path of the file, if there is one.
-    fn input(&self) -> Option<&PathBuf> {
-        self.settings.as_ref()
-    }
-
-    /// Name of the style that suits the preset.
-    fn style(&self) -> &'static str {
-        self.preset.unwrap_or(Preset::Impressionist).style()
-    }
-
-    /// Reads the settings.
-    fn settings(&self) -> Result<Settings> {
-        let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
-        if let Some(path) = &self.settings {
-            let name = path.display().to_string();
-            let text = text(path)?;
-            settings = settings.changed(&name, &text)?;
-        }
-        for change in changes(&self.set, "overlap.sharpness=8")? {
-            let changed = settings.changed(&change.name, &change.toml);
-            settings = changed.map_err(|error| Failure::from(error).of_option())?;
-        }
-        Ok(settings)
-    }
-}
-
-/// Parses the name of a preset; an error lists the names.
-fn preset_names() -> impl TypedValueParser<Value = Preset> {
-    let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
-    names.try_map(|name| name.parse::<Preset>())
+impl Styled for Painter {
+    const USUAL: &'static str = "settings of their own";
 }

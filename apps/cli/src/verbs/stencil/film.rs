@@ -15,7 +15,7 @@ use paint::engine::PaintEngine;
 use paint::light::Light;
 use paint::painting::Painting;
 use spectra::{Observer, Viewing, light_from_text};
-use volumes::painter::{Show, VolumePainter};
+use volumes::painter::{Show, View, VolumePainter};
 use volumes::performance::{Performance, PerformanceError};
 use volumes::surfaces::ply_of;
 use volumes::world::{StepDevice, World};
@@ -26,9 +26,10 @@ use crate::animation::Recording;
 use crate::console::Console;
 use crate::csv_rows::at_most;
 use crate::failure::{Context, Result};
-use crate::output::{Output, StageFolder};
+use crate::output::Output;
 use crate::pictures::{OpenExports, PX_MM};
 use crate::progress::waited;
+use crate::technique::{painted, write_stages};
 
 /// A script whose frames are made.
 pub(super) struct Film<'a> {
@@ -108,7 +109,7 @@ pub(super) struct Stills<'a> {
     pub(super) title: &'a str,
 }
 
-impl Stills<'_> {
+impl<'a> Stills<'a> {
     /// Writes all files that are wanted.
     pub(super) fn write(&mut self, files: PictureFiles, console: &mut Console<'_>) -> Result<()> {
         let PictureFiles { exports, passes, mask, stages } = files;
@@ -122,7 +123,8 @@ impl Stills<'_> {
             self.passes(output, console)?;
         }
         if let Some(folder) = stages {
-            self.stages(&folder, console)?;
+            let view = self.view();
+            write_stages(self.painter, view, &folder, console)?;
         }
         Ok(())
     }
@@ -135,13 +137,17 @@ impl Stills<'_> {
                 exports.write(&mut painting, console)
             }
             None => {
-                let Self { world, camera, size, show, .. } = *self;
-                let picture =
-                    waited("drawing", console, || self.painter.shown(world, camera, size, show))?;
+                let view = self.view();
+                let picture = painted(self.painter, view, console)?;
                 let linear = linear_from_encoded(&over_white(&picture));
                 exports.write_picture(&linear, PX_MM, console)
             }
         }
+    }
+
+    fn view(&self) -> View<'a> {
+        let Self { world, camera, size, show, .. } = *self;
+        View { world, camera, size, show }
     }
 
     /// The painting under the light that it is viewed in.
@@ -164,11 +170,6 @@ impl Stills<'_> {
 
     fn passes(&mut self, output: Output, console: &mut Console<'_>) -> Result<()> {
         output.write(self.painter.passes(self.world, self.camera, self.size, PX_MM)?, console)
-    }
-
-    fn stages(&mut self, folder: &StageFolder, console: &mut Console<'_>) -> Result<()> {
-        let stages = self.painter.stages(self.world, self.camera, self.size)?.into_iter();
-        folder.write(&stages.map(|stage| (stage.name, stage.picture)).collect::<Vec<_>>(), console)
     }
 }
 

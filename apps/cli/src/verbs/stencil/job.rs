@@ -7,20 +7,21 @@ use std::path::{Path, PathBuf};
 use calibrate::library::PigmentLibrary;
 use graphics::compute::Compute;
 use serde_json::json;
-use volumes::painter::{Show, VolumePainter, VolumePigments};
+use volumes::painter::{Show, Subject, VolumePainter, VolumePigments};
 use volumes::performance::Performance;
 use volumes::settings::{Preset, Settings};
 use volumes::volume::Volume;
 use volumes::world::{StepDevice, World};
 
 use super::film::{Film, Snapshots, Stills};
-use super::options::{OpenOutputs, Stencil};
+use super::options::{OpenOutputs, Stencil, apply_style};
 use super::scene::{OpenScript, Scene, Times};
 use crate::animation::{Animation, FramesDigest};
 use crate::console::Console;
 use crate::csv_rows::at_most;
 use crate::failure::{Failure, Result};
 use crate::progress::waited;
+use crate::technique::prepared;
 
 /// A scene, its script and its outputs.
 pub(super) struct Job {
@@ -118,7 +119,7 @@ impl Job {
             }
             _ => Snapshots::none(device),
         };
-        let mut painter = waited("preparing the scene", console, || self.painter())?;
+        let mut painter = self.painter(console)?;
         if painter.counts_elsewhere() {
             console.warnings(&[format!(
                 "{backend} writes no buffers from fragments; volumes are counted on the processor"
@@ -178,14 +179,14 @@ impl Job {
             .add(&backend)
     }
 
-    fn painter(&mut self) -> Result<VolumePainter> {
-        let compute = std::mem::replace(&mut self.compute, Compute::cpu());
-        let styles = self.script.script.region_styles(&self.settings);
-        let painter = VolumePainter::new(&self.scene.mesh, &self.settings, &styles)?.on(compute)?;
-        match self.pigments.take() {
-            Some(pigments) => Ok(painter.with_pigments(pigments)?),
-            None => Ok(painter),
-        }
+    fn painter(&mut self, console: &Console<'_>) -> Result<VolumePainter> {
+        let subject = Subject {
+            scene: &self.scene.mesh,
+            styles: &self.script.script.region_styles(&self.settings),
+            pigments: self.pigments.take(),
+            compute: std::mem::replace(&mut self.compute, Compute::cpu()),
+        };
+        Ok(prepared::<VolumePainter>(subject, &self.settings, console)?)
     }
 
     /// The script at the time of single pictures. It is played to the last step of all first, so
@@ -241,7 +242,7 @@ fn script(
 ) -> Result<OpenScript> {
     let mut open = OpenScript::of(path, &verb.pours)?;
     let usual = (verb.pigments.any() && !open.is_file()).then_some(Preset::Grisaille);
-    verb.settings.apply(&mut open.script, usual)?;
+    apply_style(&verb.settings, &mut open.script, usual)?;
     verb.pours.apply(&mut open.script, verb.pigments.palette(), library)?;
     verb.pigments.apply(&mut open.script, console)?;
     // A script that is written plays the same.

@@ -13,8 +13,8 @@ use job::Job;
 
 impl Stencil {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        if let Some(preset) = self.show_preset {
-            return console.line(preset.text().trim_end());
+        if self.show_preset.print(console)? {
+            return Ok(());
         }
         Job::of(self, console)?.run(console)
     }

@@ -18,9 +18,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use documents::counted;
 use paint::document::Lighting;
 use paint::ground::{GroundKind, GroundSpec, MeasuredPrimer, Primer, PrimerSpectrum};
-use volumes::painter::{Show, VolumePigments};
+use volumes::painter::{Show, VolumePainter, VolumePigments};
 use volumes::script::{PourTable, Row, Script};
-use volumes::settings::{Inside, Preset, Settings, SettingsError};
+use volumes::settings::{Inside, Preset, Settings};
 use volumes::toml_text::Fault;
 
 use crate::animation::AnimationOptions;
@@ -31,9 +31,9 @@ use crate::output::{Output, OutputFolder, StageFolder};
 use crate::palette::{listed, name_in_recipe, pigment_names};
 use crate::pictures::{Exports, OpenExports, grounds, refuse_same};
 use crate::readings::{library, text, viewing};
-use crate::setting_changes::changes;
 use crate::subject::SubjectOptions;
 use crate::surface::ground;
+use crate::technique::{ShowPreset, StyleOptions, Styled};
 
 /// Pour paint over a scene drawn in pencil: what it reaches turns to colour
 ///
@@ -48,9 +48,8 @@ pub(crate) struct Stencil {
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere), or a script (.toml)
     #[arg(required_unless_present = "show_preset")]
     pub(super) subject: Option<PathBuf>,
-    /// Print the settings of a preset, each with its meaning, and do nothing else
-    #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
-    pub(super) show_preset: Option<Preset>,
+    #[command(flatten)]
+    pub(super) show_preset: ShowPreset<VolumePainter>,
     /// Subject of pictures: the result, the volumes over the drawing, white where they are, the grey
     /// drawing, the scene in colour, or the pencil strokes
     #[arg(long, value_name = "WHAT", default_value = "final", value_parser = shows())]
@@ -68,7 +67,7 @@ pub(crate) struct Stencil {
     #[command(flatten)]
     pub(super) pours: PourOptions,
     #[command(flatten)]
-    pub(super) settings: SettingsOptions,
+    pub(super) settings: StyleOptions<VolumePainter>,
     #[command(flatten)]
     pub(super) subject_options: SubjectOptions,
     #[command(flatten)]
@@ -358,47 +357,22 @@ impl PigmentOptions {
     }
 }
 
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Style")]
-pub(super) struct SettingsOptions {
-    /// Preset of settings that ships with impasto [default: that of the script, or sketch; with
-    /// a LIBRARY and no script, grisaille]
-    #[arg(long, value_name = "NAME", value_parser = preset_names())]
-    preset: Option<Preset>,
-    /// Settings from a file (TOML); others keep the values of the preset
-    #[arg(long, value_name = "FILE")]
-    settings: Option<PathBuf>,
-    /// Change one setting, such as `motion.microstructure=0.3`; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+impl Styled for VolumePainter {
+    const USUAL: &'static str =
+        "that of the script, or sketch; with a LIBRARY and no script, grisaille";
 }
 
-impl SettingsOptions {
-    /// Path of the file, if there is one.
-    pub(super) fn input(&self) -> Option<&PathBuf> {
-        self.settings.as_ref()
+/// Changes the settings of a script by options. `usual` is the preset of a script that names none.
+pub(super) fn apply_style(
+    style: &StyleOptions<VolumePainter>,
+    script: &mut Script,
+    usual: Option<Preset>,
+) -> Result<()> {
+    script.preset = style.preset().or(script.preset).or(usual);
+    if let Some(path) = style.input() {
+        script.change_settings(&path.display().to_string(), &text(path)?)?;
     }
-
-    /// Changes the settings of a script. `usual` is the preset of a script that names none.
-    pub(super) fn apply(&self, script: &mut Script, usual: Option<Preset>) -> Result<()> {
-        script.preset = self.preset.or(script.preset).or(usual);
-        if let Some(path) = &self.settings {
-            let name = path.display().to_string();
-            let text = text(path)?;
-            script.change_settings(&name, &text)?;
-        }
-        for change in changes(&self.set, "motion.microstructure=0.3")? {
-            let changed = script.change_settings(&change.name, &change.toml);
-            changed.map_err(|error| Failure::from(error).of_option())?;
-        }
-        Ok(())
-    }
-}
-
-/// Parses the name of a preset; an error lists the names.
-pub(super) fn preset_names() -> impl TypedValueParser<Value = Preset> {
-    let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
-    names.try_map(|name| name.parse::<Preset>().map_err(|error: SettingsError| error.to_string()))
+    style.each_set(|name, toml| Ok(script.change_settings(name, toml)?))
 }
 
 #[derive(Debug, Args)]

@@ -16,7 +16,10 @@ mod tones;
 mod swatch;
 mod set;
 
-pub use plan::{CanvasPlan, Layout, PaintPlan, StrokePlan, Style, StyleError, ToneSource};
-pub use set::{PaintedError, PaintedSettings, painted_samples};
+pub use plan::{
+    BrushPlan, CanvasPlan, Layout, PaintPlan, StrokePlan, Style, StyleError, StylePreset,
+    ToneSource,
+};
+pub use set::{PaintedError, PaintedSettings, SwatchPainter, painted_samples};
 pub use swatch::{SwatchStroke, strokes};
 pub use tones::{TONES, Tone, ToneLadder, TonesError};

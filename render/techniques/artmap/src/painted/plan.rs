@@ -5,9 +5,10 @@ use std::path::Path;
 use std::str::FromStr;
 
 use documents::hint::{Explain, Fault};
+use documents::settings::{OutOfRange, out_of_range};
 use documents::text::{Source, TextError, read_text};
-use paint::BrushSpec;
-use paint::ground::GroundSpec;
+use paint::HeadShape;
+use paint::ground::{ColorPrimer, GroundKind, GroundSpec, Primer};
 use serde::{Deserialize, Serialize};
 
 /// Order of the strokes of a coat.
@@ -30,97 +31,87 @@ pub enum ToneSource {
     Density,
 }
 
-/// Strokes of a swatch: their shape, and how they lie beside and above each other.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StrokePlan {
-    /// Length in mm, 0.1 to 1000.
-    pub length_mm: f64,
-    /// Greatest deviation from the length as a share of it, 0 to 0.9.
-    pub length_spread: f64,
-    /// Distance of neighbouring strokes across their direction in mm, 0.05 to 100.
-    pub spacing_mm: f64,
-    /// Distance between the middles of a stroke and the next one below it in mm, 0.1 to 1000.
-    pub advance_mm: f64,
-    /// Shift of each column against the one left of it, as a share of the advance: 0 aligns the
-    /// strokes in bands, 0.5 lays them like bricks, 0 to 1.
-    pub stagger: f64,
-    /// Greatest displacement of a stroke as a share of spacing and advance, 0 to 1.
-    pub jitter: f64,
-    /// Standard deviation of the direction from upright in degrees, 0 to 30.
-    pub angle_deg: f64,
-    /// Greatest sagitta of a bent stroke as a share of its length, 0 to 0.3.
-    pub bend: f64,
-    /// Pressure in the middle of a stroke, 0.05 to 1.
-    pub pressure: f64,
-    /// Greatest deviation from the pressure as a share of it, 0 to 0.5.
-    pub pressure_spread: f64,
-    /// Pressure at the end of a stroke as a share of that in its middle, 0 to 1.
-    pub lift: f64,
-    /// Order in which strokes are painted.
-    pub layout: Layout,
-    /// Number of coats, 1 to 4. The paint dries between them, except the wet share.
-    pub coats: u32,
-    /// Whether all tones have the same strokes. If not, each has strokes of a seed of its own.
-    pub nested: bool,
+documents::settings! {
+    /// Style of painting: everything but the colours of a set of swatches.
+    pub struct Style {
+        name: String = "own".to_owned(), Text => "Name of the style";
+        seed: u64 = 1, Any => "Seed of all random choices";
+        [brush]: BrushPlan => "the brush";
+        [strokes]: StrokePlan => "strokes of a swatch";
+        [paint]: PaintPlan => "paint of the strokes";
+        [canvas]: CanvasPlan => "canvas of a swatch";
+    }
 }
 
-/// Paint of the strokes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PaintPlan {
-    /// Height of an even film of the tone below the first coat in mm, so that gaps between strokes
-    /// show no bare ground, 0 to 1. Absent is 0, none.
-    #[serde(default)]
-    pub underpainting_mm: f64,
-    /// Height of the paint on the head of the loaded brush in mm, 0.001 to 5.
-    pub load_mm: f64,
-    /// Greatest deviation from the load as a share of it, 0 to 0.9.
-    pub load_spread: f64,
-    /// Share of clear medium in the paint, 0 to 0.95.
-    pub vehicle: f64,
-    /// Stiffness of the paint: 0 is stand oil, 1 is putty.
-    pub stiffness: f64,
-    /// Greatest deviation of a stroke from the L* of its tone, 0 to 20.
-    pub lightness_spread: f64,
-    /// Greatest deviation of the hairs of a half-mixed brush from the L* of their stroke, 0 to 20.
-    pub streaks: f64,
-    /// Share of the paint of a coat that is still wet under the next one, 0 to 1.
-    pub wet_in_wet: f64,
-    /// Cause of the difference between tones.
-    pub tones: ToneSource,
-    /// Share of the strokes that the lightest tone has where tones differ by density, 0.01 to 1.
-    pub lightest_share: f64,
+documents::presets! {
+    /// A style that ships.
+    pub enum StylePreset of Style {
+        OilFlat = "oil-flat", "styles/oil-flat.toml" => "Short strokes of a flat brush in stiff oil paint, like bricks.";
+        OilLong = "oil-long", "styles/oil-long.toml" => "Long, slightly bent strokes of a filbert side by side, wet into wet within a coat.";
+        Dabs = "dabs", "styles/dabs.toml" => "Single touches of a round brush, close together in random order.";
+        Knife = "knife", "styles/knife.toml" => "Broad, sharp-edged slabs, drawn out with a painting knife.";
+        Hatching = "hatching", "styles/hatching.toml" => "Parallel thin lines of a rigger on white paper; dark tones have more lines.";
+        DryBrush = "dry-brush", "styles/dry-brush.toml" => "A nearly dry bright drawn lightly over the grain of paper, which stays open in the hollows.";
+    }
 }
 
-/// Canvas of a swatch.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CanvasPlan {
-    /// Width and height of a cell in mm, 0.02 to 2.
-    pub cell_mm: f64,
-    /// Cells along each side of the swatch, 16 to 2048.
-    pub side_cells: usize,
-    /// Ground with its relief and colour, as a script of strokes describes it.
-    pub ground: GroundSpec,
-}
-
-/// Style of painting: everything but the colours of a set of swatches.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Style {
-    /// Name of the style.
-    pub name: String,
-    /// Seed of all random choices.
-    pub seed: u64,
+documents::settings! {
     /// Shape and width of the brush.
-    pub brush: BrushSpec,
-    /// Strokes of a swatch.
-    pub strokes: StrokePlan,
+    pub struct BrushPlan {
+        shape: HeadShape = HeadShape::Flat, Words(&["round", "flat", "filbert", "bright", "fan", "rigger", "mop", "knife"]) => "Shape of its head";
+        size_mm: f64 = 5.0, Number(0.2, 100.0), "mm" => "Width of its mark at half pressure";
+    }
+}
+
+documents::settings! {
+    /// Strokes of a swatch: their shape, and how they lie beside and above each other.
+    pub struct StrokePlan {
+        length_mm: f64 = 16.0, Number(0.1, 1000.0), "mm" => "Length";
+        length_spread: f64 = 0.25, Number(0.0, 0.9) => "Greatest deviation from the length as a share of it";
+        spacing_mm: f64 = 4.0, Number(0.05, 100.0), "mm" => "Distance of neighbouring strokes across their direction";
+        advance_mm: f64 = 12.0, Number(0.1, 1000.0), "mm" => "Distance between the middles of a stroke and the next one below it";
+        stagger: f64 = 0.5, Number(0.0, 1.0) => "Shift of each column against the one left of it, as a share of the advance: 0 aligns the strokes in bands, 0.5 lays them like bricks";
+        jitter: f64 = 0.35, Number(0.0, 1.0) => "Greatest displacement of a stroke as a share of spacing and advance";
+        angle_deg: f64 = 5.0, Number(0.0, 30.0), "degrees" => "Standard deviation of the direction from upright";
+        bend: f64 = 0.03, Number(0.0, 0.3) => "Greatest sagitta of a bent stroke as a share of its length";
+        pressure: f64 = 0.55, Number(0.05, 1.0) => "Pressure in the middle of a stroke";
+        pressure_spread: f64 = 0.15, Number(0.0, 0.5) => "Greatest deviation from the pressure as a share of it";
+        lift: f64 = 0.35, Number(0.0, 1.0) => "Pressure at the end of a stroke as a share of the pressure in its middle";
+        layout: Layout = Layout::Scatter, Words(&["rows", "scatter"]) => "Order in which strokes are painted";
+        coats: u32 = 3, Whole(1, 4) => "Number of coats; the paint dries between them, except the wet share";
+        nested: bool = true, Switch => "Whether all tones have the same strokes; if not, each has strokes of a seed of its own";
+    }
+}
+
+documents::settings! {
     /// Paint of the strokes.
-    pub paint: PaintPlan,
+    pub struct PaintPlan {
+        underpainting_mm: f64 = 0.0, Number(0.0, 1.0), "mm" => "Height of an even film of the tone below the first coat, so that gaps between strokes show no bare ground; 0 has none";
+        load_mm: f64 = 0.5, Number(0.001, 5.0), "mm" => "Height of the paint on the head of the loaded brush";
+        load_spread: f64 = 0.3, Number(0.0, 0.9) => "Greatest deviation from the load as a share of it";
+        vehicle: f64 = 0.05, Number(0.0, 0.95) => "Share of clear medium in the paint";
+        stiffness: f64 = 0.8, Number(0.0, 1.0) => "Stiffness of the paint: 0 is stand oil, 1 is putty";
+        lightness_spread: f64 = 7.0, Number(0.0, 20.0), "L*" => "Greatest deviation of a stroke from the lightness of its tone";
+        streaks: f64 = 6.0, Number(0.0, 20.0), "L*" => "Greatest deviation of the hairs of a half-mixed brush from the lightness of their stroke";
+        wet_in_wet: f64 = 0.0, Number(0.0, 1.0) => "Share of the paint of a coat that is still wet under the next one";
+        tones: ToneSource = ToneSource::Mixture, Words(&["mixture", "density"]) => "Cause of the difference between tones: a mixture for each, or fewer strokes of the darkest";
+        lightest_share: f64 = 1.0, Number(0.01, 1.0) => "Share of the strokes that the lightest tone has where tones differ by density";
+    }
+}
+
+documents::settings! {
     /// Canvas of a swatch.
-    pub canvas: CanvasPlan,
+    pub struct CanvasPlan {
+        cell_mm: f64 = 0.25, Number(0.02, 2.0), "mm" => "Width and height of a cell";
+        side_cells: usize = 300, Whole(16, 2048), "cells" => "Cells along each side of the swatch";
+        ground: GroundSpec = umber_panel(), Inline => "Ground with its relief and colour, as a script of strokes describes it";
+    }
+}
+
+/// A panel in a middle brown.
+fn umber_panel() -> GroundSpec {
+    let brown = Primer::Color(ColorPrimer { rgb: "#7d6f5c".to_owned() });
+    GroundSpec { reflectance: Some(brown), ..GroundKind::Panel.spec(1) }
 }
 
 /// Most cells of the canvas of a swatch: 4096 x 4096.
@@ -130,7 +121,15 @@ const MOST_STROKES: f64 = 200_000.0;
 
 impl Style {
     /// Names of the styles that ship, in the order in which programs list them.
-    pub const ALL: [&str; NAMES.len()] = NAMES;
+    pub const ALL: [&str; StylePreset::ALL.len()] = {
+        let mut names = [""; StylePreset::ALL.len()];
+        let mut at = 0;
+        while at < names.len() {
+            names[at] = StylePreset::ALL[at].name();
+            at += 1;
+        }
+        names
+    };
 
     /// Shipped style with this name.
     ///
@@ -145,8 +144,8 @@ impl Style {
     /// # Errors
     /// [`StyleError::Unknown`] if there is none.
     pub fn text(name: &str) -> Result<&'static str, StyleError> {
-        let found = SHIPPED.iter().find(|(known, _)| *known == name);
-        found.map(|(_, text)| *text).ok_or_else(|| StyleError::Unknown { name: name.to_owned() })
+        let preset: Result<StylePreset, _> = name.parse();
+        preset.map(StylePreset::changes).map_err(|_| StyleError::Unknown { name: name.to_owned() })
     }
 
     /// Reads the TOML file of a style and checks it.
@@ -172,37 +171,9 @@ impl Style {
     /// # Errors
     /// [`StyleError::Number`] for the first number that is out of its range.
     pub fn check(&self) -> Result<(), StyleError> {
-        let Self { name, brush, strokes, paint, canvas, .. } = self;
-        for (key, value, least, most) in [
-            ("brush.size_mm", brush.size_mm, 0.2, 100.0),
-            ("strokes.length_mm", strokes.length_mm, 0.1, 1000.0),
-            ("strokes.length_spread", strokes.length_spread, 0.0, 0.9),
-            ("strokes.spacing_mm", strokes.spacing_mm, 0.05, 100.0),
-            ("strokes.advance_mm", strokes.advance_mm, 0.1, 1000.0),
-            ("strokes.stagger", strokes.stagger, 0.0, 1.0),
-            ("strokes.jitter", strokes.jitter, 0.0, 1.0),
-            ("strokes.angle_deg", strokes.angle_deg, 0.0, 30.0),
-            ("strokes.bend", strokes.bend, 0.0, 0.3),
-            ("strokes.pressure", strokes.pressure, 0.05, 1.0),
-            ("strokes.pressure_spread", strokes.pressure_spread, 0.0, 0.5),
-            ("strokes.lift", strokes.lift, 0.0, 1.0),
-            ("strokes.coats", f64::from(strokes.coats), 1.0, 4.0),
-            ("paint.load_mm", paint.load_mm, 0.001, 5.0),
-            ("paint.load_spread", paint.load_spread, 0.0, 0.9),
-            ("paint.vehicle", paint.vehicle, 0.0, 0.95),
-            ("paint.stiffness", paint.stiffness, 0.0, 1.0),
-            ("paint.lightness_spread", paint.lightness_spread, 0.0, 20.0),
-            ("paint.streaks", paint.streaks, 0.0, 20.0),
-            ("paint.wet_in_wet", paint.wet_in_wet, 0.0, 1.0),
-            ("paint.underpainting_mm", paint.underpainting_mm, 0.0, 1.0),
-            ("paint.lightest_share", paint.lightest_share, 0.01, 1.0),
-            ("canvas.cell_mm", canvas.cell_mm, 0.02, 2.0),
-            ("canvas.side_cells", canvas.side_cells as f64, 16.0, 2048.0),
-        ] {
-            if !(least..=most).contains(&value) {
-                let style = name.clone();
-                return Err(StyleError::Number { style, key, value, least, most });
-            }
+        if let Some(OutOfRange { key, value, least, most, .. }) = out_of_range(self) {
+            let style = self.name.clone();
+            return Err(StyleError::Number { style, key, value, least, most });
         }
         self.check_effort()
     }
@@ -266,7 +237,7 @@ pub enum StyleError {
     Text(#[from] TextError),
     /// No style that ships has this name.
     #[error("there is no style called `{name}`")]
-    #[hint("choose [style] among {}", NAMES.join(", "))]
+    #[hint("choose [style] among {}", Style::ALL.join(", "))]
     Unknown {
         /// Name that was looked up.
         name: String,
@@ -277,7 +248,7 @@ pub enum StyleError {
         /// Name of the style.
         style: String,
         /// Group and key of the number.
-        key: &'static str,
+        key: String,
         /// Value of the number.
         value: f64,
         /// Least value allowed.
@@ -300,27 +271,6 @@ pub enum StyleError {
     },
 }
 
-/// Names and TOML files of the styles, in the order in which programs list them.
-pub(super) const SHIPPED: [(&str, &str); 6] = [
-    ("oil-flat", include_str!("styles/oil-flat.toml")),
-    ("oil-long", include_str!("styles/oil-long.toml")),
-    ("dabs", include_str!("styles/dabs.toml")),
-    ("knife", include_str!("styles/knife.toml")),
-    ("hatching", include_str!("styles/hatching.toml")),
-    ("dry-brush", include_str!("styles/dry-brush.toml")),
-];
-
-/// Names of the styles.
-pub(super) const NAMES: [&str; SHIPPED.len()] = {
-    let mut names = [""; SHIPPED.len()];
-    let mut at = 0;
-    while at < names.len() {
-        names[at] = SHIPPED[at].0;
-        at += 1;
-    }
-    names
-};
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -334,6 +284,15 @@ mod tests {
             let text = toml::to_string(&style).unwrap();
             assert_eq!(Style::from_toml("back", &text), Ok(style));
         }
+        for preset in StylePreset::ALL {
+            assert_eq!(Style::named(preset.name()), Ok(preset.settings()));
+            assert_eq!(Style::from_toml("all", &preset.text()), Ok(preset.settings()));
+            let title = format!("# {}\n", preset.about());
+            assert!(preset.changes().starts_with(&title), "{title}");
+        }
+        let mut usual = Style { name: "oil-flat".to_owned(), ..Style::default() };
+        usual.paint.underpainting_mm = 0.05;
+        assert_eq!(Style::named("oil-flat"), Ok(usual));
     }
 
     #[test]
@@ -362,7 +321,7 @@ mod tests {
         let text = toml::to_string(&Style::named("dabs").unwrap()).unwrap();
         let wide = text.replace("jitter = ", "jitter = 1");
         let error = Style::from_toml("my.toml", &wide).unwrap_err();
-        assert!(matches!(error, StyleError::Number { key: "strokes.jitter", .. }), "{error}");
+        assert!(error.to_string().starts_with("style dabs: strokes.jitter is 0 to 1"), "{error}");
         let unknown = text.replace("jitter = ", "gitter = ");
         let error = Style::from_toml("my.toml", &unknown).unwrap_err();
         assert!(error.to_string().starts_with("my.toml, line "), "{error}");
@@ -376,6 +335,6 @@ mod tests {
         assert!(error.to_string().contains("at most 200000 strokes"), "{error}");
         let nan = text.replace("stiffness = ", "stiffness = nan # ");
         let error = Style::from_toml("my.toml", &nan).unwrap_err();
-        assert!(matches!(error, StyleError::Number { key: "paint.stiffness", .. }), "{error}");
+        assert!(error.to_string().ends_with("paint.stiffness is 0 to 1, found `NaN`"), "{error}");
     }
 }

@@ -3,16 +3,18 @@
 use std::sync::Arc;
 
 use documents::hint::Explain;
-use paint::ground::GroundError;
+use documents::{Cancelled, Task};
+use paint::ground::{Ground, GroundError};
 use paint::light::{Light, PaintLightError};
 use paint::painting::PaintingError;
+use paint::technique::Technique;
 use pigment::{PigmentLibrary, Viewing};
 use rayon::prelude::*;
 
-use super::plan::{Style, StyleError};
+use super::plan::{Style, StyleError, StylePreset};
 use super::swatch::{Workplace, ground, spread, strokes};
 use super::tones::{ToneLadder, TonesError};
-use crate::sample::{PaintOfSamples, SampleSet};
+use crate::sample::{PaintOfSamples, Sample, SampleSet};
 
 /// Colours of a set of swatches.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,31 +53,64 @@ pub fn painted_samples(
     style: &Style,
     settings: &PaintedSettings,
 ) -> Result<SampleSet, PaintedError> {
-    style.check()?;
-    let library = Arc::clone(&settings.library);
-    let ladder = ToneLadder::new(library, &settings.hue, settings.tones, spread(style))?;
-    let seed = settings.seed.unwrap_or(style.seed);
-    let workplace = Workplace {
-        style,
-        ladder: &ladder,
-        ground: ground(style, &ladder)?,
-        light: Arc::new(Light::new(&settings.library, &Viewing::default())?),
-    };
-    let nested = strokes(style, seed);
-    let samples = (0..settings.tones).into_par_iter().map(|at| {
-        if style.strokes.nested {
-            return workplace.swatch(at, &nested);
-        }
-        workplace.swatch(at, &strokes(style, seed.wrapping_add(at as u64)))
-    });
-    let samples = samples.collect::<Result<Vec<_>, PaintingError>>()?;
-    let Style { name, .. } = style;
-    let provenance = format!(
-        "painted by impasto: style {name}, hue {}, {} tones, seed {seed}",
-        settings.hue, settings.tones
-    );
-    let paint = PaintOfSamples { library: Arc::clone(&settings.library), slots: *ladder.slots() };
-    Ok(SampleSet { samples, paint: Some(paint), provenance })
+    let task = Task::default();
+    SwatchPainter::prepare(settings, style, &task)?.paint((), &task)
+}
+
+/// Paints the tones of one hue in a style: the technique of samples for art maps.
+#[derive(Debug)]
+pub struct SwatchPainter {
+    style: Style,
+    colors: PaintedSettings,
+    ladder: ToneLadder,
+    ground: Ground,
+    light: Arc<Light>,
+}
+
+impl Technique for SwatchPainter {
+    const NAME: &'static str = "samples";
+    const EXAMPLES: &'static [&'static str] = &["strokes.coats=2", "brush.shape=filbert"];
+
+    type Settings = Style;
+    type Preset = StylePreset;
+    type Subject<'a> = &'a PaintedSettings;
+    type View<'a> = ();
+    type Picture = SampleSet;
+    type Error = PaintedError;
+
+    fn prepare(colors: &PaintedSettings, style: &Style, task: &Task) -> Result<Self, PaintedError> {
+        style.check()?;
+        task.stage("painting samples");
+        task.check()?;
+        let library = Arc::clone(&colors.library);
+        let ladder = ToneLadder::new(library, &colors.hue, colors.tones, spread(style))?;
+        let ground = ground(style, &ladder)?;
+        let light = Arc::new(Light::new(&colors.library, &Viewing::default())?);
+        Ok(Self { style: style.clone(), colors: colors.clone(), ladder, ground, light })
+    }
+
+    fn paint(&mut self, _: (), task: &Task) -> Result<SampleSet, PaintedError> {
+        let Self { style, colors, ladder, ground, light } = &*self;
+        let PaintedSettings { library, hue, tones, seed } = colors;
+        let seed = seed.unwrap_or(style.seed);
+        let ground = ground.clone();
+        let workplace = Workplace { style, ladder, ground, light: Arc::clone(light) };
+        let nested = strokes(style, seed);
+        let samples = (0..*tones).into_par_iter().map(|at| -> Result<Sample, PaintedError> {
+            task.check()?;
+            let sample = match style.strokes.nested {
+                true => workplace.swatch(at, &nested),
+                false => workplace.swatch(at, &strokes(style, seed.wrapping_add(at as u64))),
+            };
+            Ok(sample?)
+        });
+        let samples = samples.collect::<Result<Vec<_>, PaintedError>>()?;
+        let Style { name, .. } = style;
+        let provenance =
+            format!("painted by impasto: style {name}, hue {hue}, {tones} tones, seed {seed}");
+        let paint = PaintOfSamples { library: Arc::clone(library), slots: *ladder.slots() };
+        Ok(SampleSet { samples, paint: Some(paint), provenance })
+    }
 }
 
 /// Swatches cannot be painted.
@@ -96,6 +131,9 @@ pub enum PaintedError {
     /// The engine refuses a brush or a stroke.
     #[error(transparent)]
     Painting(#[from] PaintingError),
+    /// The work was asked to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 #[cfg(test)]
@@ -111,7 +149,6 @@ mod tests {
     use documents::hint::Fault;
 
     use super::*;
-    use crate::sample::Sample;
 
     /// A shipped style on a small swatch.
     fn small(name: &str, side_cells: usize) -> Style {
@@ -176,6 +213,17 @@ mod tests {
                 assert!(upright > least, "{name}, tone {at}: {upright}");
             }
         }
+    }
+
+    #[test]
+    fn a_cancelled_task_paints_no_samples() {
+        let task = Task::default();
+        let colors = settings(2);
+        let mut painter = SwatchPainter::prepare(&colors, &small("dabs", 32), &task).unwrap();
+        task.cancel();
+        let cancelled = |error| matches!(error, PaintedError::Cancelled(_));
+        assert!(painter.paint((), &task).is_err_and(cancelled));
+        assert!(SwatchPainter::prepare(&colors, &small("dabs", 32), &task).is_err_and(cancelled));
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use std::sync::OnceLock;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use glam::Vec3;
 use graphics::distant_light::DistantLight;
 use graphics::gpu::DeviceError;
@@ -87,13 +87,15 @@ impl DrawingLook {
 }
 
 /// A picture cannot be drawn.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum DrawingError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
     /// A setting is out of its range, or no number.
     #[error("{name} is {least} to {most}, found `{found}`")]
+    #[hint("give a number from {least} to {most}")]
     Setting {
         /// Name of the setting.
         name: &'static str,
@@ -106,31 +108,13 @@ pub enum DrawingError {
     },
     /// There are more regions than a picture can have.
     #[error("a picture has at most {most} regions, found `{found}`")]
+    #[hint("let volumes of one colour share a region")]
     Regions {
         /// Greatest number of regions.
         most: usize,
         /// The number that was given.
         found: usize,
     },
-}
-
-impl Explain for DrawingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Device(error) => error.hint(),
-            Self::Setting { least, most, .. } => {
-                Some(Hint::new(format!("give a number from {least} to {most}")))
-            }
-            Self::Regions { .. } => Some(Hint::new("let volumes of one colour share a region")),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Device(error) => error.fault(),
-            Self::Setting { .. } | Self::Regions { .. } => Fault::Setting,
-        }
-    }
 }
 
 /// Checks that a setting lies in its range; NaN does not.

@@ -1,16 +1,19 @@
 //! Concentric shells of a volume, and the tint at each count of them.
 
 use documents::counted_as;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 /// Most shells of a volume.
 pub const MOST_SHELLS: usize = 63;
 
 /// Shells or tints that cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
+#[hint("give tints that rise from 0 to 1, such as 0, 0.25, 0.5, 0.75, 1")]
 pub enum ShellError {
     /// There is no shell, or there are too many.
     #[error("a volume has 1 to {MOST_SHELLS} shells, found `{found}`")]
+    #[hint("give one tint for outside and one for each shell")]
     Count {
         /// Number of shells.
         found: usize,
@@ -21,6 +24,7 @@ pub enum ShellError {
         counted_as(*shells, "shell wants", "shells want"),
         .shells + 1
     )]
+    #[hint("give one tint for outside and one for each shell")]
     Lengths {
         /// Number of shells.
         shells: usize,
@@ -29,6 +33,7 @@ pub enum ShellError {
     },
     /// A scale is outside of its range, or no number.
     #[error("scale {index} of the shells is not above 0 and at most 1: `{found}`")]
+    #[hint("give scales that fall from 1, such as 1, 0.93, 0.86, 0.79")]
     Scale {
         /// Index of the scale, from 0.
         index: usize,
@@ -37,6 +42,7 @@ pub enum ShellError {
     },
     /// A shell is not smaller than the one before.
     #[error("scale {index} of the shells is not below the one before it: `{found}`")]
+    #[hint("give scales that fall from 1, such as 1, 0.93, 0.86, 0.79")]
     NotFalling {
         /// Index of the scale, from 0.
         index: usize,
@@ -65,26 +71,6 @@ pub enum ShellError {
         /// The tint that was given.
         found: f32,
     },
-}
-
-impl Explain for ShellError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Count { .. } | Self::Lengths { .. } => {
-                "give one tint for outside and one for each shell"
-            }
-            Self::Scale { .. } | Self::NotFalling { .. } => {
-                "give scales that fall from 1, such as 1, 0.93, 0.86, 0.79"
-            }
-            Self::Tint { .. } | Self::NotRising { .. } | Self::Outside { .. } => {
-                "give tints that rise from 0 to 1, such as 0, 0.25, 0.5, 0.75, 1"
-            }
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }
 
 /// The share of colour at each count of volumes or shells that hold a point.

@@ -2,7 +2,7 @@
 //!
 //! Why volumes cannot be moved.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::gpu::DeviceError;
 
 /// The settings of motion. Stiffness is per unit of mass; lengths are in cells of the grid.
@@ -100,10 +100,12 @@ pub(super) fn in_range(
 }
 
 /// A setting, a volume or a time does not allow motion.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum MotionError {
     /// A number is out of its range.
     #[error("{key} is {least} to {most}, found `{value}`")]
+    #[hint("leave the setting out to take its default")]
+    #[fault(Setting)]
     OutOfRange {
         /// Name of the setting, for example `pressure`.
         key: &'static str,
@@ -118,6 +120,11 @@ pub enum MotionError {
     #[error(
         "{seconds} s under forces of stiffness {stiffness} 1/s^2 take {needed} sub-steps, more than {most}: at most {fitting_seconds} s, or a stiffness of at most {fitting_stiffness} 1/s^2, would fit"
     )]
+    #[hint(
+        verbatim,
+        "take shorter steps, or weaker forces: the settings motion.pressure, elastic, cohesion, surface_pull, keep"
+    )]
+    #[fault(Setting)]
     TooStiff {
         /// Time that was asked for, in seconds.
         seconds: f32,
@@ -134,6 +141,7 @@ pub enum MotionError {
     },
     /// A volume has a centre or radius that no volume can have.
     #[error("volume {index} has {what} `{value}`, which must be {must}")]
+    #[hint("give the volume a finite centre and a radius above 0")]
     Volume {
         /// Index of the volume.
         index: usize,
@@ -146,6 +154,7 @@ pub enum MotionError {
     },
     /// The places that describe the surface are not finite.
     #[error("place {index} of the surface is not finite")]
+    #[hint("repair the mesh: a vertex of it is not a number")]
     Place {
         /// Index of the place.
         index: usize,
@@ -154,6 +163,8 @@ pub enum MotionError {
     #[error(
         "cells of {cell} make {blocks} blocks of the surface's box, more than {most}: cells of {fitting_cell} would fit"
     )]
+    #[hint(verbatim, "take larger cells (grid.cell)")]
+    #[fault(Setting)]
     TooFine {
         /// Size of a cell, in the unit of the scene.
         cell: f32,
@@ -167,31 +178,6 @@ pub enum MotionError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
-}
-
-impl Explain for MotionError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::verbatim(match self {
-            Self::Device(error) => return error.hint(),
-            Self::OutOfRange { .. } => "leave the setting out to take its default",
-            Self::TooStiff { .. } => {
-                "take shorter steps, or weaker forces: the settings motion.pressure, elastic, cohesion, surface_pull, keep"
-            }
-            Self::Volume { .. } => "give the volume a finite centre and a radius above 0",
-            Self::Place { .. } => "repair the mesh: a vertex of it is not a number",
-            Self::TooFine { .. } => "take larger cells (grid.cell)",
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Device(error) => error.fault(),
-            Self::Volume { .. } | Self::Place { .. } => Fault::Input,
-            Self::OutOfRange { .. } | Self::TooStiff { .. } | Self::TooFine { .. } => {
-                Fault::Setting
-            }
-        }
-    }
 }
 
 #[cfg(test)]

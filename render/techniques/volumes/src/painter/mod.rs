@@ -7,11 +7,14 @@ mod drawer;
 mod parts_apart;
 mod volume_painter;
 mod stages;
+mod subject;
 
 #[cfg(test)]
 mod tests;
 
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};
-pub use stages::{Show, ShowError, Stage};
+pub use paint::technique::Stage;
+pub use stages::{Show, ShowError};
+pub use subject::{Subject, View};
 pub use volume_painter::VolumePainter;

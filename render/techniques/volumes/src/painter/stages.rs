@@ -6,13 +6,14 @@
 
 use std::str::FromStr;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use documents::similar_names;
 use graphics::camera::Camera;
 use graphics::export::{ExrPart, exr_parts};
 use graphics::field::Field;
 use graphics::surface::{NO_TRIANGLE, SurfacePoint};
 use paint::amount::mm_from_quanta;
+use paint::technique::Stage;
 
 use super::drawer::{Drawer, averaged};
 use super::error::PaintingError;
@@ -23,18 +24,10 @@ use crate::pigments::Glass;
 use crate::surfaces::REGIONS;
 use crate::world::World;
 
-/// One step to a picture.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stage {
-    /// Its name in letters, digits and dashes.
-    pub name: String,
-    /// The picture of it, encoded sRGB whose fourth value is 1.
-    pub picture: Field<[f32; 4]>,
-}
-
 impl VolumePainter {
     /// The steps to the picture of [`Self::paint`]: the colours that are seen, light, hatching,
-    /// colour, grey, count and tint of each region, volumes, mask, and the picture itself.
+    /// colour, grey, count and tint of each region, volumes, mask, and the picture itself. Names are of
+    /// letters, digits and dashes, and the fourth value of all pictures is 1.
     ///
     /// # Errors
     /// Those of [`Self::paint`].
@@ -145,11 +138,23 @@ pub enum Show {
 }
 
 /// There is nothing of this name to show.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 #[error("pictures do not show `{name}`")]
+#[hint(verbatim, "{}", way_to_show(name))]
+#[fault(Setting)]
 pub struct ShowError {
     /// Name that was asked for.
     pub name: String,
+}
+
+/// The name that was meant, or all names.
+fn way_to_show(name: &str) -> String {
+    let names = Show::ALL.map(Show::name);
+    let similar = similar_names(name, names);
+    match similar.is_empty() {
+        true => format!("they show {}", names.join(", ")),
+        false => format!("did you mean {}?", similar.join(" or ")),
+    }
 }
 
 impl Show {
@@ -177,21 +182,6 @@ impl FromStr for Show {
     fn from_str(name: &str) -> Result<Self, ShowError> {
         let found = Self::ALL.into_iter().find(|show| show.name() == name);
         found.ok_or_else(|| ShowError { name: name.to_owned() })
-    }
-}
-
-impl Explain for ShowError {
-    fn hint(&self) -> Option<Hint> {
-        let names = Show::ALL.map(Show::name);
-        let similar = similar_names(&self.name, names);
-        Some(Hint::verbatim(match similar.is_empty() {
-            true => format!("they show {}", names.join(", ")),
-            false => format!("did you mean {}?", similar.join(" or ")),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Settings of a file as those of a world.
 
-use documents::hint::{Explain, Fault as FaultKind, Hint};
+use documents::hint::Explain;
 
 use crate::motion::MotionSettings;
 use crate::settings::Settings;
@@ -10,13 +10,15 @@ use crate::toml_text::{Fault, KeyPath, Source};
 use crate::world::{WorldError, WorldSettings};
 
 /// A script cannot be played.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PerformanceError {
     /// The world cannot be made or go on.
     #[error(transparent)]
     World(#[from] WorldError),
     /// A setting does not fit the scene.
     #[error("{place}{fault}")]
+    #[hint(with = fault.hint())]
+    #[fault(Setting)]
     Setting {
         /// File and line, followed by a colon, where these are known.
         place: String,
@@ -25,6 +27,7 @@ pub enum PerformanceError {
     },
     /// An event cannot be done.
     #[error("{place}: {error}")]
+    #[hint(inner = error)]
     Event {
         /// The table of the event, with file and line where these are known.
         place: String,
@@ -35,6 +38,7 @@ pub enum PerformanceError {
     },
     /// The first picture shows nothing where paint is poured or lifted.
     #[error("{place}: the first picture shows no surface at {x:.3}, {y:.3}")]
+    #[hint("choose a place on the subject, 0 to 1 across and down")]
     Bare {
         /// The table of the event, with file and line where these are known.
         place: String,
@@ -47,6 +51,7 @@ pub enum PerformanceError {
     },
     /// A volume is to be split that is not there.
     #[error("{place}: single volume {number} is not there")]
+    #[hint("split a volume after it is born, and only once")]
     NoVolume {
         /// The table of the event, with file and line where these are known.
         place: String,
@@ -93,29 +98,6 @@ impl PerformanceError {
             }
         }
         self
-    }
-}
-
-impl Explain for PerformanceError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::World(error) | Self::Event { error, .. } => error.hint(),
-            Self::Setting { fault, .. } => fault.hint(),
-            Self::Bare { .. } => {
-                Some(Hint::new("choose a place on the subject, 0 to 1 across and down"))
-            }
-            Self::NoVolume { .. } => {
-                Some(Hint::new("split a volume after it is born, and only once"))
-            }
-        }
-    }
-
-    fn fault(&self) -> FaultKind {
-        match self {
-            Self::World(error) | Self::Event { error, .. } => error.fault(),
-            Self::Setting { .. } => FaultKind::Setting,
-            Self::Bare { .. } | Self::NoVolume { .. } => FaultKind::Input,
-        }
     }
 }
 

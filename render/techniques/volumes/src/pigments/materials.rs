@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use paint::document::{Lighting, Medium, Slots};
 use paint::ground::{GroundError, GroundSpec};
 use paint::light::{Light, PaintLightError};
@@ -90,7 +90,7 @@ impl FilmMaterial {
 }
 
 /// Films cannot be painted with these materials.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum FilmPaintError {
     /// The light cannot be used with the library.
     #[error(transparent)]
@@ -106,32 +106,9 @@ pub enum FilmPaintError {
     Palette(#[from] PaletteError),
     /// There is no white beside the darkest paint.
     #[error("a drawing in grey needs a white and a black paint, and the library has no white")]
+    #[hint("choose a library of opaque paints, such as the oils")]
+    #[fault(Setting)]
     NoWhite,
-}
-
-impl FilmPaintError {
-    fn cause(&self) -> Option<&dyn Explain> {
-        match self {
-            Self::Light(error) => Some(error),
-            Self::Ground(error) => Some(error),
-            Self::Separation(error) => Some(error),
-            Self::Palette(error) => Some(error),
-            Self::NoWhite => None,
-        }
-    }
-}
-
-impl Explain for FilmPaintError {
-    fn hint(&self) -> Option<Hint> {
-        self.cause().map_or_else(
-            || Some(Hint::new("choose a library of opaque paints, such as the oils")),
-            Explain::hint,
-        )
-    }
-
-    fn fault(&self) -> Fault {
-        self.cause().map_or(Fault::Setting, Explain::fault)
-    }
 }
 
 /// CIELAB lightness of the grey that the paint is chosen for.

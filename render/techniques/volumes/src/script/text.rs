@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use documents::hint::{Explain, Fault as FaultKind, Hint};
+use documents::hint::Explain;
 use serde::Deserialize;
 
 use super::file::{FormatVersion, Script};
@@ -114,13 +114,14 @@ fn check_format(name: &str, source: &Source<'_>) -> Result<(), ScriptError> {
 }
 
 /// Reasons why a script cannot be read or written.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum ScriptError {
     /// The file cannot be read, is not TOML, or has a wrong key or value.
     #[error(transparent)]
     Text(#[from] TextError),
     /// The file is TOML of another format.
     #[error("{file}, line {line}: format takes \"paint-volumes\", found `{found}`")]
+    #[hint(verbatim, "a script begins with format = \"paint-volumes\" and version = 1")]
     Format {
         /// Name of the file.
         file: String,
@@ -131,6 +132,7 @@ pub enum ScriptError {
     },
     /// The script has a version that this program does not know.
     #[error("{file}, line {line}: version takes 1 to {newest}, found `{found}`")]
+    #[hint(verbatim, "a newer impasto may read it")]
     Version {
         /// Name of the file.
         file: String,
@@ -146,24 +148,5 @@ pub enum ScriptError {
 impl From<Box<Fault>> for ScriptError {
     fn from(fault: Box<Fault>) -> Self {
         Self::Text(fault.into())
-    }
-}
-
-impl Explain for ScriptError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Text(error) => error.hint(),
-            Self::Format { .. } => Some(Hint::verbatim(
-                "a script begins with format = \"paint-volumes\" and version = 1",
-            )),
-            Self::Version { .. } => Some(Hint::verbatim("a newer impasto may read it")),
-        }
-    }
-
-    fn fault(&self) -> FaultKind {
-        match self {
-            Self::Text(error) => error.fault(),
-            Self::Format { .. } | Self::Version { .. } => FaultKind::Input,
-        }
     }
 }

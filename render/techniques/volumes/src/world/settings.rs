@@ -2,7 +2,7 @@
 //!
 //! Errors of worlds.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use glam::Vec3;
 use graphics::gpu::DeviceError;
 
@@ -91,7 +91,7 @@ impl WorldSettings {
 }
 
 /// Why something cannot be done to a world. Places are in the unit of the scene.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum WorldError {
     /// The surface cannot be wetted.
     #[error(transparent)]
@@ -104,6 +104,7 @@ pub enum WorldError {
     Device(#[from] DeviceError),
     /// A number is out of its range.
     #[error("{key} is {range}, found `{found}`")]
+    #[fault(Setting)]
     Number {
         /// Name of the number, for example `film_mm`.
         key: &'static str,
@@ -114,12 +115,14 @@ pub enum WorldError {
     },
     /// A recipe without paint, or with a share below 0.
     #[error("a recipe has shares of 0 or more and at least one above, found `{found:?}`")]
+    #[hint("name a pigment with a share above 0")]
     Recipe {
         /// The shares: of eight slots, and at last of vehicle.
         found: Vec<f64>,
     },
     /// A place is too far from the surface.
     #[error("the place `{}, {}, {}` is {distance} from the surface, farther than {most}", place.x, place.y, place.z)]
+    #[hint("pour at a place of the model's surface")]
     OffSurface {
         /// The place.
         place: Vec3,
@@ -130,6 +133,8 @@ pub enum WorldError {
     },
     /// There are as many volumes as there can be.
     #[error("there is no room for more than {most} {what}")]
+    #[hint(verbatim, "take larger cells (grid.cell), or fewer volumes")]
+    #[fault(Setting)]
     Full {
         /// The things of which there are too many: volumes or particles.
         what: &'static str,
@@ -138,6 +143,7 @@ pub enum WorldError {
     },
     /// There is no such volume, or it cannot be split.
     #[error("volume {index} of {count} {why}")]
+    #[hint("name a wet volume; to be split, one for itself that holds surface")]
     Volume {
         /// Index of the volume.
         index: usize,
@@ -146,33 +152,6 @@ pub enum WorldError {
         /// The fault.
         why: &'static str,
     },
-}
-
-impl Explain for WorldError {
-    fn hint(&self) -> Option<Hint> {
-        Some(match self {
-            Self::Wetting(error) => return error.hint(),
-            Self::Motion(error) => return error.hint(),
-            Self::Device(error) => return error.hint(),
-            Self::Number { .. } => return None,
-            Self::Recipe { .. } => Hint::new("name a pigment with a share above 0"),
-            Self::OffSurface { .. } => Hint::new("pour at a place of the model's surface"),
-            Self::Full { .. } => Hint::verbatim("take larger cells (grid.cell), or fewer volumes"),
-            Self::Volume { .. } => {
-                Hint::new("name a wet volume; to be split, one for itself that holds surface")
-            }
-        })
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Wetting(error) => error.fault(),
-            Self::Motion(error) => error.fault(),
-            Self::Device(error) => error.fault(),
-            Self::Number { .. } | Self::Full { .. } => Fault::Setting,
-            Self::Recipe { .. } | Self::OffSurface { .. } | Self::Volume { .. } => Fault::Input,
-        }
-    }
 }
 
 /// Checks that a number lies in a range, which no NaN does.
