@@ -1,8 +1,8 @@
 //! Charts drawn as SVG. This is the only file that uses the crate plotters.
 //!
-//! plotters rounds to whole px, which would make curves of small panels jagged. So the drawing is ten times
-//! as large, and the view box of the document scales it down. This crate places the labels, because plotters
-//! without a font can only guess their size.
+//! plotters rounds to whole px, which would make curves of small panels jagged. So we draw ten
+//! times as large, and the view box of the document scales this down. We place the labels
+//! ourselves, because plotters without a font can only guess their size.
 
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;
@@ -182,7 +182,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws title and key on the left, note and patches on the right, above the frame.
+    /// Draws title and key on the left, and note and patches on the right, above the frame.
     fn heading(&self) {
         let Panel { frame, title, subtitle, note, patches, key, .. } = self.panel;
         // A title of several lines ends where the subtitle begins.
@@ -223,8 +223,8 @@ impl Drawing<'_, '_> {
         frame.y - 4.0 - SUBTITLE
     }
 
-    /// Writes a text in the lines that `space` allows, around the height of `at`. Returns their width
-    /// in px.
+    /// Writes a text around the height of `at`, in as many lines as `space` allows. Returns their
+    /// width in px.
     fn lines(&self, at: Point, space: (f64, f64), size: f64, color: Color, text: &str) -> f64 {
         let text = fitted(text, size, space);
         for (line, below) in text.lines.iter().zip(text.offsets()) {
@@ -304,7 +304,6 @@ fn compact(text: &str, opening: &str) -> String {
     out
 }
 
-/// A label with its position in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placed<'a> {
     pub(crate) at: (f64, f64),
@@ -319,8 +318,8 @@ const DOT: f64 = 3.5;
 type Edges = [f64; 4];
 
 /// Places each label to the right, left, above or below its point, where it covers no dot and no
-/// earlier label and stays in the frame. Where that fails, only the part before a colon is tried;
-/// where that fails too, the label is left out.
+/// earlier label and stays in the frame. If there is no such place, this tries the part before a
+/// colon alone. If that fails too, it leaves the label out.
 pub(crate) fn place_labels<'a>(
     names: &[((f64, f64), &'a str)],
     dots: &[(f64, f64)],

@@ -18,9 +18,8 @@ pub(crate) fn errors_section(subject: &Subject<'_>) -> Section {
     section.with_figure(histogram(subject)).with_table("Every sample, worst first", table(subject))
 }
 
-/// The data of one histogram.
 struct Errors {
-    /// Name of the counted samples, such as `samples, fitted`.
+    /// Name of the counted samples, e.g. `samples, fitted`.
     items: &'static str,
     errors: Vec<f64>,
     summary: Summary,
@@ -310,7 +309,8 @@ fn samples_figure(
     subject.figure(words, Drawing::Chart(chart), data)
 }
 
-/// Percentiles of the residuals. Bands join the outer and the inner pair.
+/// Percentiles of the residuals. We draw one band between the outer pair and one between the inner
+/// pair.
 const PERCENTS: [f64; 5] = [5.0, 25.0, 50.0, 75.0, 95.0];
 
 pub(crate) fn residuals_section(subject: &Subject<'_>) -> Section {
@@ -385,9 +385,9 @@ fn residual(film: &ComparedFilm) -> Vec<f64> {
     film.predicted.iter().zip(&film.measured).map(|(p, m)| p - m).collect()
 }
 
-/// Number of the largest errors that are labelled with sample and recipe.
+/// We label this many of the largest errors with sample and recipe.
 const NAMED: usize = 6;
-/// Number of the next largest errors that are labelled with the sample only.
+/// We label this many of the next largest errors with the sample only.
 const NAMED_SHORTLY: usize = 14;
 
 pub(crate) fn left_out_section(subject: &Subject<'_>) -> Section {

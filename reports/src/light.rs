@@ -8,9 +8,8 @@ use crate::panel::{Axis, Chart, KeySymbol, Mark, Panel, Point};
 use crate::style::{CURVE, Color, DOT, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 
-/// Number of wavelengths of the quadrature shown. This is the default of `calibrate::quadrature`.
+/// Number of wavelengths of the quadrature that we show, as is usual in `calibrate::quadrature`.
 const NODES: usize = 8;
-/// Name and colour of the channels X, Y and Z.
 const CHANNELS: [(&str, Color); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {

@@ -18,7 +18,6 @@ use crate::style::{Color, PAPER, RESERVED, SERIES};
 use crate::subject::{Part, Section, Subject};
 use crate::svg::escaped;
 
-/// A function that draws a section.
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
@@ -36,7 +35,7 @@ const SECTIONS: [Drawer; 11] = [
     crate::light::section,
 ];
 
-/// Number of times that [`Report::draw`] and [`page_alone`] call `step`.
+/// [`Report::draw`] and [`page_alone`] call `step` this many times.
 pub const STEPS: usize = SECTIONS.len();
 
 /// A finished report.
@@ -50,7 +49,7 @@ pub struct Report {
     pictures: Vec<Vec<u8>>,
 }
 
-/// The head of a report on `subject`: title, facts and warnings.
+/// Writes title, facts and warnings of a report on `subject`.
 fn head(subject: &Subject<'_>) -> Head {
     let library = subject.library;
     let mut facts = vec![
@@ -109,7 +108,7 @@ fn errors(count: usize, item: &str, errors: &Summary) -> String {
     )
 }
 
-/// Maximum number of samples that a warning names.
+/// A warning names at most this many samples.
 const NAMED: usize = 20;
 
 /// Warnings about measurements that the report leaves out or has resampled.
@@ -134,8 +133,8 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     resampled.into_iter().chain(absent).collect()
 }
 
-/// Draws all sections of `subject` as one HTML page with the numbers inside its figures: for a program
-/// without files. `step` is called [`STEPS`] times, after each section.
+/// Draws all sections of `subject` as one HTML page with the numbers inside its figures: Use this
+/// in a program without files. We call `step` after each section, [`STEPS`] times.
 ///
 /// # Panics
 /// If a drawing thread panics.
@@ -157,8 +156,8 @@ fn drawn(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Vec<Section> {
 
 #[cfg(feature = "pictures")]
 impl Report {
-    /// Draws all sections of `subject` on all cores. `step` is called [`STEPS`] times, after each
-    /// section, for a display of progress.
+    /// Draws all sections of `subject` on all cores. We call `step` after each section, [`STEPS`]
+    /// times, so that you can show progress.
     ///
     /// # Errors
     /// [`PictureError`] if a figure cannot be rendered as PNG.
@@ -178,8 +177,8 @@ impl Report {
         self.sections.iter().flat_map(Section::figures)
     }
 
-    /// The files of the report: path relative to its folder, and content. The page comes last,
-    /// so that all files it links to exist when it is written.
+    /// The files of the report: path relative to its folder, and content. The page comes last, so
+    /// that all files it links to exist when you write it.
     #[must_use]
     pub fn files(&self) -> Vec<(String, Vec<u8>)> {
         let mut files = Vec::new();
@@ -195,7 +194,7 @@ impl Report {
     }
 }
 
-/// Applies `work` to each item on all cores. Results are in the order of the items.
+/// Applies `work` to each item on all cores. The results are in the order of the items.
 fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let made = Mutex::new(Vec::new());
@@ -248,11 +247,10 @@ pub struct Warning {
 pub(crate) enum Links {
     /// To the files `figures/NAME.svg`, `.png` and `.csv` beside the page.
     Beside,
-    /// To its numbers as CSV, within the page.
+    /// To the numbers as CSV, within the page.
     Within,
 }
 
-/// Renders the page.
 #[must_use]
 pub(crate) fn html(head: &Head, sections: &[Section], links: Links) -> String {
     let title = escaped(&head.title);
@@ -318,7 +316,6 @@ fn recipes(samples: &[(String, String)]) -> String {
     format!(" <small>{}</small>", escaped(&all.collect::<Vec<_>>().join("; ")))
 }
 
-/// A command line, folded away.
 fn command_html(command: &str) -> String {
     let command = escaped(command);
     format!("<details class=\"made\"><summary>Command</summary><code>{command}</code></details>\n")
@@ -417,7 +414,7 @@ fn class(column: &Column) -> &str {
     if column.unit.is_some() { " class=\"n\"" } else { "" }
 }
 
-/// The style sheet. On a dark screen, lines and text of figures get lighter colours.
+/// The style sheet. If the screen is dark, lines and text of figures get lighter colours.
 fn style(sections: &[Section]) -> String {
     let mut colors: Vec<Color> =
         sections.iter().flat_map(Section::figures).flat_map(Figure::line_colors).collect();

@@ -1,6 +1,6 @@
 //! Illuminants and standard observers of the CIE, read from the tables in `data`.
 //!
-//! [`Illuminant`] is also the common form of all other lights.
+//! Every other light, e.g. a measured lamp, also becomes an [`Illuminant`].
 
 use std::sync::OnceLock;
 
@@ -14,8 +14,8 @@ use crate::spectrum::{
 
 /// A light: its name and its relative spectral power at 1 nm on [`Grid::cie`].
 ///
-/// Tables at coarser steps are interpolated linearly, as the CIE defines D65 between its 5 nm
-/// values (CIE 15:2018, section 4). Beyond the ends of a table the end value is held.
+/// We interpolate tables at coarser steps linearly, because the CIE defines D65 between its 5 nm
+/// values so (CIE 15:2018, section 4). Beyond the ends of a table the end value counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Illuminant {
     name: String,
@@ -51,7 +51,8 @@ impl Illuminant {
         tables().iter().skip(1).map(|(name, _)| name.as_str())
     }
 
-    /// A light from its spectral power, measured at any wavelengths. End values are held.
+    /// A light from its spectral power, measured at any wavelengths. Outside them the nearest end
+    /// value counts.
     ///
     /// # Errors
     /// [`IlluminantError`] if a power is negative, or all are 0.
@@ -153,7 +154,8 @@ pub(crate) fn filled(
 
 /// A set of colour-matching functions at 1 nm.
 ///
-/// Outside the tabulated band the functions are 0. Sources and licences: `data/SOURCES.md`.
+/// Outside the tabulated band the functions are 0. You find sources and licences in
+/// `data/SOURCES.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Observer {
     /// CIE 1931, 2 degrees (ISO/CIE 11664-1).
@@ -183,10 +185,11 @@ impl Observer {
         }
     }
 
-    /// The observer with the given name. `2` and `10` are the observers of 1931 and 1964.
+    /// The observer with the given name. You may also write `2` or `10` for the observers of 1931
+    /// and 1964.
     ///
     /// # Errors
-    /// [`ObserverError`] lists the names in its message.
+    /// [`ObserverError`] if you pass another name. Its message lists the names.
     pub fn named(name: &str) -> Result<Self, ObserverError> {
         match name {
             "2" => Ok(Self::Cie1931Deg2),

@@ -13,10 +13,10 @@ use crate::surveyed::SurveyedScan;
 
 pub use crate::pixel_maps::PixelCounts;
 
-/// Bytes of the values that are read at once. Together with the maps of a shard, a run stays below 1
-/// GB.
+/// We read this many bytes of values at once. Together with the maps of a shard, a run stays below
+/// 1 GB.
 const BLOCK_BYTES: usize = 192 << 20;
-/// Most pixels that are mapped at once, so that progress is told often.
+/// We map at most this many pixels at once, so that you see progress often.
 const MOST_PIXELS: usize = 256 * 2048;
 
 /// State of a run.
@@ -37,15 +37,15 @@ pub struct MapProgress {
 pub struct MapOutcome {
     /// Pixels that this run mapped, by mask.
     pub pixels: PixelCounts,
-    /// Shards that were finished before this run.
+    /// Number of shards that were finished before this run.
     pub kept: usize,
-    /// Shards that this run wrote.
+    /// Number of shards that this run wrote.
     pub written: usize,
-    /// Whether the caller ended the run before its end.
+    /// Whether you ended the run early.
     pub cancelled: bool,
 }
 
-/// A run that failed. Shards that were written before are whole.
+/// A run failed. Shards that it wrote before are whole.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError<E: Error + 'static> {
     /// The cube cannot be read.
@@ -77,11 +77,12 @@ impl<E: Explain + 'static> Explain for RunError<E> {
     }
 }
 
-/// Maps every shard of `store` that is not finished. `map` maps a block. It is called for one block at a
-/// time and may use all threads. Its result must depend on each pixel alone, so that the bytes of the
-/// store do not depend on the blocks.
+/// Maps every shard of `store` that is not finished. `map` maps a block. We call it for one block
+/// at a time, and it may use all threads. Its result must depend on each pixel alone, so that the
+/// bytes of the store do not depend on the blocks.
 ///
-/// `progress` is called after each block. If it breaks, the run ends. The shard under way is not written.
+/// We call `progress` after each block. If it breaks, the run ends and we do not write the shard
+/// under way.
 ///
 /// # Errors
 /// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.
@@ -128,9 +129,9 @@ fn pixels(shard: &Shard) -> u64 {
     shard.rows.len() as u64 * shard.columns.len() as u64
 }
 
-/// Maps one shard and writes it, whether it is finished or not. `progress` is called after each block
-/// with the pixels of the shard that are done; if it breaks, nothing is written and the result is
-/// `None`.
+/// Maps one shard and writes it, even if it is finished already. We call `progress` after each
+/// block with the number of pixels done in this shard. If it breaks, we write nothing and the
+/// result is `None`.
 ///
 /// # Errors
 /// [`RunError`] if the cube cannot be read, a block not mapped or the shard not written.
@@ -167,13 +168,14 @@ impl SurveyedScan {
     /// Begins or resumes the maps at `path`.
     ///
     /// # Errors
-    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
+    /// [`StoreError`] if the folder holds anything but maps of this run, or we cannot write it.
     pub fn store(&self, path: impl AsRef<Path>, mode: StoreMode) -> Result<MapStore, StoreError> {
         MapStore::create(path, self.about(), mode)
     }
 
-    /// Maps every shard that is not finished, on all cores and in bounded memory. `progress` is called after
-    /// each block; if it breaks, the run ends, and the shard under way is not written.
+    /// Maps every shard that is not finished, on all cores and in bounded memory. We call
+    /// `progress` after each block. If it breaks, the run ends and we do not write the shard under
+    /// way.
     ///
     /// # Errors
     /// [`RunError`] if the scan cannot be read or the maps not be written.
@@ -185,8 +187,9 @@ impl SurveyedScan {
         map_cube(self.cube(), store, |block| self.map_block(block), progress)
     }
 
-    /// Maps the shard at `place` in the order of the store, unless it is finished. `None` if it was, or if
-    /// `progress`, called after each block with the number of finished pixels, broke.
+    /// Maps the shard at `place` in the order of the store, unless it is finished. We call
+    /// `progress` after each block with the number of finished pixels. You get `None` if the shard
+    /// was finished before, or if `progress` breaks.
     ///
     /// # Errors
     /// [`RunError`] if the scan cannot be read or the shard not be written.

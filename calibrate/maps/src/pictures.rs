@@ -1,4 +1,5 @@
-//! Pictures of maps for a person to look at first: overviews at the size of a screen, as PNG files in colour.
+//! Pictures of maps: overviews at the size of a screen, as PNG files in colour. Look at these
+//! first.
 
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use crate::pixel_maps::{BlockMaps, Mask, PixelCounts};
 use crate::store::{StoreError, StoredMaps};
 use crate::surveyed::SurveyedScan;
 
-/// Means of maps over squares of pixels. Values are NaN where no pixel of a square is mapped.
+/// Means of maps over squares of pixels. A value is NaN if no pixel of the square is mapped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overview {
     /// Pixels of the scan along each side of a square.
@@ -21,13 +22,13 @@ pub struct Overview {
     pub height: usize,
     /// Names of the pigments.
     pub pigments: Vec<String>,
-    /// Mean share of each pigment: one field of squares a pigment.
+    /// Mean share of each pigment. There is one field of squares for each.
     pub share: Vec<Vec<f32>>,
     /// Mean probability of each pigment.
     pub presence: Vec<Vec<f32>>,
-    /// Mean chi-square of each square, also of pixels out of gamut.
+    /// Mean chi-square of each square, which includes pixels out of gamut.
     pub chi2: Vec<f32>,
-    /// Mean residual of each square, also of pixels out of gamut.
+    /// Mean residual of each square, which includes pixels out of gamut.
     pub rms: Vec<f32>,
     /// Mean share of each pigment over all mapped pixels.
     pub mean_share: Vec<f64>,
@@ -37,7 +38,7 @@ pub struct Overview {
     pub pixels: PixelCounts,
 }
 
-/// Sums of the values of each square, to which maps are added block by block.
+/// Sums of the values of each square. You add maps block by block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OverviewSums {
     step: usize,
@@ -82,8 +83,8 @@ impl OverviewSums {
         }
     }
 
-    /// Adds the maps `block` of the pixels in `rows` and `columns`, counted from the first of the maps. Pixels
-    /// outside the maps are passed over.
+    /// Adds the maps `block` of the pixels in `rows` and `columns`. Count these from the first
+    /// pixel of the maps. This skips pixels outside the maps.
     pub fn add(&mut self, rows: Range<usize>, columns: Range<usize>, block: &BlockMaps) {
         self.pixels.add(&block.mask);
         let count = self.pigments.len();
@@ -110,7 +111,7 @@ impl OverviewSums {
         }
     }
 
-    /// Means of all that was added.
+    /// Means of everything that you added.
     #[must_use]
     pub fn finish(self) -> Overview {
         let mapped = self.pixels.of(Mask::Mapped);
@@ -142,7 +143,7 @@ fn means_of(field: Vec<f64>, counts: &[u32]) -> Vec<f32> {
     pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
 }
 
-/// Darkest lightness of the ink of a pigment's picture, so that pale pigments are seen.
+/// If all channels of an ink are brighter than this, we darken it, so that you see pale pigments.
 const DARKEST: u8 = 150;
 
 /// Pictures of one pigment or group.
@@ -163,7 +164,7 @@ pub struct PigmentPictures {
 /// Pictures of all maps of a scan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MapPictures {
-    /// Those of pigments and groups, the ones that are present most often first.
+    /// Pictures of pigments and groups. The ones that are present most often come first.
     pub pigments: Vec<PigmentPictures>,
     /// PNG of chi-square: white for 0, red for 4 and more.
     pub chi2: Vec<u8>,
@@ -177,10 +178,10 @@ impl MapPictures {
     /// Name of the file of the residual.
     pub const RESIDUAL_FILE: &str = "residual.png";
 
-    /// Draws the maps `overview` of `scan`. `library` must be the library of the survey.
+    /// Draws the maps `overview` of `scan`. Pass the library of the survey as `library`.
     ///
     /// # Errors
-    /// [`PictureError`] if a picture cannot be encoded.
+    /// [`PictureError`] if we cannot encode a picture.
     pub fn of(
         scan: &SurveyedScan,
         overview: &Overview,
@@ -211,7 +212,7 @@ impl MapPictures {
     }
 }
 
-/// The colour of a pigment's masstone, made dark enough to be seen on white.
+/// The colour of a pigment's masstone, darkened so that you see it on white.
 fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
     let columns = scan.mapper().columns();
     let first = columns.iter().find(|c| c.name == column).and_then(|c| c.pigments.first());
@@ -224,7 +225,7 @@ fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
     }
 }
 
-/// A name with letters and digits alone, for a file.
+/// Makes a file name of letters and digits alone.
 fn file_name(name: &str) -> String {
     let kept =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
@@ -232,7 +233,7 @@ fn file_name(name: &str) -> String {
     text.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
 
-/// A field that is no picture.
+/// We cannot make a picture of a field.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The number of values differs from the number of pixels, or there are none.
@@ -278,8 +279,8 @@ pub fn picture_png(
     Ok(bytes)
 }
 
-/// Colours from one value to another, linear in encoded sRGB. Values beyond the ends have the colours of
-/// the ends.
+/// Colours from one value to another, linear in encoded sRGB. Values beyond the ends get the
+/// colours of the ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ramp {
     /// Value and encoded sRGB of the beginning.
@@ -311,7 +312,7 @@ impl Ramp {
     }
 }
 
-/// Rows and columns that are read at once, so that wide scans take no more memory than others.
+/// We read this many rows and columns at once, so that wide scans take no more memory than others.
 #[cfg(feature = "files")]
 const ROWS: usize = 256;
 #[cfg(feature = "files")]
@@ -322,7 +323,7 @@ impl Overview {
     /// Reads all of `maps`, with at most `longest` squares along the longer side.
     ///
     /// # Errors
-    /// [`StoreError`] if a shard cannot be read.
+    /// [`StoreError`] if we cannot read a shard.
     pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
         let rows = maps.rows();
         let columns = maps.columns();

@@ -30,7 +30,7 @@ fn scan(pixels: usize) -> (Mapper, Vec<f32>) {
     (Mapper::new(&oils, &nm, &settings()).unwrap(), painting.spectra)
 }
 
-/// All numbers of a map as bits, so that NaN equals NaN.
+/// All numbers of a map as bits, so that e.g. NaN equals NaN.
 fn bits(maps: &BlockMaps) -> Vec<u32> {
     let lists = [&maps.share, &maps.share_sd, &maps.presence, &maps.chi2, &maps.rms];
     let numbers = lists.into_iter().flatten().map(|value| value.to_bits());

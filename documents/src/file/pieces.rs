@@ -1,4 +1,4 @@
-//! Writing a file piece by piece, where it is too large for the memory.
+//! Writing a file piece by piece. Use this if the file is too large for the memory.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::replace::{Replacement, unnamed};
 use super::whole::{FileAction, FileError};
 
-/// A file that is written piece by piece. Until [`FileInPieces::finish`] the path holds what it held
-/// before. If you drop this value instead, nothing remains of it.
+/// A file that you write piece by piece. Until you call [`FileInPieces::finish`], the path holds
+/// what it held before. If you drop this value instead, nothing remains of it.
 ///
 /// ```
 /// use documents::file::FileInPieces;
@@ -30,7 +30,7 @@ pub struct FileInPieces {
 }
 
 impl FileInPieces {
-    /// Begins a file that replaces `path` when it is finished.
+    /// Begins a file that replaces `path` when you finish it.
     ///
     /// # Errors
     /// [`FileError`] with the path, in the cases of [`super::write_whole`].

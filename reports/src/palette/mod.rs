@@ -1,5 +1,5 @@
-//! Sections on the palette of a library: mixtures, gamut, hiding power, tinting strength and other lights.
-//! Their numbers come from `calibrate::palette`.
+//! Sections on the palette of a library: mixtures, gamut, hiding power, tinting strength and other
+//! lights. We get the numbers from `calibrate::palette`.
 
 mod patch;
 mod gamut;
@@ -25,7 +25,7 @@ use patch::{
 
 pub(crate) use gamut::{gamut_section, lights_section};
 
-/// Width for the names, in px.
+/// Width in px for the names. The other sizes are in px too.
 const NAME: f64 = 170.0;
 
 pub(crate) fn mixing_section(subject: &Subject<'_>) -> Section {
@@ -145,15 +145,10 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     subject.figure(words, Drawing::Canvas(canvas), data)
 }
 
-/// Width for the names, in px.
 const GRADED_NAME: f64 = 112.0;
-/// Width for the mean errors, in px.
 const MEAN: f64 = 84.0;
-/// Height of a patch, in px.
 const PATCH: f64 = 40.0;
-/// Height of a row, in px.
 const ROW: f64 = 60.0;
-/// Height above the first row, in px.
 const HEAD: f64 = 40.0;
 
 pub(crate) fn graded_section(subject: &Subject<'_>) -> Section {
@@ -181,7 +176,8 @@ pub(crate) fn graded_section(subject: &Subject<'_>) -> Section {
     })
 }
 
-/// Quadratures of three and eight wavelengths: from the report if it has both, else newly computed.
+/// Quadratures of three and eight wavelengths. We take them from the report if it has both, and
+/// compute them otherwise.
 fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
     let tried = |count: usize| {
         let mut trials = subject.quadratures.iter();

@@ -13,7 +13,7 @@ use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role,
 use super::points::{Duplicates, Point, ordered, sorted};
 use super::xml::parse;
 
-/// Key of a row and the rest of it.
+/// Splits a row into its key and the rest.
 fn key_and_value(line: &str) -> Option<(&str, &str)> {
     let (key, value) = line.split_once(['\t', ';']).or_else(|| line.split_once(','))?;
     Some((key.trim().trim_matches('"'), value))
@@ -102,7 +102,7 @@ pub(super) fn read_uprtek(
     Ok(records)
 }
 
-/// Start of a line of the spectrum: `Spectral Data 380[nm],0.001`.
+/// A line of the spectrum starts with this, e.g. `Spectral Data 380[nm],0.001`.
 const SPECTRAL: &str = "Spectral Data";
 
 /// The readings of a Sekonic file, each at the finest step of the file.
@@ -188,7 +188,6 @@ fn spectrum(
     })
 }
 
-/// The spectral distributions of a TM-27 file.
 pub(super) fn read_tm27(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     if !root.name.starts_with("IESTM27") {

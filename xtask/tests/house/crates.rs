@@ -147,7 +147,7 @@ fn cargo_run_runs_the_program() {
     assert_eq!(default, &["apps/cli".into()], "members with several programs need `--bin`");
 }
 
-/// The profile of tests in a manifest, without the packages that `lock` does not hold.
+/// The profile of tests in a manifest, without packages that are missing in `lock`.
 fn test_profile(manifest: &str, lock: &str) -> toml::Table {
     let manifest: toml::Table = text(manifest).parse().unwrap();
     let mut profile = manifest["profile"]["dev"].as_table().unwrap().clone();

@@ -1,10 +1,9 @@
-//! Order of imports: a file imports only from modules declared above it, so there is no cycle.
+//! Order of imports: a file imports only from modules declared above it. This rules out cycles.
 
 use std::collections::BTreeMap;
 
 use xtask::files::{files_below, text};
 
-/// A module: its file, its child modules, re-exports and other paths.
 #[derive(Debug, Default)]
 struct Module {
     file: String,
@@ -12,7 +11,7 @@ struct Module {
     children: Vec<String>,
     /// Re-exported names, each with its path.
     reexports: BTreeMap<String, Vec<String>>,
-    /// All other paths in its code, as they are written.
+    /// All other paths in its code, as the code writes them.
     paths: Vec<Vec<String>>,
 }
 
@@ -142,8 +141,8 @@ fn read(modules: &mut Modules, path: Vec<String>, file: &str, folder: &str) {
     modules.insert(path, module);
 }
 
-/// Module that defines the item with the path `names` in the module `from`; `None` if another crate
-/// defines it. `hops` counts the re-exports followed so far.
+/// The module that defines the item with the path `names`, seen from the module `from`. If another
+/// crate defines it, this is `None`. `hops` counts the re-exports that we have followed so far.
 fn resolve(
     modules: &Modules,
     from: &[String],
@@ -188,8 +187,8 @@ fn resolve(
     Some(at)
 }
 
-/// Faults of the order: each import from a module declared below, or of an item of a parent whose
-/// own code uses its children.
+/// Finds imports in the wrong order: from a module declared below, or of an item of a parent module
+/// when the code of the parent uses its children.
 fn faults(modules: &Modules) -> Vec<String> {
     let mut faults = Vec::new();
     let mut uses_children = BTreeMap::new();

@@ -1,8 +1,10 @@
-//! How far maps can be believed: measured mixtures and simulated paintings, in which we know the pigments.
+//! How far you can believe maps. We test them on measured mixtures and simulated paintings, because
+//! we know their pigments.
 //!
-//! We have no scan of a painting with known pigments. These trials use measured swatches as pixels, each with
-//! a library that was fitted without it, and simulated pixels with K and S that differ from the library. They
-//! also run common linear methods for comparison. The readings are the Van Gogh oils that ship with impasto.
+//! We have no scan of a painting with known pigments. These trials use measured swatches as pixels,
+//! each with a library that was fitted without it, and simulated pixels with K and S that differ
+//! from the library. They also run common linear methods for comparison. The readings are the Van
+//! Gogh oils that ship with impasto.
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 mod trials;
@@ -23,7 +25,7 @@ pub use trials::{
     Unmixed, coverage, covered, reliability,
 };
 
-/// Groups by name. Every other pigment is by itself.
+/// Groups by name. Every pigment outside them is a group by itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedGroups {
     /// Names of all pigments of the trials.
@@ -56,7 +58,7 @@ impl NamedGroups {
         Self { pigments, group_of, count }
     }
 
-    /// Values by name as a list by pigment.
+    /// Sorts values by name into a list by pigment.
     fn list<'a>(&self, values: impl IntoIterator<Item = (&'a str, f64)>) -> Vec<f64> {
         let mut list = vec![0.0; self.pigments.len()];
         for (name, value) in values {
@@ -78,7 +80,7 @@ pub struct SwatchTrials {
 }
 
 impl SwatchTrials {
-    /// Trials by a baseline, which tells each pigment of a share above `least` as present.
+    /// Trials by a baseline. It calls a pigment present if its share is above `least`.
     #[must_use]
     pub fn baseline(
         samples: &[LeftOut],
@@ -110,7 +112,7 @@ fn true_shares(sample: &LeftOut) -> impl Iterator<Item = (&str, f64)> {
     sample.mixture.shares.iter().map(|(name, share)| (name.as_str(), *share))
 }
 
-/// Errors of the predictions for `samples`, or `None` if there are none.
+/// Errors of the predictions for `samples`, or `None` if you pass no samples.
 #[must_use]
 pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Option<Residuals> {
     let mut samples = samples.into_iter().peekable();
@@ -125,11 +127,11 @@ pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Optio
     })
 }
 
-/// Maps each of `samples` with its own library and the residuals of all others: by single pigment, and by the
-/// groups `groups`.
+/// Maps each of `samples` with its own library and the residuals of all others, once by single
+/// pigment and once by `groups`.
 ///
 /// # Errors
-/// [`MapError`] if a library cannot be used.
+/// [`MapError`] if you cannot use a library.
 pub fn swatch_trials(
     samples: &[LeftOut],
     settings: &MapSettings,
@@ -198,7 +200,7 @@ pub fn swatch_trials(
     Ok(SwatchTrials { pigments, groups })
 }
 
-/// Trials with the penalty of each fold chosen on the other folds.
+/// Trials after we chose the penalty of each fold on the other folds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     /// Trials, each with the penalty that suits the other folds best.
@@ -207,9 +209,9 @@ pub struct Choice {
     pub penalties: Vec<f64>,
 }
 
-/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own:
-/// swatch `i` is in fold `i` modulo `folds`, and takes the penalty with the best harmonic mean of
-/// precision and recall, of pigments and groups alike, is greatest in the other folds.
+/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own
+/// penalty. Swatch `i` is in fold `i` modulo `folds`. It takes the penalty with the best harmonic
+/// mean of precision and recall, of pigments and groups alike, in the other folds.
 #[must_use]
 pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choice {
     let count = of_penalty.first().map_or(0, |(_, trials)| trials.groups.len());
@@ -237,7 +239,7 @@ pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choic
     Choice { trials, penalties: chosen.iter().map(|&index| of_penalty[index].0).collect() }
 }
 
-/// Groups of the Van Gogh oils that look alike from 400 to 700 nm, for which figures are told.
+/// Groups of the Van Gogh oils that look alike from 400 to 700 nm. We report figures for these.
 #[must_use]
 pub fn oil_groups() -> Vec<PigmentGroup> {
     let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
@@ -253,8 +255,8 @@ pub fn oil_groups() -> Vec<PigmentGroup> {
         .collect()
 }
 
-/// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, because other
-/// pigments hardly show in mixtures with them.
+/// Eight of the Van Gogh oils that a painter would set out. We leave out black and Prussian blue,
+/// because other pigments hardly show in mixtures with them.
 #[must_use]
 pub fn light_palette() -> Vec<String> {
     let names = [
@@ -270,10 +272,10 @@ pub fn light_palette() -> Vec<String> {
     names.map(str::to_owned).to_vec()
 }
 
-/// Readings of the Van Gogh oils with the options by which their library is fitted.
+/// Prepares the readings of the Van Gogh oils with the options that we fit their library with.
 ///
 /// # Errors
-/// [`FittingError`] if `readings` are others.
+/// [`FittingError`] if `readings` are of other paints.
 pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     let below_surface = Some(BelowSurface::Floor);
     PreparedFit::new(
@@ -286,9 +288,9 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
 /// Trials of simulated paintings of several seeds.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PaintingTrials {
-    /// Trials of pixels that were searched whole.
+    /// Trials of pixels that we searched whole.
     pub searched: Vec<Trial>,
-    /// Trials of pixels that were mapped with a survey.
+    /// Trials of pixels that we mapped with a survey.
     pub mapped: Vec<Trial>,
     /// Best set of each searched pixel beside its true pigments.
     pub beside: Vec<BesideTruth>,
@@ -297,7 +299,8 @@ pub struct PaintingTrials {
 }
 
 impl PaintingTrials {
-    /// Share of the pixels in which the search ended at a worse score than the true pigments have.
+    /// Share of the pixels for which the search found only sets with a worse score than the true
+    /// pigments.
     #[must_use]
     pub fn worse(&self) -> f64 {
         let worse = self.beside.iter().filter(|beside| beside.is_worse).count();
@@ -320,20 +323,21 @@ pub fn tone(mean_reflectance: f32) -> usize {
     TONES.iter().filter(|end| mean_reflectance >= **end).count()
 }
 
-/// Knowledge of the pigments that a painting holds, beside the library.
+/// How much we know of the pigments in a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Told {
-    /// No pigment of it is named.
+    /// We know no pigment of it.
     Nothing,
-    /// All its pigments are named, and no others.
+    /// We know all its pigments.
     Palette,
 }
 
-/// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with the library
-/// `known`, `settings`, and the palette of the painting if it is told.
+/// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with
+/// the library `known` and `settings`. If `told` says so, the map also knows the palette of the
+/// painting.
 ///
 /// # Errors
-/// [`MapError`] if library and settings cannot be used.
+/// [`MapError`] if you cannot use the library or the settings.
 pub fn painting_trials(
     (real, known): (&PigmentLibrary, &PigmentLibrary),
     plan: &PaintingPlan,
@@ -360,24 +364,26 @@ pub fn painting_trials(
     Ok(trials)
 }
 
-/// Trials of pixels with one pigment that the library lacks.
+/// Trials of pixels with a pigment that the library lacks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Missing {
-    /// Median chi-square per degree of freedom of pixels without the pigment, and of those with it.
+    /// Median chi-square per degree of freedom, first of pixels without the pigment, then of pixels
+    /// with it.
     pub chi2: [f64; 2],
     /// Share of the pixels containing the pigment that have a chi-square above the 95th percentile of
     /// pixels without it.
     pub noticed: f64,
-    /// Mean number of pigments that are told to be present but are not, in pixels without the missing one,
-    /// and with it.
+    /// Mean number of pigments that the map wrongly finds in a pixel, first in pixels without the
+    /// missing one, then with it.
     pub false_presences: [f64; 2],
 }
 
-/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each: the first that is
-/// in no group of `settings`, because another of its group would take its place.
+/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each. This
+/// is the first that is not in a group of `settings`, because another pigment of the group would
+/// take its place.
 ///
 /// # Errors
-/// [`MapError`] if library and settings cannot be used.
+/// [`MapError`] if you cannot use the library or the settings.
 pub fn missing_pigment(
     library: &PigmentLibrary,
     plan: &PaintingPlan,

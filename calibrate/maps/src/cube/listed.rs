@@ -10,12 +10,12 @@ use super::raw_file::{PositionalFile, ReadAt};
 use super::scan::Cube;
 use super::window::Opened;
 
-/// First bytes by which the kind of a file is told.
+/// We tell the kind of a file by this many first bytes.
 const START: usize = 16;
-/// Advice where a header or its data are missing.
+/// Advice if a header or its data are missing.
 const BOTH: &str = "give the header (.hdr) and its data file together";
 
-/// A file that the caller reads.
+/// A file that you read for us, e.g. in a browser.
 #[derive(Debug, Clone)]
 pub struct ScanFile {
     /// Name of the file, as messages show it.
@@ -71,7 +71,7 @@ impl Cube {
     }
 }
 
-/// The refusal of files none of which is a header.
+/// The error if none of the files is a header.
 fn without_header(files: &[ScanFile]) -> Result<CubeError, CubeError> {
     let Some(first) = files.first() else {
         return Ok(CubeError::format(Path::new("scan"), "no file is given", BOTH));
@@ -97,7 +97,8 @@ fn open(files: &[ScanFile], path: &Path) -> Result<Opened, CubeError> {
     Ok(envi::opened(path, header, data))
 }
 
-/// The data of a header: by name, and among several by size. Otherwise it is the only other file.
+/// Finds the data of a header by name, and among several files by size. If no name fits, this is
+/// the only other file.
 fn data_of<'f>(
     files: &'f [ScanFile],
     path: &Path,
@@ -125,15 +126,14 @@ fn data_of<'f>(
 /// Readings that lie beside a scan.
 #[derive(Debug, Default)]
 pub(crate) struct OwnReadings {
-    /// White of the camera.
     pub(crate) white: Option<PathBuf>,
-    /// Dark of the scan.
     pub(crate) dark: Option<PathBuf>,
-    /// Dark of the white, where the camera took one.
+    /// Dark of the white, if the camera took one.
     pub(crate) white_dark: Option<PathBuf>,
 }
 
-/// White and dark readings of a scan: from the settings, or else from its folder. `open` opens a reading.
+/// White and dark readings of a scan. They come from the settings, or else from its folder. `open`
+/// opens a reading.
 pub(crate) fn readings(
     scan: &Opened,
     own: Option<&OwnReadings>,

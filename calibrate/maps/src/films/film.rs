@@ -1,4 +1,5 @@
-//! Films of paint on the bands of a map, and one pixel in f32, eight bands or pigments at a time.
+//! Films of paint on the bands of a map, and one pixel in f32. We compute eight bands or pigments
+//! at a time.
 
 use pigment::library::PigmentLibrary;
 use pigment::{PigmentId, RecipeError};
@@ -12,9 +13,9 @@ use super::whitening::{
 };
 use crate::pixel_maps::{BlockMaps, MapError};
 
-/// Most pigments of a set.
+/// A set holds at most this many pigments.
 pub(crate) const MOST_IN_SET: usize = 4;
-/// Range of internal reflectances to which a pixel is moved where it is linearised.
+/// Before we linearise a pixel, we move its internal reflectances into this range.
 const INTERNAL: [f32; 2] = [1e-4, 0.9995];
 
 /// K, S and surface of the pigments, laid out for vectors.
@@ -24,8 +25,8 @@ pub(crate) struct Films {
     pub(crate) bands: usize,
     /// Blocks of bands, with K = S = 1 beyond the last band.
     pub(crate) blocks: usize,
-    /// Blocks of pigments, with K = S = 0 before the first pigment: where each one is combined with those after
-    /// it, the last block holds most.
+    /// Blocks of pigments, with K = S = 0 before the first pigment. We combine each pigment with
+    /// the ones after it, so it is best if the last block is full.
     pub(crate) columns: usize,
     /// K and S by pigment, each `blocks` long.
     absorption: Vec<f32x8>,
@@ -41,7 +42,8 @@ pub(crate) struct Films {
     k2: f32x8,
 }
 
-/// A pixel's measured reflectance, the internal one within the range of films, and the whitening near it.
+/// A pixel: its measured reflectance, its internal reflectance (moved into the range of films), and
+/// the whitening near it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pixel {
     measured: Spectrum,
@@ -49,11 +51,10 @@ pub(crate) struct Pixel {
     white: Whitening,
 }
 
-/// Differences of a pixel from a film: chi-square, and the normal equations of the shares.
+/// How a pixel differs from a film: chi-square, and the normal equations of the shares.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Difference {
     pub(crate) chi2: f32,
-    /// Sum of squares of the differences in reflectance.
     pub(crate) squares: f32,
     pub(crate) normal: [[f32; MOST_IN_SET]; MOST_IN_SET],
     pub(crate) right: [f32; MOST_IN_SET],
@@ -99,7 +100,7 @@ impl Films {
         }
     }
 
-    /// A pixel of these measured reflectances, one for each band, with errors like `noise`.
+    /// Prepares a pixel. Pass one measured reflectance for each band, with errors like `noise`.
     pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
         let measured = spectrum(&reflectance[..self.bands], 0.3);
         let mut internal = measured;
@@ -205,8 +206,8 @@ impl Films {
         found
     }
 
-    /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
-    /// with secants to the film of internal reflectance and 1/S `about`.
+    /// Products of all pigments' rows. For the shares of a film like `pixel` the rows sum to 0. We
+    /// linearise with secants to the film `about`, which you pass as internal reflectance and 1/S.
     pub(crate) fn products(&self, pixel: &Pixel, about: (&Spectrum, &Spectrum), work: &mut Work) {
         by_vectors(Products { films: self, pixel, about, work });
     }
@@ -317,12 +318,12 @@ impl Task for Products<'_> {
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
     white: Vec<f32x8>,
-    /// Mean S of each pigment relative to the film about which the rows are linearised, by which each row
-    /// is divided. Else pigments of little S would seem to explain every pixel.
+    /// Mean S of each pigment relative to the film that we linearise about. We divide each row by
+    /// this, because pigments of little S would otherwise seem to explain every pixel.
     sizes: Vec<f32x8>,
     inverse: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments. The upper half is valid. Row and lane of a pigment
-    /// are `before` its place.
+    /// Products of the rows of all pairs of pigments. The upper half is valid. The row and lane of
+    /// a pigment is `before` plus its place.
     pub(crate) products: Vec<f32x8>,
     before: usize,
 }
@@ -338,7 +339,7 @@ impl Work {
         }
     }
 
-    /// Product of the rows of two pigments, of which `a` is not after `b`.
+    /// Product of the rows of two pigments. `a` must not come after `b`.
     #[inline(always)]
     pub(crate) fn product(&self, a: usize, b: usize) -> f32 {
         let a = a + self.before;
@@ -346,14 +347,14 @@ impl Work {
         self.products[a * self.sizes.len() + b / LANES].as_array()[b % LANES]
     }
 
-    /// Size by which the row of a pigment is divided.
+    /// We divide the row of a pigment by this size.
     pub(crate) fn size(&self, pigment: usize) -> f32 {
         let lane = pigment + self.before;
         self.sizes[lane / LANES].as_array()[lane % LANES]
     }
 }
 
-/// Least K and S relative to the greatest of its pigment; below it the optics have no slope.
+/// Least K and S relative to the greatest of the pigment. Below this the optics have no slope.
 const LEAST: f64 = 1e-7;
 
 /// Pigments on the bands of a map.
@@ -370,12 +371,12 @@ pub struct Paints {
 }
 
 impl Paints {
-    /// Pigments of `library` that are called one of `palette`; or, for an empty palette, all pigments
-    /// with measured K and S.
+    /// The pigments of `library` that `palette` names. If you pass an empty palette, these are all
+    /// pigments with measured K and S.
     ///
     /// # Errors
-    /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`] unless 1 to
-    /// 64 take part.
+    /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`]
+    /// unless 1 to 64 take part.
     pub fn new(
         library: &PigmentLibrary,
         palette: &[String],
@@ -437,7 +438,7 @@ impl Paints {
         (of(&self.absorption), of(&self.scattering))
     }
 
-    /// Measured reflectance of a mixture in a film that hides, by band.
+    /// Measured reflectance of an opaque film of a mixture, by band.
     #[must_use]
     pub fn reflectance(&self, shares: &[(usize, f64)]) -> Vec<f64> {
         let (absorption, scattering) = self.mixed(shares);
@@ -552,7 +553,6 @@ mod tests {
         })
     }
 
-    /// Errors of invented mixtures.
     fn residuals() -> Residuals {
         Residuals { mixtures: (0..12).map(mixture).collect(), ..Residuals::van_gogh_oils() }
     }

@@ -13,10 +13,9 @@ use web_time::SystemTime;
 
 use super::{Change, Metadata, from_root, metadata, tree};
 
-/// Paths that are locked.
 static LOCKED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// An open file. What is written is in the file at once.
+/// An open file. What you write is in the file at once.
 #[derive(Debug)]
 pub struct File {
     path: PathBuf,
@@ -34,35 +33,35 @@ pub struct OpenOptions {
 }
 
 impl OpenOptions {
-    /// Opens a file that is there.
+    /// Options that open an existing file.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Whether we read it, which we always can.
+    /// Does nothing, because you can always read.
     pub fn read(&mut self, _: bool) -> &mut Self {
         self
     }
 
-    /// Whether we write it, which we always can.
+    /// Does nothing, because you can always write.
     pub fn write(&mut self, _: bool) -> &mut Self {
         self
     }
 
-    /// Whether it is made if it is missing.
+    /// Whether to make the file if it is missing.
     pub fn create(&mut self, create: bool) -> &mut Self {
         self.create = create;
         self
     }
 
-    /// Whether its content is removed.
+    /// Whether to remove the content.
     pub fn truncate(&mut self, truncate: bool) -> &mut Self {
         self.truncate = truncate;
         self
     }
 
-    /// Whether all is written at its end.
+    /// Whether to write everything at the end.
     pub fn append(&mut self, append: bool) -> &mut Self {
         self.append = append;
         self
@@ -71,7 +70,7 @@ impl OpenOptions {
     /// Opens the file.
     ///
     /// # Errors
-    /// If it is missing and not to be made, or cannot be made.
+    /// If it is missing and you do not create it, or it cannot be made.
     pub fn open(&self, path: impl AsRef<Path>) -> io::Result<File> {
         let path = from_root(path.as_ref());
         let mut tree = tree();
@@ -88,7 +87,7 @@ impl OpenOptions {
 }
 
 impl File {
-    /// Opens a file that is there.
+    /// Opens an existing file.
     ///
     /// # Errors
     /// If it is missing.
@@ -104,13 +103,13 @@ impl File {
         OpenOptions::new().create(true).truncate(true).open(path)
     }
 
-    /// How a file is opened.
+    /// Options for opening a file.
     #[must_use]
     pub fn options() -> OpenOptions {
         OpenOptions::new()
     }
 
-    /// Does nothing: what is written is in the file at once.
+    /// Does nothing, because what you write is in the file at once.
     ///
     /// # Errors
     /// None.
@@ -158,7 +157,7 @@ impl File {
         Ok(())
     }
 
-    /// Changes the content, which is copied only if another holds it too.
+    /// Changes the content. This copies it only if someone else holds it too.
     fn change(&self, change: impl FnOnce(&mut Vec<u8>)) -> io::Result<()> {
         let mut tree = tree();
         let mut bytes = tree.file(&self.path)?;
@@ -320,7 +319,7 @@ pub fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
     tree().remove_folder(path.as_ref())
 }
 
-/// Gives a file or folder another path. A file replaces what lay there.
+/// Gives a file or folder another path. A file replaces whatever lies there.
 ///
 /// # Errors
 /// If there is none at `from`, or `to` cannot be used.
@@ -340,10 +339,10 @@ pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<u64> {
     Ok(length)
 }
 
-/// Copies a file: the content is shared until one of both is written.
+/// Copies a file. Both share the content until you write one of them.
 ///
 /// # Errors
-/// As [`copy`].
+/// See [`copy`].
 pub fn hard_link(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<()> {
     copy(from, to).map(drop)
 }

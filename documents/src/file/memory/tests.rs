@@ -10,7 +10,7 @@ fn kind<T>(result: io::Result<T>) -> Option<io::ErrorKind> {
     result.err().map(|error| error.kind())
 }
 
-/// All calls that a session makes, once here and once on the disk of the machine: the same answers.
+/// We make all calls of a session once here and once on the disk, and expect the same answers.
 #[test]
 fn it_answers_like_the_disk() {
     macro_rules! answers {
