@@ -88,8 +88,8 @@ fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
         Some((name, value)) => (name, Some(value)),
         None => (inside, None),
     };
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(letter);
+    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     is_name.then_some((name, value, end + 1))
 }
 

@@ -159,9 +159,6 @@ impl Task {
     }
 
     /// Ends your function by `?` once someone asked the work to end.
-    ///
-    /// # Errors
-    /// [`Cancelled`] from the first [`Self::cancel`] on.
     pub fn check(&self) -> Result<(), Cancelled> {
         self.cancellation.check()
     }
@@ -280,9 +277,6 @@ impl Cancellation {
     }
 
     /// Ends a function by `?` once the work was asked to end.
-    ///
-    /// # Errors
-    /// [`Cancelled`] from the first [`Self::cancel`] on.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }

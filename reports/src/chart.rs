@@ -29,9 +29,6 @@ type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64,
 
 impl Chart {
     /// Draws the chart as an SVG document.
-    ///
-    /// # Panics
-    /// Never: the backend writes to memory.
     #[must_use]
     pub fn svg(&self) -> String {
         let mut text = String::new();
@@ -107,14 +104,13 @@ impl Drawing<'_, '_> {
 
     fn grid(&self, axes: &mut Axes<'_, '_>) {
         let thin = stroke(GRID, HAIR);
-        let path = |from: Point, to: Point| PathElement::new(vec![from, to], thin);
         for (value, _) in &self.panel.x.ticks {
             let at = self.panel.x.place(*value);
-            infallible(axes.draw_series([path((at, 0.0), (at, 1.0))]));
+            infallible(axes.draw_series([PathElement::new(vec![(at, 0.0), (at, 1.0)], thin)]));
         }
         for (value, _) in &self.panel.y.ticks {
             let at = self.panel.y.place(*value);
-            infallible(axes.draw_series([path((0.0, at), (1.0, at))]));
+            infallible(axes.draw_series([PathElement::new(vec![(0.0, at), (1.0, at)], thin)]));
         }
         let foot = vec![(0.0, 1.0), (0.0, 0.0), (1.0, 0.0)];
         infallible(axes.draw_series([PathElement::new(foot, stroke(FAINT, HAIR))]));
@@ -331,8 +327,10 @@ pub(crate) fn place_labels<'a>(
     let mut placed = Vec::new();
     for &(at, text) in names {
         let short = text.split(": ").next().unwrap_or(text);
-        let place = |text| free_place(at, text, size, frame, &occupied);
-        if let Some((edges, name)) = place(text).or_else(|| place(short)) {
+        let mut places = [text, short]
+            .into_iter()
+            .filter_map(|text| free_place(at, text, size, frame, &occupied));
+        if let Some((edges, name)) = places.next() {
             occupied.push(edges);
             placed.push(name);
         }

@@ -214,9 +214,6 @@ impl Table {
     }
 
     /// The table as CSV, with numbers rounded to six significant digits.
-    ///
-    /// # Panics
-    /// Never, because this writes the CSV to memory.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());

@@ -135,9 +135,6 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
 
 /// Draws all sections of `subject` as one HTML page with the numbers inside its figures: Use this
 /// in a program without files. We call `step` after each section, [`STEPS`] times.
-///
-/// # Panics
-/// If a drawing thread panics.
 #[must_use]
 pub fn page_alone(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> String {
     html(&head(subject), &drawn(subject, step), Links::Within)
@@ -161,9 +158,6 @@ impl Report {
     ///
     /// # Errors
     /// [`PictureError`] if a figure cannot be rendered as PNG.
-    ///
-    /// # Panics
-    /// If a drawing thread panics.
     pub fn draw(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Result<Self, PictureError> {
         let sections = drawn(subject, step);
         let figures: Vec<&Figure> = sections.iter().flat_map(Section::figures).collect();

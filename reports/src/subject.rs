@@ -101,9 +101,6 @@ impl Section {
 
 impl<'a> Subject<'a> {
     /// A report on a library alone, without measurements. We print `command` with each figure.
-    ///
-    /// # Errors
-    /// Never in practice, because the interpolation of the weights suits the grid.
     pub fn of_library(
         library: &'a PigmentLibrary,
         viewing: &'a Viewing,

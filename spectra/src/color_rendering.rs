@@ -208,22 +208,17 @@ impl ColorFidelity {
             let bin = (color.hue_deg * BINS as f64 / 360.0) as usize;
             bins[bin.min(BINS - 1)].push(sample);
         }
-        let area = |colors: &[UniformColor]| {
+        let [area, area_wanted] = [own, wanted].map(|colors| {
             let filled = bins.iter().filter(|bin| !bin.is_empty());
-            polygon_area(
-                &filled
-                    .map(|bin| {
-                        [
-                            mean(bin.iter().map(|&at| colors[at].a)),
-                            mean(bin.iter().map(|&at| colors[at].b)),
-                        ]
-                    })
-                    .collect::<Vec<[f64; 2]>>(),
-            )
-        };
+            let corners = filled.map(|bin| {
+                let a = mean(bin.iter().map(|&at| colors[at].a));
+                [a, mean(bin.iter().map(|&at| colors[at].b))]
+            });
+            polygon_area(&corners.collect::<Vec<[f64; 2]>>())
+        });
         Ok(Self {
             fidelity: fidelity(mean(differences.iter().copied())),
-            gamut: 100.0 * area(own) / area(wanted),
+            gamut: 100.0 * area / area_wanted,
             samples: differences.iter().copied().map(fidelity).collect(),
             hue_bins: bins
                 .iter()

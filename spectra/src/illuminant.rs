@@ -26,9 +26,6 @@ impl Illuminant {
     /// The CIE illuminant called `name`, ignoring case: A, B, C, D50, D55, D60, D65, D75, E,
     /// FL1 to FL12, FL3.1 to FL3.15, HP1 to HP5, LED-B1 to LED-B5, LED-BH1, LED-RGB1, LED-V1,
     /// LED-V2, ID50, ID65.
-    ///
-    /// # Errors
-    /// [`IlluminantError::Unknown`] for any other name.
     pub fn named(name: &str) -> Result<Self, IlluminantError> {
         let tables = tables();
         let (known, _) = tables

@@ -184,9 +184,9 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     let start_nm = nm[0];
     let end_nm = nm[nm.len() - 1];
     let band = Grid::cie();
-    let within = || nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
-    let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));
-    if let Some((&nm, &power)) = within().find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
+    let mut within = nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
+    let peak = within.clone().fold(0.0, |most: f64, (_, &power)| most.max(power));
+    if let Some((&nm, &power)) = within.find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
         return Err(LampError::Power { file, name, nm, power });
     }
     if start_nm > NEEDED_NM[0] || end_nm < NEEDED_NM[1] {

@@ -91,13 +91,13 @@ impl Layer {
         let r = s * sinh / den;
         let t = decay / den;
         // Derivatives by K and S: through y, and directly.
-        let slopes = |y_slope: f64, own: f64| {
+        let [over_k, over_s] = [(2.0 * (k + s), 0.0), (2.0 * k, 1.0)].map(|(y_slope, own)| {
             let den_slope = sinh + ((k + s) * sinh_over_y + sinh / 2.0) * y_slope;
             let r_slope = (own * sinh + s * sinh_over_y * y_slope - r * den_slope) / den;
             (r_slope, -t * den_slope / den)
-        };
-        let (r_over_k, t_over_k) = slopes(2.0 * (k + s), 0.0);
-        let (r_over_s, t_over_s) = slopes(2.0 * k, 1.0);
+        });
+        let (r_over_k, t_over_k) = over_k;
+        let (r_over_s, t_over_s) = over_s;
         let q = 1.0 / (1.0 - r * g);
         let by_r = 1.0 + (t * g * q).powi(2);
         let by_t = 2.0 * t * g * q;

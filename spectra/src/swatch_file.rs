@@ -86,9 +86,6 @@ pub struct SwatchFile {
 
 /// Reads `bytes`, the content of `file`, if it is a swatch file, otherwise gives `None`. The first
 /// bytes decide this, or the name for `.aco`, which has no fixed first bytes.
-///
-/// # Errors
-/// [`SwatchFileError`] with the line, or the offset in bytes.
 pub fn read_swatch_file(file: &str, bytes: &[u8]) -> Result<Option<SwatchFile>, SwatchFileError> {
     let name = file.to_ascii_lowercase();
     if bytes.starts_with(b"ASEF") || name.ends_with(".ase") {
@@ -126,9 +123,6 @@ pub fn write_gpl(palette: &SwatchFile) -> Result<String, SwatchFileError> {
 }
 
 /// Reads `bytes`, the content of `file`.
-///
-/// # Errors
-/// [`SwatchFileError`] with the line, or the offset in bytes.
 pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let text = std::str::from_utf8(bytes).map_err(|error| SwatchFileError::Bytes {
         file: file.to_owned(),
@@ -240,9 +234,6 @@ fn model(color: SwatchColor) -> Model<'static> {
 }
 
 /// Reads `bytes`, the content of `file`. This skips blocks of other kinds.
-///
-/// # Errors
-/// [`SwatchFileError`] with the offset in bytes.
 pub fn read_ase(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let head = bytes.part(4, "`ASEF`")?;
@@ -357,9 +348,6 @@ fn word_of_share(v: f64) -> u16 {
 
 /// Reads `bytes`, the content of `file`: its section of version 2, or if there is none, its section
 /// of version 1, which has no names.
-///
-/// # Errors
-/// [`SwatchFileError`] with the offset in bytes.
 pub fn read_aco(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let mut palette = None;

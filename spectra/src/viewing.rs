@@ -40,18 +40,12 @@ impl Default for Viewing {
 impl Viewing {
     /// A light and an observer by their names: `illuminant` as [`light_from_text`] reads
     /// it, `observer` as [`Observer::named`] does.
-    ///
-    /// # Errors
-    /// [`ViewingError`] if either is unknown.
     pub fn named(illuminant: &str, observer: &str) -> Result<Self, ViewingError> {
         Ok(Self { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
     }
 
     /// The weights that turn reflectances on `grid` into XYZ. We interpolate by Sprague's
     /// polynomial if the grid has the six wavelengths that it needs, otherwise linearly.
-    ///
-    /// # Errors
-    /// Never in practice: the method is chosen to suit the grid.
     pub fn weights(&self, grid: Grid) -> Result<TristimulusWeights, InterpolateError> {
         let interpolation = Interpolation::best_for(grid);
         TristimulusWeights::new(grid, &self.illuminant, self.observer, interpolation)
@@ -59,9 +53,6 @@ impl Viewing {
 
     /// The colour of a reflectance. If you have many spectra on one grid, compute
     /// [`Viewing::weights`] once and use [`TristimulusWeights::color`].
-    ///
-    /// # Errors
-    /// Never in practice, see [`Viewing::weights`].
     pub fn color(
         &self,
         reflectance: &Spectrum<Reflectance>,

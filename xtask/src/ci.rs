@@ -141,11 +141,10 @@ fn adapter() -> Outcome<Environment> {
     let list = list.output()?;
     println!("{list}");
     let kinds = ["discrete", "integrated", "virtual", "other"];
-    let is_hardware = |line: &str| {
+    if !list.lines().any(|line: &str| {
         let line = line.strip_prefix("   ").unwrap_or_default();
         kinds.iter().any(|kind| line.starts_with(&format!("{kind}, ")))
-    };
-    if !list.lines().any(is_hardware) {
+    }) {
         let drivers = fs::read_dir("/usr/share/vulkan/icd.d").into_iter().flatten().flatten();
         let paths = drivers.map(|entry| entry.path());
         let lavapipe = paths.filter(|path| path.to_string_lossy().contains("/lvp_icd")).min();

@@ -56,9 +56,6 @@ pub fn texts(endings: &[&str]) -> BTreeMap<String, String> {
 }
 
 /// Text of the file at `path`, a path from the root.
-///
-/// # Panics
-/// If it cannot be read.
 #[must_use]
 pub fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))

@@ -59,8 +59,9 @@ impl Run {
     }
 
     pub(crate) fn logged(mut self, file: &File) -> Outcome<Self> {
-        let twin = || file.try_clone().map_err(|error| error.to_string());
-        self.command.stdin(Stdio::null()).stdout(twin()?).stderr(twin()?);
+        let [out, errors] =
+            [file, file].map(|file| file.try_clone().map_err(|error| error.to_string()));
+        self.command.stdin(Stdio::null()).stdout(out?).stderr(errors?);
         Ok(self)
     }
 

@@ -151,12 +151,13 @@ fn limits(
         ("the same, noise 0.0005", &noiseless, &quiet, Told::Palette),
     ] {
         let trials = painting_trials((oils, oils), plan, SEEDS, (settings, told))?;
-        let of_tone = |tone| Scores::of(trials.of_tone(tone));
-        println!("  {name:24} {} | {} | {}", of_tone(0), of_tone(1), of_tone(2));
-        let wrong = || trials.beside.iter().zip(&trials.tones).filter(|(b, _)| !b.is_right);
-        let dark = wrong().filter(|(_, tone)| **tone == 0);
+        let [dark, middle, light] = [0, 1, 2].map(|tone| Scores::of(trials.of_tone(tone)));
+        println!("  {name:24} {dark} | {middle} | {light}");
+        let wrong = trials.beside.iter().zip(&trials.tones).filter(|(b, _)| !b.is_right);
+        let dark = wrong.filter(|(_, tone)| **tone == 0);
         let told = dark.clone().filter(|(beside, _)| beside.chi2 > DECISIVE).count();
-        let (count, pixels) = (dark.count(), trials.of_tone(0).count());
+        let count = dark.count();
+        let pixels = trials.of_tone(0).count();
         println!(
             "    whole search: {count} of {pixels} dark pixels with a wrong set, in {told} of them chi-square of the true one lower by {DECISIVE} or more"
         );

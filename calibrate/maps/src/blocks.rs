@@ -83,9 +83,6 @@ impl<E: Explain + 'static> Explain for RunError<E> {
 ///
 /// We call `progress` after each block. If it breaks, the run ends and we do not write the shard
 /// under way.
-///
-/// # Errors
-/// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.
 pub fn map_cube<E: Error + 'static>(
     cube: &Cube,
     store: &MapStore,
@@ -132,9 +129,6 @@ fn pixels(shard: &Shard) -> u64 {
 /// Maps one shard and writes it, even if it is finished already. We call `progress` after each
 /// block with the number of pixels done in this shard. If it breaks, we write nothing and the
 /// result is `None`.
-///
-/// # Errors
-/// [`RunError`] if the cube cannot be read, a block not mapped or the shard not written.
 pub fn map_shard<E: Error + 'static>(
     cube: &Cube,
     store: &MapStore,
@@ -176,9 +170,6 @@ impl SurveyedScan {
     /// Maps every shard that is not finished, on all cores and in bounded memory. We call
     /// `progress` after each block. If it breaks, the run ends and we do not write the shard under
     /// way.
-    ///
-    /// # Errors
-    /// [`RunError`] if the scan cannot be read or the maps not be written.
     pub fn map(
         &self,
         store: &MapStore,
@@ -190,9 +181,6 @@ impl SurveyedScan {
     /// Maps the shard at `place` in the order of the store, unless it is finished. We call
     /// `progress` after each block with the number of finished pixels. You get `None` if the shard
     /// was finished before, or if `progress` breaks.
-    ///
-    /// # Errors
-    /// [`RunError`] if the scan cannot be read or the shard not be written.
     pub fn map_shard(
         &self,
         store: &MapStore,

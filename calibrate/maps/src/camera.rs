@@ -335,29 +335,29 @@ impl SurfaceVariation {
     #[must_use]
     pub fn factors(&self, line: usize, samples: usize) -> Vec<f64> {
         let corners = samples / PATCH_PX + 2;
-        let row = |at: usize| -> Vec<f64> {
+        let above = line / PATCH_PX;
+        let down = smooth(line % PATCH_PX);
+        let rows: [Vec<f64>; 2] = [above, above + 1].map(|at| {
             let mut random = ChaCha8Rng::seed_from_u64(self.seed);
             random.set_stream(STREAMS + at as u64);
             StandardNormal.sample_iter(&mut random).take(corners).collect()
-        };
-        let above = line / PATCH_PX;
-        let down = smooth(line % PATCH_PX);
-        let rows = [row(above), row(above + 1)];
-        let factor = |sample: usize| {
-            let left = sample / PATCH_PX;
-            let across = smooth(sample % PATCH_PX);
-            let mut sum = 0.0;
-            let mut squares = 0.0;
-            for (row, down) in rows.iter().zip([1.0 - down, down]) {
-                for (at, across) in [(left, 1.0 - across), (left + 1, across)] {
-                    sum += down * across * row[at];
-                    squares += (down * across).powi(2);
+        });
+        (0..samples)
+            .map(|sample: usize| {
+                let left = sample / PATCH_PX;
+                let across = smooth(sample % PATCH_PX);
+                let mut sum = 0.0;
+                let mut squares = 0.0;
+                for (row, down) in rows.iter().zip([1.0 - down, down]) {
+                    for (at, across) in [(left, 1.0 - across), (left + 1, across)] {
+                        sum += down * across * row[at];
+                        squares += (down * across).powi(2);
+                    }
                 }
-            }
-            // The weights' squares make the deviation equal between corners and at them.
-            1.0 + self.relative * sum / squares.sqrt()
-        };
-        (0..samples).map(factor).collect()
+                // The weights' squares make the deviation equal between corners and at them.
+                1.0 + self.relative * sum / squares.sqrt()
+            })
+            .collect()
     }
 
     /// Replaces the surface of a spectrum by one with k1 times `factor`.
@@ -395,8 +395,8 @@ impl Blur {
             return Self { weights: vec![1.0] };
         }
         let reach = (REACH * pixels).ceil() as usize;
-        let weight = |at: usize| (-0.5 * (at as f64 / pixels).powi(2)).exp();
-        let mut weights: Vec<f64> = (0..=reach).map(weight).collect();
+        let mut weights: Vec<f64> =
+            (0..=reach).map(|at| (-0.5 * (at as f64 / pixels).powi(2)).exp()).collect();
         let sum = 2.0 * weights.iter().sum::<f64>() - weights[0];
         weights.iter_mut().for_each(|weight| *weight /= sum);
         Self { weights }
@@ -432,9 +432,8 @@ impl Blur {
         let numbers = whole.len() / samples.max(1);
         let mut down: Vec<f64> = whole.iter().map(|value| self.weights[0] * value).collect();
         for (distance, weight) in self.weights.iter().enumerate().skip(1) {
-            let at = |offset: i64| of(mirrored(line as i64 + offset, lines));
-            let above = at(-(distance as i64));
-            let below = at(distance as i64);
+            let above = of(mirrored(line as i64 - distance as i64, lines));
+            let below = of(mirrored(line as i64 + distance as i64, lines));
             for ((sum, a), b) in down.iter_mut().zip(above).zip(below) {
                 *sum += weight * (a + b);
             }
@@ -476,11 +475,10 @@ pub(crate) struct CameraBands {
 impl CameraBands {
     /// Places `count` bands evenly over the wavelengths of `grid` that the camera sees.
     pub(crate) fn new(grid: Grid, count: usize) -> Result<Self, CameraError> {
-        let outside = || CameraError::Wavelengths { grid };
         let first = grid.start_nm().max(RANGE_NM[0]);
         let last = grid.end_nm().min(RANGE_NM[1]);
         if first >= last {
-            return Err(outside());
+            return Err(CameraError::Wavelengths { grid });
         }
         let nm: Vec<f64> = (0..count)
             .map(|band| first + (last - first) * band as f64 / (count.max(2) - 1) as f64)
@@ -489,7 +487,7 @@ impl CameraBands {
             .collect();
         let units = (0..grid.count()).map(|at| {
             let unit = (0..grid.count()).map(|other| f64::from(u8::from(other == at))).collect();
-            Spectrum::<Response>::new(grid, unit).map_err(|_| outside())
+            Spectrum::<Response>::new(grid, unit).map_err(|_| CameraError::Wavelengths { grid })
         });
         let units = units.collect::<Result<Vec<_>, _>>()?;
         let method = Interpolation::best_for(grid);
@@ -497,10 +495,12 @@ impl CameraBands {
             .iter()
             .map(|nm: &f64| {
                 let weights = units.iter().map(|unit| unit.at(*nm, method, Extrapolation::Refuse));
-                let weights = weights.collect::<Result<Vec<f64>, _>>().map_err(|_| outside())?;
-                let is_used = |weight: &f64| *weight != 0.0;
-                let first = weights.iter().position(is_used).unwrap_or(0);
-                let end = weights.iter().rposition(is_used).map_or(first, |last| last + 1);
+                let weights = weights
+                    .collect::<Result<Vec<f64>, _>>()
+                    .map_err(|_| CameraError::Wavelengths { grid })?;
+                let first = weights.iter().position(|weight| *weight != 0.0).unwrap_or(0);
+                let last = weights.iter().rposition(|weight| *weight != 0.0);
+                let end = last.map_or(first, |last| last + 1);
                 Ok((first, weights[first..end].to_vec()))
             })
             .collect::<Result<_, CameraError>>()?;
@@ -657,11 +657,9 @@ mod tests {
                 .collect();
             let found = blurred(&blur, &picture, samples);
             for number in 0..2 {
-                let sum = |all: &[Vec<f64>]| -> f64 {
-                    all.iter().flat_map(|line| line.iter().skip(number).step_by(2)).sum()
-                };
-                let before = sum(&picture);
-                let after = sum(&found);
+                let [before, after] = [&picture, &found].map(|all| {
+                    all.iter().flat_map(|line| line.iter().skip(number).step_by(2)).sum::<f64>()
+                });
                 assert!((before - after).abs() < 1e-9 * before.max(1.0), "{before} {after}");
             }
         }
@@ -676,12 +674,12 @@ mod tests {
         let mut picture = vec![vec![0.0; 41]; 41];
         picture[20][20] = 1.0;
         let found = blurred(&Blur::new(1.5), &picture, 41);
-        let variance = |weight: &dyn Fn(usize, usize) -> f64| -> f64 {
-            let places = (0..41).flat_map(|y| (0..41).map(move |x| (y, x)));
-            places.map(|(y, x)| weight(y, x) * found[y][x]).sum()
-        };
-        let across = variance(&|_, x| (x as f64 - 20.0).powi(2));
-        let down = variance(&|y, _| (y as f64 - 20.0).powi(2));
+        let mut across = 0.0;
+        let mut down = 0.0;
+        for (y, x) in (0..41).flat_map(|y| (0..41).map(move |x| (y, x))) {
+            across += (x as f64 - 20.0).powi(2) * found[y][x];
+            down += (y as f64 - 20.0).powi(2) * found[y][x];
+        }
         assert!((across - 2.25).abs() < 0.03 && (down - 2.25).abs() < 0.03, "{across} {down}");
         assert_eq!(blurred(&Blur::new(0.0), &picture, 41), picture, "no blur");
     }

@@ -44,21 +44,23 @@ impl SurveyedScan {
     /// finished maps the parts `present` and `mean_share`.
     #[must_use]
     pub fn palette_json(&self, mapped: Option<&Overview>) -> Vec<Value> {
-        let entry = |found: &FoundColumn| {
-            let mut entry = json!({
-                "pigment": found.column.name,
-                "survey_part": found.part,
-            });
-            let of = |overview: &Overview| {
-                overview.pigments.iter().position(|name| *name == found.column.name)
-            };
-            if let Some((overview, place)) = mapped.and_then(|o| Some((o, of(o)?))) {
-                entry["present"] = json!(overview.present[place]);
-                entry["mean_share"] = json!(overview.mean_share[place]);
-            }
-            entry
-        };
-        self.palette().iter().map(entry).collect()
+        self.palette()
+            .iter()
+            .map(|found: &FoundColumn| {
+                let mut entry = json!({
+                    "pigment": found.column.name,
+                    "survey_part": found.part,
+                });
+                if let Some(overview) = mapped
+                    && let mut names = overview.pigments.iter()
+                    && let Some(place) = names.position(|name| *name == found.column.name)
+                {
+                    entry["present"] = json!(overview.present[place]);
+                    entry["mean_share"] = json!(overview.mean_share[place]);
+                }
+                entry
+            })
+            .collect()
     }
 
     /// Sizes, bands and number of searched pixels of the scan.

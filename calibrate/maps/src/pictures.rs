@@ -66,16 +66,16 @@ impl OverviewSums {
         let step = rows.max(columns).div_ceil(longest.max(1)).max(1);
         let width = columns.div_ceil(step);
         let height = rows.div_ceil(step);
-        let field = || vec![0.0; width * height];
+        let field = vec![0.0; width * height];
         Self {
             step,
             width,
             height,
             pigments: pigments.to_vec(),
-            share: vec![field(); pigments.len()],
-            presence: vec![field(); pigments.len()],
-            chi2: field(),
-            rms: field(),
+            share: vec![field.clone(); pigments.len()],
+            presence: vec![field.clone(); pigments.len()],
+            chi2: field.clone(),
+            rms: field,
             counts: vec![0; width * height],
             compared: vec![0; width * height],
             present: vec![0; pigments.len()],
@@ -115,7 +115,6 @@ impl OverviewSums {
     #[must_use]
     pub fn finish(self) -> Overview {
         let mapped = self.pixels.of(Mask::Mapped);
-        let part = |pixels: u64| pixels as f64 / mapped.max(1) as f64;
         Overview {
             step: self.step,
             width: self.width,
@@ -126,7 +125,11 @@ impl OverviewSums {
                 .iter()
                 .map(|field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64)
                 .collect(),
-            present: self.present.into_iter().map(part).collect(),
+            present: self
+                .present
+                .into_iter()
+                .map(|pixels: u64| pixels as f64 / mapped.max(1) as f64)
+                .collect(),
             // One field after another, so that sums and means of all never lie side by side.
             share: self.share.into_iter().map(|field| means_of(field, &self.counts)).collect(),
             presence: self.presence.into_iter().map(|it| means_of(it, &self.counts)).collect(),
@@ -179,9 +182,6 @@ impl MapPictures {
     pub const RESIDUAL_FILE: &str = "residual.png";
 
     /// Draws the maps `overview` of `scan`. Pass the library of the survey as `library`.
-    ///
-    /// # Errors
-    /// [`PictureError`] if we cannot encode a picture.
     pub fn of(
         scan: &SurveyedScan,
         overview: &Overview,
@@ -190,22 +190,24 @@ impl MapPictures {
         let size = (overview.width, overview.height);
         let mut order: Vec<usize> = (0..overview.pigments.len()).collect();
         order.sort_by(|&a, &b| overview.present[b].total_cmp(&overview.present[a]));
-        let drawn = |place: usize| {
-            let name = &overview.pigments[place];
-            let file = |kind: &str| format!("{kind}-{}.png", file_name(name));
-            let ink = Ramp::of_ink(ink(library, scan, name));
-            Ok(PigmentPictures {
-                place,
-                presence_file: file("presence"),
-                presence: picture_png(&overview.presence[place], size, &ink)?,
-                share_file: file("share"),
-                share: picture_png(&overview.share[place], size, &ink)?,
-            })
-        };
         let chi2 = Ramp { from: (0.0, [255; 3]), to: (4.0, [150, 20, 20]) };
         let rms = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
         Ok(Self {
-            pigments: order.into_iter().map(drawn).collect::<Result<_, PictureError>>()?,
+            pigments: order
+                .into_iter()
+                .map(|place: usize| {
+                    let name = &overview.pigments[place];
+                    let file = file_name(name);
+                    let ink = Ramp::of_ink(ink(library, scan, name));
+                    Ok(PigmentPictures {
+                        place,
+                        presence_file: format!("presence-{file}.png"),
+                        presence: picture_png(&overview.presence[place], size, &ink)?,
+                        share_file: format!("share-{file}.png"),
+                        share: picture_png(&overview.share[place], size, &ink)?,
+                    })
+                })
+                .collect::<Result<_, PictureError>>()?,
             chi2: picture_png(&overview.chi2, size, &chi2)?,
             residual: picture_png(&overview.rms, size, &rms)?,
         })
@@ -304,8 +306,8 @@ impl Ramp {
         }
         let way = ((value - self.from.0) / (self.to.0 - self.from.0)).clamp(0.0, 1.0);
         let mut color = [255; 4];
-        for (channel, (from, to)) in color.iter_mut().zip(self.from.1.iter().zip(self.to.1)) {
-            let (from, to) = (f32::from(*from), f32::from(to));
+        let ends = self.from.1.map(f32::from).into_iter().zip(self.to.1.map(f32::from));
+        for (channel, (from, to)) in color.iter_mut().zip(ends) {
             *channel = (from + way * (to - from)).round() as u8;
         }
         color
@@ -321,9 +323,6 @@ const COLUMNS: usize = 2048;
 #[cfg(feature = "files")]
 impl Overview {
     /// Reads all of `maps`, with at most `longest` squares along the longer side.
-    ///
-    /// # Errors
-    /// [`StoreError`] if we cannot read a shard.
     pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
         let rows = maps.rows();
         let columns = maps.columns();

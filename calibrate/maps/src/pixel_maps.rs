@@ -164,15 +164,13 @@ impl BlockMaps {
 
     /// Maps that hold no pixel yet, with room for `pixels`.
     pub(crate) fn with_capacity(pixels: usize, pigments: usize) -> Self {
-        let of_pigments = || Vec::with_capacity(pixels * pigments);
-        let of_pixels = || Vec::with_capacity(pixels);
         Self {
             pigments,
-            share: of_pigments(),
-            share_sd: of_pigments(),
-            presence: of_pigments(),
-            chi2: of_pixels(),
-            rms: of_pixels(),
+            share: Vec::with_capacity(pixels * pigments),
+            share_sd: Vec::with_capacity(pixels * pigments),
+            presence: Vec::with_capacity(pixels * pigments),
+            chi2: Vec::with_capacity(pixels),
+            rms: Vec::with_capacity(pixels),
             second: Vec::with_capacity(pixels),
             mask: Vec::with_capacity(pixels),
         }

@@ -155,19 +155,20 @@ impl SurveyedScan {
     /// Pigments and groups that the survey found, the most frequent first.
     #[must_use]
     pub fn palette(&self) -> Vec<FoundColumn> {
-        let part = |column: &Column| -> f64 {
-            let sets = self.book.sets.iter().filter(|set| {
-                set.pigments.iter().any(|place: &u8| {
-                    let name = self.book.pigments.get(usize::from(*place));
-                    name.is_some_and(|name| column.pigments.contains(name))
-                })
-            });
-            // A sum of nothing would be -0.
-            sets.fold(0.0, |sum, set| sum + f64::from(set.part))
-        };
         let columns = self.mapper.columns().iter();
-        let mut found: Vec<FoundColumn> =
-            columns.map(|c| FoundColumn { column: c.clone(), part: part(c) }).collect();
+        let mut found: Vec<FoundColumn> = columns
+            .map(|column: &Column| {
+                let sets = self.book.sets.iter().filter(|set| {
+                    set.pigments.iter().any(|place: &u8| {
+                        let name = self.book.pigments.get(usize::from(*place));
+                        name.is_some_and(|name| column.pigments.contains(name))
+                    })
+                });
+                // A sum of nothing would be -0.
+                let part = sets.fold(0.0, |sum, set| sum + f64::from(set.part));
+                FoundColumn { column: column.clone(), part }
+            })
+            .collect();
         found.sort_by(|a, b| b.part.total_cmp(&a.part));
         found
     }

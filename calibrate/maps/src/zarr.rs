@@ -120,13 +120,7 @@ fn stored_in_shard(
         let problem = format!("has {length} bytes, fewer than its index of {size}");
         return Ok(Some(Err(ZarrFault::damaged(problem))));
     }
-    let mut read = |start: u64, bytes: u64| -> io::Result<Vec<u8>> {
-        opened.seek(SeekFrom::Start(start))?;
-        let mut found = vec![0; usize::try_from(bytes).map_err(io::Error::other)?];
-        opened.read_exact(&mut found)?;
-        Ok(found)
-    };
-    let index = read(if at_end { length - size } else { 0 }, size)?;
+    let index = read_part(&mut opened, if at_end { length - size } else { 0 }, size)?;
     let place = match places(index) {
         Ok(places) => places.get(inside).copied().flatten(),
         Err(fault) => return Ok(Some(Err(fault))),
@@ -140,7 +134,14 @@ fn stored_in_shard(
         let problem = format!("its index gives a chunk {bytes} bytes, expected at most {most}");
         return Ok(Some(Err(ZarrFault::damaged(problem))));
     }
-    read(start, bytes).map(|stored| Some(Ok(stored)))
+    read_part(&mut opened, start, bytes).map(|stored| Some(Ok(stored)))
+}
+
+fn read_part(opened: &mut File, start: u64, bytes: u64) -> io::Result<Vec<u8>> {
+    opened.seek(SeekFrom::Start(start))?;
+    let mut found = vec![0; usize::try_from(bytes).map_err(io::Error::other)?];
+    opened.read_exact(&mut found)?;
+    Ok(found)
 }
 
 /// Bytes of the place of a chunk: offset and length.

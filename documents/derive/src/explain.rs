@@ -157,16 +157,16 @@ impl<'a> Variant<'a> {
             self.fields.iter().position(|field| field.ident.as_ref().is_some_and(wanted))
         };
         if let Some(field) = &inner.field {
-            let missing = || Error::new(field.span(), "there is no such field");
-            return named(&|name| name == field).ok_or_else(missing);
+            return named(&|name| name == field)
+                .ok_or_else(|| Error::new(field.span(), "there is no such field"));
         }
         let marked = self.fields.iter().position(|field| {
             let is = |name: &str| field.attrs.iter().any(|one| one.path().is_ident(name));
             is("from") || is("source")
         });
-        let usual = || named(&|name| name == "source").or_else(|| named(&|name| name == "error"));
-        let only = || (self.fields.len() == 1).then_some(0);
-        let found = marked.or_else(usual).or_else(only);
+        let found = marked
+            .or_else(|| named(&|name| name == "source").or_else(|| named(&|name| name == "error")))
+            .or_else(|| (self.fields.len() == 1).then_some(0));
         found.ok_or_else(|| {
             let text =
                 "which field is the inner error? mark it with #[source], or write `inner = field`";

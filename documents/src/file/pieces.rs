@@ -40,17 +40,11 @@ impl FileInPieces {
     }
 
     /// Adds `bytes` at the end.
-    ///
-    /// # Errors
-    /// [`FileError`] with the path, for example for a full disk.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), FileError> {
         self.replacement.write(bytes).map_err(|reason| fault(&self.path, reason))
     }
 
     /// Flushes the file to the disk and gives it its name.
-    ///
-    /// # Errors
-    /// [`FileError`] with the path.
     pub fn finish(self) -> Result<(), FileError> {
         self.replacement.finish().map_err(|reason| fault(&self.path, reason))
     }

@@ -131,8 +131,7 @@ impl<'n> Writer<'n> {
 
     /// Whether a file of this writer and age is left over.
     fn has_left(&self, age: Duration) -> bool {
-        let ended = || self.machine == machine() && is_running(self.process) == Some(false);
-        age > OLD || ended()
+        age > OLD || self.machine == machine() && is_running(self.process) == Some(false)
     }
 }
 

@@ -80,9 +80,6 @@ impl Explain for FileError {
 /// Reads all bytes of a file. The path `-` is standard input. We read it to its end once and keep
 /// the bytes, so that you get the same ones if you read it again. For a file called `-` write
 /// `./-`.
-///
-/// # Errors
-/// [`FileError`] with the path.
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let bytes = match is_standard_input(path) {
         true => standard_input(),

@@ -130,17 +130,11 @@ macro_rules! settings {
     (@File $name:ident) => {
         impl $name {
             /// Reads a TOML file. If you leave out a key, it has its default.
-            ///
-            /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) with file, line and key.
             pub fn open(path: &::std::path::Path) -> ::core::result::Result<Self, $crate::settings::SettingsError> {
                 $crate::settings::open(path)
             }
 
             /// Parses the text of a file of settings, which errors call `name`.
-            ///
-            /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) with line and key.
             pub fn from_toml(name: &str, text: &str) -> ::core::result::Result<Self, $crate::settings::SettingsError> {
                 $crate::settings::from_toml(name, text)
             }
@@ -155,10 +149,6 @@ macro_rules! settings {
             }
 
             /// Checks settings that you made by code.
-            ///
-            /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) for the first value that is out
-            /// of its range.
             pub fn valid(&self) -> ::core::result::Result<(), $crate::settings::SettingsError> {
                 let checked = $crate::settings::check(self, &$crate::text::KeyPath::default());
                 ::core::result::Result::Ok(checked.map_err($crate::text::TextError::Invalid)?)
@@ -262,9 +252,6 @@ macro_rules! presets {
             }
 
             /// The settings of the preset.
-            ///
-            /// # Panics
-            /// Never, because a test reads all presets.
             #[must_use]
             pub fn settings(self) -> $settings {
                 $settings::from_toml(self.name(), self.changes()).expect("a shipped preset is valid")
@@ -320,17 +307,11 @@ fn way_to_preset(name: &str, known: &[&str]) -> String {
 }
 
 /// Reads a TOML file. If you leave out a key, it has its default.
-///
-/// # Errors
-/// [`SettingsError`] with file, line and key.
 pub fn open<T: Table>(path: &Path) -> Result<T, SettingsError> {
     read(&path.display().to_string(), &read_text(path)?)
 }
 
 /// Parses the text of a file of settings, which errors call `name`.
-///
-/// # Errors
-/// [`SettingsError`] with line and key.
 pub fn read<T: Table>(name: &str, text: &str) -> Result<T, SettingsError> {
     let source = Source::toml(name, text)?;
     let settings: T = typed(&source)?;
@@ -575,8 +556,9 @@ pub fn digest<T: Table>(settings: &T) -> u64 {
     let mut lines = Vec::new();
     digest_lines(&mut lines, "", &Value::Table(Toml::try_from(settings).unwrap_or_default()));
     lines.sort();
-    let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    lines.join("\n").bytes().fold(0xcbf2_9ce4_8422_2325, hash)
+    lines.join("\n").bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte: u8| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 fn digest_lines(lines: &mut Vec<String>, path: &str, value: &Value) {

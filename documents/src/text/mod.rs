@@ -69,18 +69,12 @@ enum Language {
 
 impl<'t> Source<'t> {
     /// Parses `text` in TOML, which errors call `file`.
-    ///
-    /// # Errors
-    /// [`TextError`] if it is too long or not TOML.
     pub fn toml(file: &'t str, text: &'t str) -> Result<Self, TextError> {
         Self::hinted_toml(file, text, None)
     }
 
     /// Parses `text` in TOML. Pass a `hint` for errors where the parser knows none, e.g. the list
     /// of keys.
-    ///
-    /// # Errors
-    /// [`TextError`] if it is too long or not TOML.
     pub fn toml_with_hint(file: &'t str, text: &'t str, hint: &'t str) -> Result<Self, TextError> {
         Self::hinted_toml(file, text, Some(hint))
     }
@@ -108,9 +102,6 @@ impl<'t> Source<'t> {
     }
 
     /// Parses `text` in JSON, which errors call `file`.
-    ///
-    /// # Errors
-    /// [`TextError`] if it is too long or not JSON.
     pub fn json(file: &'t str, text: &'t str) -> Result<Self, TextError> {
         check_length(file, text)?;
         if let Err(error) = serde_json::from_str::<IgnoredAny>(text) {
@@ -192,13 +183,12 @@ impl<'t> Source<'t> {
 
     fn explained(&self, bytes: Range<usize>, message: &str) -> TextError {
         let ParserReason { reason, hint } = ParserReason::of(message);
-        let usual = || self.hint.unwrap_or(USUAL_HINT).to_owned();
         TextError::Syntax {
             file: self.file.to_owned(),
             place: self.place(bytes.start),
             key: self.values.path_at(&bytes),
             reason: reason.into(),
-            hint: hint.unwrap_or_else(usual).into(),
+            hint: hint.unwrap_or_else(|| self.hint.unwrap_or(USUAL_HINT).to_owned()).into(),
         }
     }
 
@@ -326,9 +316,6 @@ pub enum TextError {
 }
 
 /// Reads a file of UTF-8 text.
-///
-/// # Errors
-/// [`TextError`] if it cannot be read or holds other bytes.
 pub fn read_text(path: &Path) -> Result<String, TextError> {
     String::from_utf8(read(path)?).map_err(|error| {
         let good = error.utf8_error().valid_up_to();

@@ -47,17 +47,16 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     let title = format!("a*, b* (area {:.0})", lab.area());
     let plane = Panel::new(a, b, marks).with_title(title);
 
-    let chromaticity = |sample: &GamutSample| {
-        let white = palette.weights().white();
+    let white = palette.weights().white();
+    let mut marks = field(gamut, CELLS[1], |sample| {
         let xyy = sample.color.xyz.to_xyy(white);
-        [xyy.x, xyy.y]
-    };
-    let mut marks = field(gamut, CELLS[1], |sample| lit(sample).then(|| chromaticity(sample)));
+        lit(sample).then_some([xyy.x, xyy.y])
+    });
     let locus = spectral_locus(palette.viewing());
     let mut horseshoe: Vec<(f64, f64)> = locus.iter().map(|(_, [x, y])| (*x, *y)).collect();
     horseshoe.extend(horseshoe.first().copied());
     marks.push(Mark::Line { points: horseshoe, color: FAINT, width: 1.2 });
-    let mut triangle = srgb_primaries(palette.weights().white()).map(|[x, y]| (x, y)).to_vec();
+    let mut triangle = srgb_primaries(white).map(|[x, y]| (x, y)).to_vec();
     triangle.extend(triangle.first().copied());
     marks.push(Mark::Dashes { points: triangle, color: SERIES[0] });
     marks.push(outline(&xy, 1.2));
@@ -145,9 +144,9 @@ fn lab_place(sample: &GamutSample) -> [f64; 2] {
 
 /// Axes of a* and b* with the same range, so that a circle stays round.
 fn axes(whole: &Boundary) -> [Axis; 2] {
-    let all = || whole.polygon().into_iter().flatten();
-    let low = (all().fold(0.0, f64::min) / 20.0 - 0.1).floor() * 20.0;
-    let high = (all().fold(0.0, f64::max) / 20.0 + 0.1).ceil() * 20.0;
+    let all = whole.polygon().into_iter().flatten();
+    let low = (all.clone().fold(0.0, f64::min) / 20.0 - 0.1).floor() * 20.0;
+    let high = (all.fold(0.0, f64::max) / 20.0 + 0.1).ceil() * 20.0;
     ["a*", "b*"].map(|name| Axis { name: name.to_owned(), ..Axis::linear("", "", low, high, 8) })
 }
 

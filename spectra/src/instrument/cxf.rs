@@ -58,11 +58,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     make_names_unique(&mut found);
     let mut records: Vec<MeasuredSpectrum> = found.into_iter().map(|found| found.record).collect();
 
-    let above =
-        |record: &MeasuredSpectrum| record.values.iter().any(|&value| value >= MOST_FRACTION);
     // Some writers use percent. One value of 3 or more shows that all fractions of the file are
     // percent.
-    if records.iter().any(|record| record.unit == Unit::Fraction && above(record)) {
+    let mut fractions = records.iter().filter(|record| record.unit == Unit::Fraction);
+    if fractions.any(|record| record.values.iter().any(|&value| value >= MOST_FRACTION)) {
         for record in records.iter_mut().filter(|record| record.unit == Unit::Fraction) {
             record.unit = Unit::Percent;
         }
@@ -434,15 +433,15 @@ mod tests {
 
     #[test]
     fn values_at_a_repeated_custom_wavelength_are_averaged_unless_far_apart() {
-        let points = |second: f64| {
+        let [near, far] = [0.28, 0.31].map(|second| {
             let points = point(400.0, 0.1) + &point(500.0, 0.2) + "\n" + &point(500.0, second);
             let spec = "<c:CustomSpectrum ColorSpecification='s'>";
             read("f", &file(&object("a", &format!("{spec}{points}</c:CustomSpectrum>"))))
-        };
-        let found = &points(0.28).unwrap()[0];
+        });
+        let found = &near.unwrap()[0];
         assert!((found.values[1] - 0.24).abs() < 1e-12 && found.values.len() == 2, "{found:?}");
         assert!(found.remarks[0].contains("averaged"), "{found:?}");
-        let error = points(0.31).unwrap_err().to_string();
+        let error = far.unwrap_err().to_string();
         assert!(error.starts_with("f, line 3: 500 nm occurs more than once"), "{error}");
     }
 

@@ -133,11 +133,6 @@ pub(super) fn read_asd_text(
     let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
     let names: Vec<&str> = heading.trim().split(['\t', ';', ',']).map(str::trim).collect();
     let width = first.len();
-    let name = |column: usize| match names.get(column) {
-        Some(name) if names.len() == width && !name.is_empty() => (*name).to_owned(),
-        _ if width > 2 => format!("{} {column}", stem(file)),
-        _ => stem(file),
-    };
     let details: Vec<(String, String)> = lines(&head)
         .filter_map(|(_, line)| line.split_once(':'))
         .map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()))
@@ -145,7 +140,12 @@ pub(super) fn read_asd_text(
         .collect();
     (1..width)
         .map(|column| {
-            let label = ColumnLabel { name: name(column), quantity, unit: unit(quantity) };
+            let name = match names.get(column) {
+                Some(name) if names.len() == width && !name.is_empty() => (*name).to_owned(),
+                _ if width > 2 => format!("{} {column}", stem(file)),
+                _ => stem(file),
+            };
+            let label = ColumnLabel { name, quantity, unit: unit(quantity) };
             let record = table.spectrum(file, column, Axis::Nanometres, label)?;
             Ok(MeasuredSpectrum { details: details.clone(), ..record })
         })
@@ -254,10 +254,8 @@ pub(super) fn read_sig(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, 
     let stated = lines(text).take(at - 1).filter_map(|(_, line)| line.split_once('='));
     let details: Vec<(String, String)> =
         stated.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned())).collect();
-    let detail = |name: &str| {
-        let found = details.iter().find(|(key, _)| key == name);
-        found.map_or("", |(_, value)| value.as_str())
-    };
+    let units = details.iter().find(|(key, _)| key == "units");
+    let units = units.map_or("", |(_, value)| value.as_str());
     let data = below(text, at);
     let mut table = table(file, &data)?;
     let Some(&(line, ref first)) = table.rows.first() else { return Ok(Vec::new()) };
@@ -274,7 +272,7 @@ pub(super) fn read_sig(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, 
         format!("the detectors overlap from {nm} nm on; longer wavelengths are left out")
     });
     let name = stem(file);
-    let raw = match MeasuredQuantity::of_words(detail("units")) {
+    let raw = match MeasuredQuantity::of_words(units) {
         MeasuredQuantity::Unstated => MeasuredQuantity::Counts,
         stated => stated,
     };

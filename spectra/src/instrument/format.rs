@@ -259,10 +259,11 @@ fn is_noise(bytes: &[u8]) -> bool {
     if is_utf16(start) {
         return false;
     }
-    let share = |count: usize| count as f64 / start.len().max(1) as f64;
-    share(start.iter().filter(|byte| matches!(byte, 1..=8 | 11 | 14..=26 | 28..=31 | 127)).count())
-        > MOST_CONTROL
-        || share(start.iter().filter(|byte| **byte == 0).count()) > MOST_ZEROS
+    let controls = start.iter().filter(|byte| matches!(byte, 1..=8 | 11 | 14..=26 | 28..=31 | 127));
+    let zeros = start.iter().filter(|byte| **byte == 0);
+    let [controls, zeros] =
+        [controls.count(), zeros.count()].map(|count| count as f64 / start.len().max(1) as f64);
+    controls > MOST_CONTROL || zeros > MOST_ZEROS
 }
 
 /// Text that a file holds.

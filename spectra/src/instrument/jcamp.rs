@@ -346,6 +346,13 @@ mod tests {
         assert_eq!((found[0].line, found[1].line), (13, 17));
     }
 
+    fn faulty_line(text: &str) -> usize {
+        match read("f", text) {
+            Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => line,
+            other => panic!("{other:?}"),
+        }
+    }
+
     #[test]
     fn faults_of_tuples_name_their_line() {
         for (old, new, at) in [
@@ -356,14 +363,7 @@ mod tests {
             ("LAST= 430", "LAST= 830", 15),
             ("##SYMBOL= X, Y, N\n", "", 12),
         ] {
-            let found = read("f", &TUPLES.replacen(old, new, 1));
-            let line = match found {
-                Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => {
-                    line
-                }
-                other => panic!("{new}: {other:?}"),
-            };
-            assert_eq!(line, at, "{new}");
+            assert_eq!(faulty_line(&TUPLES.replacen(old, new, 1)), at, "{new}");
         }
     }
 
@@ -382,14 +382,7 @@ mod tests {
             ("##END=\n", "", 13),
             ("(X++(Y..Y))", "(XYA)", 10),
         ] {
-            let found = read("f", &good.replacen(old, new, 1));
-            let line = match found {
-                Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => {
-                    line
-                }
-                other => panic!("{new}: {other:?}"),
-            };
-            assert_eq!(line, at, "{new}");
+            assert_eq!(faulty_line(&good.replacen(old, new, 1)), at, "{new}");
         }
     }
 }

@@ -194,12 +194,11 @@ pub(super) fn read_tm27(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>,
         return Err(InstrumentError::line(file, root.line, "an IESTM2714 element", &root.name));
     }
     let header = root.child("Header").map_or_else(Vec::new, |header| header.leaves());
-    let header_text = |name: &str| {
+    let mut names = ["Description", "CatalogNumber"].into_iter().filter_map(|name| {
         let text = header.iter().find(|(key, _)| key == name).map(|(_, text)| text.as_str());
         text.filter(|text| !matches!(*text, "N/A" | "Unknown"))
-    };
-    let name = header_text("Description").or_else(|| header_text("CatalogNumber"));
-    let name = name.map_or_else(|| stem(file), str::to_owned);
+    });
+    let name = names.next().map_or_else(|| stem(file), str::to_owned);
     let mut records = Vec::new();
     for distribution in root.all("SpectralDistribution") {
         let mut points = Vec::new();

@@ -64,7 +64,8 @@ pub(super) fn ordered(
         let first = group[0];
         let last = group[group.len() - 1];
         if group.len() > 1 && duplicates == Duplicates::Refuse {
-            let (line, before) = (first.line.max(last.line), first.line.min(last.line));
+            let line = first.line.max(last.line);
+            let before = first.line.min(last.line);
             let file = file.to_owned();
             return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
         }

@@ -24,9 +24,6 @@ pub struct InstrumentFile {
 }
 
 /// Reads the spectra in `bytes`, the content of `file`. If you pass no format, this detects it.
-///
-/// # Errors
-/// [`InstrumentError`] with the line, or with the place in a binary file.
 pub fn read(
     file: &str,
     bytes: &[u8],
@@ -103,9 +100,6 @@ fn checked(
 }
 
 /// Bytes of the file that you name as `FILE` or `FILE.xlsx#SHEET`.
-///
-/// # Errors
-/// [`FileError`] if the file cannot be read.
 pub fn bytes_of(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
     let path = path.as_ref();
     let sheet = path.to_str().map(split_file_and_sheet).filter(|(_, sheet)| sheet.is_some());
@@ -114,9 +108,6 @@ pub fn bytes_of(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
 
 /// Reads all spectra of an instrument's file, or of the sheet `FILE.xlsx#SHEET`. This detects the
 /// format from the content.
-///
-/// # Errors
-/// [`OpenError`] if the file cannot be read or is faulty.
 pub fn open(path: impl AsRef<Path>) -> Result<InstrumentFile, OpenError> {
     let path = path.as_ref();
     Ok(read(&path.display().to_string(), &bytes_of(path)?, None)?)

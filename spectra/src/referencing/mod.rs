@@ -76,16 +76,16 @@ impl Referencing {
     }
 
     fn samples<'a>(&self, spectra: &'a [MeasuredSpectrum]) -> Vec<&'a MeasuredSpectrum> {
-        let is_reference = |spectrum: &MeasuredSpectrum| {
-            matches!(spectrum.role, Role::White | Role::Dark)
-                || *spectrum == self.white
-                || self.darks().is_some_and(|darks| darks.contains(spectrum))
-        };
         let has_counts = spectra.iter().any(|spectrum| spectrum.role == Role::Sample);
         let samples: Vec<&MeasuredSpectrum> = spectra
             .iter()
-            .filter(|spectrum| {
-                if has_counts { spectrum.role == Role::Sample } else { !is_reference(spectrum) }
+            .filter(|spectrum| match spectrum.role {
+                role if has_counts => role == Role::Sample,
+                Role::White | Role::Dark => false,
+                _ => {
+                    **spectrum != self.white
+                        && !self.darks().is_some_and(|darks| darks.contains(spectrum))
+                }
             })
             .collect();
         if samples.is_empty() { spectra.iter().collect() } else { samples }

@@ -216,8 +216,9 @@ fn faults(modules: &Modules) -> Vec<String> {
             }
         } else if path.len() > shared {
             let order = &modules[&path[..shared]].children;
-            let place = |name: &String| order.iter().position(|child| child == name);
-            if place(&target[shared]) >= place(&path[shared]) {
+            let [target, path] = [&target[shared], &path[shared]]
+                .map(|name| order.iter().position(|child| child == name));
+            if target >= path {
                 faults.push(format!("{user} uses {used}, which is declared below it"));
             }
         }
@@ -254,20 +255,21 @@ fn a_file_uses_only_files_that_stand_above_it() {
     assert!(all.is_empty(), "{} imports against the order:\n{}", all.len(), all.join("\n"));
 }
 
+fn path(path: &str) -> Vec<String> {
+    path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+fn module(file: &str, children: &[&str], uses: &[&str], reexports: &[(&str, &str)]) -> Module {
+    Module {
+        file: file.to_owned(),
+        children: children.iter().map(|child| (*child).to_owned()).collect(),
+        paths: uses.iter().map(|used| path(used)).collect(),
+        reexports: reexports.iter().map(|(name, to)| ((*name).to_owned(), path(to))).collect(),
+    }
+}
+
 #[test]
 fn imports_that_run_back_up_are_found() {
-    let module = |file: &str, children: &[&str], uses: &[&str], reexports: &[(&str, &str)]| {
-        let names = |path: &str| path.split("::").map(str::to_owned).collect::<Vec<_>>();
-        Module {
-            file: file.to_owned(),
-            children: children.iter().map(|child| (*child).to_owned()).collect(),
-            paths: uses.iter().map(|path| names(path)).collect(),
-            reexports: reexports.iter().map(|(n, path)| ((*n).to_owned(), names(path))).collect(),
-        }
-    };
-    let path = |path: &str| -> Vec<String> {
-        path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect()
-    };
     let mut modules = Modules::new();
     modules.insert(path(""), module("lib", &["low", "high"], &[], &[]));
     modules.insert(path("low"), module("low/mod", &["a", "b"], &[], &[("B", "b::B")]));

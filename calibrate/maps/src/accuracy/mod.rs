@@ -47,14 +47,16 @@ impl NamedGroups {
             }
         }
         let mut count = groups.len();
-        let mut group = |name: &String| {
-            let named = groups.iter().position(|group| group.pigments.contains(name));
-            named.unwrap_or_else(|| {
-                count += 1;
-                count - 1
+        let group_of = pigments
+            .iter()
+            .map(|name: &String| {
+                let named = groups.iter().position(|group| group.pigments.contains(name));
+                named.unwrap_or_else(|| {
+                    count += 1;
+                    count - 1
+                })
             })
-        };
-        let group_of = pigments.iter().map(&mut group).collect();
+            .collect();
         Self { pigments, group_of, count }
     }
 
@@ -88,20 +90,22 @@ impl SwatchTrials {
         baseline: Baseline,
         least: f64,
     ) -> Self {
-        let trial = |sample: &LeftOut| -> Option<Trial> {
-            let library = &sample.library;
-            let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-            let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
-            let paints = crate::films::film::Paints::new(library, &[], &bands).ok()?;
-            let shares = baseline.unmix(&paints, &sample.mixture.measured).shares;
-            let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
-            let truth = named.list(true_shares(sample));
-            let present = told.iter().map(|share| *share > least).collect();
-            let probability = Vec::new();
-            let sd = Vec::new();
-            Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
-        };
-        let pigments: Vec<Trial> = samples.iter().filter_map(trial).collect();
+        let pigments: Vec<Trial> = samples
+            .iter()
+            .filter_map(|sample: &LeftOut| -> Option<Trial> {
+                let library = &sample.library;
+                let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+                let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
+                let paints = crate::films::film::Paints::new(library, &[], &bands).ok()?;
+                let shares = baseline.unmix(&paints, &sample.mixture.measured).shares;
+                let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
+                let truth = named.list(true_shares(sample));
+                let present = told.iter().map(|share| *share > least).collect();
+                let probability = Vec::new();
+                let sd = Vec::new();
+                Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
+            })
+            .collect();
         let groups = pigments.iter().map(|t| t.joined(&named.group_of, named.count)).collect();
         Self { pigments, groups }
     }
@@ -129,9 +133,6 @@ pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Optio
 
 /// Maps each of `samples` with its own library and the residuals of all others, once by single
 /// pigment and once by `groups`.
-///
-/// # Errors
-/// [`MapError`] if you cannot use a library.
 pub fn swatch_trials(
     samples: &[LeftOut],
     settings: &MapSettings,
@@ -139,63 +140,67 @@ pub fn swatch_trials(
 ) -> Result<SwatchTrials, MapError> {
     use rayon::prelude::*;
     let named = NamedGroups::of(samples, groups);
-    let trial = |index: usize| -> Result<(Trial, Trial), MapError> {
-        let sample = &samples[index];
-        let others = samples.iter().enumerate().filter(|(other, _)| *other != index);
-        let residuals = residuals_of(others.map(|(_, sample)| sample));
-        let library = &sample.library;
-        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-        let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
-        let own = |groups: &[PigmentGroup]| MapSettings {
-            groups: groups.to_vec(),
-            group_alike: false,
-            model_error: settings
-                .model_error
-                .clone()
-                .or(residuals.clone().map(ModelError::Residuals)),
-            ..settings.clone()
-        };
-        let truth = named.list(true_shares(sample));
-        let single = Mapper::new(library, &nm, &own(&[]))?;
-        let maps = single.search(&spectrum)?;
-        let names = || single.columns().iter().map(|column| column.name.as_str());
-        let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
-        let list = |values: &[f64]| named.list(names().zip(values.iter().copied()));
-        let pigments = Trial {
-            truth: truth.clone(),
-            told: list(&plain.told),
-            present: list(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
-            probability: list(&plain.probability),
-            sd: list(&plain.sd),
-            chi2: plain.chi2,
-            least: 0.0,
-        };
-        let joined = Mapper::new(library, &nm, &own(groups))?;
-        let maps = joined.search(&spectrum)?;
-        let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
-        let mut sums = vec![0.0; named.count];
-        truth.iter().zip(&named.group_of).for_each(|(share, &group)| sums[group] += share);
-        let by_group = |values: &[f64]| {
-            let mut list = vec![0.0; named.count];
-            for (column, value) in joined.columns().iter().zip(values) {
-                let place = named.pigments.iter().position(|known| *known == column.pigments[0]);
-                list[place.map_or(0, |place| named.group_of[place])] = *value;
-            }
-            list
-        };
-        let groups = Trial {
-            truth: sums,
-            told: by_group(&plain.told),
-            present: by_group(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
-            probability: by_group(&plain.probability),
-            sd: by_group(&plain.sd),
-            chi2: plain.chi2,
-            least: 0.0,
-        };
-        Ok((pigments, groups))
-    };
-    let found: Vec<(Trial, Trial)> =
-        (0..samples.len()).into_par_iter().map(trial).collect::<Result<_, _>>()?;
+    let found: Vec<(Trial, Trial)> = (0..samples.len())
+        .into_par_iter()
+        .map(|index: usize| -> Result<(Trial, Trial), MapError> {
+            let sample = &samples[index];
+            let others = samples.iter().enumerate().filter(|(other, _)| *other != index);
+            let residuals = residuals_of(others.map(|(_, sample)| sample));
+            let library = &sample.library;
+            let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+            let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
+            let own = |groups: &[PigmentGroup]| MapSettings {
+                groups: groups.to_vec(),
+                group_alike: false,
+                model_error: settings
+                    .model_error
+                    .clone()
+                    .or(residuals.clone().map(ModelError::Residuals)),
+                ..settings.clone()
+            };
+            let truth = named.list(true_shares(sample));
+            let single = Mapper::new(library, &nm, &own(&[]))?;
+            let maps = single.search(&spectrum)?;
+            let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
+            let list = |values: &[f64]| {
+                let names = single.columns().iter().map(|column| column.name.as_str());
+                named.list(names.zip(values.iter().copied()))
+            };
+            let pigments = Trial {
+                truth: truth.clone(),
+                told: list(&plain.told),
+                present: list(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
+                probability: list(&plain.probability),
+                sd: list(&plain.sd),
+                chi2: plain.chi2,
+                least: 0.0,
+            };
+            let joined = Mapper::new(library, &nm, &own(groups))?;
+            let maps = joined.search(&spectrum)?;
+            let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
+            let mut sums = vec![0.0; named.count];
+            truth.iter().zip(&named.group_of).for_each(|(share, &group)| sums[group] += share);
+            let by_group = |values: &[f64]| {
+                let mut list = vec![0.0; named.count];
+                for (column, value) in joined.columns().iter().zip(values) {
+                    let place =
+                        named.pigments.iter().position(|known| *known == column.pigments[0]);
+                    list[place.map_or(0, |place| named.group_of[place])] = *value;
+                }
+                list
+            };
+            let groups = Trial {
+                truth: sums,
+                told: by_group(&plain.told),
+                present: by_group(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
+                probability: by_group(&plain.probability),
+                sd: by_group(&plain.sd),
+                chi2: plain.chi2,
+                least: 0.0,
+            };
+            Ok((pigments, groups))
+        })
+        .collect::<Result<_, _>>()?;
     let (pigments, groups) = found.into_iter().unzip();
     Ok(SwatchTrials { pigments, groups })
 }
@@ -217,20 +222,25 @@ pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choic
     let count = of_penalty.first().map_or(0, |(_, trials)| trials.groups.len());
     let mut trials = SwatchTrials { pigments: Vec::new(), groups: Vec::new() };
     let value = |trials: &SwatchTrials, fold: usize| {
-        let others = |list: &[Trial]| {
+        let [groups, pigments] = [&trials.groups, &trials.pigments].map(|list| {
             let kept = list.iter().enumerate().filter(|(index, _)| index % folds != fold);
             Scores::of(kept.map(|(_, trial)| trial)).f1()
-        };
-        others(&trials.groups) + others(&trials.pigments)
+        });
+        groups + pigments
     };
-    let best = |fold: usize| {
-        (0..of_penalty.len())
-            .reduce(|a: usize, b: usize| {
-                if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) { b } else { a }
-            })
-            .unwrap_or(0)
-    };
-    let chosen: Vec<usize> = (0..folds).map(best).collect();
+    let chosen: Vec<usize> = (0..folds)
+        .map(|fold: usize| {
+            (0..of_penalty.len())
+                .reduce(|a: usize, b: usize| {
+                    if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) {
+                        b
+                    } else {
+                        a
+                    }
+                })
+                .unwrap_or(0)
+        })
+        .collect();
     for index in 0..count {
         let (_, own) = &of_penalty[chosen[index % folds]];
         trials.pigments.push(own.pigments[index].clone());
@@ -335,9 +345,6 @@ pub enum Told {
 /// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with
 /// the library `known` and `settings`. If `told` says so, the map also knows the palette of the
 /// painting.
-///
-/// # Errors
-/// [`MapError`] if you cannot use the library or the settings.
 pub fn painting_trials(
     (real, known): (&PigmentLibrary, &PigmentLibrary),
     plan: &PaintingPlan,
@@ -381,9 +388,6 @@ pub struct Missing {
 /// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each. This
 /// is the first that is not in a group of `settings`, because another pigment of the group would
 /// take its place.
-///
-/// # Errors
-/// [`MapError`] if you cannot use the library or the settings.
 pub fn missing_pigment(
     library: &PigmentLibrary,
     plan: &PaintingPlan,
@@ -395,8 +399,9 @@ pub fn missing_pigment(
     let mut wrong = [0.0, 0.0];
     for seed in seeds {
         let painting = Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
-        let alike = |name: &String| settings.groups.iter().any(|g| g.pigments.contains(name));
-        let Some(lacking) = painting.pigments.iter().position(|name| !alike(name)) else {
+        let Some(lacking) = painting.pigments.iter().position(|name: &String| {
+            !settings.groups.iter().any(|group| group.pigments.contains(name))
+        }) else {
             continue;
         };
         let missing = &painting.pigments[lacking];
@@ -414,11 +419,11 @@ pub fn missing_pigment(
     }
     chi2.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));
     let usual = at_share(&chi2[0], 0.95);
-    let count = |with: usize| chi2[with].len().max(1) as f64;
+    let counts = [&chi2[0], &chi2[1]].map(|values| values.len().max(1) as f64);
     Ok(Missing {
         chi2: [at_share(&chi2[0], 0.5), at_share(&chi2[1], 0.5)],
-        noticed: chi2[1].iter().filter(|value| **value > usual).count() as f64 / count(1),
-        false_presences: [wrong[0] / count(0), wrong[1] / count(1)],
+        noticed: chi2[1].iter().filter(|value| **value > usual).count() as f64 / counts[1],
+        false_presences: [wrong[0] / counts[0], wrong[1] / counts[1]],
     })
 }
 

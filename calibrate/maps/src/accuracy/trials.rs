@@ -101,13 +101,16 @@ impl Painting {
         ids.sort_unstable();
         let grid = real.grid;
         let factor = smooth_factor(&grid.wavelengths_nm().collect::<Vec<f64>>());
-        let mut off = |values: &[f64]| -> Vec<f64> {
-            let normal = DVector::from_fn(values.len(), |_, _| StandardNormal.sample(&mut random));
-            let errors: DVector<f64> = &factor * normal;
-            values.iter().zip(&errors).map(|(v, e)| v * (plan.error * e).exp()).collect()
-        };
-        let curves: Vec<(Vec<f64>, Vec<f64>)> =
-            ids.iter().map(|&id| (off(&real[id].absorption), off(&real[id].scattering))).collect();
+        let curves: Vec<[Vec<f64>; 2]> = (ids.iter())
+            .map(|&id| {
+                [&real[id].absorption, &real[id].scattering].map(|values| {
+                    let normal =
+                        DVector::from_fn(values.len(), |_, _| StandardNormal.sample(&mut random));
+                    let errors: DVector<f64> = &factor * normal;
+                    values.iter().zip(&errors).map(|(v, e)| v * (plan.error * e).exp()).collect()
+                })
+            })
+            .collect();
         let recipes: Vec<Vec<(usize, f64)>> =
             (0..plan.recipes).map(|_| recipe(&mut random, ids.len(), plan)).collect();
         let mut truth = Vec::new();
@@ -121,7 +124,7 @@ impl Painting {
             let sum: f64 = shares.iter().map(|(_, share)| share).sum();
             shares.iter_mut().for_each(|(_, share)| *share /= sum);
             let parts = shares.iter().map(|&(place, share)| {
-                let (k, s) = &curves[place];
+                let [k, s] = &curves[place];
                 (share, k.as_slice(), s.as_slice())
             });
             let film = Curves::weighted_sum(grid, parts).hiding(real.saunderson);
@@ -281,16 +284,16 @@ impl Trial {
     /// This drops probabilities and deviations, because you cannot join them.
     #[must_use]
     pub fn joined(&self, group_of: &[usize], count: usize) -> Self {
-        let sum = |values: &[f64]| {
+        let [truth, told] = [&self.truth, &self.told].map(|values| {
             let mut sums = vec![0.0; count];
             values.iter().zip(group_of).for_each(|(value, &group)| sums[group] += value);
             sums
-        };
+        });
         let mut present = vec![false; count];
         self.present.iter().zip(group_of).for_each(|(&is, &group)| present[group] |= is);
         Self {
-            truth: sum(&self.truth),
-            told: sum(&self.told),
+            truth,
+            told,
             present,
             probability: Vec::new(),
             sd: Vec::new(),
@@ -399,27 +402,28 @@ pub fn reliability<'a>(
     trials: impl IntoIterator<Item = &'a Trial> + Clone,
     ends: &[f64],
 ) -> Vec<Reliability> {
-    let range = |index: usize| {
-        let from = ends[index];
-        let to = ends.get(index + 1).copied().unwrap_or(f64::INFINITY);
-        let mut count = 0;
-        let mut told = 0.0;
-        let mut is_true = 0.0;
-        for trial in trials.clone() {
-            for (index, &probability) in trial.probability.iter().enumerate() {
-                if let (Some(is_there), true) =
-                    (trial.is_there(index), (from..to).contains(&probability))
-                {
-                    count += 1;
-                    told += probability;
-                    is_true += f64::from(u8::from(is_there));
+    (0..ends.len())
+        .map(|index: usize| {
+            let from = ends[index];
+            let to = ends.get(index + 1).copied().unwrap_or(f64::INFINITY);
+            let mut count = 0;
+            let mut told = 0.0;
+            let mut is_true = 0.0;
+            for trial in trials.clone() {
+                for (index, &probability) in trial.probability.iter().enumerate() {
+                    if let (Some(is_there), true) =
+                        (trial.is_there(index), (from..to).contains(&probability))
+                    {
+                        count += 1;
+                        told += probability;
+                        is_true += f64::from(u8::from(is_there));
+                    }
                 }
             }
-        }
-        let of = (count as f64).max(1.0);
-        Reliability { from, count, told: told / of, true_part: is_true / of }
-    };
-    (0..ends.len()).map(range).collect()
+            let of = (count as f64).max(1.0);
+            Reliability { from, count, told: told / of, true_part: is_true / of }
+        })
+        .collect()
 }
 
 /// How often shares lie within their standard deviation of the truth.
@@ -451,10 +455,9 @@ pub fn coverage<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Coverage {
 pub fn covered(trial: &Trial) -> (usize, usize) {
     let alone = trial.present.iter().filter(|is| **is).count() < 2;
     let counted = (0..trial.sd.len()).filter(|&index| trial.present[index] && !alone);
-    let is_within =
-        |&index: &usize| (trial.truth[index] - trial.told[index]).abs() <= trial.sd[index];
-    let counted: Vec<usize> = counted.collect();
-    (counted.len(), counted.iter().filter(|index| is_within(index)).count())
+    let within = (counted.clone())
+        .filter(|&index| (trial.truth[index] - trial.told[index]).abs() <= trial.sd[index]);
+    (counted.count(), within.count())
 }
 
 /// A linear method.
@@ -500,22 +503,20 @@ impl Baseline {
     /// Shares of the pigments of `paints` in a film. Pass its reflectance on their bands.
     #[must_use]
     pub fn unmix(self, paints: &Paints, reflectance: &[f64]) -> Unmixed {
-        let space = |reflectance: &[f64]| -> Vec<f64> {
-            reflectance
-                .iter()
-                .map(|&r: &f64| match self {
-                    Self::Reflectance | Self::Angle => r,
-                    Self::Absorbance => -r.max(1e-3).ln(),
-                    Self::Ratio => {
-                        let internal = paints.surface.internal_from_measured(r).unwrap_or(0.0);
-                        absorption_over_scattering(internal.clamp(1e-3, 1.0))
-                    }
-                })
-                .collect()
-        };
-        let mut target = space(reflectance);
-        let masstones = (0..paints.count()).map(|p| space(&paints.reflectance(&[(p, 1.0)])));
-        let mut columns: Vec<Vec<f64>> = masstones.collect();
+        let masstones = (0..paints.count()).map(|p| paints.reflectance(&[(p, 1.0)]));
+        let mut spectra: Vec<Vec<f64>> = masstones.chain([reflectance.to_vec()]).collect();
+        for value in spectra.iter_mut().flatten() {
+            *value = match self {
+                Self::Reflectance | Self::Angle => *value,
+                Self::Absorbance => -value.max(1e-3).ln(),
+                Self::Ratio => {
+                    let internal = paints.surface.internal_from_measured(*value).unwrap_or(0.0);
+                    absorption_over_scattering(internal.clamp(1e-3, 1.0))
+                }
+            };
+        }
+        let mut target = spectra.pop().unwrap_or_default();
+        let mut columns = spectra;
         if self == Self::Angle {
             let cosine = |column: &Vec<f64>| dot(column, &target) / dot(column, column).sqrt();
             let nearest = (0..columns.len())

@@ -274,11 +274,6 @@ impl Default for CubeOptions {
 impl CubeOptions {
     /// Checks the range of every number. Messages call the scan `path`.
     pub(crate) fn check(&self, path: &Path) -> Result<(), CubeError> {
-        let fault = |name: &str, found: f64| {
-            let problem =
-                format!("the setting `{name}` must be above 0 and finite, found `{found}`");
-            CubeError::format(path, problem, format!("give a number with [{name}]"))
-        };
         if !(self.tile > 0.0 && self.tile <= 1.2) {
             let problem = format!(
                 "the white's reflectance must be above 0 and at most 1.2, found `{}`",
@@ -286,14 +281,18 @@ impl CubeOptions {
             );
             return Err(CubeError::format(path, problem, "give a fraction, such as [tile=0.99]"));
         }
-        if let CubeScale::White(white) = self.scale
-            && !(white.is_finite() && white > 0.0)
-        {
-            return Err(fault("scale", white));
+        let scale = match self.scale {
+            CubeScale::White(white) => Some(white),
+            _ => None,
+        };
+        for (name, number) in [("scale", scale), ("full_scale", self.full_scale)] {
+            if let Some(found) = number.filter(|number| !(number.is_finite() && *number > 0.0)) {
+                let problem =
+                    format!("the setting `{name}` must be above 0 and finite, found `{found}`");
+                let way_out = format!("give a number with [{name}]");
+                return Err(CubeError::format(path, problem, way_out));
+            }
         }
-        match self.full_scale {
-            Some(full) if !(full.is_finite() && full > 0.0) => Err(fault("full_scale", full)),
-            _ => Ok(()),
-        }
+        Ok(())
     }
 }

@@ -59,10 +59,12 @@ impl Sample {
     /// Largest values of pixels with data, in rising order.
     fn largest(&self, ignore: Option<f32>) -> Vec<f32> {
         let pixels = self.values.chunks_exact(self.bands);
-        let has_data =
-            |pixel: &&[f32]| pixel.iter().all(|value| value.is_finite() && Some(*value) != ignore);
-        let largest = |pixel: &[f32]| pixel.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let mut found: Vec<f32> = pixels.filter(has_data).map(largest).collect();
+        let mut found: Vec<f32> = pixels
+            .filter(|pixel: &&[f32]| {
+                pixel.iter().all(|value| value.is_finite() && Some(*value) != ignore)
+            })
+            .map(|pixel: &[f32]| pixel.iter().copied().fold(f32::NEG_INFINITY, f32::max))
+            .collect();
         found.sort_by(f32::total_cmp);
         found
     }
@@ -118,14 +120,9 @@ pub(crate) fn interpret(
     let conversion = Conversion { ignore, saturated: full_scale, terms };
     let conversion = conversion.of_bands(&bands, scan.bands);
     check_usable(scan, &sample, &conversion)?;
-    let sorted = |of: Option<Vec<f64>>| of.map(|all| bands.iter().map(|&band| all[band]).collect());
-    Ok(Interpreted {
-        white_sd: sorted(white_sd),
-        black_sd: sorted(black_sd),
-        conversion,
-        bands,
-        remarks,
-    })
+    let [white_sd, black_sd] =
+        [white_sd, black_sd].map(|of| of.map(|all| bands.iter().map(|&band| all[band]).collect()));
+    Ok(Interpreted { white_sd, black_sd, conversion, bands, remarks })
 }
 
 fn check_has_light(scan: &Opened, largest: &[f32]) -> Result<(), CubeError> {
@@ -156,7 +153,6 @@ fn terms_of_values(
     }
     // A few glints or dead pixels do not decide.
     let most = largest[(largest.len() - 1) * 98 / 100];
-    let refused = || CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) };
     match &scan.values {
         Values::Divided(factor) => Ok(Terms::One((1.0 / factor) as f32)),
         Values::Gains(pairs) => {
@@ -169,13 +165,14 @@ fn terms_of_values(
                 gain,
             })
         }
-        Values::Counts | Values::Unknown { are_whole: true } => Err(refused()),
         Values::Unknown { are_whole: false } if most <= MOST_FRACTION => Ok(Terms::One(1.0)),
         Values::Unknown { are_whole: false } if most <= MOST_PERCENT => {
             remarks.push(format!("values up to {most} are taken for percent"));
             Ok(Terms::One(0.01))
         }
-        Values::Unknown { .. } => Err(refused()),
+        Values::Counts | Values::Unknown { .. } => {
+            Err(CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) })
+        }
     }
 }
 

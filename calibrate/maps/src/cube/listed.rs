@@ -40,19 +40,15 @@ impl ScanFile {
 impl Cube {
     /// Opens the ENVI scan among `files`: a header and its data. Readings of white and dark that `options` name
     /// are among them too.
-    ///
-    /// # Errors
-    /// [`CubeError`] with file, place and advice.
     pub fn of_files(files: &[ScanFile], options: &CubeOptions) -> Result<Self, CubeError> {
         let dark = match &options.dark_reading {
             DarkReading::File(path) => Some(path),
             _ => None,
         };
-        let is_reading =
-            |file: &&ScanFile| [options.white_reading.as_ref(), dark].contains(&Some(&file.name));
+        let given = [options.white_reading.as_ref(), dark];
         let mut headers = Vec::new();
         for file in files {
-            if file.is_header()? && !is_reading(&file) {
+            if file.is_header()? && !given.contains(&Some(&file.name)) {
                 headers.push(file);
             }
         }
@@ -107,8 +103,11 @@ fn data_of<'f>(
     let places = envi::places(path);
     let named: Vec<&ScanFile> =
         places.iter().filter_map(|place| files.iter().find(|f| f.name == *place)).collect();
-    let fits = |file: &&&ScanFile| header.layout.file_bytes() == Some(file.contents.bytes());
-    if let Some(file) = named.iter().find(fits).or(named.first()) {
+    if let Some(file) = named
+        .iter()
+        .find(|file: &&&ScanFile| header.layout.file_bytes() == Some(file.contents.bytes()))
+        .or(named.first())
+    {
         return Ok(file);
     }
     let mut others = Vec::new();
@@ -183,12 +182,8 @@ pub(crate) fn readings(
             way_out: "take the white at the integration time of the scan: a dark does not scale with time".to_owned(),
         });
     }
-    let reading = |path: &PathBuf, role| Reading::of(&open(path)?, scan, role);
-    Ok(Some(Readings {
-        white: Reading::of(&white_scan, scan, "white")?,
-        dark: dark.map(|path| reading(path, "dark")).transpose()?,
-        white_dark: white_dark.map(|path| reading(path, "dark")).transpose()?,
-        tile: options.tile,
-        time_ratio,
-    }))
+    let white = Reading::of(&white_scan, scan, "white")?;
+    let dark = dark.map(|path| Reading::of(&open(path)?, scan, "dark")).transpose()?;
+    let white_dark = white_dark.map(|path| Reading::of(&open(path)?, scan, "dark")).transpose()?;
+    Ok(Some(Readings { white, dark, white_dark, tile: options.tile, time_ratio }))
 }

@@ -34,17 +34,11 @@ impl Cube {
     /// Opens the cube at `path`: a header or data of ENVI, a folder of a Specim camera, a Zarr
     /// array or group, a spectral EXR file, a multi-page TIFF file, or a folder of pictures with
     /// their wavelengths. We find the kind by content.
-    ///
-    /// # Errors
-    /// [`CubeError`] with file, place and advice.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, CubeError> {
         Self::open_with(path, &CubeOptions::default())
     }
 
     /// Opens the cube at `path` with settings.
-    ///
-    /// # Errors
-    /// [`CubeError`] with file, place and advice.
     pub fn open_with(path: impl AsRef<Path>, options: &CubeOptions) -> Result<Self, CubeError> {
         let path = path.as_ref();
         options.check(path)?;
@@ -58,8 +52,7 @@ impl Cube {
             false => (open_scan(path, options)?, None),
         };
         let own = own.map(OwnReadings::from);
-        let open = |path: &Path| open_kind(path, options);
-        let readings = readings(&scan, own.as_ref(), options, &open)?;
+        let readings = readings(&scan, own.as_ref(), options, &|path| open_kind(path, options))?;
         Self::of(scan, readings.as_ref(), options)
     }
 }
@@ -191,11 +184,10 @@ fn headers(folder: &Path) -> Vec<(String, PathBuf)> {
 
 /// Finds the scan of a camera's folder: its reflectance, or else its counts with white and dark.
 fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
-    let inside = |name: &str| {
+    let [results, captured] = ["results", "capture"].map(|name| {
         let inner = folder.join(name);
         headers(if inner.is_dir() { &inner } else { folder })
-    };
-    let results = inside("results");
+    });
     let computed: Vec<_> =
         results.iter().filter(|(name, _)| name.starts_with(REFLECTANCE)).collect();
     if let [(_, scan)] = computed[..] {
@@ -203,7 +195,6 @@ fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
         let scan = scan.clone();
         return Ok(SpecimScan { scan, white: None, dark: None, white_dark: None, remark });
     }
-    let captured = inside("capture");
     let scans: Vec<_> = captured.iter().filter(|(name, _)| is_scan(name)).collect();
     let [(name, scan)] = scans[..] else {
         let problem = match computed.len().max(scans.len()) {

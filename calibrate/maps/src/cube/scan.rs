@@ -152,10 +152,10 @@ impl Cube {
             let asked = format!("wavelengths from {} to {} nm", nm.start(), nm.end());
             return Err(self.outside(asked));
         }
-        let of_bands = |all: &mut Vec<f64>| *all = chosen.iter().map(|&band| all[band]).collect();
-        of_bands(&mut self.wavelengths_nm);
-        for list in [&mut self.fwhm_nm, &mut self.white_sd, &mut self.black_sd] {
-            list.as_mut().map(of_bands);
+        let lists = [&mut self.fwhm_nm, &mut self.white_sd, &mut self.black_sd];
+        let known = lists.into_iter().filter_map(Option::as_mut);
+        for list in known.chain([&mut self.wavelengths_nm]) {
+            *list = chosen.iter().map(|&band| list[band]).collect();
         }
         self.bands = chosen.iter().map(|&band| self.bands[band]).collect();
         self.conversion = self.conversion.of_bands(&chosen, all);
@@ -168,11 +168,12 @@ impl Cube {
     pub fn rows_within(&self, bytes: usize, columns: usize) -> usize {
         let row = columns * (self.bands.len() * size_of::<f32>() + size_of::<Mask>());
         let natural = self.source.natural_rows();
-        let needed = |rows: usize| {
-            row.saturating_mul(rows).saturating_add(self.source.scratch_bytes(rows, columns))
-        };
         let mut rows = 1;
-        while rows < self.lines && needed(2 * rows) <= bytes {
+        while rows < self.lines {
+            let scratch = self.source.scratch_bytes(2 * rows, columns);
+            if row.saturating_mul(2 * rows).saturating_add(scratch) > bytes {
+                break;
+            }
             rows *= 2;
         }
         // Whole parts of the file where that costs no more than a half.
@@ -188,9 +189,6 @@ impl Cube {
     }
 
     /// Reads the pixels of a rectangle.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or we cannot read it.
     pub fn read(&self, rows: Range<usize>, columns: Range<usize>) -> Result<Block, CubeError> {
         let mut block = Block::default();
         self.read_into(rows, columns, &mut block)?;
@@ -198,21 +196,17 @@ impl Cube {
     }
 
     /// Reads the pixels of a rectangle into `block`. Use this to keep its memory.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or we cannot read it.
     pub fn read_into(
         &self,
         rows: Range<usize>,
         columns: Range<usize>,
         block: &mut Block,
     ) -> Result<(), CubeError> {
-        let is_inside = |range: &Range<usize>, end| range.start <= range.end && range.end <= end;
-        if !is_inside(&rows, self.lines) {
-            return Err(self.outside(format!("rows {} to {}", rows.start, rows.end)));
-        }
-        if !is_inside(&columns, self.samples) {
-            return Err(self.outside(format!("columns {} to {}", columns.start, columns.end)));
+        for (name, range, end) in [("rows", &rows, self.lines), ("columns", &columns, self.samples)]
+        {
+            if range.start > range.end || range.end > end {
+                return Err(self.outside(format!("{name} {} to {}", range.start, range.end)));
+            }
         }
         let window = Window { rows, columns };
         block.bands = self.bands.len();
@@ -265,9 +259,6 @@ fn steps(rows: usize, columns: usize, about: usize) -> (usize, usize) {
 impl Cube {
     /// Reads about `about` pixels of a rectangle, evenly spread in rows and columns. This reads
     /// only the rows of these pixels, and leaves out pixels that cannot be mapped.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or we cannot read it.
     pub fn spread(
         &self,
         rows: Range<usize>,
@@ -292,9 +283,6 @@ impl Cube {
 
     /// Number of the pixels of a rectangle that can be mapped, and their mean reflectance by band.
     /// If there are none, every band is 0.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or we cannot read it.
     pub fn mean(
         &self,
         rows: Range<usize>,
@@ -314,9 +302,6 @@ impl Cube {
     /// A sign that tells this scan from another one, or from itself read in another way, so that
     /// you need not read all of it. This is the SHA-256, in hexadecimal digits, of the sizes, the
     /// wavelengths and the reflectances of about 4,000 pixels.
-    ///
-    /// # Errors
-    /// [`CubeError`] if we cannot read the cube.
     pub fn sign(&self) -> Result<String, CubeError> {
         let mut hash = Sha256::new();
         for size in [self.lines(), self.samples(), self.wavelengths_nm().len()] {

@@ -47,14 +47,18 @@ pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
         }
     }
     let (column, unit) = heading.unwrap_or((None, None));
-    let of_row = |row: &Vec<f64>| match column {
-        Some(column) => row.get(column).copied().unwrap_or(f64::NAN),
-        None => row.iter().copied().rev().find(|value| value.is_finite()).unwrap_or(f64::NAN),
-    };
     let values: Vec<f64> = match &rows[..] {
         // Units and words between the numbers are passed over.
         [list] if column.is_none() => list.iter().copied().filter(|nm| nm.is_finite()).collect(),
-        rows => rows.iter().map(of_row).collect(),
+        rows => rows
+            .iter()
+            .map(|row: &Vec<f64>| match column {
+                Some(column) => row.get(column).copied().unwrap_or(f64::NAN),
+                None => {
+                    row.iter().copied().rev().find(|value| value.is_finite()).unwrap_or(f64::NAN)
+                }
+            })
+            .collect(),
     };
     if values.is_empty() {
         return Err(CubeError::format(path, "holds no wavelengths", WAY_OUT));
@@ -77,16 +81,16 @@ fn number_of(word: &str) -> Option<f64> {
 /// Column and unit of the wavelengths, if a line of words names them.
 fn heading_of(words: &[&str]) -> Option<(Option<usize>, Option<&'static str>)> {
     let lower: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
-    let has = |word: &String, parts: &[&str]| parts.iter().any(|part| word.contains(part));
-    let names = |word: &String| has(word, &["wavelength", "lambda"]) || word == "nm";
-    let unit = |parts: &[&str]| lower.iter().any(|word| has(word, parts));
-    let unit = match (unit(&["nm", "nanomet"]), unit(&["micromet", "(um)", "_um"])) {
-        (true, _) => Some("nm"),
-        (_, true) => Some("um"),
-        _ => None,
-    };
-    let column = lower.iter().position(names);
+    let units = [("nm", &["nm", "nanomet"][..]), ("um", &["micromet", "(um)", "_um"])];
+    let unit = units.into_iter().find(|(_, parts)| lower.iter().any(|word| has(word, parts)));
+    let unit = unit.map(|(name, _)| name);
+    let column =
+        lower.iter().position(|word: &String| has(word, &["wavelength", "lambda"]) || word == "nm");
     (column.is_some() || unit.is_some()).then_some((column, unit))
+}
+
+fn has(word: &str, parts: &[&str]) -> bool {
+    parts.iter().any(|part| word.contains(part))
 }
 
 /// Order of the bytes of unpacked numbers.

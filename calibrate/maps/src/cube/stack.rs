@@ -31,15 +31,11 @@ impl Plane {
         if self == first {
             return Ok(());
         }
-        let words = |plane: Self| {
-            let bands = match plane.bands {
-                1 => String::new(),
-                bands => format!("{bands} "),
-            };
-            format!("{} x {} pixels of {bands}{:?}", plane.samples, plane.lines, plane.number_type)
-        };
-        let problem =
-            format!("{place} has {}, the first picture of the stack {}", words(self), words(first));
+        let [found, first] = [self, first].map(|Self { samples, lines, bands, number_type }| {
+            let bands = if bands == 1 { String::new() } else { format!("{bands} ") };
+            format!("{samples} x {lines} pixels of {bands}{number_type:?}")
+        });
+        let problem = format!("{place} has {found}, the first picture of the stack {first}");
         Err(CubeError::format(path, problem, "export all pictures at one size and one depth"))
     }
 }

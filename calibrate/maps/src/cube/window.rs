@@ -179,13 +179,15 @@ impl Conversion {
 
     /// The conversion of some bands only. `chosen` are indices into the `all` bands so far.
     pub(crate) fn of_bands(&self, chosen: &[usize], all: usize) -> Self {
-        let of = |terms: &Vec<f32>| -> Vec<f32> {
-            let columns = terms.chunks_exact(all);
-            columns.flat_map(|column| chosen.iter().map(|&band| column[band])).collect()
-        };
         let terms = match &self.terms {
             Terms::One(gain) => Terms::One(*gain),
-            Terms::Columns { dark, gain } => Terms::Columns { dark: of(dark), gain: of(gain) },
+            Terms::Columns { dark, gain } => {
+                let [dark, gain] = [dark, gain].map(|terms| {
+                    let columns = terms.chunks_exact(all);
+                    columns.flat_map(|column| chosen.iter().map(|&band| column[band])).collect()
+                });
+                Terms::Columns { dark, gain }
+            }
         };
         Self { terms, ..self.clone() }
     }

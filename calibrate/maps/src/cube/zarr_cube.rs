@@ -93,9 +93,8 @@ fn chosen(folder: &Path, options: &CubeOptions) -> Result<(PathBuf, Value), Cube
 fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
     let names: Vec<String> =
         array.about.dimensions.iter().map(|name| name.to_lowercase()).collect();
-    let place = |wanted: &[&str]| names.iter().position(|name| wanted.contains(&name.as_str()));
-    let band = place(&BAND_AXES);
-    let row = place(&ROW_AXES);
+    let [band, row] = [&BAND_AXES[..], &ROW_AXES]
+        .map(|wanted| names.iter().position(|name| wanted.contains(&name.as_str())));
     let (Some(band), 3) = (band, array.about.shape.len()) else {
         return Err(CubeError::format(
             &array.folder,
@@ -260,21 +259,22 @@ impl ZarrSource {
         depths.dedup();
         let places: Vec<(usize, usize)> =
             columns.flat_map(|column| depths.iter().map(move |&depth| (column, depth))).collect();
-        let read = |&(column, depth): &(usize, usize)| {
-            let mut at = [0; 3];
-            for (axis, number) in self.axes.into_iter().zip([row, column, depth]) {
-                at[axis] = number;
-            }
-            let chunk = self.array.chunk(&at).map_err(chunk_error)?;
-            let numbers = chunk.map(|bytes| {
-                let mut numbers = vec![0.0; bytes.len() / about.number_type.bytes()];
-                about.number_type.convert(about.chain.byte_order, &bytes, &mut numbers, 1);
-                numbers
-            });
-            Ok(((column, depth), numbers))
-        };
-        let chunks: BTreeMap<_, Option<Vec<f32>>> =
-            places.par_iter().map(read).collect::<Result<_, CubeError>>()?;
+        let chunks: BTreeMap<_, Option<Vec<f32>>> = places
+            .par_iter()
+            .map(|&(column, depth): &(usize, usize)| {
+                let mut at = [0; 3];
+                for (axis, number) in self.axes.into_iter().zip([row, column, depth]) {
+                    at[axis] = number;
+                }
+                let chunk = self.array.chunk(&at).map_err(chunk_error)?;
+                let numbers = chunk.map(|bytes| {
+                    let mut numbers = vec![0.0; bytes.len() / about.number_type.bytes()];
+                    about.number_type.convert(about.chain.byte_order, &bytes, &mut numbers, 1);
+                    numbers
+                });
+                Ok(((column, depth), numbers))
+            })
+            .collect::<Result<_, CubeError>>()?;
         let [by_row, by_column, by_band] = self.axes.map(|axis| self.strides[axis]);
         pixels.rows(window, bands.len()).for_each(|(line, filled)| {
             let pixels = filled.values.chunks_exact_mut(bands.len()).zip(window.columns.clone());

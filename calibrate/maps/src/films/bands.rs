@@ -167,30 +167,30 @@ fn centers(grid: Grid, first: f64, last: f64, wanted: f64) -> Vec<f64> {
 /// they are exact for straight lines. A centre without a value within reach has `None`. If you pass
 /// a reach of 0, each centre must be one of the values.
 fn rows(nm: &[f64], centers: &[f64], reach: f64) -> Vec<Option<Row>> {
-    let row = |&center: &f64| {
-        if reach == 0.0 {
-            let index = nm.iter().position(|&nm| nm == center)?;
-            return Some(Row { terms: vec![(index, 1.0)] });
-        }
-        let near = nm.iter().enumerate().filter_map(|(index, &nm)| {
-            let x = (nm - center) / reach;
-            (x.abs() < 1.0 - 1e-9).then_some((index, x, 1.0 - x.abs()))
-        });
-        let near: Vec<(usize, f64, f64)> = near.collect();
-        let moment = |power: i32| near.iter().map(|(_, x, w)| w * x.powi(power)).sum::<f64>();
-        let s0 = moment(0);
-        let s1 = moment(1);
-        let s2 = moment(2);
-        let determinant = s0 * s2 - s1 * s1;
-        let is_line = determinant > 1e-9 * s0 * s0;
-        let weight = |x: f64, w: f64| {
-            if is_line { w * (s2 - s1 * x) / determinant } else { w / s0 }
-        };
-        // A single value stands for its own wavelength only.
-        let fits = is_line || near.iter().any(|(_, x, _)| x.abs() < 1e-6);
-        fits.then(|| Row { terms: near.iter().map(|&(i, x, w)| (i, weight(x, w))).collect() })
-    };
-    centers.iter().map(row).collect()
+    centers
+        .iter()
+        .map(|&center: &f64| {
+            if reach == 0.0 {
+                let index = nm.iter().position(|&nm| nm == center)?;
+                return Some(Row { terms: vec![(index, 1.0)] });
+            }
+            let near = nm.iter().enumerate().filter_map(|(index, &nm)| {
+                let x = (nm - center) / reach;
+                (x.abs() < 1.0 - 1e-9).then_some((index, x, 1.0 - x.abs()))
+            });
+            let near: Vec<(usize, f64, f64)> = near.collect();
+            let [s0, s1, s2] =
+                [0, 1, 2].map(|power| near.iter().map(|(_, x, w)| w * x.powi(power)).sum::<f64>());
+            let determinant = s0 * s2 - s1 * s1;
+            let is_line = determinant > 1e-9 * s0 * s0;
+            // A single value stands for its own wavelength only.
+            let fits = is_line || near.iter().any(|(_, x, _)| x.abs() < 1e-6);
+            let terms = near.iter().map(|&(i, x, w)| {
+                (i, if is_line { w * (s2 - s1 * x) / determinant } else { w / s0 })
+            });
+            fits.then(|| Row { terms: terms.collect() })
+        })
+        .collect()
 }
 
 /// The lightness of the ground varies from place to place by this standard deviation, relative to
@@ -228,8 +228,7 @@ impl Ground {
             let after = nm[place + 1];
             return Err(ground_error(format!("has {after} nm after {before} nm")));
         }
-        let is_reflectance = |value: &f64| (0.0..=1.5).contains(value);
-        if let Some(place) = reflectance.iter().position(|value| !is_reflectance(value)) {
+        if let Some(place) = reflectance.iter().position(|value| !(0.0..=1.5).contains(value)) {
             let value = reflectance[place];
             let nm = nm[place];
             return Err(ground_error(format!("reflects {value} at {nm} nm")));
@@ -477,17 +476,15 @@ mod tests {
     fn ground_of_other_wavelengths_is_interpolated() {
         let (nm, reflectance) = linen();
         let bands = Bands::new(&nm, Grid::from_nm(400.0, 10.0, 31).unwrap()).unwrap();
-        let interpolated = |of_few: Vec<f64>| {
-            let ground = Ground::new(vec![375.0, 505.0, 565.0, 725.0], of_few).unwrap();
+        let few = [[0.175, 0.305, 0.365, 0.525], [0.1, 0.36, 0.24, 0.56]];
+        let [straight, bent] = few.map(|few| {
+            let ground = Ground::new(vec![375.0, 505.0, 565.0, 725.0], few.to_vec()).unwrap();
             BareGround::new(&ground, &nm, &bands, &[9e-6; 31]).unwrap().reflectance
-        };
-        for (found, expected) in
-            interpolated(vec![0.175, 0.305, 0.365, 0.525]).iter().zip(&reflectance)
-        {
+        });
+        for (found, expected) in straight.iter().zip(&reflectance) {
             assert!((found - expected).abs() < 1e-9, "{found} {expected}");
         }
         // A ground that bends between the bands lies between its neighbours everywhere.
-        let bent = interpolated(vec![0.1, 0.36, 0.24, 0.56]);
         let expected = nm.iter().map(|nm| match nm {
             ..505.0 => 0.1 + 0.002 * (nm - 375.0),
             ..565.0 => 0.36 - 0.002 * (nm - 505.0),

@@ -26,8 +26,11 @@ pub(crate) type Spectrum = [f32x8; MOST_BLOCKS];
 
 /// Sorts values into blocks, with `beyond` after the last.
 pub(crate) fn spectrum(values: &[f32], beyond: f32) -> Spectrum {
-    let value = |index: usize| values.get(index).copied().unwrap_or(beyond);
-    std::array::from_fn(|block| f32x8::new(std::array::from_fn(|lane| value(block * LANES + lane))))
+    std::array::from_fn(|block| {
+        f32x8::new(std::array::from_fn(|lane| {
+            values.get(block * LANES + lane).copied().unwrap_or(beyond)
+        }))
+    })
 }
 
 #[inline(always)]

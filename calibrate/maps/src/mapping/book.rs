@@ -88,9 +88,6 @@ impl Book {
     }
 
     /// The book as JSON.
-    ///
-    /// # Errors
-    /// [`MapError::Book`] if we cannot write a number.
     pub fn to_json(&self) -> Result<String, MapError> {
         serde_json::to_string(self).map_err(|error| MapError::Book { reason: error.to_string() })
     }
@@ -112,16 +109,15 @@ impl Book {
                 && set.windows(2).all(|pair| pair[0] < pair[1])
                 && set.iter().all(|&p| usize::from(p) < book.pigments.len())
         };
-        let is_entry = |entry: &BookEntry| {
-            entry.point.len() == crate::search::DIMENSIONS
-                && entry.point.iter().all(|value| value.is_finite())
-                && entry.sets.iter().all(|set: &BookSet| {
-                    known(&set.pigments)
-                        && set.shares.len() == set.pigments.len()
-                        && set.shares.iter().all(|share| (0.0..=1.0).contains(share))
+        if let Some(index) = book.entries.iter().position(|entry: &BookEntry| {
+            entry.point.len() != crate::search::DIMENSIONS
+                || entry.point.iter().any(|value| !value.is_finite())
+                || entry.sets.iter().any(|set: &BookSet| {
+                    !known(&set.pigments)
+                        || set.shares.len() != set.pigments.len()
+                        || set.shares.iter().any(|share| !(0.0..=1.0).contains(share))
                 })
-        };
-        if let Some(index) = book.entries.iter().position(|entry| !is_entry(entry)) {
+        }) {
             return Err(MapError::Book { reason: format!("entry {} is not valid", index + 1) });
         }
         let palette = &book.palette;
@@ -137,9 +133,6 @@ impl Book {
     }
 
     /// SHA-256 of [`Book::to_json`], in hexadecimal.
-    ///
-    /// # Errors
-    /// [`MapError::Book`] if we cannot write a number.
     pub fn sha256(&self) -> Result<String, MapError> {
         let digest = Sha256::digest(self.to_json()?.as_bytes());
         Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
@@ -180,10 +173,9 @@ impl OpenBook {
             let expected = identity.to_owned();
             return Err(MapError::OtherBook { found, expected });
         }
-        let point = |values: &Vec<f32>| -> Point {
-            std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
-        };
-        let points: Vec<Point> = book.entries.iter().map(|entry| point(&entry.point)).collect();
+        let points: Vec<Point> = (book.entries.iter())
+            .map(|entry| std::array::from_fn(|i| entry.point.get(i).copied().unwrap_or(0.0)))
+            .collect();
         let mut ends = Vec::new();
         let mut sets = Vec::new();
         for entry in &book.entries {
@@ -310,8 +302,11 @@ impl Prepared {
         }
         used.sort_unstable();
         used.dedup();
-        let bare = |ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor);
-        let ground = settings.ground.as_ref().map(bare).transpose()?;
+        let ground = settings
+            .ground
+            .as_ref()
+            .map(|ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor))
+            .transpose()?;
         let entries = (0..paints.count()).map(|pigment| vec![pigment]).collect();
         Ok(Self { bands, paints, noise, engine, used, ends, terms, ground, entries })
     }

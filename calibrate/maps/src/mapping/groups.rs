@@ -244,19 +244,16 @@ impl Told {
         self.presence.fill(0.0);
         self.second = 0;
         let Some(best) = found.first() else { return };
-        let bits = |set: &SetFit| {
-            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << column_of[member])
-        };
         for (member, share) in best.parts() {
             self.share[column_of[member]] += f64::from(share);
         }
-        let best_bits = bits(best);
+        let best_bits = best.columns(column_of);
         let mut total = 0.0;
         let mut shares = vec![0.0; self.share.len()];
         for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
             let weight = Scores::weight(set.score - best.score);
             total += weight;
-            let columns = bits(set);
+            let columns = set.columns(column_of);
             if self.second == 0 && columns != best_bits {
                 self.second = columns;
             }
@@ -273,14 +270,15 @@ impl Told {
         let excess = engine.scores.excess(best.chi2);
         let covariance = best.covariance(&difference);
         // A share changes with the logarithm of a paint's strength by share x (own column - column's share).
-        let of_strength = |column: usize| -> f64 {
-            let slopes = best.parts().map(|(member, share)| {
-                let own = f64::from(u8::from(column_of[member] == column));
-                f64::from(share) * (own - self.share[column])
-            });
-            slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
-        };
-        let mut variance: Vec<f64> = (0..self.share.len()).map(of_strength).collect();
+        let mut variance: Vec<f64> = (0..self.share.len())
+            .map(|column: usize| -> f64 {
+                let slopes = best.parts().map(|(member, share)| {
+                    let own = f64::from(u8::from(column_of[member] == column));
+                    f64::from(share) * (own - self.share[column])
+                });
+                slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
+            })
+            .collect();
         for (i, (a, _)) in best.parts().enumerate() {
             for (j, (b, _)) in best.parts().enumerate() {
                 if column_of[a] == column_of[b] {
@@ -315,8 +313,11 @@ const LEAST: f64 = 1e-3;
 /// A paint of a wrong strength looks like a paint with another share, and you cannot see which from
 /// the spectrum.
 pub(crate) fn strength_sd(prepared: &Prepared, residuals: &Residuals) -> f64 {
-    let of_mixture = |mixture| needed(prepared, mixture).unwrap_or_default();
-    let mut needed: Vec<f64> = residuals.mixtures.iter().flat_map(of_mixture).collect();
+    let mut needed: Vec<f64> = residuals
+        .mixtures
+        .iter()
+        .flat_map(|mixture| needed(prepared, mixture).unwrap_or_default())
+        .collect();
     needed.sort_by(f64::total_cmp);
     let place = (WITHIN * needed.len() as f64) as usize;
     needed.get(place).map_or(0.0, |variance| variance.sqrt())
@@ -332,9 +333,8 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
         .collect::<Option<_>>()?;
     let start: Vec<(usize, f32)> = parts.iter().map(|&(p, share)| (p, share as f32)).collect();
     let mut set = SetFit::of_parts(&start).filter(|set| set.len() > 1)?;
-    let fold = |values: &[f64]| prepared.bands.fold_library(values);
-    let measured = fold(&mixture.measured);
-    let predicted = fold(&mixture.predicted);
+    let measured = prepared.bands.fold_library(&mixture.measured);
+    let predicted = prepared.bands.fold_library(&mixture.predicted);
     // This library's film, with the error that the fit without the mixture had.
     let film = prepared.paints.reflectance(&parts);
     let ratios = measured.iter().zip(&predicted).map(|(m, p)| m / p.max(LEAST));
@@ -348,11 +348,14 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let covariance = set.covariance(&difference);
     let shares: Vec<f64> = set.parts().map(|(_, share)| f64::from(share)).collect();
     let needed = (0..shares.len()).map(|i| {
-        let slope = |(j, share): (usize, &f64)| {
-            let own = f64::from(u8::from(i == j));
-            (share * (own - shares[i])).powi(2)
-        };
-        let slopes: f64 = shares.iter().enumerate().map(slope).sum();
+        let slopes: f64 = shares
+            .iter()
+            .enumerate()
+            .map(|(j, share): (usize, &f64)| {
+                let own = f64::from(u8::from(i == j));
+                (share * (own - shares[i])).powi(2)
+            })
+            .sum();
         let square = (shares[i] - f64::from(truth[i])).powi(2);
         (square - covariance[i][i] * excess).max(0.0) / slopes.max(1e-9)
     });
@@ -373,17 +376,16 @@ mod tests {
         let settings = MapSettings { sensor_noise: 0.0, ..MapSettings::default() };
         let exact = ModelError::Stated(0.001);
         let prepared = Prepared::new(&oils, &nm, &settings, &exact).unwrap();
-        let place = |name: &str| prepared.paints.place(name).unwrap();
-        let white = place("Zinc White");
+        let paints = &prepared.paints;
+        let white = paints.place("Zinc White").unwrap();
         let mut residuals = Residuals::van_gogh_oils();
         residuals.mixtures.truncate(4);
         let names = ["Viridian", "Cobalt Blue", "Vermilion", "Bone Black"];
         for (mixture, name) in residuals.mixtures.iter_mut().zip(names) {
-            let film =
-                |part: f64| prepared.paints.reflectance(&[(white, 0.6), (place(name), part)]);
+            let place = paints.place(name).unwrap();
             mixture.shares = [("Zinc White".to_owned(), 0.6), (name.to_owned(), 0.4)].into();
-            mixture.predicted = film(0.4);
-            mixture.measured = film(0.4 * factor);
+            mixture.predicted = paints.reflectance(&[(white, 0.6), (place, 0.4)]);
+            mixture.measured = paints.reflectance(&[(white, 0.6), (place, 0.4 * factor)]);
         }
         strength_sd(&prepared, &residuals)
     }

@@ -84,9 +84,10 @@ impl Mapper {
             |name: &str| library.find(name).map(|id| library[id].name.clone()),
             &alike,
         )?;
-        let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
-        let column_of =
-            prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
+        let names = prepared.paints.names.iter();
+        let column_of = names
+            .map(|name| columns.iter().position(|c| c.pigments.contains(name)).unwrap_or(0))
+            .collect();
         let identity = identity(library, wavelengths, settings, &model_error);
         Ok(Self { prepared, columns, column_of, model_error, identity })
     }
@@ -177,9 +178,6 @@ impl Mapper {
     }
 
     /// Maps the pixels of `spectra` as [`Mapper::map`] does, but opens the book for them alone.
-    ///
-    /// # Errors
-    /// [`MapError::OtherBook`] and [`MapError::Length`].
     pub fn map_block(&self, book: &Book, spectra: &[f32]) -> Result<BlockMaps, MapError> {
         self.map(&self.open_book(book)?, spectra, &[])
     }
@@ -224,9 +222,10 @@ impl Mapper {
         book.find(&folded, &mut scratch);
         let Some(best) = scratch.found.first() else { return Ok(None) };
         let members = best.members.iter().zip(best.shares).take(usize::from(best.count));
-        let name = |place: &u8| self.prepared.paints.names[usize::from(*place)].clone();
-        let mut set: Vec<(String, f64)> =
-            members.map(|(place, share)| (name(place), f64::from(share))).collect();
+        let names = &self.prepared.paints.names;
+        let mut set: Vec<(String, f64)> = members
+            .map(|(place, share)| (names[usize::from(*place)].clone(), f64::from(share)))
+            .collect();
         set.sort_by(|a, b| b.1.total_cmp(&a.1));
         Ok(Some(set))
     }
@@ -253,27 +252,28 @@ impl Mapper {
     ) -> Result<Vec<Option<Gap>>, MapError> {
         let engine = &self.prepared.engine;
         let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
-        let columns = |set: &SetFit| {
-            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << self.column_of[member])
-        };
-        let gap = |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
-            let folded = self.prepared.fold(pixel).ok()?;
-            let place = |(name, share): &(&str, f64)| {
-                Some((self.prepared.paints.place(name)?, *share as f32))
-            };
-            let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
-            let set = SetFit::of_parts(&parts)?;
-            let nearest = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, nearest, scratch);
-            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
-            let found = scratch.found.first()?;
-            Some(Gap {
-                score: found.score - truth.score,
-                chi2: found.chi2 - truth.chi2,
-                is_right: columns(found) == columns(&truth),
-            })
-        };
-        let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
+        let found = pixels.par_iter().zip(truth).map_init(
+            || Scratch::new(&engine.films),
+            |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
+                let folded = self.prepared.fold(pixel).ok()?;
+                let parts: Vec<(usize, f32)> = parts
+                    .iter()
+                    .map(|(name, share): &(&str, f64)| {
+                        Some((self.prepared.paints.place(name)?, *share as f32))
+                    })
+                    .collect::<Option<_>>()?;
+                let set = SetFit::of_parts(&parts)?;
+                let nearest = engine.table.nearest(&folded.point);
+                engine.search(&folded.pixel, nearest, scratch);
+                let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
+                let found = scratch.found.first()?;
+                Some(Gap {
+                    score: found.score - truth.score,
+                    chi2: found.chi2 - truth.chi2,
+                    is_right: found.columns(&self.column_of) == truth.columns(&self.column_of),
+                })
+            },
+        );
         Ok(found.collect())
     }
 

@@ -95,9 +95,14 @@ fn of_fit(set: &SetFit) -> BookSet {
 /// Median chi-square per degree of freedom, at least 1. It shows how far the errors of library and
 /// scan exceed the ones that the engine expects.
 fn excess(engine: &Engine, found: &[Vec<SetFit>]) -> f32 {
-    let of_best =
-        |set: &SetFit| set.chi2 / engine.films.bands.saturating_sub(set.len() - 1).max(1) as f32;
-    let mut values: Vec<f32> = found.iter().filter_map(|sets| sets.first().map(of_best)).collect();
+    let mut values: Vec<f32> = found
+        .iter()
+        .filter_map(|sets| {
+            sets.first().map(|set: &SetFit| {
+                set.chi2 / engine.films.bands.saturating_sub(set.len() - 1).max(1) as f32
+            })
+        })
+        .collect();
     values.sort_by(f32::total_cmp);
     values.get(values.len() / 2).map_or(1.0, |median| median.max(1.0))
 }
@@ -115,10 +120,10 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
     let mut parts = BTreeMap::new();
     for sets in found {
         let Some(best) = sets.first() else { continue };
-        let weight = |set: &SetFit| Scores::weight(set.score - best.score);
-        let total: f64 = sets.iter().map(weight).sum();
-        for set in sets {
-            *parts.entry(set.key()).or_insert(0.0) += weight(set) / total / found.len() as f64;
+        let weights = sets.iter().map(|set| Scores::weight(set.score - best.score));
+        let total: f64 = weights.clone().sum();
+        for (set, weight) in sets.iter().zip(weights) {
+            *parts.entry(set.key()).or_insert(0.0) += weight / total / found.len() as f64;
         }
     }
     parts
@@ -300,17 +305,13 @@ mod tests {
             palette(&[needed.clone(), needed.clone(), not.clone()], &[1, 1, 2], &apart(3), 1.0);
         assert!(often[1] > 0.9, "one of two paints: {often:?}");
         // Of many paints two must need it.
-        let many = |needing: usize| {
-            palette(
-                &(0..MANY)
-                    .map(|paint| if paint < needing { needed.clone() } else { not.clone() })
-                    .collect::<Vec<_>>(),
-                &(0..MANY).collect::<Vec<_>>(),
-                &apart(3),
-                1.0,
-            )
-        };
-        assert!(many(1)[1] < 0.2 && many(2)[1] > 0.9, "{:?} {:?}", many(1), many(2));
+        let [one, two] = [1, 2].map(|needing| {
+            let found: Vec<_> = (0..MANY)
+                .map(|paint| if paint < needing { needed.clone() } else { not.clone() })
+                .collect();
+            palette(&found, &(0..MANY).collect::<Vec<_>>(), &apart(3), 1.0)
+        });
+        assert!(one[1] < 0.2 && two[1] > 0.9, "{one:?} {two:?}");
     }
 
     #[test]

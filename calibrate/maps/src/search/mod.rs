@@ -314,11 +314,10 @@ pub(crate) struct Projection {
 impl Projection {
     fn new(paints: &Paints, noise: &Noise, recipes: &[Vec<(usize, f64)>]) -> Self {
         let bands = paints.bands();
-        let root = |recipe: &Vec<(usize, f64)>| {
-            let reflectance = paints.reflectance(recipe);
-            DVector::from_iterator(bands, reflectance.into_iter().map(|r| r.max(0.0).sqrt().sqrt()))
-        };
-        let roots: Vec<DVector<f64>> = recipes.iter().map(root).collect();
+        let reflectances = recipes.iter().map(|recipe| paints.reflectance(recipe).into_iter());
+        let roots: Vec<DVector<f64>> = reflectances
+            .map(|values| DVector::from_iterator(bands, values.map(|r| r.max(0.0).sqrt().sqrt())))
+            .collect();
         let scale = match noise.scale {
             Scale::FourthRoot => 1.0,
             Scale::LogRatio => ROOT_SLOPE,
@@ -570,13 +569,13 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_search_of_all_points_finds() {
         let mut random = ChaCha8Rng::seed_from_u64(5);
-        let mut point =
-            || -> Point { std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32) };
-        let mut list: Vec<Point> = (0..3000).map(|_| point()).collect();
+        let mut points = std::iter::repeat_with(|| -> Point {
+            std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32)
+        });
+        let mut list: Vec<Point> = points.by_ref().take(3000).collect();
         list.extend_from_slice(&list.clone()[..50]);
         let tree = Nearest::new(&list);
-        for _ in 0..200 {
-            let wanted = point();
+        for wanted in points.take(200) {
             let mut all: Vec<(f32, u32)> =
                 list.iter().zip(0..).map(|(p, place)| (distance(&wanted, p), place)).collect();
             all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -62,6 +62,11 @@ impl SetFit {
         usize::from(self.count)
     }
 
+    /// The columns of the members as bits.
+    pub(crate) fn columns(&self, column_of: &[usize]) -> u64 {
+        self.parts().fold(0, |bits, (member, _)| bits | 1 << column_of[member])
+    }
+
     pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let pairs = self.members.iter().zip(&self.shares).take(self.len());
         pairs.map(|(&member, &share)| (usize::from(member), share))

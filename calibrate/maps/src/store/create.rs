@@ -113,25 +113,18 @@ impl MapStore {
         let nothing = Map::new();
         let parts = ["/attributes", "/consolidated_metadata/metadata"];
         for part in parts {
-            let map = |of: &Value| of.pointer(part).and_then(Value::as_object).cloned();
-            let found = map(found);
-            let expected = map(expected);
-            let found = found.as_ref().unwrap_or(&nothing);
-            let expected = expected.as_ref().unwrap_or(&nothing);
+            let [found, expected] = [found, expected]
+                .map(|of| of.pointer(part).and_then(Value::as_object).unwrap_or(&nothing));
             let keys: BTreeSet<&String> = found.keys().chain(expected.keys()).collect();
             for key in keys {
                 if found.get(key) != expected.get(key) {
-                    let words = |of: &Map<String, Value>| {
+                    let [found, expected] = [found, expected].map(|of| {
                         let text =
                             of.get(key).map_or_else(|| "missing".to_owned(), Value::to_string);
                         text.chars().take(200).collect()
-                    };
-                    return Some(StoreError::OtherRun {
-                        path: self.path.clone(),
-                        key: key.clone(),
-                        found: words(found),
-                        expected: words(expected),
                     });
+                    let path = self.path.clone();
+                    return Some(StoreError::OtherRun { path, key: key.clone(), found, expected });
                 }
             }
         }
@@ -189,19 +182,17 @@ pub(crate) fn shard_file(path: &Path, array: MapArray, shard: &Shard) -> PathBuf
 }
 
 fn check(path: &Path, about: &MapsAbout) -> Result<(), StoreError> {
-    let fault = |problem: String| StoreError::Maps { path: path.to_owned(), problem };
     let names: BTreeSet<&String> = about.pigments.iter().collect();
     let count = about.pigments.len();
-    if count == 0 || count > BlockMaps::MOST_PIGMENTS || names.len() < count {
-        let most = BlockMaps::MOST_PIGMENTS;
-        return Err(fault(format!(
-            "maps need 1 to {most} pigments of different names, found {count}"
-        )));
-    }
-    if about.rows.is_empty() || about.columns.is_empty() {
-        return Err(fault("maps need at least one row and one column".to_owned()));
-    }
-    Ok(())
+    let most = BlockMaps::MOST_PIGMENTS;
+    let problem = if count == 0 || count > most || names.len() < count {
+        format!("maps need 1 to {most} pigments of different names, found {count}")
+    } else if about.rows.is_empty() || about.columns.is_empty() {
+        "maps need at least one row and one column".to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(StoreError::Maps { path: path.to_owned(), problem })
 }
 
 fn own_names() -> BTreeSet<String> {

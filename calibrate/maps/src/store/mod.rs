@@ -57,8 +57,8 @@ impl StoredMaps {
         let attributes = group["attributes"].as_object().cloned().unwrap_or_default();
         let range = |key: &str| -> Option<Range<usize>> {
             let ends = attributes.get(key)?.as_array()?;
-            let end = |at: usize| usize::try_from(ends.get(at)?.as_u64()?).ok();
-            Some(end(0)?..end(1)?)
+            let [start, end] = [0, 1].map(|at| usize::try_from(ends.get(at)?.as_u64()?).ok());
+            Some(start?..end?)
         };
         let names = attributes.get("pigments").and_then(Value::as_array).map(|names| {
             names.iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()

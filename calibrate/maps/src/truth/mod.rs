@@ -178,12 +178,16 @@ pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Compariso
 /// it.
 fn columns_of(maps: &StoredMaps, truth: &Truth) -> Vec<usize> {
     let groups = &maps.attributes().get("settings").unwrap_or(&Value::Null)["groups"];
-    let holds = |column: &String, pigment: &String| match groups[column.as_str()].as_array() {
-        Some(group) => group.iter().any(|name| name.as_str() == Some(pigment)),
-        None => column == pigment,
-    };
-    let column = |pigment| maps.pigments().iter().position(|column| holds(column, pigment));
-    truth.pigments().iter().map(|p| column(p).unwrap_or(maps.pigments().len())).collect()
+    let columns = truth.pigments().iter().map(|pigment: &String| {
+        let column = maps.pigments().iter().position(|column: &String| {
+            match groups[column.as_str()].as_array() {
+                Some(group) => group.iter().any(|name| name.as_str() == Some(pigment)),
+                None => column == pigment,
+            }
+        });
+        column.unwrap_or(maps.pigments().len())
+    });
+    columns.collect()
 }
 
 /// The trial of a pixel, with a last column for pigments that the maps do not know.
@@ -258,9 +262,7 @@ impl Truth {
             let shape = &opened.about.shape;
             let chunk = &opened.about.chunk;
             let first = arrays.first().map_or(&opened, |(_, first)| first);
-            let (Some(&lines), Some(&samples)) =
-                (first.about.shape.first(), first.about.shape.get(1))
-            else {
+            let [lines, samples, ..] = first.about.shape[..] else {
                 return Err(damaged(format!("`{}` has the shape {shape:?}", array.name())));
             };
             let expected = array.sizes(lines, samples, pigments.len());
@@ -329,21 +331,20 @@ impl Truth {
     }
 
     /// Reads the block of rows at `place` in the order of [`Truth::blocks`].
-    ///
-    /// # Errors
-    /// [`TruthError`] if the block is missing or damaged.
     pub fn block(&self, place: usize) -> Result<TruthRows, TruthError> {
         let rows = self.rows.min(self.lines.saturating_sub(place * self.rows));
         let pixels = rows * self.samples;
         let mut truth = TruthRows { pigments: self.pigments.len(), ..TruthRows::default() };
         for (array, opened) in &self.arrays {
-            let damaged =
-                |problem: String| TruthError::Damaged { path: opened.folder.clone(), problem };
+            let folder = &opened.folder;
             let at: &[usize] =
                 if *array == TruthArray::Share { &[place, 0, 0] } else { &[place, 0] };
             let bytes = match opened.chunk(at) {
                 Ok(Some(bytes)) => bytes,
-                Ok(None) => return Err(damaged(format!("the chunk {place}, 0 is missing"))),
+                Ok(None) => {
+                    let problem = format!("the chunk {place}, 0 is missing");
+                    return Err(TruthError::Damaged { path: folder.clone(), problem });
+                }
                 Err(ChunkError::Io(path, reason)) => {
                     return Err(FileError::reading(&path, reason).into());
                 }
@@ -351,26 +352,24 @@ impl Truth {
                     return Err(TruthError::Damaged { path, problem: fault.problem });
                 }
             };
-            let singles = |count: usize| -> Vec<f32> {
-                bytes
-                    .as_chunks::<4>()
-                    .0
-                    .iter()
-                    .take(count)
-                    .map(|&v| f32::from_le_bytes(v))
-                    .collect()
-            };
+            let singles = bytes.as_chunks().0.iter().map(|&v| f32::from_le_bytes(v));
             match array {
-                TruthArray::Share => truth.share = singles(pixels * self.pigments.len()),
-                TruthArray::Ground => truth.ground = singles(pixels),
-                TruthArray::MeanReflectance => truth.mean_reflectance = singles(pixels),
+                TruthArray::Share => {
+                    truth.share = singles.take(pixels * self.pigments.len()).collect();
+                }
+                TruthArray::Ground => truth.ground = singles.take(pixels).collect(),
+                TruthArray::MeanReflectance => {
+                    truth.mean_reflectance = singles.take(pixels).collect();
+                }
                 TruthArray::Class => {
                     truth.class = bytes
                         .iter()
                         .take(pixels)
                         .map(|code: &u8| {
                             PaintClass::from_code(*code).ok_or_else(|| {
-                                damaged(format!("holds the class `{code}`, which has no meaning"))
+                                let problem =
+                                    format!("holds the class `{code}`, which has no meaning");
+                                TruthError::Damaged { path: folder.clone(), problem }
                             })
                         })
                         .collect::<Result<_, _>>()?;
@@ -508,10 +507,10 @@ impl TruthWriter {
         for (name, document) in &documents {
             write(&self.path.join(name).join(GROUP), &text(document))?;
         }
-        let numbers =
-            |count: usize| -> Vec<u8> { (0..count as i64).flat_map(i64::to_le_bytes).collect() };
-        write(&self.path.join("y/c/0"), &numbers(*lines))?;
-        write(&self.path.join("x/c/0"), &numbers(*samples))?;
+        for (axis, count) in [("y/c/0", *lines), ("x/c/0", *samples)] {
+            let numbers: Vec<u8> = (0..count as i64).flat_map(i64::to_le_bytes).collect();
+            write(&self.path.join(axis), &numbers)?;
+        }
         write(&self.path.join("pigment/c/0"), &names(pigments))?;
         let about = json!({
             "title": TITLE,

@@ -134,18 +134,18 @@ fn the_cameras_own_reflectance_comes_first() {
 #[test]
 fn one_column_of_readings_serves_all_columns() {
     let folder = tempfile::tempdir().unwrap();
-    let narrow = |name: &str, count: u16| {
+    let [white, dark] = [("white", 2100_u16), ("dark", 100)].map(|(name, count)| {
         let text = header("bil", 12, "").replace("samples = 7", "samples = 1");
         let text = text.replace("lines = 5", "lines = 1");
         let data: Vec<u8> = [count; BANDS].into_iter().flat_map(u16::to_le_bytes).collect();
         write_envi(folder.path(), name, &text, &data)
-    };
+    });
     let scan = write_counts(folder.path(), "scan", LINES, "", |line, sample, band| {
         100.0 + 10.0 * f64::from(value(line, sample, band))
     });
     let options = CubeOptions {
-        white_reading: Some(narrow("white", 2100)),
-        dark_reading: DarkReading::File(narrow("dark", 100)),
+        white_reading: Some(white),
+        dark_reading: DarkReading::File(dark),
         ..CubeOptions::default()
     };
     let cube = Cube::open_with(&scan, &options).unwrap();

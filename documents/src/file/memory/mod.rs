@@ -45,18 +45,12 @@ impl Metadata {
     }
 
     /// Time of the last change.
-    ///
-    /// # Errors
-    /// None.
     pub fn modified(&self) -> io::Result<SystemTime> {
         Ok(self.modified)
     }
 }
 
 /// Size, kind and time of the file or folder at `path`.
-///
-/// # Errors
-/// If nothing lies there.
 pub fn metadata(path: impl AsRef<Path>) -> io::Result<Metadata> {
     let tree = tree();
     let (node, modified) = tree.find(path.as_ref())?;

@@ -71,10 +71,11 @@ fn changes_are_told_once_with_what_is_there_in_the_end() {
     create_dir_all("/told/partial").unwrap();
     let own = || {
         let changes = take_changes().into_iter().filter(|(path, _)| path.starts_with("/told"));
-        let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
-        changes
-            .map(|(path, bytes)| (path.display().to_string(), bytes.map(|bytes| text(&bytes))))
-            .collect::<Vec<_>>()
+        let texts = changes.map(|(path, bytes)| {
+            let text = bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+            (path.display().to_string(), text)
+        });
+        texts.collect::<Vec<_>>()
     };
     write("/told/partial/a", "1").unwrap();
     write("/told/partial/a", "2").unwrap();

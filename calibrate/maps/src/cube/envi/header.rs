@@ -264,12 +264,10 @@ pub(crate) fn is_header(bytes: &[u8]) -> bool {
 
 /// Whether the text is the header of an Esri grid, which also ends in `.hdr`.
 fn is_esri(text: &str) -> bool {
-    let has = |word: &str| {
-        text.lines().any(|line| {
-            line.split_whitespace().next().is_some_and(|first| first.eq_ignore_ascii_case(word))
-        })
-    };
-    has("ncols") && has("nrows")
+    let mut first_words = text.lines().filter_map(|line| line.split_whitespace().next());
+    let mut again = first_words.clone();
+    first_words.any(|word| word.eq_ignore_ascii_case("ncols"))
+        && again.any(|word| word.eq_ignore_ascii_case("nrows"))
 }
 
 impl Fields {

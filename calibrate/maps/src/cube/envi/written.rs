@@ -40,9 +40,6 @@ pub fn written_data(path: &Path) -> PathBuf {
 
 impl EnviWriter {
     /// Begins the scan with the header `path`.
-    ///
-    /// # Errors
-    /// [`FileError`] if we cannot write the files.
     pub fn create(path: &Path, about: EnviAbout) -> Result<Self, FileError> {
         let data = FileInPieces::create(&written_data(path))?;
         Ok(Self { header: path.to_owned(), about, data, lines: 0 })
