@@ -7,10 +7,10 @@ pub use documents_derive::Explain;
 
 /// Advice on how to resolve an error, as one sentence.
 ///
-/// Settings are written in square brackets, by their name in the library and optionally
-/// with a value: `[reference]`, `[backend=cpu]`. A program replaces them with its own
-/// controls ([`Hint::with_settings`]): a command line with options, a window with panels.
-/// Brackets that hold anything else stay as they are.
+/// Write a setting in square brackets, by its name in the library and, if you like, with a value:
+/// `[reference]`, `[backend=cpu]`. A program replaces this with its own control
+/// ([`Hint::with_settings`]), e.g. an option of a command line. Brackets that hold anything else
+/// stay as they are.
 ///
 /// ```
 /// use documents::hint::Hint;
@@ -27,14 +27,14 @@ pub struct Hint {
 }
 
 impl Hint {
-    /// A hint in which `[name]` and `[name=value]` are settings.
+    /// A hint. Write `[name]` or `[name=value]` for a setting.
     #[must_use]
     pub fn new(sentence: impl Into<String>) -> Self {
         Self { sentence: sentence.into(), has_settings: true }
     }
 
-    /// A hint without settings: brackets are kept as they are. For sentences that quote
-    /// names from a file.
+    /// A hint without settings, which leaves brackets as they are. Use this for sentences that
+    /// quote names from a file.
     #[must_use]
     pub fn verbatim(sentence: impl Into<String>) -> Self {
         Self { sentence: sentence.into(), has_settings: false }
@@ -78,9 +78,9 @@ impl fmt::Display for Hint {
     }
 }
 
-/// Parses a setting at the start of `text`: `[name]` or `[name=value]`, where the name
-/// consists of lower-case letters, digits and underscores. Returns its name, its value
-/// and its length in bytes, brackets included.
+/// Parses a setting at the start of `text`: `[name]` or `[name=value]`. The name consists of
+/// lower-case letters, digits and underscores. Returns its name, its value and its length in bytes,
+/// brackets included.
 fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
     let end = text.find(']')?;
     let inside = &text[1..end];
@@ -88,28 +88,27 @@ fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
         Some((name, value)) => (name, Some(value)),
         None => (inside, None),
     };
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(letter);
+    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     is_name.then_some((name, value, end + 1))
 }
 
 /// Whether the data, a setting or the machine caused an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The data are wrong: the call succeeds with other data.
+    /// The data are wrong. The call would succeed with other data.
     Input,
-    /// A setting is wrong: a name that does not exist, a value out of its range. The call
-    /// succeeds with the same data and another setting.
+    /// A setting is wrong, e.g. out of its range. The call would succeed with the same data and
+    /// another setting.
     Setting,
-    /// The machine is the cause: a file cannot be written, a graphics device was lost.
+    /// The machine is the cause, e.g. a full disk or a lost graphics device.
     Environment,
 }
 
-/// Advice and cause of an error, beside its message. Every public error of these
-/// libraries implements it.
+/// Advice and cause of an error, beside its message. Every public error of these libraries
+/// implements it.
 ///
-/// The derive macro of the same name takes both from attributes, which stand beside the
-/// message:
+/// Derive this with the macro of the same name. You write both as attributes beside the message:
 ///
 /// ```
 /// use documents::did_you_mean;

@@ -9,9 +9,9 @@
 //! | declare settings, presets and their files | [`mod@settings`] |
 //! | read TOML and JSON with lines in errors | [`text::Source`] |
 //!
-//! Every other crate may use this one, and it uses none of them.
+//! Every other crate may use this one. It uses none of them.
 
-// The derive macro names this crate, also within it.
+// The derive macro names this crate, so we need the name here too.
 extern crate self as documents;
 
 pub mod hint;

@@ -1,4 +1,4 @@
-//! Long work: how far it is, and the request to end it before its time.
+//! Long work: how far it is, and how you end it early.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,14 +7,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::hint::Explain;
 
-/// Steps by which a share of the work is kept.
+/// We store a share of the work as a number of these steps.
 const WHOLE: u64 = 1_000_000;
 
-/// Long work as both sides see it: the work reports its stage and how much is done, and looks whether
-/// it was asked to end. Whoever started it reads [`Self::progress`] from time to time or is called at
-/// each report, and may cancel.
+/// Long work. Its code reports the stage and how much is done, and looks whether someone asked it
+/// to end. If you started the work, you read [`Self::progress`] from time to time or get a call at
+/// each report, and you may cancel.
 ///
-/// Clones are one task, which any thread may use. `Task::default()` calls nobody.
+/// All clones are one task, which any thread may use. `Task::default()` calls nobody.
 ///
 /// ```
 /// use documents::{Cancelled, Task};
@@ -45,7 +45,7 @@ pub struct Task {
     part: Part,
 }
 
-/// A function that is called at each report.
+/// A function that we call at each report.
 type Observer = dyn Fn(&Progress) + Send + Sync;
 
 /// What all clones of a task share.
@@ -57,7 +57,7 @@ struct Shared {
     observer: Option<Box<Observer>>,
 }
 
-/// The share of the whole work that a task is.
+/// Which share of the whole work a task covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Part {
     start: f64,
@@ -71,28 +71,27 @@ impl Default for Part {
 }
 
 impl Task {
-    /// A task that calls `observer` at each report, on the thread that reports. It may be called by
-    /// several threads at once.
+    /// A task that calls `observer` at each report, on the thread that reports. Several threads may
+    /// call it at once.
     #[must_use]
     pub fn observed(observer: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
         let shared = Shared { observer: Some(Box::new(observer)), ..Shared::default() };
         Self { shared: Arc::new(shared), ..Self::default() }
     }
 
-    /// The task with another request to end it, such as one that several tasks share.
+    /// The task with another request to end it. Use this e.g. if several tasks should end together.
     #[must_use]
     pub fn until(self, cancellation: Cancellation) -> Self {
         Self { cancellation, ..self }
     }
 
-    /// A task without an observer that ends with this one, for work inside of a stage.
+    /// A task without an observer that ends with this one. Use this for work inside a stage.
     #[must_use]
     pub fn quiet(&self) -> Self {
         Self::default().until(self.cancellation.clone())
     }
 
-    /// The task of a part of the work, from one share of it to another: 0 to 1 of the part is `range` of
-    /// this task.
+    /// The task of a part of the work: 0 to 1 of the part is `range` of this task.
     ///
     /// ```
     /// let task = documents::Task::default();
@@ -106,7 +105,7 @@ impl Task {
         Self { part: Part { start, length }, ..self.clone() }
     }
 
-    /// Reports that a stage begins. How much of the work is done stays as it was.
+    /// Reports that a stage begins. This does not change how much is done.
     pub fn stage(&self, text: impl fmt::Display) {
         self.shared.begin(text.to_string().into());
         self.shared.call();
@@ -156,7 +155,7 @@ impl Task {
         self.shared.call();
     }
 
-    /// A counter of `of` steps, none of which is done. Threads may share it.
+    /// A counter of `of` steps that starts at 0. Threads may share it.
     #[must_use]
     pub fn steps(&self, of: usize) -> Steps {
         self.done(0, of as u64);
@@ -205,10 +204,7 @@ impl Task {
         self.cancellation.is_cancelled()
     }
 
-    /// Ends a function by `?` once the work was asked to end.
-    ///
-    /// # Errors
-    /// [`Cancelled`] from the first [`Self::cancel`] on.
+    /// Ends your function by `?` once someone asked the work to end.
     pub fn check(&self) -> Result<(), Cancelled> {
         self.cancellation.check()
     }
@@ -285,16 +281,16 @@ impl Steps {
 /// How far a [`Task`] is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Progress {
-    /// The stage of the work, empty before the first.
+    /// The stage of the work. This is empty before the first.
     pub stage: Arc<str>,
     /// Steps that are done.
     pub done: u64,
-    /// All steps, 0 while their number is not known.
+    /// Number of all steps, or 0 while we do not know it.
     pub of: u64,
 }
 
 impl Progress {
-    /// The share that is done, 0 to 1, if it is known.
+    /// The share that is done, 0 to 1, if we know it.
     #[must_use]
     pub fn share(&self) -> Option<f64> {
         (self.of > 0).then(|| self.done as f64 / self.of as f64)
@@ -341,15 +337,12 @@ impl Cancellation {
     }
 
     /// Ends a function by `?` once the work was asked to end.
-    ///
-    /// # Errors
-    /// [`Cancelled`] from the first [`Self::cancel`] on.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 }
 
-/// The end of work that was asked to end before its time. It has no result.
+/// The work ended early because someone asked for this. It has no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 #[error("the work was cancelled before its end")]
 #[hint("start it again: nothing of it was kept")]

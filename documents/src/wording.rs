@@ -1,9 +1,10 @@
-//! Words of messages: names that are spelt like another, numbers with their nouns, lists of names,
-//! and messages of parsers of TOML and JSON in words of the file, not of the program.
+//! Words of messages: names with a similar spelling, numbers with their nouns, and lists of names.
+//! This also rewrites messages of parsers of TOML and JSON, so that they speak of the file and not
+//! of the program.
 
 use std::fmt::{self, Display};
 
-/// Most names that a suggestion holds.
+/// A suggestion holds at most this many names.
 const MOST: usize = 3;
 
 /// Up to three of `known` that are spelt like `name`, the most similar first.
@@ -27,8 +28,8 @@ pub fn similar_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -
     ranked.into_iter().take(MOST).map(|(_, other)| other).collect()
 }
 
-/// The question "did you mean A or B?" with the names of `known` that are spelt like `name`,
-/// or `None` without any.
+/// The question "did you mean A or B?" with the names of `known` that are spelt like `name`. If
+/// there are none, this is `None`.
 ///
 /// ```
 /// use documents::did_you_mean;
@@ -96,10 +97,10 @@ pub fn name_list<S: AsRef<str>>(names: &[S], most: usize, separator: &str) -> St
     }
 }
 
-/// Most known keys that a hint lists.
+/// A hint lists at most this many known keys.
 const MOST_KEYS: usize = 30;
 
-/// Names of types and the words for them, longest first where one begins another.
+/// Names of types and our words for them. If one name begins another, the longer comes first.
 const TYPES: [(&str, &str); 16] = [
     ("a sequence", "a list"),
     ("a map", "a table"),
@@ -119,12 +120,12 @@ const TYPES: [(&str, &str); 16] = [
     ("f32", "a number"),
 ];
 
-/// Reason and way out of an error of a parser.
+/// Reason and remedy that the error of a parser gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParserReason {
     /// The reason on one line, without names of types.
     pub reason: String,
-    /// The way out, where the message gives one.
+    /// The remedy, if the message gives one.
     pub hint: Option<String>,
 }
 
@@ -163,7 +164,7 @@ impl ParserReason {
 }
 
 impl Display for ParserReason {
-    /// Writes the reason, and the way out after a semicolon.
+    /// Writes the reason, then the remedy after a semicolon.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.hint {
             Some(hint) => write!(f, "{}; {hint}", self.reason),
@@ -172,7 +173,7 @@ impl Display for ParserReason {
     }
 }
 
-/// The message of a parser without names of types. What it says of keys and places stays.
+/// The message of a parser without names of types. This leaves keys and places as they are.
 ///
 /// ```
 /// let message = "invalid type: integer `3`, expected struct Surface at line 2 column 9";

@@ -2,7 +2,7 @@
 
 use documents::hint::{Explain, Fault, Hint};
 
-/// The settings and the fault of an error.
+/// The hint and the fault of an error.
 fn told(error: &dyn Explain) -> (Option<String>, Fault) {
     (error.hint().map(|hint| hint.to_string()), error.fault())
 }

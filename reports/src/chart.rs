@@ -1,8 +1,8 @@
 //! Charts drawn as SVG. This is the only file that uses the crate plotters.
 //!
-//! plotters rounds to whole px, which would make curves of small panels jagged. So the drawing is ten times
-//! as large, and the view box of the document scales it down. This crate places the labels, because plotters
-//! without a font can only guess their size.
+//! plotters rounds to whole px, which would make curves of small panels jagged. So we draw ten
+//! times as large, and the view box of the document scales this down. We place the labels
+//! ourselves, because plotters without a font can only guess their size.
 
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;
@@ -29,9 +29,6 @@ type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64,
 
 impl Chart {
     /// Draws the chart as an SVG document.
-    ///
-    /// # Panics
-    /// Never: the backend writes to memory.
     #[must_use]
     pub fn svg(&self) -> String {
         let mut text = String::new();
@@ -107,14 +104,13 @@ impl Drawing<'_, '_> {
 
     fn grid(&self, axes: &mut Axes<'_, '_>) {
         let thin = stroke(GRID, HAIR);
-        let path = |from: Point, to: Point| PathElement::new(vec![from, to], thin);
         for (value, _) in &self.panel.x.ticks {
             let at = self.panel.x.place(*value);
-            infallible(axes.draw_series([path((at, 0.0), (at, 1.0))]));
+            infallible(axes.draw_series([PathElement::new(vec![(at, 0.0), (at, 1.0)], thin)]));
         }
         for (value, _) in &self.panel.y.ticks {
             let at = self.panel.y.place(*value);
-            infallible(axes.draw_series([path((0.0, at), (1.0, at))]));
+            infallible(axes.draw_series([PathElement::new(vec![(0.0, at), (1.0, at)], thin)]));
         }
         let foot = vec![(0.0, 1.0), (0.0, 0.0), (1.0, 0.0)];
         infallible(axes.draw_series([PathElement::new(foot, stroke(FAINT, HAIR))]));
@@ -182,7 +178,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws title and key on the left, note and patches on the right, above the frame.
+    /// Draws title and key on the left, and note and patches on the right, above the frame.
     fn heading(&self) {
         let Panel { frame, title, subtitle, note, patches, key, .. } = self.panel;
         // A title of several lines ends where the subtitle begins.
@@ -223,8 +219,8 @@ impl Drawing<'_, '_> {
         frame.y - 4.0 - SUBTITLE
     }
 
-    /// Writes a text in the lines that `space` allows, around the height of `at`. Returns their width
-    /// in px.
+    /// Writes a text around the height of `at`, in as many lines as `space` allows. Returns their
+    /// width in px.
     fn lines(&self, at: Point, space: (f64, f64), size: f64, color: Color, text: &str) -> f64 {
         let text = fitted(text, size, space);
         for (line, below) in text.lines.iter().zip(text.offsets()) {
@@ -304,7 +300,6 @@ fn compact(text: &str, opening: &str) -> String {
     out
 }
 
-/// A label with its position in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placed<'a> {
     pub(crate) at: (f64, f64),
@@ -319,8 +314,8 @@ const DOT: f64 = 3.5;
 type Edges = [f64; 4];
 
 /// Places each label to the right, left, above or below its point, where it covers no dot and no
-/// earlier label and stays in the frame. Where that fails, only the part before a colon is tried;
-/// where that fails too, the label is left out.
+/// earlier label and stays in the frame. If there is no such place, this tries the part before a
+/// colon alone. If that fails too, it leaves the label out.
 pub(crate) fn place_labels<'a>(
     names: &[((f64, f64), &'a str)],
     dots: &[(f64, f64)],
@@ -332,8 +327,10 @@ pub(crate) fn place_labels<'a>(
     let mut placed = Vec::new();
     for &(at, text) in names {
         let short = text.split(": ").next().unwrap_or(text);
-        let place = |text| free_place(at, text, size, frame, &occupied);
-        if let Some((edges, name)) = place(text).or_else(|| place(short)) {
+        let mut places = [text, short]
+            .into_iter()
+            .filter_map(|text| free_place(at, text, size, frame, &occupied));
+        if let Some((edges, name)) = places.next() {
             occupied.push(edges);
             placed.push(name);
         }

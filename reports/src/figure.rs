@@ -22,7 +22,7 @@ pub struct Figure {
     pub command: String,
     /// The drawing as an SVG document.
     pub svg: String,
-    /// The plotted numbers, so that others can draw them.
+    /// The plotted numbers, so that you can draw them with another program.
     pub data: Table,
 }
 
@@ -31,7 +31,7 @@ pub struct Figure {
 pub enum Drawing {
     /// Panels with axes and marks.
     Chart(Chart),
-    /// Free drawing of patches and text.
+    /// A free drawing of patches and text.
     Canvas(Canvas),
 }
 
@@ -49,11 +49,12 @@ pub struct Words<'a> {
 }
 
 impl Figure {
-    /// Renders `drawing` and joins it with its texts and data. `command` is the command line that made
-    /// the figure. The SVG names it in its description.
+    /// Renders `drawing` and joins it with its texts and data. Pass the command line that makes the
+    /// figure as `command`. The SVG names it in its description.
     ///
     /// # Panics
-    /// If the name is empty or has other characters than lower-case letters, digits and hyphens.
+    /// If the name is empty, or has a character that is not a lower-case letter, a digit or a
+    /// hyphen.
     #[must_use]
     pub fn new(words: Words<'_>, command: &str, drawing: Drawing, data: Table) -> Self {
         let named = !words.name.is_empty()
@@ -88,8 +89,8 @@ impl Figure {
         }
     }
 
-    /// The colours of lines, dots, areas and text, sorted and without repeats. The colours of
-    /// patches (`rect` elements) are left out: a dark page must not change them.
+    /// The colours of lines, dots, areas and text, sorted and without repeats. This leaves out the
+    /// colours of patches (`rect` elements), because a dark page must not change them.
     #[must_use]
     pub fn line_colors(&self) -> Vec<Color> {
         let mut found = Vec::new();
@@ -152,7 +153,7 @@ pub enum Cell {
     Number(f64),
     /// A colour: a patch on a page, `#RRGGBB` in a file.
     Patch(Color),
-    /// Empty: the value is not known or does not apply.
+    /// Empty, because we do not know the value or it does not apply.
     Empty,
 }
 
@@ -213,9 +214,6 @@ impl Table {
     }
 
     /// The table as CSV, with numbers rounded to six significant digits.
-    ///
-    /// # Panics
-    /// Never: the CSV is written to memory.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());

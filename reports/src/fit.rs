@@ -18,9 +18,8 @@ pub(crate) fn errors_section(subject: &Subject<'_>) -> Section {
     section.with_figure(histogram(subject)).with_table("Every sample, worst first", table(subject))
 }
 
-/// The data of one histogram.
 struct Errors {
-    /// Name of the counted samples, such as `samples, fitted`.
+    /// Name of the counted samples, e.g. `samples, fitted`.
     items: &'static str,
     errors: Vec<f64>,
     summary: Summary,
@@ -98,30 +97,26 @@ fn table(subject: &Subject<'_>) -> Table {
         Column::quantity("Residual", "rms of reflectance", 4),
         Column::text("Remarks"),
     ]);
-    let left_out = |sample: &str| -> Option<f64> {
-        let validation = subject.validation.as_ref()?;
-        validation
-            .per_sample
-            .iter()
-            .find(|other: &&SampleEvidence| other.sample == sample)
-            .map(|s| s.delta_e)
-    };
-    let needed =
-        |sample: &String| subject.validation.as_ref().is_some_and(|v| v.needed.contains(sample));
+    let validation = subject.validation.as_ref();
     for film in subject.comparison.iter().flat_map(worst_first) {
         let squares = film.predicted.iter().zip(&film.measured).map(|(p, m)| (p - m).powi(2));
         let rms = (squares.sum::<f64>() / film.measured.len() as f64).sqrt();
         let mut remarks = Vec::new();
         remarks.extend(film.unsure.then_some("a pigment's K and S are no measurement"));
         remarks.extend(film.excluded.then_some("excluded from the fit"));
-        remarks.extend(needed(&film.sample).then_some("cannot be left out"));
+        let is_needed = validation.is_some_and(|v| v.needed.contains(&film.sample));
+        remarks.extend(is_needed.then_some("cannot be left out"));
+        let left_out = validation.and_then(|validation| {
+            let mut samples = validation.per_sample.iter();
+            samples.find(|other: &&SampleEvidence| other.sample == film.sample)
+        });
         table.push([
             Cell::from(subject.sample(film)),
             subject.recipe(&film.recipe).into(),
             subject.color(&film.measured).into(),
             subject.color(&film.predicted).into(),
             film.delta_e.into(),
-            left_out(&film.sample).into(),
+            left_out.map(|sample| sample.delta_e).into(),
             rms.into(),
             remarks.join("; ").into(),
         ]);
@@ -181,9 +176,9 @@ struct Curves<'a> {
 fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
     let library = subject.library;
     let unit = subject.unit();
-    let all = || library.pigments.iter().flat_map(|pigment| (curves.of)(pigment).0.iter().copied());
-    let high = all().fold(0.0, f64::max);
-    let low = all().filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min);
+    let all = library.pigments.iter().flat_map(|pigment| (curves.of)(pigment).0.iter().copied());
+    let high = all.clone().fold(0.0, f64::max);
+    let low = all.filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min);
     let y = (curves.axis)(&unit, low, high);
     debug_assert_eq!(y.scale, Scale::Log, "bands are cut at the foot of a log axis");
     let x = Axis::wavelength(library.grid, 100);
@@ -240,9 +235,10 @@ pub(crate) fn samples_section(subject: &Subject<'_>) -> Section {
     let Some(comparison) = &subject.comparison else { return section };
     let worst_first = worst_first(comparison);
     let pages: Vec<&[&ComparedFilm]> = worst_first.chunks(SAMPLES_COLUMNS * ROWS).collect();
-    let numbered = |index| (pages.len() > 1).then_some((index + 1, pages.len()));
-    let figures = pages.iter().enumerate();
-    let figures = figures.map(|(index, films)| samples_figure(subject, films, numbered(index)));
+    let figures = pages.iter().enumerate().map(|(index, films)| {
+        let number = (pages.len() > 1).then_some((index + 1, pages.len()));
+        samples_figure(subject, films, number)
+    });
     figures.fold(section, Section::with_figure)
 }
 
@@ -310,7 +306,8 @@ fn samples_figure(
     subject.figure(words, Drawing::Chart(chart), data)
 }
 
-/// Percentiles of the residuals. Bands join the outer and the inner pair.
+/// Percentiles of the residuals. We draw one band between the outer pair and one between the inner
+/// pair.
 const PERCENTS: [f64; 5] = [5.0, 25.0, 50.0, 75.0, 95.0];
 
 pub(crate) fn residuals_section(subject: &Subject<'_>) -> Section {
@@ -344,22 +341,24 @@ fn residuals_figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
     let curves =
         Panel::new(x.clone(), all, marks).with_title("Every sample, in its measured colour");
 
-    let at = |wavelength: usize| -> Vec<f64> { residuals.iter().map(|r| r[wavelength]).collect() };
-    let percentiles: Vec<[f64; 5]> =
-        (0..grid.count()).map(|w| PERCENTS.map(|percent| percentile(&at(w), percent))).collect();
+    let percentiles: Vec<[f64; 5]> = (0..grid.count())
+        .map(|w| {
+            let values: Vec<f64> = residuals.iter().map(|r| r[w]).collect();
+            PERCENTS.map(|percent| percentile(&values, percent))
+        })
+        .collect();
     for (index, percent) in PERCENTS.iter().enumerate() {
         for (nm, values) in grid.wavelengths_nm().zip(&percentiles) {
             data.push([Cell::from(format!("{percent} %")), nm.into(), values[index].into()]);
         }
     }
-    let band = |low: usize, high: usize| {
+    let [outer, inner] = [(0, 4), (1, 3)].map(|(low, high): (usize, usize)| {
         let edges = grid.wavelengths_nm().zip(&percentiles);
         let edges: Vec<_> = edges.map(|(nm, p)| (nm, p[low], p[high])).collect();
         Mark::band(&edges, SERIES[0])
-    };
+    });
     let median = grid.wavelengths_nm().zip(percentiles.iter().map(|p| p[2])).collect();
-    let marks =
-        vec![zero, band(0, 4), band(1, 3), Mark::Line { points: median, color: INK, width: CURVE }];
+    let marks = vec![zero, outer, inner, Mark::Line { points: median, color: INK, width: CURVE }];
     let y = bounds(&mut percentiles.iter().flatten().copied());
     let spread = Panel::new(x, y, marks)
         .with_key(KeySymbol::Line, INK, "median")
@@ -385,9 +384,9 @@ fn residual(film: &ComparedFilm) -> Vec<f64> {
     film.predicted.iter().zip(&film.measured).map(|(p, m)| p - m).collect()
 }
 
-/// Number of the largest errors that are labelled with sample and recipe.
+/// We label this many of the largest errors with sample and recipe.
 const NAMED: usize = 6;
-/// Number of the next largest errors that are labelled with the sample only.
+/// We label this many of the next largest errors with the sample only.
 const NAMED_SHORTLY: usize = 14;
 
 pub(crate) fn left_out_section(subject: &Subject<'_>) -> Section {
@@ -426,9 +425,8 @@ fn left_out_figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Fig
     let errors = || pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
     let low = errors().fold(f64::INFINITY, f64::min);
     let high = errors().fold(0.0, f64::max);
-    let axis = |what: &str| Axis::log_close(what, "CIEDE2000", low.max(0.05), high);
-    let x = axis("Colour error in the fit");
-    let y = axis("Colour error when left out");
+    let [x, y] = ["Colour error in the fit", "Colour error when left out"]
+        .map(|what| Axis::log_close(what, "CIEDE2000", low.max(0.05), high));
     let mut data = Table::new([
         Column::text("sample"),
         Column::text("recipe"),

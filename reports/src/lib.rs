@@ -36,22 +36,22 @@
 //! assert!(svg.starts_with("<svg") && svg.contains("Red paint"));
 //! ```
 //!
-//! In scope: figures as SVG, PNG and CSV, and the page that shows them. Out of scope: computing
+//! This crate draws figures as SVG, PNG and CSV, and the page that shows them. It does not compute
 //! their numbers (see `calibrate`).
 //!
 //! To add a figure:
 //!
-//! 1. compute its numbers in `calibrate`;
+//! 1. compute its numbers in `calibrate`,
 //! 2. write one `pub(crate) fn .._section(&Subject) -> Section` in the file of its topic: describe panels
 //!    as data ([`panel::Panel`], [`panel::Mark`]) and arrange them ([`panel::Chart`]), or draw
-//!    patches and text ([`svg::Canvas`]); then pass drawing, texts and data to
-//!    [`Subject::figure`];
+//!    patches and text ([`svg::Canvas`]), then pass drawing, texts and data to
+//!    [`Subject::figure`],
 //! 3. add that function to the list `SECTIONS` in `report`, at its place on the page.
 //!
-//! SVG, PNG, CSV, page, contents and dark colours follow from these. A section without figures
-//! and text is left out. Patches that show the colour of a paint must be rectangles
-//! ([`panel::Mark::Bar`], [`svg::Canvas::rectangle`]): on a dark screen all other elements
-//! become lighter.
+//! You need nothing else for SVG, PNG, CSV, page, contents and dark colours. The page leaves out a
+//! section without figures and text. If you draw a patch that shows the colour of a paint, make it
+//! a rectangle ([`panel::Mark::Bar`], [`svg::Canvas::rectangle`]): on a dark screen all other
+//! elements become lighter.
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 

@@ -8,9 +8,8 @@ use crate::panel::{Axis, Chart, KeySymbol, Mark, Panel, Point};
 use crate::style::{CURVE, Color, DOT, FAINT, HAIR, INK, SERIES};
 use crate::subject::{Section, Subject};
 
-/// Number of wavelengths of the quadrature shown. This is the default of `calibrate::quadrature`.
+/// Number of wavelengths of the quadrature that we show, as is usual in `calibrate::quadrature`.
 const NODES: usize = 8;
-/// Name and colour of the channels X, Y and Z.
 const CHANNELS: [(&str, Color); 3] = [("X", SERIES[1]), ("Y", SERIES[2]), ("Z", SERIES[0])];
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
@@ -78,9 +77,9 @@ fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
         observer = observer.with_key(KeySymbol::Line, color, name.to_lowercase());
     }
 
-    let values = || chosen.rule.weights.iter().flatten().copied();
-    let low = values().fold(0.0, f64::min);
-    let high = values().fold(0.0, f64::max);
+    let values = chosen.rule.weights.iter().flatten().copied();
+    let low = values.clone().fold(0.0, f64::min);
+    let high = values.fold(0.0, f64::max);
     let weight = Axis::linear("Weight", "white Y = 100", 1.2 * low, 1.05 * high, 4);
     let zero = vec![(x.low, 0.0), (x.high, 0.0)];
     let mut marks = vec![Mark::Line { points: zero, color: FAINT, width: HAIR }];
@@ -134,24 +133,25 @@ fn errors(subject: &Subject<'_>) -> Figure {
         let row: Vec<Cell> = std::iter::once(method.name().into()).chain(numbers).collect();
         data.push(row);
     }
-    let counts = || subject.quadratures.iter().map(|trial| trial.rule.nodes_nm.len() as f64);
-    let fewest = counts().fold(f64::INFINITY, f64::min);
-    let most = counts().fold(0.0, f64::max);
+    let counts = subject.quadratures.iter().map(|trial| trial.rule.nodes_nm.len() as f64);
+    let fewest = counts.clone().fold(f64::INFINITY, f64::min);
+    let most = counts.fold(0.0, f64::max);
     let mut x = Axis::linear("Number of wavelengths", "count", fewest - 0.5, most + 0.5, 16);
     x.ticks.retain(|(count, _)| *count >= fewest && *count <= most);
-    let errors = || subject.quadratures.iter().map(|trial| trial.error);
-    let low = errors().map(|error| error.mean).fold(f64::INFINITY, f64::min);
-    let y =
-        Axis::log("Colour error", "CIEDE2000", low, errors().map(|e| e.p95).fold(0.0, f64::max), 4);
+    let errors = subject.quadratures.iter().map(|trial| trial.error);
+    let low = errors.clone().map(|error| error.mean).fold(f64::INFINITY, f64::min);
+    let high = errors.map(|error| error.p95).fold(0.0, f64::max);
+    let y = Axis::log("Colour error", "CIEDE2000", low, high, 4);
     let mut panel = Panel::new(x, y, Vec::new());
     for (method, color) in QuadratureMethod::ALL.into_iter().zip([SERIES[1], SERIES[2], SERIES[0]])
     {
-        let of = |value: fn(&QuadratureTrial) -> f64| -> Vec<Point> {
-            let trials = subject.quadratures.iter().filter(|trial| trial.method == method);
-            trials.map(|trial| (trial.rule.nodes_nm.len() as f64, value(trial))).collect()
-        };
-        let mean = of(|trial| trial.error.mean);
-        panel.marks.push(Mark::Dashes { points: of(|trial| trial.error.p95), color });
+        let trials = subject.quadratures.iter().filter(|trial| trial.method == method);
+        let points = trials.map(|trial: &QuadratureTrial| {
+            let count = trial.rule.nodes_nm.len() as f64;
+            ((count, trial.error.mean), (count, trial.error.p95))
+        });
+        let (mean, p95): (Vec<Point>, Vec<Point>) = points.unzip();
+        panel.marks.push(Mark::Dashes { points: p95, color });
         panel.marks.push(Mark::Dots { points: mean.clone(), color, radius: 2.0 * DOT });
         panel.marks.push(Mark::Line { points: mean, color, width: CURVE });
         panel = panel.with_key(KeySymbol::Line, color, format!("{}, mean", method.name()));

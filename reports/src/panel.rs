@@ -7,7 +7,7 @@ use crate::style::{Color, WIDTH};
 /// A point (x, y) in the units of a panel's axes.
 pub type Point = (f64, f64);
 
-/// One mark in a panel. Points beyond the end of an axis are drawn at that end.
+/// One mark in a panel. We draw points beyond the end of an axis at this end.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
     /// A solid curve.
@@ -26,7 +26,7 @@ pub enum Mark {
         /// Colour of the line.
         color: Color,
     },
-    /// Dots, such as readings.
+    /// Dots, e.g. readings.
     Dots {
         /// Centres of the dots.
         points: Vec<Point>,
@@ -53,8 +53,8 @@ pub enum Mark {
         /// Fill colour of the shape.
         color: Color,
     },
-    /// Labels next to points, placed so that they do not overlap. Labels without space are
-    /// left out.
+    /// Labels next to points, placed so that they do not overlap. We leave out labels without
+    /// space.
     Names {
         /// Points and labels, the most important first.
         names: Vec<(Point, String)>,
@@ -90,10 +90,10 @@ pub enum KeySymbol {
     Bands(u8),
 }
 
-/// Labels that are written along an axis.
+/// Labels that we write along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisLabels {
-    /// None, because the labels of a neighbouring panel hold for this one too.
+    /// None, because the labels of a neighbouring panel count for this one too.
     None,
     /// Tick labels only.
     Ticks,
@@ -117,7 +117,8 @@ pub struct Frame {
 /// A pair of axes and the marks drawn in them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// The rectangle between the axes. It is set by the arrangement ([`Chart::stacked`] and others).
+    /// The rectangle between the axes. You need not set this: an arrangement ([`Chart::stacked`]
+    /// and others) does.
     pub frame: Frame,
     /// Title above the frame, on the left, or empty for none.
     pub title: String,
@@ -131,7 +132,7 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// Labels of the horizontal and vertical axis. They are set by the arrangement.
+    /// Labels of the horizontal and vertical axis. The arrangement sets this too.
     pub labels: (AxisLabels, AxisLabels),
     /// Marks in the order of drawing, back to front.
     pub marks: Vec<Mark>,
@@ -202,7 +203,7 @@ pub struct Chart {
     pub height: u32,
     /// The panels, each with its frame in the chart.
     pub panels: Vec<Panel>,
-    /// Names of a horizontal and a vertical axis that hold for all panels, or `None` where each panel
+    /// Names of a horizontal and a vertical axis that hold for all panels, or `None` if each panel
     /// names its own.
     pub names: Option<(String, String)>,
 }
@@ -249,9 +250,9 @@ impl Chart {
         Self { width: WIDTH, height: (TOP + height + BOTTOM).ceil() as u32, panels, names: None }
     }
 
-    /// Small multiples in `columns`, filled row by row, with frames `height` px high. All share
-    /// the axes of the first panel: tick labels are written on the left and below the last
-    /// panel of each column, axis names once.
+    /// Small multiples in `columns`, filled row by row, with frames `height` px high. All share the
+    /// axes of the first panel. You see tick labels on the left and below the last panel of each
+    /// column, and the names of the axes once.
     #[must_use]
     pub fn small_multiples(panels: Vec<Panel>, columns: usize, height: f64) -> Self {
         let names = panels.first().map(|panel| (panel.x.name.clone(), panel.y.name.clone()));
@@ -296,7 +297,7 @@ pub enum Scale {
 /// One axis of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit, such as `Wavelength (nm)`.
+    /// Quantity and unit, e.g. `Wavelength (nm)`.
     pub name: String,
     /// Value at the low end.
     pub low: f64,
@@ -340,8 +341,8 @@ impl Axis {
         Self::linear(quantity, unit, low, high, count)
     }
 
-    /// A logarithmic axis of whole decades that includes `low` to `high`, but of these at most the
-    /// uppermost `decades`. Values below the axis, including 0, are drawn at its low end.
+    /// A logarithmic axis of whole decades that includes `low` to `high`, but only the uppermost
+    /// `decades` of them. We draw values below the axis, including 0, at its low end.
     #[must_use]
     pub fn log(quantity: &str, unit: &str, low: f64, high: f64, decades: i32) -> Self {
         let top = if high > 0.0 { (high.log10() - 1e-9).ceil() as i32 } else { 0 };
@@ -363,8 +364,8 @@ impl Axis {
         }
     }
 
-    /// A logarithmic axis with the smallest range around `low` to `high` that ends at 1, 2 or 5
-    /// times a power of ten, with ticks at all of these.
+    /// A logarithmic axis that includes `low` to `high` and ends at 1, 2 or 5 times a power of ten,
+    /// with ticks at all of these. Use this if the values span little more than a decade.
     #[must_use]
     pub fn log_close(quantity: &str, unit: &str, low: f64, high: f64) -> Self {
         let round: Vec<f64> = (-9..=9)
@@ -404,8 +405,8 @@ impl Axis {
         Self::linear("Reflectance", "white = 1", 0.0, high, count)
     }
 
-    /// Position of `value` along the axis, 0 at the low and 1 at the high end. Values beyond an
-    /// end are clamped to it.
+    /// Position of `value` along the axis, 0 at the low and 1 at the high end. This clamps values
+    /// beyond an end to it.
     #[must_use]
     pub fn place(&self, value: f64) -> f64 {
         let along = |v: f64| match self.scale {

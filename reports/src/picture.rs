@@ -1,7 +1,8 @@
-//! Figures as PNG, with two pixels per px of the figure. The only file that uses the crate resvg.
+//! Figures as PNG, with two pixels per px of the figure. This is the only file that uses the crate
+//! resvg.
 //!
-//! Fonts are built in rather than taken from the machine, so that a figure gives the same bytes
-//! everywhere.
+//! We build the fonts in instead of taking them from the machine, so that a figure gives the same
+//! bytes everywhere.
 
 use std::sync::{Arc, OnceLock};
 

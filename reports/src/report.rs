@@ -18,7 +18,6 @@ use crate::style::{Color, PAPER, RESERVED, SERIES};
 use crate::subject::{Part, Section, Subject};
 use crate::svg::escaped;
 
-/// A function that draws a section.
 type Drawer = fn(&Subject<'_>) -> Section;
 
 /// Every section, in the order of the page.
@@ -50,7 +49,7 @@ pub struct Report {
     pictures: Vec<Vec<u8>>,
 }
 
-/// The head of a report on `subject`: title, facts and warnings.
+/// Writes title, facts and warnings of a report on `subject`.
 fn head(subject: &Subject<'_>) -> Head {
     let library = subject.library;
     let mut facts = vec![
@@ -109,7 +108,7 @@ fn errors(count: usize, item: &str, errors: &Summary) -> String {
     )
 }
 
-/// Maximum number of samples that a warning names.
+/// A warning names at most this many samples.
 const NAMED: usize = 20;
 
 /// Warnings about measurements that the report leaves out or has resampled.
@@ -179,8 +178,8 @@ impl Report {
         self.sections.iter().flat_map(Section::figures)
     }
 
-    /// The files of the report: path relative to its folder, and content. The page comes last,
-    /// so that all files it links to exist when it is written.
+    /// The files of the report: path relative to its folder, and content. The page comes last, so
+    /// that all files it links to exist when you write it.
     #[must_use]
     pub fn files(&self) -> Vec<(String, Vec<u8>)> {
         let mut files = Vec::new();
@@ -196,7 +195,7 @@ impl Report {
     }
 }
 
-/// Applies `work` to each item on all cores. Results are in the order of the items.
+/// Applies `work` to each item on all cores. The results are in the order of the items.
 fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let made = Mutex::new(Vec::new());
@@ -249,11 +248,10 @@ pub struct Warning {
 pub(crate) enum Links {
     /// To the files `figures/NAME.svg`, `.png` and `.csv` beside the page.
     Beside,
-    /// To its numbers as CSV, within the page.
+    /// To the numbers as CSV, within the page.
     Within,
 }
 
-/// Renders the page.
 #[must_use]
 pub(crate) fn html(head: &Head, sections: &[Section], links: Links) -> String {
     let title = escaped(&head.title);
@@ -319,7 +317,6 @@ fn recipes(samples: &[(String, String)]) -> String {
     format!(" <small>{}</small>", escaped(&all.collect::<Vec<_>>().join("; ")))
 }
 
-/// A command line, folded away.
 fn command_html(command: &str) -> String {
     let command = escaped(command);
     format!("<details class=\"made\"><summary>Command</summary><code>{command}</code></details>\n")
@@ -418,7 +415,7 @@ fn class(column: &Column) -> &str {
     if column.unit.is_some() { " class=\"n\"" } else { "" }
 }
 
-/// The style sheet. On a dark screen, lines and text of figures get lighter colours.
+/// The style sheet. If the screen is dark, lines and text of figures get lighter colours.
 fn style(sections: &[Section]) -> String {
     let mut colors: Vec<Color> =
         sections.iter().flat_map(Section::figures).flat_map(Figure::line_colors).collect();

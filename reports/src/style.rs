@@ -16,11 +16,11 @@ pub const HAIR: f64 = 0.7;
 pub const DOT: f64 = 1.2;
 /// Opacity of a band of uncertainty, 0 to 1.
 pub const BAND: f64 = 0.25;
-/// Font families of a figure. PNG files use the first, which is built in. A page uses the first that the
-/// reader has.
+/// Font families of a figure. PNG files use the first, which we build in. A page uses the first
+/// that the reader has.
 pub const FONTS: &str = "Ubuntu,system-ui,sans-serif";
 
-/// Colour of text and frames. It and the next three are reserved: no data has exactly these
+/// Colour of text and frames. We reserve this and the next three: no data has exactly these
 /// colours, so that a page can replace them on a dark screen.
 pub const INK: Color = Color([0x26, 0x29, 0x2C]);
 /// Colour of tick labels and remarks. Reserved like [`INK`].
@@ -37,8 +37,9 @@ pub const RESERVED: [(Color, Color); 4] = [
     (PAPER, Color([0x1B, 0x1E, 0x22])),
 ];
 
-/// Colours for series that are not pigments: distinguishable with red-green colour blindness
-/// (after Okabe and Ito 2008) and dark enough for thin lines. Reserved like [`INK`].
+/// Colours for series that are not pigments. You can tell them apart with red-green colour
+/// blindness (after Okabe and Ito 2008), and they are dark enough for thin lines. Reserved like
+/// [`INK`].
 pub const SERIES: [Color; 4] = [
     Color([0x00, 0x64, 0xA8]),
     Color([0xC4, 0x4E, 0x00]),
@@ -82,7 +83,8 @@ impl Color {
         self.with_lightness(|lightness| lightness.max(50.0 + 0.3 * lightness)).unreserved()
     }
 
-    /// A darker version, or a lighter one of a dark colour, for dots on a line of this colour.
+    /// A darker version, or a lighter one if the colour is dark. Use this for dots on a line of
+    /// this colour.
     #[must_use]
     pub fn contrasting(self) -> Self {
         self.with_lightness(
@@ -109,13 +111,13 @@ impl Color {
         Self(RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).to_bytes())
     }
 
-    /// The colour itself, or its neighbour in blue if it is reserved.
+    /// The colour itself, or its neighbour in blue if we reserve it.
     fn unreserved(self) -> Self {
         let [r, g, b] = self.0;
         if self.is_reserved() { Self([r, g, b.checked_sub(1).unwrap_or(1)]) } else { self }
     }
 
-    /// Whether no data has this colour, so that a page can replace it on a dark screen wherever it is.
+    /// Whether this is one of the [`RESERVED`] colours.
     #[must_use]
     pub fn is_reserved(self) -> bool {
         RESERVED.iter().any(|(color, _)| *color == self) || SERIES.contains(&self)

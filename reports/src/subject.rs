@@ -1,4 +1,4 @@
-//! The subject of a report (library, viewing, measurements), and the sections drawn from it.
+//! The subject of a report (library, viewing, measurements), and the sections that we draw from it.
 
 use calibrate::comparison::{ComparedFilm, Comparison};
 use calibrate::evaluate::Viewing;
@@ -22,17 +22,17 @@ pub struct Subject<'a> {
     pub viewing: &'a Viewing,
     /// Tristimulus weights of `viewing` on the library's grid.
     pub weights: TristimulusWeights,
-    /// The command line that makes the report, printed with each figure.
+    /// The command line that makes the report. We print it with each figure.
     pub command: String,
     /// Measured and predicted films, or `None` without measurements.
     pub comparison: Option<Comparison>,
-    /// Leave-one-out validation of mixtures, or `None` if not requested or not possible.
+    /// Leave-one-out validation of mixtures, or `None` if you do not want it or it is not possible.
     pub validation: Option<Validation>,
     /// Black and white card under the films.
     pub cards: Cards,
     /// Quadratures of a few wavelengths for `viewing`, by method and number of wavelengths.
     pub quadratures: Vec<QuadratureTrial>,
-    /// The pigments of the graded mixture, or `None` to choose pairs from the library.
+    /// The pigments of the graded mixture. If this is `None`, we choose pairs from the library.
     pub pair: Option<(PigmentId, PigmentId)>,
 }
 
@@ -92,7 +92,7 @@ impl Section {
         })
     }
 
-    /// Returns whether the section has neither paragraphs nor figures nor tables.
+    /// Whether the section has neither paragraphs nor figures nor tables.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.paragraphs.is_empty() && self.parts.is_empty()
@@ -100,10 +100,7 @@ impl Section {
 }
 
 impl<'a> Subject<'a> {
-    /// A report on a library alone, without measurements. `command` is printed with each figure.
-    ///
-    /// # Errors
-    /// Never in practice: the interpolation of the weights is chosen to suit the grid.
+    /// A report on a library alone, without measurements. We print `command` with each figure.
     pub fn of_library(
         library: &'a PigmentLibrary,
         viewing: &'a Viewing,
@@ -127,7 +124,7 @@ impl Subject<'_> {
     /// Makes a figure with the command line of this report.
     ///
     /// # Panics
-    /// If the name is not fit for a file (see [`Figure::new`]).
+    /// If you cannot use the name for a file (see [`Figure::new`]).
     #[must_use]
     pub fn figure(&self, words: Words<'_>, drawing: Drawing, data: Table) -> Figure {
         Figure::new(words, &self.command, drawing, data)
@@ -174,7 +171,7 @@ impl Subject<'_> {
         format!("{}{}", film.sample, if film.unsure { "*" } else { "" })
     }
 
-    /// A recipe as text: percentages for a library of relative amounts, else the amounts.
+    /// A recipe as text: percentages if the library has relative amounts, otherwise the amounts.
     #[must_use]
     pub fn recipe(&self, recipe: &Recipe) -> String {
         let absolute = self.library.amounts == AmountKind::Absolute;
@@ -192,8 +189,8 @@ impl Subject<'_> {
             .join(" + ")
     }
 
-    /// Name and recipe of each compared sample that `text` names, in the order of the text. A name
-    /// that is a number is passed over: texts have numbers of other things.
+    /// Name and recipe of each compared sample that `text` names, in the order of the text. This
+    /// passes over a name that is a number, because texts have numbers of other things.
     pub(crate) fn named_recipes(&self, text: &str) -> Vec<(String, String)> {
         let mut named: Vec<(usize, String, String)> = Vec::new();
         for film in self.comparison.iter().flat_map(|comparison| &comparison.films) {
@@ -235,7 +232,6 @@ fn ends(c: Option<char>) -> bool {
     c.is_none_or(|c| !c.is_alphanumeric())
 }
 
-/// `value` rounded to three significant digits.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

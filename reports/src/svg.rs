@@ -34,7 +34,7 @@ pub enum Anchor {
     End,
 }
 
-/// An SVG drawing of rectangles, lines and text, for figures that are not charts.
+/// An SVG drawing of rectangles, lines and text. Use this for figures that are not charts.
 #[derive(Debug, Clone)]
 pub struct Canvas {
     text: String,
@@ -143,8 +143,9 @@ impl Canvas {
     }
 }
 
-/// The opening tag of a document of `width` x `height` px, with a view box of `fine` units per px. A rim
-/// of paper around letters keeps them readable over colours.
+/// The opening tag of a document of `width` x `height` px, with a view box of `fine` units per px.
+/// A rim of paper around letters keeps them readable over colours, so you need not care where they
+/// lie.
 #[must_use]
 pub fn opening(width: u32, height: u32, fine: u32) -> String {
     let w = width * fine;
@@ -157,13 +158,12 @@ pub fn opening(width: u32, height: u32, fine: u32) -> String {
     )
 }
 
-/// Height of a line in font sizes.
 const LINE: f64 = 1.15;
 /// Smallest font size of a fitted text, in px.
 const SMALLEST: f64 = 6.5;
 
-/// Approximate width of `text` in px at font size `size`, in px, for a wide sans-serif font. It is
-/// an estimate, because the reader's font is not known.
+/// Approximate width of `text` in px at font size `size`, in px, for a wide sans-serif font. This
+/// is an estimate, because we do not know the reader's font.
 #[must_use]
 pub fn estimated_width(text: &str, size: f64) -> f64 {
     size * text
@@ -203,9 +203,9 @@ impl Fitted {
     }
 }
 
-/// Breaks `text` between words and, where that is not enough, makes it smaller than `size`, until it
-/// fits `space` (width and height in px). One line is always allowed. A text that does not fit at
-/// the smallest size is also broken within words, and ends with an ellipsis only if even that is
+/// Breaks `text` between words until it fits `space` (width and height in px), and makes it smaller
+/// than `size` if this is not enough. One line is always allowed. If the text does not fit at the
+/// smallest size, this also breaks words, and ends the text with an ellipsis only if even that is
 /// too high.
 #[must_use]
 pub fn fitted(text: &str, size: f64, space: (f64, f64)) -> Fitted {
@@ -234,7 +234,7 @@ pub fn fitted(text: &str, size: f64, space: (f64, f64)) -> Fitted {
     Fitted { lines, size: SMALLEST }
 }
 
-/// Lines of whole words, each as long as `width` allows.
+/// Breaks a text into lines of whole words, each as long as `width` allows.
 fn broken(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
@@ -251,7 +251,6 @@ fn broken(text: &str, size: f64, width: f64) -> Vec<String> {
     lines
 }
 
-/// A line cut into pieces of `width` px.
 fn pieces(line: &str, size: f64, width: f64) -> Vec<String> {
     let mut pieces = vec![String::new()];
     for c in line.chars() {

@@ -1,9 +1,9 @@
-//! How lights render colours: the colour rendering index of CIE 13.3-1995, and fidelity and gamut of
-//! ANSI/IES TM-30-18, which shares its fidelity index with CIE 224:2017.
+//! How lights render colours: the colour rendering index of CIE 13.3-1995, and fidelity and gamut
+//! of ANSI/IES TM-30-18, which shares its fidelity index with CIE 224:2017.
 //!
-//! A light is compared with the black body or daylight of its colour temperature. Fidelity is computed in
-//! CAM02-UCS, the uniform space of CIECAM02, for the conditions of CIE 224: adapting luminance 100 cd/m2,
-//! background 20 %, average surround, full adaptation.
+//! We compare a light with the black body or daylight of its colour temperature. We compute
+//! fidelity in CAM02-UCS, the uniform space of CIECAM02, for the conditions of CIE 224: adapting
+//! luminance 100 cd/m2, background 20 %, average surround, full adaptation.
 
 use std::sync::OnceLock;
 
@@ -18,7 +18,7 @@ use crate::interpolate::{Extrapolation, Interpolation};
 use crate::light::{black_body, daylight};
 use crate::viewing::TristimulusWeights;
 
-/// Greatest colour temperature in K of daylight, with which bluer lights would be compared.
+/// Colour temperature in K of the bluest daylight with which we compare a light.
 const BLUEST: f64 = 25_000.0;
 
 /// Colour temperature and colour rendering of a light.
@@ -43,11 +43,13 @@ pub struct ColorRendering {
 }
 
 impl ColorRendering {
-    /// Colour rendering of `light`. Where a lamp was not measured its end values are held.
+    /// Colour rendering of `light`. If you did not measure the lamp at some wavelengths, the
+    /// nearest end value counts there.
     ///
     /// # Errors
-    /// [`ColorRenderingError`] for a light so far from every black body that it has no colour temperature, or
-    /// bluer than daylight of 25000 K: both standards compare a lamp with a white of its temperature.
+    /// [`ColorRenderingError`] if the light has no colour temperature because it is far from every
+    /// black body, or if it is bluer than daylight of 25000 K. Both standards compare a lamp with a
+    /// white of its temperature.
     pub fn of(light: &Illuminant) -> Result<Self, ColorRenderingError> {
         let temperature = ColorTemperature::of(light)
             .ok_or_else(|| ColorRenderingError::NotWhite { name: light.name().to_owned() })?;
@@ -75,7 +77,7 @@ pub enum ColorRenderingError {
         /// Name of the light.
         name: String,
     },
-    /// No daylight is so blue.
+    /// There is no daylight that is so blue.
     #[error("{name} has a colour temperature of {kelvin:.0} K, and the reference ends at 25000 K")]
     #[hint("colour rendering compares a lamp with a white of its temperature")]
     TooBlue {
@@ -84,16 +86,17 @@ pub enum ColorRenderingError {
         /// Correlated colour temperature in K.
         kelvin: f64,
     },
-    /// The light or its reference has no power where it is needed.
+    /// The light or its reference has no power at a wavelength that we need.
     #[error(transparent)]
     Light(#[from] IlluminantError),
 }
 
-/// The general index is the mean of this many samples.
+/// The general index is the mean of this many special indices.
 const GENERAL: usize = 8;
-/// Fall of an index for one unit of CIE 1964 U*V*W*.
+/// An index falls by this for one unit of CIE 1964 U*V*W*.
 const FALL: f64 = 4.6;
-/// Largest distance from the reference in CIE 1960 (u, v) for which the index is meant (CIE 13.3, 5.3).
+/// Largest distance from the reference in CIE 1960 (u, v) for which the CIE meant this index (CIE
+/// 13.3, 5.3).
 const FARTHEST: f64 = 5.4e-3;
 
 /// Colour rendering indices of a light (CIE 13.3-1995).
@@ -108,7 +111,6 @@ pub struct RenderingIndex {
 }
 
 impl RenderingIndex {
-    /// Indices of `light` with the correlated colour temperature `kelvin`.
     fn of(light: &Illuminant, kelvin: f64) -> Result<Self, IlluminantError> {
         let reference = of_rendering(kelvin)?;
         let samples = samples_of_rendering();
@@ -137,14 +139,14 @@ impl RenderingIndex {
         })
     }
 
-    /// Whether the light is so near to its reference, within 0.0054, that the index is meant for it.
+    /// Whether the CIE meant the index for this light: it must lie within 0.0054 of its reference.
     #[must_use]
     pub fn is_meant(&self) -> bool {
         self.distance_from_reference <= FARTHEST
     }
 }
 
-/// Chromaticity under the first of two whites, adapted to the second by von Kries' law in the form of CIE
+/// Adapts a chromaticity from the first of two whites to the second by von Kries' law, as in CIE
 /// 13.3, section 5.7.
 fn adapted(at: [f64; 2], whites: [[f64; 2]; 2]) -> [f64; 2] {
     let [own, reference] = whites;
@@ -168,9 +170,8 @@ fn uvw(xyz: Xyz, [u, v]: [f64; 2], white: [f64; 2]) -> [f64; 3] {
     [13.0 * lightness * (u - white[0]), 13.0 * lightness * (v - white[1]), lightness]
 }
 
-/// Fall of the fidelity for one unit of CAM02-UCS (CIE 224:2017, equation 16).
+/// The fidelity falls by this for one unit of CAM02-UCS (CIE 224:2017, equation 16).
 const FIDELITY_FALL: f64 = 6.73;
-/// Number of hue bins of the gamut.
 const BINS: usize = 16;
 /// Band in nm over which TM-30 sums.
 const BAND_NM: [f64; 2] = [380.0, 780.0];
@@ -189,7 +190,6 @@ pub struct ColorFidelity {
 }
 
 impl ColorFidelity {
-    /// Indices of `light` with the correlated colour temperature `kelvin`.
     fn of(light: &Illuminant, kelvin: f64) -> Result<Self, IlluminantError> {
         let reference = of_fidelity(kelvin)?;
         let colors = [colors(light)?, colors(&reference)?];
@@ -208,22 +208,17 @@ impl ColorFidelity {
             let bin = (color.hue_deg * BINS as f64 / 360.0) as usize;
             bins[bin.min(BINS - 1)].push(sample);
         }
-        let area = |colors: &[UniformColor]| {
+        let [area, area_wanted] = [own, wanted].map(|colors| {
             let filled = bins.iter().filter(|bin| !bin.is_empty());
-            polygon_area(
-                &filled
-                    .map(|bin| {
-                        [
-                            mean(bin.iter().map(|&at| colors[at].a)),
-                            mean(bin.iter().map(|&at| colors[at].b)),
-                        ]
-                    })
-                    .collect::<Vec<[f64; 2]>>(),
-            )
-        };
+            let corners = filled.map(|bin| {
+                let a = mean(bin.iter().map(|&at| colors[at].a));
+                [a, mean(bin.iter().map(|&at| colors[at].b))]
+            });
+            polygon_area(&corners.collect::<Vec<[f64; 2]>>())
+        });
         Ok(Self {
             fidelity: fidelity(mean(differences.iter().copied())),
-            gamut: 100.0 * area(own) / area(wanted),
+            gamut: 100.0 * area / area_wanted,
             samples: differences.iter().copied().map(fidelity).collect(),
             hue_bins: bins
                 .iter()
@@ -235,7 +230,7 @@ impl ColorFidelity {
     }
 }
 
-/// The 99 samples under a light of which only 380 to 780 nm count.
+/// The 99 samples under a light. Only 380 to 780 nm count.
 fn colors(light: &Illuminant) -> Result<Vec<UniformColor>, IlluminantError> {
     let [first, last] = BAND_NM;
     let light = Illuminant::from_function(light.name(), |nm| {
@@ -259,7 +254,6 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     values.sum::<f64>() / count
 }
 
-/// Area of a polygon by its corners in order.
 fn polygon_area(corners: &[[f64; 2]]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     let crosses = corners.iter().zip(next).map(|([a, b], [c, d])| a * d - b * c);
@@ -277,13 +271,13 @@ const CONES: Matrix3 =
 const ADAPTING: f64 = 100.0;
 /// Luminance factor of the background relative to the white.
 const BACKGROUND: f64 = 0.2;
-/// Constants of the average surround: impact c. The induction factor is 1.
+/// Impact c of the average surround. The induction factor is 1.
 const IMPACT: f64 = 0.69;
 
-/// A light to which an observer is adapted.
+/// A light, with an observer who is adapted to it.
 #[derive(Debug, Clone)]
 struct Appearance {
-    /// From XYZ to the cone responses of the adapted observer.
+    /// Matrix from XYZ to the cone responses of the adapted observer.
     cones: Matrix3,
     /// Luminance-level adaptation factor F_L.
     level: f64,
@@ -294,13 +288,9 @@ struct Appearance {
 /// A colour in CAM02-UCS.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct UniformColor {
-    /// Lightness J', 0 to 100.
     lightness: f64,
-    /// Red-green coordinate a'.
     a: f64,
-    /// Yellow-blue coordinate b'.
     b: f64,
-    /// Hue angle in degrees, 0 to 360.
     hue_deg: f64,
 }
 
@@ -318,7 +308,6 @@ impl Appearance {
         adapted
     }
 
-    /// Compressed cone responses.
     fn responses(&self, xyz: Xyz) -> [f64; 3] {
         self.cones.apply(xyz.to_array()).map(|response| {
             let strength = (self.level * response.abs() / 100.0).powf(0.42);
@@ -352,7 +341,6 @@ impl Appearance {
     }
 }
 
-/// Achromatic response of compressed cone responses.
 fn achromatic([red, green, blue]: [f64; 3]) -> f64 {
     (2.0 * red + green + blue / 20.0 - 0.305) * induction()
 }
@@ -362,8 +350,8 @@ fn induction() -> f64 {
     0.725 * (1.0 / BACKGROUND).powf(0.2)
 }
 
-/// Colour temperatures in K between which the reference of TM-30 goes from black body to daylight. The
-/// reference of CIE 13.3 changes at the upper one.
+/// Between these colour temperatures in K the reference of TM-30 goes from black body to daylight.
+/// The reference of CIE 13.3 changes at the upper one.
 const BLEND: [f64; 2] = [4000.0, 5000.0];
 
 /// Reference of CIE 13.3: a black body below 5000 K, daylight from there on.
@@ -371,8 +359,8 @@ fn of_rendering(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     if kelvin < BLEND[1] { black_body(kelvin) } else { daylight(kelvin) }
 }
 
-/// Reference of TM-30: a black body up to 4000 K, daylight from 5000 K, and a mixture of both, of equal
-/// luminance, between.
+/// Reference of TM-30: a black body up to 4000 K, daylight from 5000 K, and between them a mixture
+/// of both at equal luminance.
 fn of_fidelity(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let [first, last] = BLEND;
     if kelvin <= first {
@@ -393,7 +381,7 @@ fn power_at(light: &Illuminant, nm: f64) -> f64 {
     light.power().at(nm, Interpolation::Linear, Extrapolation::Hold).unwrap_or(0.0)
 }
 
-/// Luminance of a light in its own unit of power, for the observer of 1931.
+/// Luminance of a light for the observer of 1931, in the light's own unit.
 fn luminance(light: &Illuminant) -> f64 {
     let response = Observer::Cie1931Deg2.functions()[1].values();
     light.power().values().iter().zip(response).map(|(power, y)| power * y).sum()
@@ -410,7 +398,6 @@ fn white_uv(weights: &TristimulusWeights) -> [f64; 2] {
     uv(weights.white())
 }
 
-/// Reflectances on one grid.
 #[derive(Debug)]
 struct Samples {
     grid: Grid,

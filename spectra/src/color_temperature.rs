@@ -26,9 +26,9 @@ const MIREDS: (f64, f64) = (20.0, 1000.0);
 const STEPS: usize = 49;
 
 impl ColorTemperature {
-    /// The correlated colour temperature of `light`: the temperature of the nearest black body in CIE 1960
-    /// (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). `None` if the nearest is farther than
-    /// 0.05, or outside 1000 to 50000 K.
+    /// The correlated colour temperature of `light`: the temperature of the nearest black body in
+    /// CIE 1960 (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). You get `None` if the
+    /// nearest black body is farther than 0.05, or outside 1000 to 50000 K.
     ///
     /// ```
     /// let light = spectra::Illuminant::named("A").unwrap();
@@ -113,7 +113,7 @@ mod tests {
         ("LED-V2", 4070.0),
     ];
 
-    /// Temperatures in K by which the trade sells lamps of viewing booths.
+    /// Temperatures in K that sellers name for lamps of viewing booths.
     const SOLD: [(&str, f64); 9] = [
         ("TL83", 3000.0),
         ("TL84", 4000.0),

@@ -23,7 +23,7 @@ impl CellPlace {
         Self { file: file.to_owned(), row, column: column.to_owned(), sheet_column: None }
     }
 
-    /// The place in the sheet of a workbook, of which `index` is the column from 0.
+    /// Adds the column `index` (from 0) in the sheet of a workbook.
     #[must_use]
     pub fn in_workbook(self, index: usize) -> Self {
         Self { sheet_column: u32::try_from(index).ok(), ..self }
@@ -52,26 +52,26 @@ impl std::fmt::Display for CellPlace {
     }
 }
 
-/// Row numbers of the records of a CSV file, which are its line numbers from 1.
+/// Finds the row number of each record of a CSV file. This is its line number from 1.
 ///
-/// The position that a CSV parser states lies before the rest of a CRLF and before blank lines, so the
-/// lines are counted here from its bytes.
+/// A CSV parser states a position before the rest of a CRLF and before blank lines. So we count the
+/// lines ourselves from the bytes.
 #[derive(Debug)]
 pub struct RowNumbers<'a> {
     bytes: &'a [u8],
-    /// The lines in this many first bytes are counted already.
+    /// Number of first bytes in which the lines are already counted.
     counted: usize,
     row: u64,
 }
 
 impl<'a> RowNumbers<'a> {
-    /// Rows of the file `bytes`, of which nothing is counted yet.
+    /// Rows of the file `bytes`. This counts nothing yet.
     #[must_use]
     pub fn of(bytes: &'a [u8]) -> Self {
         Self { bytes, counted: 0, row: 1 }
     }
 
-    /// Row of the record that the parser found at `offset` bytes. Offsets must not fall.
+    /// Row of the record that the parser found at `offset` bytes. Pass offsets in rising order.
     pub fn at(&mut self, offset: u64) -> u64 {
         let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.bytes.len());
         let blank = self.bytes[offset..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
@@ -124,7 +124,7 @@ pub enum CsvTableError {
     },
 }
 
-/// Words next to a wavelength in headings of instruments and spreadsheets.
+/// Words that instruments and spreadsheets write next to a wavelength in a heading.
 const WORDS: [&str; 18] = [
     "nm",
     "nanometer",
@@ -146,8 +146,8 @@ const WORDS: [&str; 18] = [
     "wave",
 ];
 
-/// The wavelength in nm in a column's heading, which must be in lower case: `400`, `400nm`,
-/// `400[nm]`, `r400`, `spec_400`, `nm400` or `sci 400 nm`. `None` for any other heading.
+/// The wavelength in nm in a column's heading. Pass the heading in lower case, e.g. `400`, `400nm`,
+/// `400[nm]`, `r400`, `spec_400`, `nm400` or `sci 400 nm`. Any other heading gives `None`.
 #[must_use]
 pub fn wavelength_of_header(lower: &str) -> Option<f64> {
     let mut rest = lower.trim();

@@ -38,8 +38,8 @@ impl Grid {
     /// The grid from `first_nm` to `last_nm` in steps of `step_nm`.
     ///
     /// # Errors
-    /// [`GridError`] unless the last wavelength is a whole number of steps, at most 100 000,
-    /// from the first (to a millionth of a step), and for what [`Grid::from_nm`] refuses.
+    /// [`GridError`] unless you reach the last wavelength from the first in a whole number of steps
+    /// (to a millionth of a step), at most 100 000, or if [`Grid::from_nm`] refuses the numbers.
     pub fn from_range(first_nm: f64, last_nm: f64, step_nm: f64) -> Result<Self, GridError> {
         let steps = (last_nm - first_nm) / step_nm;
         let is_whole = (steps - steps.round()).abs() <= 1e-6;
@@ -49,8 +49,8 @@ impl Grid {
         Self::from_nm(first_nm, step_nm, steps.round() as usize + 1)
     }
 
-    /// The grid of 360 to 830 nm at 1 nm: the band of the CIE standard observers, over which
-    /// this crate sums tristimulus values (CIE 15:2018, section 7.1).
+    /// The grid of 360 to 830 nm at 1 nm: the band of the CIE standard observers, over which we sum
+    /// tristimulus values (CIE 15:2018, section 7.1).
     #[must_use]
     pub fn cie() -> Self {
         Self {
@@ -60,8 +60,8 @@ impl Grid {
         }
     }
 
-    /// The grid through `nm`, if the wavelengths rise at a constant step (to a millionth of the
-    /// step). A single wavelength gives a grid of step 1. `None` for other wavelengths.
+    /// The grid through `nm`, if the wavelengths rise at a constant step (to a millionth of this
+    /// step), otherwise `None`. A single wavelength gives a grid of step 1.
     #[must_use]
     pub fn through(nm: &[f64]) -> Option<Self> {
         let first = *nm.first()?;
@@ -75,9 +75,9 @@ impl Grid {
         regular.then_some(grid)
     }
 
-    /// A regular grid for wavelengths that need not be regular: [`Grid::through`] them if
-    /// possible. Otherwise a grid inside their band, with the smallest step of 1, 2, 5, 10
-    /// and 20 nm that is not finer (by more than 5 %) than their median step. `None` unless
+    /// A regular grid for wavelengths that may be irregular. This is [`Grid::through`] them if
+    /// possible. Otherwise you get a grid inside their band with a step of 1, 2, 5, 10 or 20 nm:
+    /// the smallest one that is not finer (by more than 5 %) than their median step. `None` unless
     /// the wavelengths rise strictly.
     #[must_use]
     pub fn suited_to(nm: &[f64]) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! Illuminants and standard observers of the CIE, read from the tables in `data`.
 //!
-//! [`Illuminant`] is also the common form of all other lights.
+//! Every other light, e.g. a measured lamp, also becomes an [`Illuminant`].
 
 use std::sync::OnceLock;
 
@@ -14,8 +14,8 @@ use crate::spectrum::{
 
 /// A light: its name and its relative spectral power at 1 nm on [`Grid::cie`].
 ///
-/// Tables at coarser steps are interpolated linearly, as the CIE defines D65 between its 5 nm
-/// values (CIE 15:2018, section 4). Beyond the ends of a table the end value is held.
+/// We interpolate tables at coarser steps linearly, because the CIE defines D65 between its 5 nm
+/// values so (CIE 15:2018, section 4). Beyond the ends of a table the end value counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Illuminant {
     name: String,
@@ -26,9 +26,6 @@ impl Illuminant {
     /// The CIE illuminant called `name`, ignoring case: A, B, C, D50, D55, D60, D65, D75, E,
     /// FL1 to FL12, FL3.1 to FL3.15, HP1 to HP5, LED-B1 to LED-B5, LED-BH1, LED-RGB1, LED-V1,
     /// LED-V2, ID50, ID65.
-    ///
-    /// # Errors
-    /// [`IlluminantError::Unknown`] for any other name.
     pub fn named(name: &str) -> Result<Self, IlluminantError> {
         let tables = tables();
         let (known, _) = tables
@@ -51,7 +48,8 @@ impl Illuminant {
         tables().iter().skip(1).map(|(name, _)| name.as_str())
     }
 
-    /// A light from its spectral power, measured at any wavelengths. End values are held.
+    /// A light from its spectral power, measured at any wavelengths. Outside them the nearest end
+    /// value counts.
     ///
     /// # Errors
     /// [`IlluminantError`] if a power is negative, or all are 0.
@@ -153,7 +151,8 @@ pub(crate) fn filled(
 
 /// A set of colour-matching functions at 1 nm.
 ///
-/// Outside the tabulated band the functions are 0. Sources and licences: `data/SOURCES.md`.
+/// Outside the tabulated band the functions are 0. You find sources and licences in
+/// `data/SOURCES.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Observer {
     /// CIE 1931, 2 degrees (ISO/CIE 11664-1).
@@ -183,10 +182,11 @@ impl Observer {
         }
     }
 
-    /// The observer with the given name. `2` and `10` are the observers of 1931 and 1964.
+    /// The observer with the given name. You may also write `2` or `10` for the observers of 1931
+    /// and 1964.
     ///
     /// # Errors
-    /// [`ObserverError`] lists the names in its message.
+    /// [`ObserverError`] if you pass another name. Its message lists the names.
     pub fn named(name: &str) -> Result<Self, ObserverError> {
         match name {
             "2" => Ok(Self::Cie1931Deg2),

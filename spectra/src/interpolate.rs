@@ -1,8 +1,8 @@
-//! Interpolation of regular data by rows of weights, and the natural cubic spline through values at irregular
-//! places.
+//! Interpolation of regular data by rows of weights, and the natural cubic spline through values at
+//! irregular places.
 //!
-//! An interpolated value is a weighted sum of at most six neighbours. Working with the weights
-//! lets the same rows resample a spectrum and, transposed, reduce an observer to a coarse grid.
+//! An interpolated value is a weighted sum of at most six neighbours. We work with the weights, so
+//! that the same rows resample a spectrum and, transposed, reduce an observer to a coarse grid.
 
 use documents::hint::Explain;
 
@@ -11,7 +11,7 @@ use crate::grid::Grid;
 /// The method of interpolation between the wavelengths of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Interpolation {
-    /// Linear between neighbours. Never overshoots.
+    /// Linear between neighbours. This never overshoots.
     Linear,
     /// Sprague's fifth-order polynomial (Sprague 1880), which CIE 167:2005 recommends for regular spectra. It
     /// requires six wavelengths and may overshoot near a sharp edge.
@@ -22,13 +22,13 @@ pub enum Interpolation {
 /// The value of a spectrum outside its band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Extrapolation {
-    /// No value: evaluating there is an error.
+    /// No value. If you ask for one there, you get an error.
     Refuse,
     /// The value at the nearer end, as ASTM E308 prescribes for tristimulus values.
     Hold,
 }
 
-/// Weights of the values `first .. first + weights.len()` of a grid. The weighted sum is the interpolated
+/// Weights of the values `first .. first + weights.len()` of a grid. Their weighted sum is the
 /// value at one wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct InterpolationRow {
@@ -42,7 +42,6 @@ impl InterpolationRow {
         &self.weights[..self.len]
     }
 
-    /// The interpolated value.
     pub(crate) fn apply(&self, values: &[f64]) -> f64 {
         self.weights().iter().zip(&values[self.first..]).map(|(w, v)| w * v).sum()
     }
@@ -108,8 +107,8 @@ impl Interpolation {
     }
 }
 
-/// Weights of Sprague's polynomial for the six points from two before an interval to three
-/// after its start, at the position `x` in the interval, 0 to 1 (CIE 167:2005, section 4).
+/// Weights of Sprague's polynomial at the position `x` in an interval, 0 to 1. The six points reach
+/// from two before the interval to three after its start (CIE 167:2005, section 4).
 fn sprague_weights(x: f64) -> [f64; 6] {
     // Row n holds the coefficients of x^n in terms of the six values, times 24.
     const COEFFICIENTS: [[f64; 6]; 6] = [
@@ -129,8 +128,8 @@ fn sprague_weights(x: f64) -> [f64; 6] {
     weights
 }
 
-/// Extrapolation of two values before the first one from the first six (CIE 167:2005, table of
-/// boundary coefficients, times 209). Mirrored, it extrapolates beyond the last.
+/// Extrapolates two values before the first one from the first six (CIE 167:2005, table of boundary
+/// coefficients, times 209). Mirror it to extrapolate beyond the last.
 const BEFORE: [[f64; 6]; 2] = [
     [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0],
     [508.0, -540.0, 488.0, -367.0, 144.0, -24.0],
@@ -188,13 +187,12 @@ pub enum InterpolateError {
 pub(crate) struct Spline<'a> {
     places: &'a [f64],
     values: &'a [f64],
-    /// Second derivative at each place.
     bends: Vec<f64>,
 }
 
 impl<'a> Spline<'a> {
-    /// The spline through `values` at `places`: as many of each, two or more, and the places rise
-    /// strictly.
+    /// The spline through `values` at `places`. Pass as many of one as of the other, two or more,
+    /// with strictly rising places.
     pub(crate) fn through(places: &'a [f64], values: &'a [f64]) -> Self {
         let count = places.len();
         let width: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -221,9 +219,9 @@ impl<'a> Spline<'a> {
 
     /// The value at `place`, which lies between the first and the last.
     ///
-    /// It leaves the range of the four values around it by at most the width of that range. Smooth values
-    /// stay well within. Two readings of a noisy spectrum at almost one place would otherwise make the curve
-    /// swing near them.
+    /// We let it leave the range of the four values around it by at most the width of this range.
+    /// Smooth values stay well within. Otherwise two readings of a noisy spectrum at almost one
+    /// place would make the curve swing near them.
     pub(crate) fn at(&self, place: f64) -> f64 {
         let after = self.places.partition_point(|&p| p < place).clamp(1, self.places.len() - 1);
         let before = after - 1;

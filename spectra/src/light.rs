@@ -79,8 +79,9 @@ pub enum LightError {
     Illuminant(#[from] IlluminantError),
 }
 
-/// Names of lights in trade and older tables, each with its CIE name or temperature. TL84, TL83, CWF and the
-/// like are lamps of viewing booths. The lamp U35 has 3500 K, between FL12 and FL11.
+/// Names of lights that sellers and older tables use, each with its CIE name or temperature. TL84,
+/// TL83, CWF and the like are lamps of viewing booths. The lamp U35 has 3500 K, between FL12 and
+/// FL11.
 const OTHER_NAMES: [(&str, &str); 15] = [
     ("TL84", "FL11"),
     ("TL83", "FL12"),
@@ -99,7 +100,8 @@ const OTHER_NAMES: [(&str, &str); 15] = [
     ("CIE A", "A"),
 ];
 
-/// A question after the light that `text` may mean, with a space behind it, or nothing.
+/// The question whether you mean another light, with a space behind it. It is empty if no name is
+/// similar.
 fn did_you_mean(text: &str) -> String {
     let letters = text.trim().to_uppercase();
     if let Ok(kelvin) = text.trim().parse::<f64>()
@@ -124,20 +126,20 @@ fn did_you_mean(text: &str) -> String {
     question.map_or_else(String::new, |question| question + " ")
 }
 
-/// Negative power down to minus this fraction of the peak counts as noise of the spectrometer
+/// We take negative power down to minus this fraction of the peak for noise of the spectrometer
 /// (chosen by eye).
 const NEGATIVE_NOISE: f64 = 0.01;
 
-/// Band in nm that a lamp must be measured in: it holds nearly all of the luminance and chroma.
+/// You must measure a lamp in this band in nm, which holds nearly all of the luminance and chroma.
 const NEEDED_NM: [f64; 2] = [420.0, 680.0];
 
 /// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
-/// `nm, power`. The format is detected from the content.
+/// `nm, power`. This detects the format from the content.
 ///
-/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more. Outside them the
-/// end values are held. From
-/// 360 to 830 nm negative power down to -1 % of the peak is set to 0 as noise. `spectrum`
-/// selects one of several spectra by name. The light is called `file`, or `file#spectrum`.
+/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more. Outside them
+/// the end values count. From 360 to 830 nm we set negative power down to -1 % of the peak to 0,
+/// because it is noise. If the file holds several spectra, name one in `spectrum`. The light is
+/// called `file`, or `file#spectrum`.
 ///
 /// # Errors
 /// [`LampError`] if the file is faulty or does not hold exactly one such spectrum of power.
@@ -182,9 +184,9 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     let start_nm = nm[0];
     let end_nm = nm[nm.len() - 1];
     let band = Grid::cie();
-    let within = || nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
-    let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));
-    if let Some((&nm, &power)) = within().find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
+    let mut within = nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
+    let peak = within.clone().fold(0.0, |most: f64, (_, &power)| most.max(power));
+    if let Some((&nm, &power)) = within.find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
         return Err(LampError::Power { file, name, nm, power });
     }
     if start_nm > NEEDED_NM[0] || end_nm < NEEDED_NM[1] {
@@ -194,7 +196,7 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
 }
 
-/// The file of a lamp that cannot be used.
+/// We cannot use the file of a lamp.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum LampError {
     /// The file cannot be read as any format.
@@ -208,7 +210,7 @@ pub enum LampError {
     /// The file has several spectra and none is selected, or none of the selected name.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// The spectrum is not of a light.
+    /// The spectrum does not belong to a light.
     #[error("{file}: `{name}` must be the power of a lamp, found `{found}`")]
     #[hint(
         if *found == MeasuredQuantity::Counts,
@@ -246,7 +248,7 @@ pub enum LampError {
         /// Number of wavelengths.
         count: usize,
     },
-    /// Much of the visible band is not measured. The file may use another unit.
+    /// The file lacks much of the visible band. It may use another unit.
     #[error(
         "{file}: a lamp must be measured from {} to {} nm or beyond, found `{start_nm}` to `{end_nm}` nm", NEEDED_NM[0], NEEDED_NM[1]
     )]
@@ -266,10 +268,10 @@ pub enum LampError {
 
 /// CIE daylight of the correlated colour temperature `kelvin`, 4000 to 25000.
 ///
-/// CIE 15:2018, section 4.1.2: the chromaticity gives the weights M1 and M2 of the three
-/// tabulated components. They are not rounded to three places here, as the CIE does for the
-/// tabulated D50 to D75 (see [`Illuminant::named`]). The temperature is on the present scale,
-/// on which D65 has 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
+/// CIE 15:2018, section 4.1.2: the chromaticity gives the weights M1 and M2 of the three tabulated
+/// components. We do not round them to three places, as the CIE does for the tabulated D50 to D75
+/// (see [`Illuminant::named`]). The temperature is on the present scale: for example, D65 has
+/// 6503.616 K (6500 x 1.4388 / 1.4380), about 6504 K.
 ///
 /// # Errors
 /// [`IlluminantError::Temperature`] outside 4000 to 25000 K, where the CIE does not define
@@ -291,8 +293,8 @@ pub fn daylight(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     })
 }
 
-/// CIE 1931 chromaticity (x, y) of daylight of temperature `kelvin` (CIE 15:2018, equations 4.1
-/// to 4.3). Valid from 4000 to 25000 K.
+/// CIE 1931 chromaticity (x, y) of daylight of temperature `kelvin` (CIE 15:2018, equations 4.1 to
+/// 4.3). This is valid from 4000 to 25000 K.
 #[must_use]
 pub fn daylight_chromaticity(kelvin: f64) -> (f64, f64) {
     let t = 1000.0 / kelvin;

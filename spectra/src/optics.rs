@@ -1,11 +1,12 @@
 //! Kubelka-Munk optics of a paint film with a surface.
 //!
-//! Two diffuse fluxes, no fluorescence. Reflectances are internal (below the surface) unless
-//! [`Surface`] calls them measured. [`UnevenFilm`] varies in thickness within the instrument's aperture.
+//! We model two diffuse fluxes and no fluorescence. Reflectances are internal (below the surface)
+//! unless [`Surface`] calls them measured. An [`UnevenFilm`] varies in thickness within the
+//! instrument's aperture.
 //!
-//! Equations 8 and 9 of Baxter, Wendt and Lin 2004 are misprinted (tanh for coth, sinh for
-//! 1/sinh, according to the authors' erratum), and the textbook form fails at K = 0 and for
-//! thick films. The form used here has no special cases, see `Layer::new`.
+//! Equations 8 and 9 of Baxter, Wendt and Lin 2004 are misprinted (tanh for coth, sinh for 1/sinh,
+//! according to the authors' erratum), and the textbook form fails at K = 0 and for thick films.
+//! The form that we use has no special cases, see `Layer::new`.
 
 use documents::hint::Explain;
 use serde::{Deserialize, Serialize};
@@ -90,13 +91,13 @@ impl Layer {
         let r = s * sinh / den;
         let t = decay / den;
         // Derivatives by K and S: through y, and directly.
-        let slopes = |y_slope: f64, own: f64| {
+        let [over_k, over_s] = [(2.0 * (k + s), 0.0), (2.0 * k, 1.0)].map(|(y_slope, own)| {
             let den_slope = sinh + ((k + s) * sinh_over_y + sinh / 2.0) * y_slope;
             let r_slope = (own * sinh + s * sinh_over_y * y_slope - r * den_slope) / den;
             (r_slope, -t * den_slope / den)
-        };
-        let (r_over_k, t_over_k) = slopes(2.0 * (k + s), 0.0);
-        let (r_over_s, t_over_s) = slopes(2.0 * k, 1.0);
+        });
+        let (r_over_k, t_over_k) = over_k;
+        let (r_over_s, t_over_s) = over_s;
         let q = 1.0 / (1.0 - r * g);
         let by_r = 1.0 + (t * g * q).powi(2);
         let by_t = 2.0 * t * g * q;
@@ -146,7 +147,7 @@ pub fn infinite_film_slope(reflectance: f64) -> f64 {
     -2.0 * r * r / (1.0 - r * r)
 }
 
-/// The internal reflectances of a film over a backing and of the bare backing.
+/// Internal reflectance of a film over a backing, and of the bare backing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverBacking {
     /// Reflectance of the film on the backing.
@@ -155,7 +156,7 @@ pub struct OverBacking {
     pub backing: f64,
 }
 
-/// Optical properties of a film, computed from readings over two backings.
+/// Optical properties of a film that you get from readings over two backings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmOptics {
     /// K/S of the paint, 0 and up.
@@ -172,8 +173,8 @@ pub struct FilmOptics {
 ///
 /// From Kubelka 1948: with R over a backing g, `a (R + g) + c (R - g) = 1 + R g`, where
 /// `a = 1 + K/S`, `c = b coth(b S d)` and `b = sqrt(a^2 - 1)`. Two backings give a 2 x 2 system.
-/// Noisy readings that no film can have (a below 1) give K/S = 0. Returns `None` if the two backings
-/// are equal, or if the film scatters nothing back over either.
+/// Noisy readings that no film can have (a below 1) give K/S = 0. This returns `None` if the two
+/// backings are equal, or if the film scatters nothing back over either.
 #[must_use]
 pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option<FilmOptics> {
     let r1 = first.film;
@@ -197,7 +198,7 @@ pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option
     Some(FilmOptics { ratio, scattering_power, transparency: (r1 - r2) / (g1 - g2) })
 }
 
-/// S d from c = b coth(b S d). `None` if no S d gives this c.
+/// S d from c = b coth(b S d), or `None` if no S d gives this c.
 fn scattering_power(b: f64, c: f64) -> Option<f64> {
     if !c.is_finite() || c <= 0.0 {
         None
@@ -237,8 +238,9 @@ pub enum Specular {
 /// | k1     | fraction of the incident light reflected at the surface | 0.03 to 0.04 |
 /// | k2     | fraction of the diffuse internal light reflected back   | 0.4 to 0.6 |
 ///
-/// A film of internal reflectance R has the measured reflectance `k1 + (1 - k1)(1 - k2) R / (1
-/// - k2 R)`, without the first term if the specular component is excluded.
+/// If a film has the internal reflectance R, you measure
+/// `k1 + (1 - k1)(1 - k2) R / (1 - k2 R)`, without the first term if you exclude the specular
+/// component.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SurfaceParts")]
 pub struct Surface {
@@ -267,8 +269,7 @@ impl Surface {
         Ok(Self { k1, k2, specular })
     }
 
-    /// The surface of most paints: k1 = 0.03 and k2 = 0.6, within the usual ranges of
-    /// Saunderson's correction.
+    /// The surface of most paints: k1 = 0.03 and k2 = 0.6. Use this if you know nothing better.
     #[must_use]
     pub fn of_most_paints(specular: Specular) -> Self {
         Self { k1: 0.03, k2: 0.6, specular }
@@ -347,11 +348,11 @@ pub enum SurfaceError {
     },
 }
 
-/// A film over a backing and under a surface. Its thickness is lognormal with mean 1, and
-/// `unevenness` is the standard deviation of its logarithm.
+/// A film of uneven thickness over a backing and under a surface. The thickness is lognormal with
+/// mean 1.
 ///
 /// A wash is never even: pigment collects in the hollows of the paper and at edges, and an
-/// instrument reads the mean. The mean is computed from three thicknesses (Gauss-Hermite
+/// instrument reads the mean. We compute this mean from three thicknesses (Gauss-Hermite
 /// quadrature, exact for polynomials of degree 5 in the logarithm).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct UnevenFilm {

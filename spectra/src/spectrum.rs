@@ -41,8 +41,8 @@ macro_rules! quantity {
 }
 
 quantity!(
-    /// Reflectance factor as a fraction. Values above 1 are valid (fluorescence, or a reading
-    /// relative to a darker white). Values above 2 are taken for percent and refused.
+    /// Reflectance factor as a fraction. Values above 1 are valid, e.g. for fluorescence or
+    /// relative to a darker white. We refuse values above 2, because they are probably percent.
     Reflectance, "reflectance", 0.0, 2.0, "0 to 2"
 );
 quantity!(
@@ -64,8 +64,8 @@ quantity!(
 
 /// Values of the quantity `Q` on a regular grid, each in the valid range of `Q`.
 ///
-/// Outside the grid a spectrum has no value: evaluating there is an error unless the caller
-/// asks for [`Extrapolation::Hold`].
+/// Outside the grid a spectrum has no value. If you evaluate it there, you get an error unless you
+/// ask for [`Extrapolation::Hold`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum<Q> {
     grid: Grid,
@@ -114,7 +114,7 @@ impl<Q: Quantity> Spectrum<Q> {
     /// The value at the wavelength `nm`.
     ///
     /// # Errors
-    /// [`InterpolateError`] outside the band (unless the end value is held), or if the grid has
+    /// [`InterpolateError`] outside the band (unless you hold the end value), or if the grid has
     /// too few wavelengths for the method.
     pub fn at(
         &self,
@@ -125,8 +125,8 @@ impl<Q: Quantity> Spectrum<Q> {
         Ok(method.row(self.grid, nm, ends)?.apply(&self.values))
     }
 
-    /// Resamples the spectrum to another grid. Interpolated values outside the valid range (for example a
-    /// reflectance below 0, where the polynomial overshoots) are clipped.
+    /// Resamples the spectrum to another grid. This clips interpolated values to the valid range,
+    /// for example a reflectance below 0 where the polynomial overshoots.
     ///
     /// # Errors
     /// [`InterpolateError`] in the cases of [`Spectrum::at`].
@@ -241,12 +241,12 @@ impl IrregularSpectrum {
         Ok(self.values[before] * (1.0 - fraction) + self.values[after] * fraction)
     }
 
-    /// The spectrum on `grid`, interpolated by a natural cubic spline, linearly if there are fewer
-    /// than six values. Outside the band the end values hold. Values at the wavelengths of `grid`
-    /// itself are returned unchanged. If no value is negative, none becomes so.
+    /// The spectrum on `grid`, interpolated by a natural cubic spline, or linearly if there are
+    /// fewer than six values. Outside the band the end values count. You get values at wavelengths
+    /// of `grid` back unchanged. If no value is negative, none becomes so.
     ///
-    /// This suits reflectances, which are smooth. A lamp with lines is interpolated linearly
-    /// ([`IrregularSpectrum::at_linear`]), since a spline would swing next to each line.
+    /// Use this for reflectances, which are smooth. For a lamp with lines use
+    /// [`IrregularSpectrum::at_linear`], because a spline would swing next to each line.
     #[must_use]
     pub fn on_grid(&self, grid: Grid) -> Vec<f64> {
         if Grid::through(&self.nm) == Some(grid) {
@@ -277,7 +277,7 @@ impl IrregularSpectrum {
 pub(crate) struct SmoothCurve<'a> {
     spectrum: &'a IrregularSpectrum,
     spline: Option<Spline<'a>>,
-    /// Least value of the curve: 0 unless the spectrum itself has negative values.
+    /// Least value of the curve. This is 0 unless the spectrum itself has negative values.
     least: f64,
 }
 

@@ -6,12 +6,13 @@
 //! | `.ase` | Adobe programs | RGB, Lab, CMYK or grey as 32-bit floats, in big-endian blocks of colours and groups |
 //! | `.aco` | Photoshop | RGB, HSB, Lab, CMYK or grey in 16 bits: a section of version 1 without names, then one of version 2 with names |
 //!
-//! None of the formats names its RGB space, which is taken as sRGB. Lab is the one of the graphic
-//! arts, under D50 for the 1931 observer.
+//! None of the formats names its RGB space, so we take it for sRGB. Lab is under D50 for the 1931
+//! observer, as in the graphic arts.
 //!
-//! Sources: GIMP developer documentation, "GIMP Palette (.gpl) File Format". Adobe, "Adobe Photoshop File
-//! Formats Specification", section "Color Swatches". Adobe has not published the format of `.ase`, and the layout
-//! is the one that other programs read and write (O. Berisha, "Adobe Swatch Exchange file format", 2006).
+//! Sources: GIMP developer documentation, "GIMP Palette (.gpl) File Format". Adobe, "Adobe
+//! Photoshop File Formats Specification", section "Color Swatches". Adobe has not published the
+//! format of `.ase`. We use the layout that other programs read and write (O. Berisha, "Adobe
+//! Swatch Exchange file format", 2006).
 
 use std::fmt::Write;
 
@@ -26,8 +27,8 @@ use crate::viewing::TristimulusWeights;
 /// A colour in one of the models of swatch files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SwatchColor {
-    /// Encoded RGB, each channel 0 to 1. Swatch files do not name the RGB space. It is taken as
-    /// sRGB.
+    /// Encoded RGB, each channel 0 to 1. We take it for sRGB, because swatch files do not name the
+    /// RGB space.
     Rgb(Rgb),
     /// CIELAB under D50 ([`d50_white`]).
     Lab(Lab),
@@ -38,7 +39,7 @@ pub enum SwatchColor {
 }
 
 impl SwatchColor {
-    /// The colour in sRGB, not clipped to the gamut. `None` for inks.
+    /// The colour in sRGB, not clipped to the gamut. Inks give `None`.
     #[must_use]
     pub fn srgb(self) -> Option<Rgb> {
         match self {
@@ -83,11 +84,8 @@ pub struct SwatchFile {
     pub swatches: Vec<SwatchEntry>,
 }
 
-/// Reads `bytes`, the content of `file`, if it is a swatch file: by its first bytes, or for `.aco`, which has
-/// no fixed first bytes, by the name. `None` for other files.
-///
-/// # Errors
-/// [`SwatchFileError`] with the line, or the offset in bytes.
+/// Reads `bytes`, the content of `file`, if it is a swatch file, otherwise gives `None`. The first
+/// bytes decide this, or the name for `.aco`, which has no fixed first bytes.
 pub fn read_swatch_file(file: &str, bytes: &[u8]) -> Result<Option<SwatchFile>, SwatchFileError> {
     let name = file.to_ascii_lowercase();
     if bytes.starts_with(b"ASEF") || name.ends_with(".ase") {
@@ -104,8 +102,8 @@ pub fn read_swatch_file(file: &str, bytes: &[u8]) -> Result<Option<SwatchFile>, 
 
 const HEAD: &str = "GIMP Palette";
 
-/// Writes a `.gpl` file. Colours outside sRGB are clipped, and control characters in names
-/// become spaces.
+/// Writes a `.gpl` file. This clips colours outside sRGB and turns control characters in names into
+/// spaces.
 ///
 /// # Errors
 /// [`SwatchFileError::Color`] for inks, which do not define a colour.
@@ -125,9 +123,6 @@ pub fn write_gpl(palette: &SwatchFile) -> Result<String, SwatchFileError> {
 }
 
 /// Reads `bytes`, the content of `file`.
-///
-/// # Errors
-/// [`SwatchFileError`] with the line, or the offset in bytes.
 pub fn read_gpl(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let text = std::str::from_utf8(bytes).map_err(|error| SwatchFileError::Bytes {
         file: file.to_owned(),
@@ -184,8 +179,8 @@ const NORMAL: u16 = 2;
 /// The four letters of a colour model, and its values.
 type Model<'a> = (&'a [u8; 4], Vec<f64>);
 
-/// Writes an `.ase` file. Adjacent colours of one group are written as a group. RGB is clipped
-/// to the gamut.
+/// Writes an `.ase` file. This writes adjacent colours of one group as a group, and clips RGB to
+/// the gamut.
 ///
 /// # Errors
 /// [`SwatchFileError::TooMany`] for a name that is too long.
@@ -238,10 +233,7 @@ fn model(color: SwatchColor) -> Model<'static> {
     }
 }
 
-/// Reads `bytes`, the content of `file`. Blocks of other kinds are skipped.
-///
-/// # Errors
-/// [`SwatchFileError`] with the offset in bytes.
+/// Reads `bytes`, the content of `file`. This skips blocks of other kinds.
 pub fn read_ase(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let head = bytes.part(4, "`ASEF`")?;
@@ -299,11 +291,10 @@ const CMYK: u16 = 2;
 const LAB: u16 = 7;
 const GREY: u16 = 8;
 
-/// Writes both versions of an `.aco` file. Groups are left out.
+/// Writes both versions of an `.aco` file. This leaves out groups.
 ///
 /// # Errors
-/// [`SwatchFileError::TooMany`] if the format cannot count the colours, or the letters of a
-/// name.
+/// [`SwatchFileError::TooMany`] if the format cannot count the colours, or the letters of a name.
 pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
     let Ok(count) = u16::try_from(palette.swatches.len()) else {
         let what = "colours";
@@ -355,11 +346,8 @@ fn word_of_share(v: f64) -> u16 {
     (v.clamp(0.0, 1.0) * 65535.0).round() as u16
 }
 
-/// Reads `bytes`, the content of `file`: its section of version 2 if there is one, otherwise the section of
-/// version 1, which has no names.
-///
-/// # Errors
-/// [`SwatchFileError`] with the offset in bytes.
+/// Reads `bytes`, the content of `file`: its section of version 2, or if there is none, its section
+/// of version 1, which has no names.
 pub fn read_aco(file: &str, bytes: &[u8]) -> Result<SwatchFile, SwatchFileError> {
     let mut bytes = Bytes { file, rest: bytes, offset: 0 };
     let mut palette = None;
@@ -398,7 +386,8 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFile
     Ok(palette)
 }
 
-/// The colour of a space and its words. `None` for other spaces, for example books of spot colours.
+/// The colour of a space and its words. Other spaces, for example books of spot colours, give
+/// `None`.
 fn aco_color(space: u16, words: [u16; 4]) -> Option<SwatchColor> {
     let shares = words.map(|word| f64::from(word) / 65535.0);
     Some(match space {
@@ -427,7 +416,6 @@ fn rgb_from_hsb(hue: f64, saturation: f64, brightness: f64) -> Rgb {
     }))
 }
 
-/// The unread part of a file, or of a block in it.
 struct Bytes<'a> {
     file: &'a str,
     rest: &'a [u8],

@@ -40,28 +40,19 @@ impl Default for Viewing {
 impl Viewing {
     /// A light and an observer by their names: `illuminant` as [`light_from_text`] reads
     /// it, `observer` as [`Observer::named`] does.
-    ///
-    /// # Errors
-    /// [`ViewingError`] if either is unknown.
     pub fn named(illuminant: &str, observer: &str) -> Result<Self, ViewingError> {
         Ok(Self { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
     }
 
-    /// The weights that turn reflectances on `grid` into XYZ, by Sprague interpolation
-    /// where the grid has the six wavelengths it needs, otherwise linear.
-    ///
-    /// # Errors
-    /// Never in practice: the method is chosen to suit the grid.
+    /// The weights that turn reflectances on `grid` into XYZ. We interpolate by Sprague's
+    /// polynomial if the grid has the six wavelengths that it needs, otherwise linearly.
     pub fn weights(&self, grid: Grid) -> Result<TristimulusWeights, InterpolateError> {
         let interpolation = Interpolation::best_for(grid);
         TristimulusWeights::new(grid, &self.illuminant, self.observer, interpolation)
     }
 
-    /// The colour of a reflectance. For many spectra on one grid compute
+    /// The colour of a reflectance. If you have many spectra on one grid, compute
     /// [`Viewing::weights`] once and use [`TristimulusWeights::color`].
-    ///
-    /// # Errors
-    /// Never in practice, see [`Viewing::weights`].
     pub fn color(
         &self,
         reflectance: &Spectrum<Reflectance>,
@@ -84,10 +75,10 @@ pub enum ViewingError {
 /// Weights that turn a reflectance on one grid into XYZ under one light and observer: three per
 /// wavelength.
 ///
-/// CIE 15:2018, section 7.1: summation at 1 nm from 360 to 830 nm with k = 100 / sum(E y). The
-/// reflectance is interpolated to 1 nm, its end values held outside its band (ASTM E308-18,
-/// section 7.3.2.3). Summation and interpolation are linear, so they are combined into one
-/// table and a colour costs three multiplications per wavelength.
+/// CIE 15:2018, section 7.1: summation at 1 nm from 360 to 830 nm with k = 100 / sum(E y). We
+/// interpolate the reflectance to 1 nm and hold its end values outside its band (ASTM E308-18,
+/// section 7.3.2.3). Summation and interpolation are linear, so we combine them into one table, and
+/// a colour costs three multiplications per wavelength.
 ///
 /// ```
 /// use spectra::{Grid, Illuminant, Interpolation, Observer, TristimulusWeights};
@@ -101,7 +92,6 @@ pub enum ViewingError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TristimulusWeights {
     grid: Grid,
-    /// Weights of X, Y and Z for each wavelength.
     weights: Vec<[f64; 3]>,
     white: Xyz,
 }
@@ -154,7 +144,7 @@ impl TristimulusWeights {
     /// XYZ of one reflectance, given by its values on the grid.
     ///
     /// # Panics
-    /// If there is not one value for each wavelength.
+    /// If you do not pass one value for each wavelength.
     #[must_use]
     pub fn xyz(&self, reflectance: &[f64]) -> Xyz {
         assert_eq!(reflectance.len(), self.weights.len(), "one reflectance for each wavelength");
@@ -167,8 +157,8 @@ impl TristimulusWeights {
         xyz.into()
     }
 
-    /// XYZ of many reflectances, one after the other in `rows`, into `xyz`. Differs from
-    /// [`Self::xyz`] by rounding alone.
+    /// Computes XYZ of many reflectances, which stand one after the other in `rows`, into `xyz`.
+    /// This differs from [`Self::xyz`] by rounding alone.
     ///
     /// # Panics
     /// If `rows` does not hold one value for each wavelength and element of `xyz`.
@@ -199,15 +189,15 @@ impl TristimulusWeights {
     /// The colour of one reflectance in XYZ, CIELAB and sRGB.
     ///
     /// # Panics
-    /// If there is not one value for each wavelength.
+    /// If you do not pass one value for each wavelength.
     #[must_use]
     pub fn color(&self, reflectance: &[f64]) -> ColorValues {
         ColorValues::from_xyz(self.xyz(reflectance), self.white)
     }
 }
 
-/// The power of a light weighted by the observer, k E x, k E y and k E z, at every nanometre
-/// from 360 to 830.
+/// The power of a light weighted by the observer at every nanometre from 360 to 830: k E x, k E y
+/// and k E z.
 pub(crate) fn responses(
     illuminant: &Illuminant,
     observer: Observer,

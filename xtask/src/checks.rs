@@ -1,4 +1,4 @@
-//! Checks that run no test: format, lints, reference pages, figures.
+//! Checks that do not run tests: format, lints, reference pages, figures.
 
 use xtask::figures::{Figures, Mark};
 use xtask::files::{files_below, root, text, texts};
@@ -8,7 +8,7 @@ use xtask::versions::agree_on_rust;
 use crate::runs::{Outcome, Run, is_installed};
 use crate::wheel::python;
 
-/// Workspaces of their own, which cargo formats apart.
+/// Other workspaces, which we must ask cargo to format one by one.
 const OTHER_WORKSPACES: [&str; 2] = ["apps/python/Cargo.toml", "apps/web/Cargo.toml"];
 
 /// `fmt [--check]`: formats the Rust of all workspaces, or checks its format.
@@ -21,7 +21,8 @@ pub(crate) fn fmt(check: bool) -> Outcome {
     Ok(())
 }
 
-/// `lint [CRATE ..]`: clippy on all crates or on those named, the oldest Rust, licences of dependencies.
+/// `lint [CRATE ..]`: clippy on all crates or on the ones that you name, the oldest Rust, licences
+/// of dependencies.
 pub(crate) fn lint(crates: &[String]) -> Outcome {
     agree_on_rust()?;
     if crates.is_empty() {
@@ -51,7 +52,8 @@ fn is_shell_script(path: &str) -> bool {
     first.is_some_and(|bytes| shells.iter().any(|shell| bytes.starts_with(shell)))
 }
 
-/// Licences, sources and doubles of dependencies. Advisories need a network: `cargo deny check advisories`.
+/// Checks licences, sources and doubles of dependencies. Advisories need a network. If you have
+/// one, call `cargo deny check advisories`.
 fn deny() -> Outcome {
     if !is_installed("cargo-deny") {
         println!("licences are not checked: `cargo install cargo-deny --locked`");
@@ -60,12 +62,13 @@ fn deny() -> Outcome {
     Run::cargo("deny --offline --locked check bans licenses sources").go()
 }
 
-/// `docs`: the reference pages of the workspace, where a warning is an error.
+/// `docs`: the reference pages of the workspace. A warning is an error here.
 pub(crate) fn docs() -> Outcome {
     Run::cargo("doc --workspace --no-deps --locked").env("RUSTDOCFLAGS", "-D warnings").go()
 }
 
-/// `figures [--write | --list MARK] [FOLDER ..]`: prints what the house test counts, also in folders alone.
+/// `figures [--write | --list MARK] [FOLDER ..]`: prints what the house test counts, for all files
+/// or in the folders that you name.
 pub(crate) fn figures(arguments: &[String]) -> Outcome {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let (listed, folders) = match words[..] {
@@ -110,7 +113,7 @@ fn print(figures: &Figures) {
     }
 }
 
-/// Writes the table of ARCHITECTURE.md anew.
+/// Rewrites the table in ARCHITECTURE.md.
 fn write_figures() -> Outcome {
     let figures = Figures::of(&texts(&[".rs", ".wgsl"]));
     let page = rules::with_table(&text("ARCHITECTURE.md"), &rules::table(&figures));

@@ -1,4 +1,4 @@
-//! Everything that is checked before a change is merged, in as little time as two cores allow.
+//! Everything that we check before we merge a change, in as little time as two cores allow.
 
 use std::fmt::Write;
 use std::fs;
@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use crate::runs::{Environment, Outcome, Row, Run, end_descendants, target};
 use crate::{checks, pages, testing};
 
-/// `ci`: format, lints, every test, and beside the tests wheel, pages, reference and golden files.
+/// `ci`: format, lints and every test. Wheel, pages, reference and golden files run beside the
+/// tests.
 pub(crate) fn ci() -> Outcome {
     let outcome = stages();
     if outcome.is_err() {
@@ -25,7 +26,6 @@ struct Clock {
 }
 
 impl Clock {
-    /// Runs the stage `name`.
     fn stage<T>(&mut self, name: &str, run: impl FnOnce() -> Outcome<T>) -> Outcome<T> {
         println!("== {name}");
         let start = Instant::now();
@@ -36,7 +36,6 @@ impl Clock {
         outcome
     }
 
-    /// The times of all stages.
     fn table(&self) -> String {
         let mut rows = String::new();
         for (name, time) in &self.stages {
@@ -105,7 +104,7 @@ fn stages() -> Outcome {
     Ok(())
 }
 
-/// A copy of this program in `folder`, because cargo may write this one anew while it runs.
+/// Copies this program to `folder`, because cargo may rewrite the original while we run it.
 fn own_copy(folder: &Path) -> Outcome<PathBuf> {
     let copy = folder.join("xtask");
     fs::remove_file(&copy).ok();
@@ -114,8 +113,9 @@ fn own_copy(folder: &Path) -> Outcome<PathBuf> {
     Ok(copy)
 }
 
-/// Beside the tests, which leave a core idle at times, run two rows of work. The first builds, because cargo builds for one
-/// command at a time: the wheel, which takes over what the tests compiled, the pages and the reference. The second checks.
+/// Starts two rows of work beside the tests, which leave a core idle at times. The first row builds
+/// the wheel (with what the tests compiled), the pages and the reference, because cargo builds for
+/// one command at a time. The second checks.
 fn begin_rows(program: &Path, folder: &Path, environment: &Environment) -> Outcome<(Row, Row)> {
     let (is_built, built) = mpsc::channel();
     let builds = Row::begin("builds", program, folder, environment, move |row| {
@@ -132,7 +132,8 @@ fn begin_rows(program: &Path, folder: &Path, environment: &Environment) -> Outco
     Ok((builds, checks))
 }
 
-/// Prints the graphics adapters. The environment with which programs find a software adapter, if there is no other.
+/// Prints the graphics adapters. If there is none but a software adapter, this returns the
+/// environment in which programs find it.
 fn adapter() -> Outcome<Environment> {
     // Mesa's layer that chooses among devices asks for a display, which CI has not.
     let mut environment = vec![("NODEVICE_SELECT", "1".into())];
@@ -140,11 +141,10 @@ fn adapter() -> Outcome<Environment> {
     let list = list.output()?;
     println!("{list}");
     let kinds = ["discrete", "integrated", "virtual", "other"];
-    let is_hardware = |line: &str| {
+    if !list.lines().any(|line: &str| {
         let line = line.strip_prefix("   ").unwrap_or_default();
         kinds.iter().any(|kind| line.starts_with(&format!("{kind}, ")))
-    };
-    if !list.lines().any(is_hardware) {
+    }) {
         let drivers = fs::read_dir("/usr/share/vulkan/icd.d").into_iter().flatten().flatten();
         let paths = drivers.map(|entry| entry.path());
         let lavapipe = paths.filter(|path| path.to_string_lossy().contains("/lvp_icd")).min();
@@ -156,7 +156,7 @@ fn adapter() -> Outcome<Environment> {
     Ok(environment)
 }
 
-/// The crates that took cargo the longest in its last build with `--timings`, one a line.
+/// The crates on which cargo spent most time in its last build with `--timings`, one a line.
 fn slowest_crates(most: usize) -> String {
     let page = target().join("cargo-timings/cargo-timing.html");
     let mut units = timed_units(&fs::read_to_string(page).unwrap_or_default());
@@ -168,7 +168,7 @@ fn slowest_crates(most: usize) -> String {
     lines
 }
 
-/// Name and seconds of every unit in cargo's page of timings, which holds them as JSON.
+/// Reads name and seconds of every unit from cargo's page of timings, which holds them as JSON.
 fn timed_units(page: &str) -> Vec<(String, f64)> {
     let data = page.split("const UNIT_DATA = ").nth(1).unwrap_or_default();
     let data = data.split("];").next().unwrap_or_default();

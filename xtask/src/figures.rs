@@ -1,18 +1,17 @@
-//! Counts what makes a code base easy or hard to read: how finely it is cut, closures with a name, tuples
-//! that are taken apart at once, and words of comments that slow a reader down.
+//! Counts what makes a code base easy or hard to read. For example, we count small files, closures
+//! with a name, tuples that are taken apart at once, and words of comments that slow a reader down.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::files::folder_of;
 
-/// Files with fewer lines count as small.
 const SMALL: usize = 60;
 
-/// Sentences of doc comments that begin so are hard to read alone.
+/// Doc comments that begin so are hard to read alone.
 const RIDDLES: [&str; 3] = ["What ", "The same", "As "];
 
-/// Something that is counted by the places where it stands.
+/// Something that we count by its places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mark {
     /// Folders with more than 20 sources.
@@ -62,7 +61,7 @@ impl Mark {
     ];
 }
 
-/// The name by which `cargo xtask figures --list` asks for its places.
+/// The name that you pass to `cargo xtask figures --list` to see the places.
 impl fmt::Display for Mark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -83,7 +82,7 @@ impl fmt::Display for Mark {
     }
 }
 
-/// Counts over a set of files.
+/// The counts over a set of files.
 #[derive(Debug, Clone, Default)]
 pub struct Figures {
     /// Number of Rust files.
@@ -100,12 +99,12 @@ pub struct Figures {
     pub longest: usize,
     /// Path of the longest file.
     pub longest_path: String,
-    /// Places of each mark; a line with two of them stands there twice.
+    /// Places of each mark. A line with two of them stands here twice.
     pub places: BTreeMap<Mark, Vec<String>>,
 }
 
 impl Figures {
-    /// Counts in `texts`: Rust files and shaders by their paths.
+    /// Counts in `texts`, Rust files and shaders by their paths.
     #[must_use]
     pub fn of(texts: &BTreeMap<String, String>) -> Self {
         let mut figures = Self::default();
@@ -136,19 +135,19 @@ impl Figures {
         figures
     }
 
-    /// How often `mark` was found.
+    /// How often we found `mark`.
     #[must_use]
     pub fn count_of(&self, mark: Mark) -> usize {
         self.places.get(&mark).map_or(0, Vec::len)
     }
 
-    /// How often `mark` was found in 1,000 lines of code.
+    /// How often we found `mark` in 1,000 lines of code.
     #[must_use]
     pub fn per_code(&self, mark: Mark) -> f64 {
         per_thousand(self.count_of(mark), self.code)
     }
 
-    /// How often `mark` was found in 1,000 words of comments.
+    /// How often we found `mark` in 1,000 words of comments.
     #[must_use]
     pub fn per_words(&self, mark: Mark) -> f64 {
         per_thousand(self.count_of(mark), self.words)
@@ -164,7 +163,6 @@ impl Figures {
         self.places.entry(mark).or_default().push(place);
     }
 
-    /// Counts in one Rust file.
     fn count(&mut self, path: &str, text: &str) {
         self.files += 1;
         let mut code = String::new();
@@ -205,7 +203,6 @@ impl Figures {
         }
     }
 
-    /// Counts words and marks of the comment `line`.
     fn count_words(&mut self, line: &str, place: &str) {
         let lower = line.to_lowercase();
         let words: Vec<&str> = words(&lower).collect();
@@ -265,7 +262,7 @@ pub fn doc_comments(source: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// Places of named closures and packed lets in code without comments.
+/// Finds named closures and packed lets. Pass code without comments.
 fn lets(code: &str) -> Vec<(Mark, usize)> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("let ") {
@@ -293,7 +290,7 @@ fn lets(code: &str) -> Vec<(Mark, usize)> {
     found
 }
 
-/// Whether `value` is a tuple in parentheses up to the end of its statement.
+/// Whether `value` is a tuple in parentheses and nothing follows in the statement.
 fn is_tuple(value: &str) -> bool {
     let mut depth = 0;
     let mut commas = 0;
@@ -348,8 +345,8 @@ fn declares_only(source: &str) -> bool {
         })
 }
 
-/// Types with inherent `impl`s in more than three files, with those files, by folder of the crate and name. Where a crate has
-/// several types of one name, each may have three files.
+/// Types with inherent `impl`s in more than three files, by folder of the crate and name, with
+/// these files. If a crate has several types of one name, each may have three files.
 fn spread_types<'a>(
     texts: impl Iterator<Item = (&'a String, &'a String)>,
 ) -> Vec<(String, Vec<String>)> {
@@ -379,7 +376,7 @@ fn spread_types<'a>(
     spread.map(|(name, files)| (name, files.into_iter().collect())).collect()
 }
 
-/// Names of the types with an inherent `impl` in code without comments.
+/// Names of the types with an inherent `impl`. Pass code without comments.
 fn inherent(code: &str) -> Vec<&str> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("impl") {
@@ -400,7 +397,7 @@ fn inherent(code: &str) -> Vec<&str> {
     found
 }
 
-/// The part of `head` behind its generic parameters, if it begins with any.
+/// Skips the generic parameters at the start of `head`.
 fn after_generics(head: &str) -> &str {
     if !head.starts_with('<') {
         return head;

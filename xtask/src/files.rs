@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Folders of build output and of packages of others.
+/// Folders that we skip, because they hold build output or packages of others.
 const PASSED_OVER: [&str; 5] = ["target", "out", "__pycache__", "node_modules", "shared"];
 
 /// The root of the workspace.
@@ -12,7 +12,8 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(1).unwrap_or(Path::new(".")).to_owned()
 }
 
-/// Paths from the root of all files below `folder` in order, without hidden files and build output.
+/// Paths of all files below `folder` in order, seen from the root. This skips hidden files and
+/// build output.
 ///
 /// # Panics
 /// If a folder cannot be read, or a name is not Unicode.
@@ -41,7 +42,7 @@ pub fn files_below(folder: &str) -> Vec<String> {
     found
 }
 
-/// Path and text of every file with a name that ends in one of `endings`.
+/// Path and text of every file with one of the `endings`.
 ///
 /// # Panics
 /// If there is none, or a file cannot be read.
@@ -55,9 +56,6 @@ pub fn texts(endings: &[&str]) -> BTreeMap<String, String> {
 }
 
 /// Text of the file at `path`, a path from the root.
-///
-/// # Panics
-/// If it cannot be read.
 #[must_use]
 pub fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
@@ -69,7 +67,7 @@ pub fn exists(path: &str) -> bool {
     root().join(path).is_file()
 }
 
-/// The folder of a path, without a slash at its end; empty for a file in the root.
+/// The folder of a path, without a slash at its end. This is empty for a file in the root.
 #[must_use]
 pub fn folder_of(path: &str) -> &str {
     path.rsplit_once('/').map_or("", |(folder, _)| folder)

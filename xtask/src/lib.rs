@@ -1,5 +1,5 @@
-//! The files of this repository and what is counted in them. The program `xtask` prints the figures, the
-//! house test (`tests/house`) holds them to their limits.
+//! The files of this repository and what we count in them. The program `xtask` prints the figures,
+//! the house test (`tests/house`) holds them to their limits.
 
 pub mod files;
 pub mod figures;

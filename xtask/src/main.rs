@@ -1,4 +1,4 @@
-//! `cargo xtask PART`: the checks and builds of this repository, each of which can be called alone.
+//! `cargo xtask PART`: the checks and builds of this repository. You can call each part alone.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 

@@ -6,7 +6,6 @@ use crate::runs::{Outcome, Run, is_installed, target};
 
 const WASM: &str = "wasm32-unknown-unknown";
 
-/// Crates of the pages that clippy checks.
 const LINTED: &str = "-p impasto-web-calibration -p impasto-web-scan -p impasto-web-told";
 
 fn has_wasm() -> bool {
@@ -14,7 +13,7 @@ fn has_wasm() -> bool {
     installed.is_ok_and(|list| list.lines().any(|line| line == WASM))
 }
 
-/// Why the pages cannot be tested on this machine; `None` if they can.
+/// Why we cannot test the pages on this machine, or `None` if we can.
 pub(crate) fn obstacle() -> Option<&'static str> {
     let new_enough = "process.exit(parseInt(process.versions.node) < 20 ? 1 : 0)";
     if !has_wasm() {
@@ -28,7 +27,7 @@ pub(crate) fn obstacle() -> Option<&'static str> {
     }
 }
 
-/// Fetches the target and what tests the pages, as far as this machine can reach them.
+/// Fetches the target and the tools that test the pages, if this machine can reach them.
 fn prepare() {
     if !has_wasm() {
         Run::new("rustup").words("target add").args([WASM]).works();
@@ -39,15 +38,17 @@ fn prepare() {
     }
 }
 
-/// A script of `apps/web`, which uses the target folder and the programs of the tests.
+/// Prepares a script of `apps/web`, so that it uses the target folder and the programs of the
+/// tests.
 fn script(words: &str) -> Run {
     let (program, words) = words.split_once(' ').unwrap_or((words, ""));
     let program = root().join("apps/web").join(program);
     Run::new(program).words(words).env("CARGO_TARGET_DIR", target())
 }
 
-/// `pages [--prepare | --build [--built] | --test]`: lints, builds and tests the pages, or one of these. `--built` takes the
-/// built programs instead of asking cargo, which waits for other builds.
+/// `pages [--prepare | --build [--built] | --test]`: lints, builds and tests the pages, or one of
+/// these. Pass `--built` to take the built programs. Cargo, which would wait for other builds, is
+/// then not asked.
 pub(crate) fn pages(step: Option<&str>, built: bool) -> Outcome {
     if matches!(step, None | Some("--prepare")) {
         prepare();

@@ -1,5 +1,5 @@
-//! Releases: the programs built as they are shipped, and an archive of them. The same source and compiler give
-//! the same archive, byte for byte.
+//! Releases: we build the programs as we ship them, and pack an archive. The same source and
+//! compiler give the same archive, byte for byte.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use xtask::files::{root, text};
 
 use crate::runs::{Outcome, Run, target};
 
-/// File names of completions as the shells look for them.
+/// File names under which shells look for completions.
 const COMPLETIONS: [(&str, &str); 5] = [
     ("bash", "impasto.bash"),
     ("elvish", "impasto.elv"),
@@ -23,8 +23,9 @@ pub(crate) fn release(folder: Option<&str>) -> Outcome {
     package(None, folder)
 }
 
-/// `package [--programs FOLDER] [FOLDER]`: packs both programs with completions, manual pages, measurements and licences
-/// into `FOLDER/impasto-VERSION-TARGET.tar.gz`. The programs are those of the profile `dist` or of another folder.
+/// `package [--programs FOLDER] [FOLDER]`: packs both programs with completions, manual pages,
+/// measurements and licences into `FOLDER/impasto-VERSION-TARGET.tar.gz`. If you do not name a
+/// folder of programs, it packs the ones of the profile `dist`.
 pub(crate) fn package(programs: Option<&str>, folder: Option<&str>) -> Outcome {
     let programs = programs.map_or_else(|| target().join("dist"), PathBuf::from);
     let folder = root().join(folder.unwrap_or("target/release-archive"));
@@ -47,7 +48,7 @@ pub(crate) fn package(programs: Option<&str>, folder: Option<&str>) -> Outcome {
     fs::remove_dir_all(&scratch).map_err(|error| error.to_string())
 }
 
-/// Puts everything that is shipped into the folder `packed`.
+/// Copies everything that we ship to the folder `packed`.
 fn fill(packed: &Path, programs: &Path) -> Outcome {
     let of = ["impasto", "impasto-studio"].map(|program| programs.join(program));
     Run::new("install").words("-m 755").args(of).args([packed.join("bin")]).go()?;
@@ -62,7 +63,8 @@ fn fill(packed: &Path, programs: &Path) -> Outcome {
     Run::new("chmod").words("-R u=rwX,go=rX").args([packed]).go()
 }
 
-/// The folder `name` of `scratch` as an archive: entries in order with one time and owner; gzip without name and time.
+/// Packs the folder `name` of `scratch`. The same files give the same archive: entries are in order
+/// with one time and owner, and gzip gets no name and no time.
 fn archive(scratch: &Path, name: &str) -> Outcome<PathBuf> {
     let time = match std::env::var("SOURCE_DATE_EPOCH") {
         Ok(time) => time,
@@ -76,7 +78,6 @@ fn archive(scratch: &Path, name: &str) -> Outcome<PathBuf> {
     Ok(scratch.join("archive.tar.gz"))
 }
 
-/// Version of the workspace.
 fn version() -> Outcome<String> {
     let manifest = text("Cargo.toml");
     let package = manifest.split("[workspace.package]").nth(1).unwrap_or_default();
@@ -84,7 +85,7 @@ fn version() -> Outcome<String> {
     version.map(str::to_owned).ok_or_else(|| "Cargo.toml has no version".to_owned())
 }
 
-/// The system for which the compiler builds.
+/// The system that the compiler builds for.
 fn host() -> Outcome<String> {
     let version = Run::new("rustc").words("-vV").output()?;
     let host = version.lines().find_map(|line| line.strip_prefix("host: "));

@@ -22,26 +22,26 @@ impl fmt::Display for Limit {
     }
 }
 
-/// A figure with its limit.
+/// A figure and its limit.
 #[derive(Debug, Clone, Copy)]
 pub struct Rule {
     /// Name of the figure, as it stands in the table.
     pub name: &'static str,
     /// How far it may go.
     pub limit: Limit,
-    /// The mark that `cargo xtask figures --list` shows the places of.
+    /// The mark to pass to `cargo xtask figures --list` if you want to see the places.
     pub mark: Option<Mark>,
     figure: fn(&Figures) -> f64,
 }
 
 impl Rule {
-    /// The figure in `figures`.
+    /// Reads this figure from `figures`.
     #[must_use]
     pub fn figure(&self, figures: &Figures) -> f64 {
         (self.figure)(figures)
     }
 
-    /// Whether the figure in `figures` keeps the limit.
+    /// Whether `figures` keep this limit.
     #[must_use]
     pub fn is_kept(&self, figures: &Figures) -> bool {
         match self.limit {
@@ -51,7 +51,7 @@ impl Rule {
     }
 }
 
-/// All rules. A limit is tightened when the figure has improved, and never loosened.
+/// All rules. We tighten a limit when the figure has improved, and never loosen it.
 pub const RULES: [Rule; 16] = [
     Rule {
         name: "Rust files per 1,000 lines of code",
@@ -175,7 +175,7 @@ pub fn table(figures: &Figures) -> String {
     rows
 }
 
-/// The rows of the table in `page`, a row by its cells.
+/// The rows of the table in `page`, each as its cells.
 #[must_use]
 pub fn rows_of(page: &str) -> Vec<[&str; 3]> {
     let lines = page.lines().skip_while(|line| *line != HEAD).skip(2);
@@ -187,7 +187,7 @@ fn cells(line: &str) -> Option<[&str; 3]> {
     inside.split(" | ").collect::<Vec<_>>().try_into().ok()
 }
 
-/// `page` with `table` in the place of the table that it holds; `None` if it holds none.
+/// Replaces the table in `page` by `table`. If `page` does not hold a table, this is `None`.
 #[must_use]
 pub fn with_table(page: &str, table: &str) -> Option<String> {
     let start = page.find(HEAD)?;

@@ -1,4 +1,5 @@
-//! Programs that the parts run: in the root of the workspace, with what they print, and beside others.
+//! Runs programs in the root of the workspace, e.g. to read their output, or several of them at the
+//! same time.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -10,10 +11,9 @@ use std::time::{Duration, Instant};
 
 use xtask::files::root;
 
-/// Result of a part. The text of an error is printed as it is.
+/// Result of a part. We print the text of an error as it is.
 pub(crate) type Outcome<T = ()> = Result<T, String>;
 
-/// A command that a part runs.
 #[derive(Debug)]
 pub(crate) struct Run {
     command: Command,
@@ -33,12 +33,11 @@ impl Run {
         Self { command }
     }
 
-    /// Runs cargo with these arguments.
     pub(crate) fn cargo(words: &str) -> Self {
         Self::new("cargo").words(words)
     }
 
-    /// Arguments between spaces.
+    /// Adds arguments, with spaces between them.
     pub(crate) fn words(self, words: &str) -> Self {
         self.args(words.split_whitespace())
     }
@@ -59,14 +58,14 @@ impl Run {
         self
     }
 
-    /// Writes what it prints to `file`.
     pub(crate) fn logged(mut self, file: &File) -> Outcome<Self> {
-        let twin = || file.try_clone().map_err(|error| error.to_string());
-        self.command.stdin(Stdio::null()).stdout(twin()?).stderr(twin()?);
+        let [out, errors] =
+            [file, file].map(|file| file.try_clone().map_err(|error| error.to_string()));
+        self.command.stdin(Stdio::null()).stdout(out?).stderr(errors?);
         Ok(self)
     }
 
-    /// Waits until it has ended well.
+    /// Runs this and waits. If it fails, you get an error.
     pub(crate) fn go(mut self) -> Outcome {
         let status = self.command.status().map_err(|error| self.fault(&error.to_string()))?;
         self.check(status)
@@ -80,7 +79,7 @@ impl Run {
         Ok(String::from_utf8_lossy(&output.stdout).trim_end().to_owned())
     }
 
-    /// Hands each line of both outputs to `line`, and tells whether it ended well.
+    /// Passes each line of both outputs to `line`, and returns whether the program ended well.
     pub(crate) fn lines(mut self, mut line: impl FnMut(&str)) -> Outcome<bool> {
         let (reader, writer) = std::io::pipe().map_err(|error| error.to_string())?;
         let twin = writer.try_clone().map_err(|error| error.to_string())?;
@@ -95,7 +94,7 @@ impl Run {
         Ok(child.wait().map_err(|error| error.to_string())?.success())
     }
 
-    /// Whether it can be started and ends well. What it prints is dropped.
+    /// Whether you can start it and it ends well. This drops the output.
     pub(crate) fn works(mut self) -> bool {
         let quiet = self.command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
         quiet.status().is_ok_and(|status| status.success())
@@ -112,21 +111,18 @@ impl Run {
     }
 }
 
-/// Folder of build output.
 pub(crate) fn target() -> PathBuf {
     root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
-/// Whether `program` is found where programs are searched.
 pub(crate) fn is_installed(program: &str) -> bool {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&folders).any(|folder| folder.join(program).is_file())
 }
 
-/// Environment variables for programs.
 pub(crate) type Environment = Vec<(&'static str, OsString)>;
 
-/// A row of parts that run one after the other beside the main line, where they take only what it leaves.
+/// Parts that run one after the other beside the main line. They only use time that it leaves.
 #[derive(Debug)]
 pub(crate) struct Row {
     name: &'static str,
@@ -134,7 +130,7 @@ pub(crate) struct Row {
     thread: JoinHandle<(Outcome, Duration)>,
 }
 
-/// Runs the parts of a row: this program again, with its output in the log of the row.
+/// Runs the parts of a row. Each calls this program again and writes to the log of the row.
 #[derive(Debug)]
 pub(crate) struct RowRunner {
     program: PathBuf,
@@ -143,7 +139,6 @@ pub(crate) struct RowRunner {
 }
 
 impl RowRunner {
-    /// Runs `cargo xtask WORDS`.
     pub(crate) fn part(&self, words: &str) -> Outcome {
         let run = match is_installed("nice") {
             true => Run::new("nice").words("-n 10").args([&self.program]),
@@ -159,7 +154,7 @@ impl RowRunner {
 }
 
 impl Row {
-    /// Begins `parts` with `program`, a copy of this program, and with a log in `folder`.
+    /// Begins a row. Pass a copy of this program as `program`. The log lies in `folder`.
     pub(crate) fn begin(
         name: &'static str,
         program: &Path,
@@ -178,7 +173,7 @@ impl Row {
         Ok(Self { name, log, thread })
     }
 
-    /// Waits for its end, prints its log, and returns how long it ran.
+    /// Waits until the row ends, prints the log, and returns how long it ran.
     pub(crate) fn finish(self) -> Outcome<Duration> {
         let (outcome, time) = self.thread.join().map_err(|_| format!("{}: panicked", self.name))?;
         print!("{}", String::from_utf8_lossy(&std::fs::read(&self.log).unwrap_or_default()));
@@ -186,7 +181,7 @@ impl Row {
     }
 }
 
-/// Ends every process that descends from this one. Without `/proc` it does nothing.
+/// Ends every process that descends from this one. If the system has no `/proc`, this does nothing.
 pub(crate) fn end_descendants() {
     let mut parents = Vec::new();
     for entry in std::fs::read_dir("/proc").into_iter().flatten().flatten() {

@@ -1,10 +1,9 @@
-//! Tests: the whole workspace by one command, with a count of what passed and on which graphics adapter.
+//! Tests the whole workspace, and counts how many tests passed and on which graphics adapter.
 
 use std::collections::BTreeMap;
 
 use crate::runs::{Environment, Outcome, Run, is_installed};
 
-/// Numbers of tests.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
     pub(crate) passed: usize,
@@ -13,7 +12,7 @@ pub(crate) struct Counts {
 }
 
 impl Counts {
-    /// Adds what a line of `cargo test` or nextest says.
+    /// Adds the counts in a line of `cargo test` or nextest.
     fn add_line(&mut self, line: &str) {
         let line = line.trim_start();
         let of_cargo = line.starts_with("test result:");
@@ -40,7 +39,8 @@ impl std::fmt::Display for Counts {
     }
 }
 
-/// `test [--nextest] [ARGUMENT ..]`: all tests, or those that the arguments of `cargo test` choose.
+/// `test [--nextest] [ARGUMENT ..]`: all tests, or the ones that you choose by arguments of
+/// `cargo test`.
 pub(crate) fn test(arguments: &[String]) -> Outcome {
     let all = ["--workspace".to_owned()];
     let nextest = arguments.first().is_some_and(|first| first == "--nextest");
@@ -55,8 +55,8 @@ pub(crate) fn test(arguments: &[String]) -> Outcome {
     if worked { Ok(()) } else { Err("tests failed".to_owned()) }
 }
 
-/// Runs `cargo test ARGUMENTS`; calls `at_first` when the first program of tests begins, because cargo then
-/// has built everything. Returns the counts, and whether all went well.
+/// Runs `cargo test ARGUMENTS`. This calls `at_first` when the first program of tests begins,
+/// because cargo has built everything by then. You get the counts, and whether all went well.
 pub(crate) fn by_cargo(
     arguments: &[String],
     environment: &Environment,
@@ -79,7 +79,7 @@ pub(crate) fn by_cargo(
     begun.map(|()| (counts, worked))
 }
 
-/// Runs nextest, and the doc tests, which nextest leaves out, by cargo.
+/// Runs nextest, then the doc tests by cargo, because nextest leaves them out.
 fn by_nextest(arguments: &[String]) -> Outcome<(Counts, bool)> {
     if !is_installed("cargo-nextest") {
         return Err("nextest is missing: `cargo install cargo-nextest --locked`".to_owned());
@@ -95,17 +95,18 @@ fn by_nextest(arguments: &[String]) -> Outcome<(Counts, bool)> {
     Ok((counts, worked))
 }
 
-/// `pictures [--accept]`: compares the reference pictures, or replaces them by those that are painted now.
+/// `pictures [--accept]`: compares the reference pictures, or replaces them by new ones.
 pub(crate) fn pictures(accept: bool) -> Outcome {
     let run = Run::cargo("test -p suite --test pictures");
     let run = if accept { run.env("IMPASTO_ACCEPT_PICTURES", "1") } else { run };
     run.go()
 }
 
-/// Number of tests on each graphics adapter, from the file to which each test appends the one that it had.
+/// Number of tests on each graphics adapter. Each test appends its adapter to a file. Pass the text
+/// of this file.
 ///
 /// # Errors
-/// If a test found none, or no test asked for one.
+/// If a test did not find an adapter, or no test asked for one.
 pub(crate) fn adapters(names: &str) -> Outcome<BTreeMap<&str, usize>> {
     let mut found: BTreeMap<&str, usize> = BTreeMap::new();
     for name in names.lines() {

@@ -2,7 +2,7 @@
 
 use crate::files::text;
 
-/// Where the version stands: a file, and what comes before the version.
+/// Places of the version: a file, and the text before the version.
 const PLACES: [(&str, &str); 8] = [
     ("Cargo.toml", "rust-version = \""),
     ("apps/python/Cargo.toml", "rust-version = \""),
@@ -14,13 +14,13 @@ const PLACES: [(&str, &str); 8] = [
     (".ci/run", "install Rust "),
 ];
 
-/// The oldest Rust that each file names; `None` if it names none.
+/// The oldest Rust that each file names, or `None` if it does not name one.
 #[must_use]
 pub fn oldest_rust() -> Vec<(&'static str, Option<String>)> {
     PLACES.map(|(path, before)| (path, version_after(&text(path), before))).to_vec()
 }
 
-/// The version that follows the first `before` in `text`.
+/// Reads the version after the first `before` in `text`.
 fn version_after(text: &str, before: &str) -> Option<String> {
     text.match_indices(before).find_map(|(at, _)| {
         let rest = &text[at + before.len()..];
@@ -33,7 +33,7 @@ fn version_after(text: &str, before: &str) -> Option<String> {
 /// Checks that all files name one version.
 ///
 /// # Errors
-/// If they differ: each file with its version.
+/// If they differ. The error lists each file with its version.
 pub fn agree_on_rust() -> Result<(), String> {
     let found = oldest_rust();
     let first = &found[0].1;

@@ -1,4 +1,5 @@
-//! The Python package, and what is checked by Python: golden files, scans and maps in the programs of others.
+//! The Python package, and checks that run in Python, e.g. of golden files, or of scans and maps in
+//! other programs.
 
 use std::path::{Path, PathBuf};
 
@@ -6,16 +7,16 @@ use xtask::files::text;
 
 use crate::runs::{Outcome, Run, target};
 
-/// Packages that golden files and the tests of the Python package need, those of the maps' checks, and checks of
-/// texts and scripts.
+/// Lists of packages: for golden files and the tests of the Python package, for the checks of maps,
+/// and for the checks of texts and scripts.
 const REQUIREMENTS: [&[&str]; 3] = [
     &["tests/golden/requirements.txt", "apps/python/tests/requirements.txt"],
     &["calibrate/maps/tests/python/requirements.txt"],
     &["xtask/requirements.txt"],
 ];
 
-/// The virtual environment with those packages, in the folder of build output. It is made anew when a list of
-/// packages has changed.
+/// Makes the virtual environment with these packages, in the folder of build output. If a list of
+/// packages has changed, this makes it again.
 pub(crate) fn python() -> Outcome<PathBuf> {
     let folder = target().join("python");
     let wanted: String = REQUIREMENTS.concat().into_iter().map(text).collect();
@@ -36,7 +37,7 @@ fn pip_install(folder: &Path) -> Run {
     Run::new(folder.join("bin/pip")).words("install -q --disable-pip-version-check")
 }
 
-/// A program of the virtual environment, which finds the other programs there.
+/// Prepares a program of the virtual environment, so that it finds the other programs there.
 fn of_python(folder: &Path, program: &str) -> Outcome<Run> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::iter::once(folder.join("bin")).chain(std::env::split_paths(&path));
@@ -44,8 +45,9 @@ fn of_python(folder: &Path, program: &str) -> Outcome<Run> {
     Ok(Run::new(folder.join("bin").join(program)).env("PATH", path))
 }
 
-/// `wheel [--prepare | --build | --test]`: builds the wheel and tests it, or one of both, or fetches only what
-/// that needs. The wheel has the profile and the folder of the tests, whose crates it takes over.
+/// `wheel [--prepare | --build | --test]`: builds the wheel and tests it, or does one of both, or
+/// only fetches what they need. We build the wheel with the profile and the folder of the tests, so
+/// that it takes over their crates.
 pub(crate) fn wheel(step: Option<&str>) -> Outcome {
     let python = python()?;
     let wheels = target().join("wheels");
@@ -63,7 +65,7 @@ pub(crate) fn wheel(step: Option<&str>) -> Outcome {
     Ok(())
 }
 
-/// Types and tests of the installed package.
+/// Checks types and runs the tests of the installed package.
 fn test_wheel(python: &Path) -> Outcome {
     let folder = "apps/python";
     of_python(python, "mypy")?.words("src/impasto tests").inside(folder).go()?;
@@ -78,8 +80,9 @@ fn test_wheel(python: &Path) -> Outcome {
     of_python(python, "pytest")?.words("-q").inside(folder).go()
 }
 
-/// `golden [--built]`: makes the golden files anew with the pinned colour-science, and reads scans and maps with the
-/// programs of others. `--built` takes the built example instead of asking cargo, which waits for other builds.
+/// `golden [--built]`: makes the golden files with the pinned colour-science, and reads scans and
+/// maps with other programs. Pass `--built` to take the built example. Cargo, which would wait for
+/// other builds, is then not asked.
 pub(crate) fn golden(built: bool) -> Outcome {
     let python = python()?;
     let generate =

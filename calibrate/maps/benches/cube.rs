@@ -11,7 +11,6 @@ use maps::cube::{Block, Cube};
 const SAMPLES: usize = 1024;
 const BANDS: usize = 204;
 const LINES: usize = 1024;
-/// Rows of a block.
 const ROWS: usize = 64;
 
 fn main() {

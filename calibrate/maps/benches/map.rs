@@ -1,7 +1,7 @@
 //! Pixels mapped on one core: `cargo bench -p impasto-maps --bench map`.
 //!
-//! Simulated pixels of 8 of 18 oils, noise 0.003, K and S off by 10 %: mapped with that error, and with
-//! the errors of left-out mixtures.
+//! Simulated pixels of 8 of 18 oils, noise 0.003, K and S off by 10 %: mapped with this error, and
+//! with the errors of left-out mixtures.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -17,7 +17,6 @@ fn main() {
     divan::main();
 }
 
-/// Pixels of one call.
 const PIXELS: usize = 4000;
 
 struct Scan {
@@ -55,7 +54,7 @@ fn book(scan: &Scan) -> Book {
     scan.mapper.survey(&scan.spectra, &Task::default()).expect("a book")
 }
 
-/// K and S off by 10 %.
+/// The error of K and S that we state.
 const STATED: Option<ModelError> = Some(ModelError::Stated(0.1));
 
 #[divan::bench(args = [31, 204], sample_count = 5)]

@@ -1,18 +1,18 @@
-//! How far pigment maps can be believed: `cargo run --release -p impasto-maps --example accuracy`.
+//! How far you can believe pigment maps: `cargo run --release -p impasto-maps --example accuracy`.
 //!
 //! Prints precision, recall and share error (half the sum of absolute errors) of
 //!
 //! 1. the measured binary mixtures of the Van Gogh oils, each unmixed as one pixel with a library that was
-//!    fitted without it, beside linear methods in common use;
+//!    fitted without it, beside linear methods in common use,
 //! 2. simulated paintings of 8 of 18 pigments (a palette without black, then any), 60 recipes of one to
 //!    three of 10 % and more, with noise 0.003 and real K and S that are off by smooth 10 %; and of pigments fitted on one half of the readings,
-//!    mapped with a library fitted on the other half;
-//! 3. the probabilities and standard deviations that are told;
-//! 4. the same paintings for those who know the palette, or K and S, or both, and how much the spectra speak
-//!    for the true pigments where wrong ones were found;
+//!    mapped with a library fitted on the other half,
+//! 3. the probabilities and standard deviations of the maps,
+//! 4. the same paintings if you know the palette, or K and S, or both, and how much the spectra speak
+//!    for the true pigments where the map found wrong ones,
 //! 5. pixels with a pigment that the library lacks.
 //!
-//! No scan of a painting is at hand: these are swatches and simulations only.
+//! We have no scan of a painting, so these are swatches and simulations only.
 
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
@@ -26,13 +26,11 @@ use maps::accuracy::{
 use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
 
-/// Seeds of the paintings.
 const SEEDS: std::ops::Range<u64> = 1001..1021;
 /// Noise of a sensor that hardly has any.
 const QUIET: f64 = 0.0005;
-/// Difference of chi-square that decides between two sets.
+/// A difference of chi-square of this size decides between two sets.
 const DECISIVE: f64 = 4.0;
-/// Ranges of told probabilities.
 const RANGES: [f64; 6] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -133,8 +131,8 @@ fn paintings(
     Ok(())
 }
 
-/// Prints how well the same paintings are mapped when the palette, or K and S, are known exactly, and by how much
-/// chi-square favours the true pigments where wrong ones were found.
+/// Prints how well we map the same paintings if we know the palette, or K and S, exactly. It also
+/// prints by how much chi-square favours the true pigments where the map found wrong ones.
 fn limits(
     oils: &PigmentLibrary,
     plan: &PaintingPlan,
@@ -153,12 +151,13 @@ fn limits(
         ("the same, noise 0.0005", &noiseless, &quiet, Told::Palette),
     ] {
         let trials = painting_trials((oils, oils), plan, SEEDS, (settings, told))?;
-        let of_tone = |tone| Scores::of(trials.of_tone(tone));
-        println!("  {name:24} {} | {} | {}", of_tone(0), of_tone(1), of_tone(2));
-        let wrong = || trials.beside.iter().zip(&trials.tones).filter(|(b, _)| !b.is_right);
-        let dark = wrong().filter(|(_, tone)| **tone == 0);
+        let [dark, middle, light] = [0, 1, 2].map(|tone| Scores::of(trials.of_tone(tone)));
+        println!("  {name:24} {dark} | {middle} | {light}");
+        let wrong = trials.beside.iter().zip(&trials.tones).filter(|(b, _)| !b.is_right);
+        let dark = wrong.filter(|(_, tone)| **tone == 0);
         let told = dark.clone().filter(|(beside, _)| beside.chi2 > DECISIVE).count();
-        let (count, pixels) = (dark.count(), trials.of_tone(0).count());
+        let count = dark.count();
+        let pixels = trials.of_tone(0).count();
         println!(
             "    whole search: {count} of {pixels} dark pixels with a wrong set, in {told} of them chi-square of the true one lower by {DECISIVE} or more"
         );
@@ -166,7 +165,7 @@ fn limits(
     Ok(())
 }
 
-/// Prints how far probabilities and deviations are true.
+/// Prints how far you can trust probabilities and deviations.
 fn told(trials: &[Trial]) {
     for range in reliability(trials, &RANGES) {
         println!(

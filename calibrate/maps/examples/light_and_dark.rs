@@ -1,7 +1,7 @@
 //! Maps a scan into light and dark: `light_and_dark SCAN MAPS [WHITE]`.
 //!
-//! The share of light is the mean reflectance of a pixel, so that every reader of the maps can be checked
-//! against the scan. WHITE is the value of a white, for scans that do not state it.
+//! The share of light is the mean reflectance of a pixel, so that you can check every reader of the
+//! maps against the scan. Pass the value of a white as WHITE if the scan does not state it.
 
 use std::convert::Infallible;
 use std::error::Error;

@@ -13,8 +13,8 @@ use crate::surveyed::SurveyedScan;
 
 pub use crate::pixel_maps::PixelCounts;
 
-/// Bytes of the values that are read at once. Together with the maps of a shard, a run stays below 1
-/// GB.
+/// We read this many bytes of values at once. Together with the maps of a shard, a run stays below
+/// 1 GB.
 const BLOCK_BYTES: usize = 192 << 20;
 /// Most pixels that are mapped at once, so that progress is reported often.
 const MOST_PIXELS: usize = 256 * 2048;
@@ -24,15 +24,15 @@ const MOST_PIXELS: usize = 256 * 2048;
 pub struct MapOutcome {
     /// Pixels that this run mapped, by mask.
     pub pixels: PixelCounts,
-    /// Shards that were finished before this run.
+    /// Number of shards that were finished before this run.
     pub kept: usize,
-    /// Shards that this run wrote.
+    /// Number of shards that this run wrote.
     pub written: usize,
-    /// Whether the caller ended the run before its end.
+    /// Whether you ended the run early.
     pub cancelled: bool,
 }
 
-/// A run that failed. Shards that were written before are whole.
+/// A run failed. Shards that it wrote before are whole.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError<E: Error + 'static> {
     /// The cube cannot be read.
@@ -64,9 +64,9 @@ impl<E: Explain + 'static> Explain for RunError<E> {
     }
 }
 
-/// Maps every shard of `store` that is not finished. `map` maps a block. It is called for one block at a
-/// time and may use all threads. Its result must depend on each pixel alone, so that the bytes of the
-/// store do not depend on the blocks.
+/// Maps every shard of `store` that is not finished. `map` maps a block. We call it for one block
+/// at a time, and it may use all threads. Its result must depend on each pixel alone, so that the
+/// bytes of the store do not depend on the blocks.
 ///
 /// `task` counts the pixels that are done after each block, with those of finished shards. If it is
 /// cancelled, the run ends after the block under way, and the shard under way is not written.
@@ -157,7 +157,7 @@ impl SurveyedScan {
     /// Begins or resumes the maps at `path`.
     ///
     /// # Errors
-    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
+    /// [`StoreError`] if the folder holds anything but maps of this run, or we cannot write it.
     pub fn store(&self, path: impl AsRef<Path>, mode: StoreMode) -> Result<MapStore, StoreError> {
         MapStore::create(path, self.about(), mode)
     }

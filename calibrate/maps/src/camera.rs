@@ -1,11 +1,11 @@
-//! A simulated camera: scans of scenes with exactly known spectra, for trials of maps.
+//! A simulated camera. It scans scenes with exactly known spectra, so that you can test maps.
 //!
 //! ```text
 //! exact spectra --> varied surface --> blur --> bands --> drift of the white --> noise
 //! ```
 //!
-//! Every number is drawn from a seed and the place of the pixel, so a scan has the same values in blocks of
-//! any size.
+//! We draw every number from a seed and the place of the pixel, so a scan has the same values in
+//! blocks of any size.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -34,13 +34,13 @@ pub struct Scene {
 /// Rows of a simulated scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SimulatedRows {
-    /// Reflectances as the camera reports them, pixel by pixel with all bands of each.
+    /// Reflectances that the camera reports, pixel by pixel with all bands of each.
     pub told: Vec<f32>,
     /// Mean over the bands of the reflectance of each pixel, blurred, without drift and noise.
     pub mean: Vec<f32>,
 }
 
-/// A simulated camera before a scene.
+/// A simulated camera in front of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     scene: Scene,
@@ -55,8 +55,8 @@ impl Camera {
     /// Sets up the camera.
     ///
     /// # Errors
-    /// [`CameraError`] if a setting is out of its range, or the spectra of the scene are out of those that the
-    /// camera sees.
+    /// [`CameraError`] if a setting is out of its range, or the camera sees too few wavelengths of
+    /// the scene.
     pub fn new(scene: Scene, settings: &CameraSettings) -> Result<Self, CameraError> {
         settings.check()?;
         if scene.lines == 0 || scene.samples == 0 {
@@ -78,7 +78,7 @@ impl Camera {
         })
     }
 
-    /// The scene before the camera.
+    /// The scene that the camera sees.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -96,9 +96,9 @@ impl Camera {
         &self.bands.nm
     }
 
-    /// Rows as the camera reports them. `exact(line)` gives the measured reflectances of a row of the
-    /// scene, pixel by pixel with all wavelengths of each. It is called for the rows and for those that
-    /// the blur brings in.
+    /// Rows that the camera reports. `exact(line)` must give the measured reflectances of a row of
+    /// the scene, pixel by pixel with all wavelengths of each. We call it for these rows and for
+    /// neighbours that the blur needs.
     #[must_use]
     pub fn rows(
         &self,
@@ -136,8 +136,8 @@ impl Camera {
         SimulatedRows { told, mean }
     }
 
-    /// Rows of any numbers of the scene, blurred as the camera blurs light. `of(line)` gives the numbers
-    /// of a row, pixel by pixel.
+    /// Blurs rows of any numbers of the scene as the camera blurs light. `of(line)` must give the
+    /// numbers of a row, pixel by pixel.
     #[must_use]
     pub fn blurred(
         &self,
@@ -166,7 +166,7 @@ pub struct Sensor {
     pub shot_noise: f64,
     /// Standard deviation of the noise of reading.
     pub read_noise: f64,
-    /// Relative change of the values from the first to the last line.
+    /// Relative change of the values from the first to the last line, e.g. 0.01.
     pub drift: f64,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -185,7 +185,7 @@ impl Sensor {
         self.read_noise.powi(2) + self.shot_noise.powi(2) * value.max(0.0)
     }
 
-    /// Values of the line `line` of `lines` as the detector tells them.
+    /// Values that the detector reports in the line `line` of `lines`.
     #[must_use]
     pub fn told(&self, values: &[f64], line: usize, lines: usize) -> Vec<f32> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
@@ -200,7 +200,7 @@ impl Sensor {
     }
 }
 
-/// Range of wavelengths in nm that the camera sees, where the spectra of the scene reach so far.
+/// The camera sees these wavelengths in nm, as far as the spectra of the scene reach.
 pub(crate) const RANGE_NM: [f64; 2] = [400.0, 1000.0];
 
 /// Settings of a simulated camera.
@@ -215,8 +215,8 @@ pub struct CameraSettings {
     pub shot_noise: f64,
     /// Standard deviation of the noise of reading, in reflectance, 0 to 0.5.
     pub read_noise: f64,
-    /// Relative change of the white from the first to the last line, -0.5 to 0.5: values of the last line
-    /// are too high by this part.
+    /// Relative change of the white from the first to the last line, -0.5 to 0.5. For example, 0.01
+    /// makes the values of the last line 1 % too high.
     pub drift: f64,
     /// Relative standard deviation of the reflection at the surface (k1) over the scene, 0 to 1.
     pub surface: f64,
@@ -240,7 +240,6 @@ impl Default for CameraSettings {
 }
 
 impl CameraSettings {
-    /// Checks every setting.
     pub(crate) fn check(&self) -> Result<(), CameraError> {
         for (name, value, least, most) in [
             ("bands", self.bands as f64, 2.0, 2000.0),
@@ -258,7 +257,7 @@ impl CameraSettings {
     }
 }
 
-/// A scene or settings that the camera cannot take.
+/// The camera cannot take a scene or settings.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CameraError {
     /// A setting is out of its range.
@@ -311,9 +310,10 @@ impl Explain for CameraError {
     }
 }
 
-/// Distance in pixels over which the reflection changes.
+/// The reflection changes over this distance in pixels.
 const PATCH_PX: usize = 16;
-/// Beginning of the streams of random numbers of the surface. The noise of a line has its own stream.
+/// The surface uses streams of random numbers from here on. The noise of each line has its own
+/// stream below.
 const STREAMS: u64 = 1 << 63;
 /// Greatest k1 of a varied surface.
 const MOST_K1: f64 = 0.9;
@@ -321,7 +321,7 @@ const MOST_K1: f64 = 0.9;
 /// A surface with a k1 that varies smoothly over a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceVariation {
-    /// Surface under which the spectra of the scene were computed.
+    /// Surface that the spectra of the scene were computed with.
     pub surface: Surface,
     /// Standard deviation of k1, relative to the surface's k1.
     pub relative: f64,
@@ -330,37 +330,37 @@ pub struct SurfaceVariation {
 }
 
 impl SurfaceVariation {
-    /// The factors on k1 of a line: mean 1, standard deviation `relative` at every place, and alike within
-    /// some 16 pixels.
+    /// The factors on k1 in a line. They have the mean 1 and the standard deviation `relative` at
+    /// every place, and are alike within some 16 pixels.
     #[must_use]
     pub fn factors(&self, line: usize, samples: usize) -> Vec<f64> {
         let corners = samples / PATCH_PX + 2;
-        let row = |at: usize| -> Vec<f64> {
+        let above = line / PATCH_PX;
+        let down = smooth(line % PATCH_PX);
+        let rows: [Vec<f64>; 2] = [above, above + 1].map(|at| {
             let mut random = ChaCha8Rng::seed_from_u64(self.seed);
             random.set_stream(STREAMS + at as u64);
             StandardNormal.sample_iter(&mut random).take(corners).collect()
-        };
-        let above = line / PATCH_PX;
-        let down = smooth(line % PATCH_PX);
-        let rows = [row(above), row(above + 1)];
-        let factor = |sample: usize| {
-            let left = sample / PATCH_PX;
-            let across = smooth(sample % PATCH_PX);
-            let mut sum = 0.0;
-            let mut squares = 0.0;
-            for (row, down) in rows.iter().zip([1.0 - down, down]) {
-                for (at, across) in [(left, 1.0 - across), (left + 1, across)] {
-                    sum += down * across * row[at];
-                    squares += (down * across).powi(2);
+        });
+        (0..samples)
+            .map(|sample: usize| {
+                let left = sample / PATCH_PX;
+                let across = smooth(sample % PATCH_PX);
+                let mut sum = 0.0;
+                let mut squares = 0.0;
+                for (row, down) in rows.iter().zip([1.0 - down, down]) {
+                    for (at, across) in [(left, 1.0 - across), (left + 1, across)] {
+                        sum += down * across * row[at];
+                        squares += (down * across).powi(2);
+                    }
                 }
-            }
-            // The weights' squares make the deviation equal between corners and at them.
-            1.0 + self.relative * sum / squares.sqrt()
-        };
-        (0..samples).map(factor).collect()
+                // The weights' squares make the deviation equal between corners and at them.
+                1.0 + self.relative * sum / squares.sqrt()
+            })
+            .collect()
     }
 
-    /// Exchanges the surface of a spectrum for one with k1 times `factor`.
+    /// Replaces the surface of a spectrum by one with k1 times `factor`.
     pub fn exchange(&self, spectrum: &mut [f64], factor: f64) {
         let k1 = (self.surface.k1 * factor).clamp(0.0, MOST_K1);
         let other = Surface { k1, ..self.surface };
@@ -377,26 +377,26 @@ fn smooth(at: usize) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Half the width of the blur, in standard deviations.
+/// Half the width of the blur in standard deviations.
 const REACH: f64 = 3.5;
 
-/// A Gaussian blur. Beyond the edges the picture is mirrored, so that its mean stays.
+/// A Gaussian blur. Beyond the edges we mirror the picture, so that its mean does not change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blur {
-    /// Weights from the middle outwards. The sum over both sides is 1.
+    /// Weights from the middle outwards. Over both sides they sum to 1.
     weights: Vec<f64>,
 }
 
 impl Blur {
-    /// A blur with the standard deviation `pixels`; 0 leaves everything as it is.
+    /// A blur with the standard deviation `pixels`. If you pass 0, it leaves everything as it is.
     #[must_use]
     pub fn new(pixels: f64) -> Self {
         if !(pixels > 0.0 && pixels.is_finite()) {
             return Self { weights: vec![1.0] };
         }
         let reach = (REACH * pixels).ceil() as usize;
-        let weight = |at: usize| (-0.5 * (at as f64 / pixels).powi(2)).exp();
-        let mut weights: Vec<f64> = (0..=reach).map(weight).collect();
+        let mut weights: Vec<f64> =
+            (0..=reach).map(|at| (-0.5 * (at as f64 / pixels).powi(2)).exp()).collect();
         let sum = 2.0 * weights.iter().sum::<f64>() - weights[0];
         weights.iter_mut().for_each(|weight| *weight /= sum);
         Self { weights }
@@ -408,7 +408,7 @@ impl Blur {
         self.weights.len() - 1
     }
 
-    /// Lines that the blurred lines `rows` of a picture of `lines` lines depend on, in rising order.
+    /// Lines that you need to blur the lines `rows` of a picture of `lines` lines, in rising order.
     #[must_use]
     pub fn needed(&self, rows: &Range<usize>, lines: usize) -> Vec<usize> {
         let reach = self.reach() as i64;
@@ -420,8 +420,8 @@ impl Blur {
         needed
     }
 
-    /// The blurred line `line` of a picture of `lines` lines and `samples` columns. `of(line)` gives the
-    /// numbers of a line, pixel by pixel.
+    /// The blurred line `line` of a picture of `lines` lines and `samples` columns. `of(line)` must
+    /// give the numbers of a line, pixel by pixel.
     pub fn line<'l>(
         &self,
         line: usize,
@@ -432,9 +432,8 @@ impl Blur {
         let numbers = whole.len() / samples.max(1);
         let mut down: Vec<f64> = whole.iter().map(|value| self.weights[0] * value).collect();
         for (distance, weight) in self.weights.iter().enumerate().skip(1) {
-            let at = |offset: i64| of(mirrored(line as i64 + offset, lines));
-            let above = at(-(distance as i64));
-            let below = at(distance as i64);
+            let above = of(mirrored(line as i64 - distance as i64, lines));
+            let below = of(mirrored(line as i64 + distance as i64, lines));
             for ((sum, a), b) in down.iter_mut().zip(above).zip(below) {
                 *sum += weight * (a + b);
             }
@@ -458,29 +457,28 @@ impl Blur {
     }
 }
 
-/// Place within 0 to `count` of a place that may lie outside: the edge is a mirror between pixels.
+/// Mirrors a place outside 0 to `count` back inside. The mirror stands at the edge between pixels.
 fn mirrored(at: i64, count: usize) -> usize {
     let count = count.max(1) as i64;
     let inside = at.rem_euclid(2 * count);
     (if inside < count { inside } else { 2 * count - 1 - inside }) as usize
 }
 
-/// Rows of weights that interpolate spectra on a grid at the wavelengths of bands.
+/// Interpolates spectra on a grid at the wavelengths of bands.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CameraBands {
     pub(crate) nm: Vec<f64>,
-    /// First wavelength of the grid and weights of it and those that follow, of each band.
+    /// For each band the first wavelength of the grid that counts, and the weights from there on.
     rows: Vec<(usize, Vec<f64>)>,
 }
 
 impl CameraBands {
-    /// `count` bands over what `grid` has of the range of the camera.
+    /// Places `count` bands evenly over the wavelengths of `grid` that the camera sees.
     pub(crate) fn new(grid: Grid, count: usize) -> Result<Self, CameraError> {
-        let outside = || CameraError::Wavelengths { grid };
         let first = grid.start_nm().max(RANGE_NM[0]);
         let last = grid.end_nm().min(RANGE_NM[1]);
         if first >= last {
-            return Err(outside());
+            return Err(CameraError::Wavelengths { grid });
         }
         let nm: Vec<f64> = (0..count)
             .map(|band| first + (last - first) * band as f64 / (count.max(2) - 1) as f64)
@@ -489,7 +487,7 @@ impl CameraBands {
             .collect();
         let units = (0..grid.count()).map(|at| {
             let unit = (0..grid.count()).map(|other| f64::from(u8::from(other == at))).collect();
-            Spectrum::<Response>::new(grid, unit).map_err(|_| outside())
+            Spectrum::<Response>::new(grid, unit).map_err(|_| CameraError::Wavelengths { grid })
         });
         let units = units.collect::<Result<Vec<_>, _>>()?;
         let method = Interpolation::best_for(grid);
@@ -497,10 +495,12 @@ impl CameraBands {
             .iter()
             .map(|nm: &f64| {
                 let weights = units.iter().map(|unit| unit.at(*nm, method, Extrapolation::Refuse));
-                let weights = weights.collect::<Result<Vec<f64>, _>>().map_err(|_| outside())?;
-                let is_used = |weight: &f64| *weight != 0.0;
-                let first = weights.iter().position(is_used).unwrap_or(0);
-                let end = weights.iter().rposition(is_used).map_or(first, |last| last + 1);
+                let weights = weights
+                    .collect::<Result<Vec<f64>, _>>()
+                    .map_err(|_| CameraError::Wavelengths { grid })?;
+                let first = weights.iter().position(|weight| *weight != 0.0).unwrap_or(0);
+                let last = weights.iter().rposition(|weight| *weight != 0.0);
+                let end = last.map_or(first, |last| last + 1);
                 Ok((first, weights[first..end].to_vec()))
             })
             .collect::<Result<_, CameraError>>()?;
@@ -657,11 +657,9 @@ mod tests {
                 .collect();
             let found = blurred(&blur, &picture, samples);
             for number in 0..2 {
-                let sum = |all: &[Vec<f64>]| -> f64 {
-                    all.iter().flat_map(|line| line.iter().skip(number).step_by(2)).sum()
-                };
-                let before = sum(&picture);
-                let after = sum(&found);
+                let [before, after] = [&picture, &found].map(|all| {
+                    all.iter().flat_map(|line| line.iter().skip(number).step_by(2)).sum::<f64>()
+                });
                 assert!((before - after).abs() < 1e-9 * before.max(1.0), "{before} {after}");
             }
         }
@@ -676,12 +674,12 @@ mod tests {
         let mut picture = vec![vec![0.0; 41]; 41];
         picture[20][20] = 1.0;
         let found = blurred(&Blur::new(1.5), &picture, 41);
-        let variance = |weight: &dyn Fn(usize, usize) -> f64| -> f64 {
-            let places = (0..41).flat_map(|y| (0..41).map(move |x| (y, x)));
-            places.map(|(y, x)| weight(y, x) * found[y][x]).sum()
-        };
-        let across = variance(&|_, x| (x as f64 - 20.0).powi(2));
-        let down = variance(&|y, _| (y as f64 - 20.0).powi(2));
+        let mut across = 0.0;
+        let mut down = 0.0;
+        for (y, x) in (0..41).flat_map(|y| (0..41).map(move |x| (y, x))) {
+            across += (x as f64 - 20.0).powi(2) * found[y][x];
+            down += (y as f64 - 20.0).powi(2) * found[y][x];
+        }
         assert!((across - 2.25).abs() < 0.03 && (down - 2.25).abs() < 0.03, "{across} {down}");
         assert_eq!(blurred(&Blur::new(0.0), &picture, 41), picture, "no blur");
     }

@@ -1,4 +1,5 @@
-//! Pigment maps of spectral scans: which measured pigments are where, how much, and how sure.
+//! Pigment maps of spectral scans: which measured pigments are where, how much of each, and how
+//! sure we are.
 //!
 //! ```text
 //! scan --> Cube --> blocks of pixels ------------------------------+
@@ -7,8 +8,8 @@
 //!                                            StoredMaps <-- MapStore <----+
 //! ```
 //!
-//! Without the feature `files` (default) there are no stores, and ENVI is the only kind of scan. The
-//! caller reads its bytes. Pages in browsers use this crate without it.
+//! If you switch off the feature `files` (a default), there are no stores, ENVI is the only kind of
+//! scan, and you read its bytes yourself. Pages in browsers do this.
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 

@@ -54,7 +54,7 @@ impl NumberType {
         !matches!(self, Self::F16 | Self::F32 | Self::F64)
     }
 
-    /// Largest number of an unsigned type of at most 16 bits, at which detectors saturate.
+    /// Largest number of an unsigned type of at most 16 bits. Detectors saturate there.
     #[must_use]
     pub const fn full_scale(self) -> Option<f64> {
         match self {
@@ -65,7 +65,7 @@ impl NumberType {
     }
 
     /// Converts the numbers in `bytes` and writes them to `values[0]`, `values[stride]` and so on.
-    /// Numbers that f32 does not hold are rounded. Stops at the end of the shorter side.
+    /// This rounds numbers that f32 does not hold, and stops at the end of the shorter side.
     pub(crate) fn convert(self, order: ByteOrder, bytes: &[u8], values: &mut [f32], stride: usize) {
         macro_rules! convert {
             ($type:ty) => {
@@ -101,7 +101,7 @@ impl NumberType {
         }
     }
 
-    /// Converts `bytes` to f64 without rounding integers below 2^53. For coordinates.
+    /// Converts `bytes` to f64 without rounding integers below 2^53. Use this for coordinates.
     #[cfg(feature = "files")]
     pub(crate) fn convert_exactly(self, order: ByteOrder, bytes: &[u8]) -> Vec<f64> {
         macro_rules! convert {

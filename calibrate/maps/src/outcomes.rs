@@ -1,4 +1,4 @@
-//! A surveyed scan and its maps as JSON, and as the lines of text that the program and the pages show.
+//! A surveyed scan and its maps as JSON, and as lines of text. The program and the pages show both.
 
 use std::ops::Range;
 
@@ -9,8 +9,8 @@ use crate::pixel_maps::Mask;
 use crate::surveyed::{FoundColumn, Spot, SurveyedScan};
 
 impl SurveyedScan {
-    /// The survey as JSON: scan, hashes, settings, groups and palette; of finished maps also the pixels by
-    /// the mask that each has; and spots, if any were asked for.
+    /// The survey as JSON: scan, hashes, settings, groups and palette. If you pass finished maps,
+    /// this adds the number of pixels by mask, and if you pass spots, it adds them too.
     #[must_use]
     pub fn to_json(&self, mapped: Option<&Overview>, spots: &[Spot]) -> Value {
         let about = self.about();
@@ -40,25 +40,27 @@ impl SurveyedScan {
         })
     }
 
-    /// An object for each pigment or group, the most frequent first: `survey_part`, and of finished maps
-    /// the parts `present` and `mean_share`.
+    /// An object for each pigment or group, the most frequent first: `survey_part`, and for
+    /// finished maps the parts `present` and `mean_share`.
     #[must_use]
     pub fn palette_json(&self, mapped: Option<&Overview>) -> Vec<Value> {
-        let entry = |found: &FoundColumn| {
-            let mut entry = json!({
-                "pigment": found.column.name,
-                "survey_part": found.part,
-            });
-            let of = |overview: &Overview| {
-                overview.pigments.iter().position(|name| *name == found.column.name)
-            };
-            if let Some((overview, place)) = mapped.and_then(|o| Some((o, of(o)?))) {
-                entry["present"] = json!(overview.present[place]);
-                entry["mean_share"] = json!(overview.mean_share[place]);
-            }
-            entry
-        };
-        self.palette().iter().map(entry).collect()
+        self.palette()
+            .iter()
+            .map(|found: &FoundColumn| {
+                let mut entry = json!({
+                    "pigment": found.column.name,
+                    "survey_part": found.part,
+                });
+                if let Some(overview) = mapped
+                    && let mut names = overview.pigments.iter()
+                    && let Some(place) = names.position(|name| *name == found.column.name)
+                {
+                    entry["present"] = json!(overview.present[place]);
+                    entry["mean_share"] = json!(overview.mean_share[place]);
+                }
+                entry
+            })
+            .collect()
     }
 
     /// Sizes, bands and number of searched pixels of the scan.
@@ -76,7 +78,7 @@ impl SurveyedScan {
         )
     }
 
-    /// A line for each group of pigments that are mapped as one.
+    /// A line for each group of pigments that we map as one.
     #[must_use]
     pub fn group_words(&self) -> Vec<String> {
         let groups = self.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
@@ -85,7 +87,7 @@ impl SurveyedScan {
 }
 
 impl Overview {
-    /// A line for each reason why pixels are not mapped.
+    /// A line for each reason why we do not map pixels.
     #[must_use]
     pub fn unmapped_words(&self) -> Vec<String> {
         let all = self.pixels.all();

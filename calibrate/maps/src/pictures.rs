@@ -1,4 +1,5 @@
-//! Pictures of maps for a person to look at first: overviews at the size of a screen, as PNG files in colour.
+//! Pictures of maps: overviews at the size of a screen, as PNG files in colour. Look at these
+//! first.
 
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use crate::pixel_maps::{BlockMaps, Mask, PixelCounts};
 use crate::store::{StoreError, StoredMaps};
 use crate::surveyed::SurveyedScan;
 
-/// Means of maps over squares of pixels. Values are NaN where no pixel of a square is mapped.
+/// Means of maps over squares of pixels. A value is NaN if no pixel of the square is mapped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overview {
     /// Pixels of the scan along each side of a square.
@@ -21,13 +22,13 @@ pub struct Overview {
     pub height: usize,
     /// Names of the pigments.
     pub pigments: Vec<String>,
-    /// Mean share of each pigment: one field of squares a pigment.
+    /// Mean share of each pigment. There is one field of squares for each.
     pub share: Vec<Vec<f32>>,
     /// Mean probability of each pigment.
     pub presence: Vec<Vec<f32>>,
-    /// Mean chi-square of each square, also of pixels out of gamut.
+    /// Mean chi-square of each square, which includes pixels out of gamut.
     pub chi2: Vec<f32>,
-    /// Mean residual of each square, also of pixels out of gamut.
+    /// Mean residual of each square, which includes pixels out of gamut.
     pub rms: Vec<f32>,
     /// Mean share of each pigment over all mapped pixels.
     pub mean_share: Vec<f64>,
@@ -37,7 +38,7 @@ pub struct Overview {
     pub pixels: PixelCounts,
 }
 
-/// Sums of the values of each square, to which maps are added block by block.
+/// Sums of the values of each square. You add maps block by block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OverviewSums {
     step: usize,
@@ -65,16 +66,16 @@ impl OverviewSums {
         let step = rows.max(columns).div_ceil(longest.max(1)).max(1);
         let width = columns.div_ceil(step);
         let height = rows.div_ceil(step);
-        let field = || vec![0.0; width * height];
+        let field = vec![0.0; width * height];
         Self {
             step,
             width,
             height,
             pigments: pigments.to_vec(),
-            share: vec![field(); pigments.len()],
-            presence: vec![field(); pigments.len()],
-            chi2: field(),
-            rms: field(),
+            share: vec![field.clone(); pigments.len()],
+            presence: vec![field.clone(); pigments.len()],
+            chi2: field.clone(),
+            rms: field,
             counts: vec![0; width * height],
             compared: vec![0; width * height],
             present: vec![0; pigments.len()],
@@ -82,8 +83,8 @@ impl OverviewSums {
         }
     }
 
-    /// Adds the maps `block` of the pixels in `rows` and `columns`, counted from the first of the maps. Pixels
-    /// outside the maps are passed over.
+    /// Adds the maps `block` of the pixels in `rows` and `columns`. Count these from the first
+    /// pixel of the maps. This skips pixels outside the maps.
     pub fn add(&mut self, rows: Range<usize>, columns: Range<usize>, block: &BlockMaps) {
         self.pixels.add(&block.mask);
         let count = self.pigments.len();
@@ -110,11 +111,10 @@ impl OverviewSums {
         }
     }
 
-    /// Means of all that was added.
+    /// Means of everything that you added.
     #[must_use]
     pub fn finish(self) -> Overview {
         let mapped = self.pixels.of(Mask::Mapped);
-        let part = |pixels: u64| pixels as f64 / mapped.max(1) as f64;
         Overview {
             step: self.step,
             width: self.width,
@@ -125,7 +125,11 @@ impl OverviewSums {
                 .iter()
                 .map(|field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64)
                 .collect(),
-            present: self.present.into_iter().map(part).collect(),
+            present: self
+                .present
+                .into_iter()
+                .map(|pixels: u64| pixels as f64 / mapped.max(1) as f64)
+                .collect(),
             // One field after another, so that sums and means of all never lie side by side.
             share: self.share.into_iter().map(|field| means_of(field, &self.counts)).collect(),
             presence: self.presence.into_iter().map(|it| means_of(it, &self.counts)).collect(),
@@ -142,7 +146,7 @@ fn means_of(field: Vec<f64>, counts: &[u32]) -> Vec<f32> {
     pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
 }
 
-/// Darkest lightness of the ink of a pigment's picture, so that pale pigments are seen.
+/// If all channels of an ink are brighter than this, we darken it, so that you see pale pigments.
 const DARKEST: u8 = 150;
 
 /// Pictures of one pigment or group.
@@ -163,7 +167,7 @@ pub struct PigmentPictures {
 /// Pictures of all maps of a scan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MapPictures {
-    /// Those of pigments and groups, the ones that are present most often first.
+    /// Pictures of pigments and groups. The ones that are present most often come first.
     pub pigments: Vec<PigmentPictures>,
     /// PNG of chi-square: white for 0, red for 4 and more.
     pub chi2: Vec<u8>,
@@ -177,10 +181,7 @@ impl MapPictures {
     /// Name of the file of the residual.
     pub const RESIDUAL_FILE: &str = "residual.png";
 
-    /// Draws the maps `overview` of `scan`. `library` must be the library of the survey.
-    ///
-    /// # Errors
-    /// [`PictureError`] if a picture cannot be encoded.
+    /// Draws the maps `overview` of `scan`. Pass the library of the survey as `library`.
     pub fn of(
         scan: &SurveyedScan,
         overview: &Overview,
@@ -189,29 +190,31 @@ impl MapPictures {
         let size = (overview.width, overview.height);
         let mut order: Vec<usize> = (0..overview.pigments.len()).collect();
         order.sort_by(|&a, &b| overview.present[b].total_cmp(&overview.present[a]));
-        let drawn = |place: usize| {
-            let name = &overview.pigments[place];
-            let file = |kind: &str| format!("{kind}-{}.png", file_name(name));
-            let ink = Ramp::of_ink(ink(library, scan, name));
-            Ok(PigmentPictures {
-                place,
-                presence_file: file("presence"),
-                presence: picture_png(&overview.presence[place], size, &ink)?,
-                share_file: file("share"),
-                share: picture_png(&overview.share[place], size, &ink)?,
-            })
-        };
         let chi2 = Ramp { from: (0.0, [255; 3]), to: (4.0, [150, 20, 20]) };
         let rms = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
         Ok(Self {
-            pigments: order.into_iter().map(drawn).collect::<Result<_, PictureError>>()?,
+            pigments: order
+                .into_iter()
+                .map(|place: usize| {
+                    let name = &overview.pigments[place];
+                    let file = file_name(name);
+                    let ink = Ramp::of_ink(ink(library, scan, name));
+                    Ok(PigmentPictures {
+                        place,
+                        presence_file: format!("presence-{file}.png"),
+                        presence: picture_png(&overview.presence[place], size, &ink)?,
+                        share_file: format!("share-{file}.png"),
+                        share: picture_png(&overview.share[place], size, &ink)?,
+                    })
+                })
+                .collect::<Result<_, PictureError>>()?,
             chi2: picture_png(&overview.chi2, size, &chi2)?,
             residual: picture_png(&overview.rms, size, &rms)?,
         })
     }
 }
 
-/// The colour of a pigment's masstone, made dark enough to be seen on white.
+/// The colour of a pigment's masstone, darkened so that you see it on white.
 fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
     let columns = scan.mapper().columns();
     let first = columns.iter().find(|c| c.name == column).and_then(|c| c.pigments.first());
@@ -224,7 +227,7 @@ fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
     }
 }
 
-/// A name with letters and digits alone, for a file.
+/// Makes a file name of letters and digits alone.
 fn file_name(name: &str) -> String {
     let kept =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
@@ -232,7 +235,7 @@ fn file_name(name: &str) -> String {
     text.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
 
-/// A field that is no picture.
+/// We cannot make a picture of a field.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The number of values differs from the number of pixels, or there are none.
@@ -278,8 +281,8 @@ pub fn picture_png(
     Ok(bytes)
 }
 
-/// Colours from one value to another, linear in encoded sRGB. Values beyond the ends have the colours of
-/// the ends.
+/// Colours from one value to another, linear in encoded sRGB. Values beyond the ends get the
+/// colours of the ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ramp {
     /// Value and encoded sRGB of the beginning.
@@ -303,15 +306,15 @@ impl Ramp {
         }
         let way = ((value - self.from.0) / (self.to.0 - self.from.0)).clamp(0.0, 1.0);
         let mut color = [255; 4];
-        for (channel, (from, to)) in color.iter_mut().zip(self.from.1.iter().zip(self.to.1)) {
-            let (from, to) = (f32::from(*from), f32::from(to));
+        let ends = self.from.1.map(f32::from).into_iter().zip(self.to.1.map(f32::from));
+        for (channel, (from, to)) in color.iter_mut().zip(ends) {
             *channel = (from + way * (to - from)).round() as u8;
         }
         color
     }
 }
 
-/// Rows and columns that are read at once, so that wide scans take no more memory than others.
+/// We read this many rows and columns at once, so that wide scans take no more memory than others.
 #[cfg(feature = "files")]
 const ROWS: usize = 256;
 #[cfg(feature = "files")]
@@ -320,9 +323,6 @@ const COLUMNS: usize = 2048;
 #[cfg(feature = "files")]
 impl Overview {
     /// Reads all of `maps`, with at most `longest` squares along the longer side.
-    ///
-    /// # Errors
-    /// [`StoreError`] if a shard cannot be read.
     pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
         let rows = maps.rows();
         let columns = maps.columns();

@@ -1,7 +1,7 @@
 //! Maps of the pixels of one block: shares, presence, errors and masks as flat vectors.
 //!
-//! This file also holds what stored maps say about their run, the precision of stored numbers, and the
-//! reasons why spectra cannot be mapped with a library.
+//! You also find here how stored maps describe their run, the precision of stored numbers, and the
+//! errors of maps.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use serde_json::{Map, Value};
 
-/// Tells whether a pixel is mapped, or why it is not.
+/// Whether a pixel is mapped, or why it is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Mask {
@@ -31,7 +31,8 @@ pub enum Mask {
     Saturated = 4,
     /// A band lies outside the range of reflectances.
     OutOfRange = 5,
-    /// No mixture of the library explains the pixel. Its chi-square and residual are told, and nothing else.
+    /// No mixture of the library explains the pixel. You get its chi-square and residual, and
+    /// nothing else.
     OutOfGamut = 6,
     /// The pixel shows the bare ground.
     Ground = 7,
@@ -50,7 +51,7 @@ impl Mask {
         Self::Ground,
     ];
 
-    /// Tells whether the pixel was compared with mixtures, so that it has a chi-square.
+    /// Whether we compared the pixel with mixtures, so that it has a chi-square.
     #[must_use]
     pub const fn is_compared(self) -> bool {
         matches!(self, Self::Mapped | Self::OutOfGamut)
@@ -118,9 +119,9 @@ impl PixelCounts {
 
 /// Maps of the pixels of one block, in the order of the block's pixels: row after row.
 ///
-/// The vectors `share`, `share_sd` and `presence` hold `pigments` numbers a pixel, the others one.
-/// A pixel that is not mapped holds NaN in every number and an empty `second`, but for the chi-square and the
-/// residual of one that is out of gamut.
+/// The vectors `share`, `share_sd` and `presence` hold `pigments` numbers for each pixel, the
+/// others one. If a pixel is not mapped, every number is NaN and `second` is empty. If it is out of
+/// gamut, you still get chi-square and residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMaps {
     /// Number of pigments or groups of pigments.
@@ -135,7 +136,7 @@ pub struct BlockMaps {
     pub chi2: Vec<f32>,
     /// Root mean square of the residual in reflectance over the bands.
     pub rms: Vec<f32>,
-    /// Second-best set of each pixel: bit `i` is pigment `i`, or 0 where there is none.
+    /// Second-best set of each pixel, where bit `i` is pigment `i`. If there is none, this is 0.
     pub second: Vec<u64>,
     /// Whether each pixel is mapped, or why not.
     pub mask: Vec<Mask>,
@@ -163,15 +164,13 @@ impl BlockMaps {
 
     /// Maps that hold no pixel yet, with room for `pixels`.
     pub(crate) fn with_capacity(pixels: usize, pigments: usize) -> Self {
-        let of_pigments = || Vec::with_capacity(pixels * pigments);
-        let of_pixels = || Vec::with_capacity(pixels);
         Self {
             pigments,
-            share: of_pigments(),
-            share_sd: of_pigments(),
-            presence: of_pigments(),
-            chi2: of_pixels(),
-            rms: of_pixels(),
+            share: Vec::with_capacity(pixels * pigments),
+            share_sd: Vec::with_capacity(pixels * pigments),
+            presence: Vec::with_capacity(pixels * pigments),
+            chi2: Vec::with_capacity(pixels),
+            rms: Vec::with_capacity(pixels),
             second: Vec::with_capacity(pixels),
             mask: Vec::with_capacity(pixels),
         }
@@ -206,7 +205,7 @@ impl BlockMaps {
         self.mask.len()
     }
 
-    /// Tells whether the lengths of all vectors agree.
+    /// Whether the lengths of all vectors agree.
     #[must_use]
     pub fn is_consistent(&self) -> bool {
         let pixels = self.pixels();
@@ -219,17 +218,17 @@ impl BlockMaps {
     }
 }
 
-/// Number by which a probability of 1 is stored.
+/// We store a probability of 1 as this number.
 pub(crate) const PRESENCE_ONE: f32 = 250.0;
-/// Number that stands for no probability.
+/// We store this number if there is no probability.
 pub(crate) const NO_PRESENCE: u8 = 255;
 
-/// Share or deviation as it is stored. Every NaN has the same bits.
+/// Share or deviation as we store it. Every NaN has the same bits.
 pub(crate) fn half_of(value: f32) -> f16 {
     if value.is_nan() { f16::NAN } else { f16::from_f32(value) }
 }
 
-/// Probability as it is stored.
+/// Probability as we store it.
 pub(crate) fn code_of(presence: f32) -> u8 {
     match presence.is_nan() {
         true => NO_PRESENCE,
@@ -246,8 +245,8 @@ pub(crate) fn presence_of(code: u8) -> f32 {
 }
 
 impl BlockMaps {
-    /// The maps as they are read from a store: shares and their deviations in half precision, presence in
-    /// steps of 1/250.
+    /// The maps as you would read them from a store: shares and their deviations in half precision,
+    /// presence in steps of 1/250.
     #[must_use]
     pub fn as_kept(mut self) -> Self {
         for value in self.share.iter_mut().chain(&mut self.share_sd) {
@@ -263,13 +262,13 @@ impl BlockMaps {
 /// Everything on which the bytes of maps depend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapsAbout {
-    /// Names of the pigments or groups, in the order of the maps; at most 64, all different.
+    /// Names of the pigments or groups, in the order of the maps. At most 64, all different.
     pub pigments: Vec<String>,
     /// SHA-256 of the library's file, in hexadecimal digits.
     pub library_sha256: String,
     /// SHA-256 of the survey's book, in hexadecimal digits.
     pub book_sha256: String,
-    /// SHA-256 or another sign of the scan, by which another scan is told apart.
+    /// SHA-256 or another sign that tells this scan from others.
     pub scan: String,
     /// Rows of the scan that are mapped.
     pub rows: Range<usize>,
@@ -280,7 +279,6 @@ pub struct MapsAbout {
 }
 
 impl MapsAbout {
-    /// Attributes of the group.
     #[cfg(feature = "files")]
     pub(crate) fn attributes(&self) -> Map<String, Value> {
         let all = json!({
@@ -301,7 +299,7 @@ impl MapsAbout {
     }
 }
 
-/// A library, wavelengths or settings with which no map can be made.
+/// We cannot make a map.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MapError {
     /// The wavelengths of the scan do not rise.
@@ -314,7 +312,7 @@ pub enum MapError {
         /// Wavelength of this band, in nm.
         after: f64,
     },
-    /// Too few bands lie within the library's wavelengths.
+    /// Too few bands of the scan lie within the library's wavelengths.
     #[error(
         "{inside} of {bands} bands lie within {start_nm} to {end_nm} nm, where the library's K and S are known; {needed} are needed"
     )]
@@ -354,10 +352,10 @@ pub enum MapError {
         /// Name of the second group.
         second: String,
     },
-    /// The ground is no reflectance, or does not cover the bands of the scan.
+    /// The ground is not a reflectance, or does not cover the bands of the scan.
     #[error("the spectrum of the ground {problem}")]
     Ground {
-        /// The fault, as a sentence part.
+        /// The fault, as part of a sentence.
         problem: String,
     },
     /// A setting is out of its range.
@@ -386,13 +384,13 @@ pub enum MapError {
         /// Number of pixels.
         pixels: usize,
     },
-    /// No pixel of the survey can be mapped.
+    /// We cannot map any pixel of the survey.
     #[error("none of {pixels} surveyed pixels holds a reflectance that can be mapped")]
     NothingToSurvey {
         /// Number of pixels that were surveyed.
         pixels: usize,
     },
-    /// A book was made with another library, other wavelengths or other settings.
+    /// You made the book with another library, other wavelengths or other settings.
     #[error("the book of the survey was made for `{found}`, not for `{expected}`")]
     OtherBook {
         /// Identity of the book.
@@ -400,7 +398,7 @@ pub enum MapError {
         /// Identity of the mapper.
         expected: String,
     },
-    /// A book was made with another error of the library's predictions.
+    /// You made the book with another error of the library's predictions.
     #[error("the survey was made with {found}, not with {expected}")]
     OtherModelError {
         /// Error of the book, in words.
@@ -408,13 +406,13 @@ pub enum MapError {
         /// Error of the mapper, in words.
         expected: String,
     },
-    /// A file of a book cannot be read.
+    /// We cannot read the file of a book.
     #[error("the book of a survey is not valid: {reason}")]
     Book {
         /// Reason, in words.
         reason: String,
     },
-    /// The survey was ended before all its pixels were searched.
+    /// Someone ended the survey early.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

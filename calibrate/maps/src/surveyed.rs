@@ -1,6 +1,8 @@
-//! A surveyed scan: all that its maps depend on, ready to be mapped by one process or by several.
+//! A surveyed scan. It holds all that its maps depend on, so that one process or several can map
+//! it.
 //!
-//! A spot shows the measured spectrum of a pixel or a region beside the spectrum of its mapped mixture.
+//! A spot shows the measured spectrum of a pixel or a region beside the spectrum of its mapped
+//! mixture.
 
 use std::ops::Range;
 
@@ -28,12 +30,13 @@ pub struct Region {
     pub columns: Range<usize>,
 }
 
-/// A column of the maps that the survey found.
+/// A pigment or group that the survey found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FoundColumn {
     /// Pigment or group.
     pub column: Column,
-    /// Part of the surveyed pixels that hold it, 0 to 1, each pixel with the probability of its sets.
+    /// Part of the surveyed pixels that hold it, 0 to 1. Each pixel counts with the probability of
+    /// its sets.
     pub part: f64,
 }
 
@@ -88,7 +91,8 @@ impl SurveyedScan {
     /// The scan with the book of an earlier survey.
     ///
     /// # Errors
-    /// [`SurveyError`] if the book was made with another library, other wavelengths or other settings.
+    /// [`SurveyError`] if you made the book with another library, other wavelengths or other
+    /// settings.
     pub fn with_book(
         cube: Cube,
         library: &PigmentLibrary,
@@ -141,7 +145,7 @@ impl SurveyedScan {
         &self.book
     }
 
-    /// Description of the run that the maps will hold: hashes, region, settings.
+    /// Description of the run that we store with the maps: hashes, region, settings.
     #[must_use]
     pub fn about(&self) -> &MapsAbout {
         &self.about
@@ -150,24 +154,25 @@ impl SurveyedScan {
     /// Pigments and groups that the survey found, the most frequent first.
     #[must_use]
     pub fn palette(&self) -> Vec<FoundColumn> {
-        let part = |column: &Column| -> f64 {
-            let sets = self.book.sets.iter().filter(|set| {
-                set.pigments.iter().any(|place: &u8| {
-                    let name = self.book.pigments.get(usize::from(*place));
-                    name.is_some_and(|name| column.pigments.contains(name))
-                })
-            });
-            // A sum of nothing would be -0.
-            sets.fold(0.0, |sum, set| sum + f64::from(set.part))
-        };
         let columns = self.mapper.columns().iter();
-        let mut found: Vec<FoundColumn> =
-            columns.map(|c| FoundColumn { column: c.clone(), part: part(c) }).collect();
+        let mut found: Vec<FoundColumn> = columns
+            .map(|column: &Column| {
+                let sets = self.book.sets.iter().filter(|set| {
+                    set.pigments.iter().any(|place: &u8| {
+                        let name = self.book.pigments.get(usize::from(*place));
+                        name.is_some_and(|name| column.pigments.contains(name))
+                    })
+                });
+                // A sum of nothing would be -0.
+                let part = sets.fold(0.0, |sum, set| sum + f64::from(set.part));
+                FoundColumn { column: column.clone(), part }
+            })
+            .collect();
         found.sort_by(|a, b| b.part.total_cmp(&a.part));
         found
     }
 
-    /// Maps pixels, the reflectances of all bands of each after another.
+    /// Maps pixels. Pass their reflectances pixel after pixel, all bands of each.
     ///
     /// # Errors
     /// [`MapError`] for a broken pixel.
@@ -175,8 +180,8 @@ impl SurveyedScan {
         self.mapper.map(&self.opened, spectra, &[])
     }
 
-    /// Pigments of the best set of one pixel with their shares, the greatest first, or `None` if it
-    /// cannot be mapped.
+    /// Pigments of the best set of one pixel with their shares, the greatest first. You get `None`
+    /// if we cannot map the pixel.
     ///
     /// # Errors
     /// [`MapError`] unless `spectrum` has one reflectance a band.
@@ -184,7 +189,7 @@ impl SurveyedScan {
         self.mapper.best_set(&self.opened, spectrum)
     }
 
-    /// Maps one block of pixels.
+    /// Maps one block of the scan.
     ///
     /// # Errors
     /// [`MapError`] if the block has other bands than the scan.
@@ -194,11 +199,11 @@ impl SurveyedScan {
 }
 
 impl Region {
-    /// Mean reflectance of the pixels of this region of `cube`, as the ground of a map.
+    /// Mean reflectance of this region of `cube`. Use it as the ground of a map.
     ///
     /// # Errors
-    /// [`SurveyError`] if the region does not lie within the scan, its pixels cannot be read, or none of them holds
-    /// a reflectance.
+    /// [`SurveyError`] if the region does not lie within the scan, we cannot read it, or none of
+    /// its pixels holds a reflectance.
     pub fn ground(&self, cube: &Cube) -> Result<Ground, SurveyError> {
         let region = inside(cube, Some(self.clone()))?;
         let (pixels, mean) = cube.mean(region.rows.clone(), region.columns.clone())?;
@@ -210,8 +215,8 @@ impl Region {
     }
 }
 
-/// The cube with the bands within the library's wavelengths: others do not decide whether a pixel can be
-/// mapped.
+/// Cuts the cube to the library's wavelengths, so that other bands do not decide whether a pixel
+/// can be mapped.
 fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
     let range = library.grid.start_nm()..=library.grid.end_nm();
     // Without any, the mapper says which it needs.
@@ -235,7 +240,7 @@ fn fits(part: &Range<usize>, all: &Range<usize>) -> bool {
     !part.is_empty() && part.end <= all.end
 }
 
-/// Settings as the maps tell them.
+/// The settings that we store with the maps.
 fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
     let groups: Map<String, Value> = (mapper.columns().iter())
         .filter(|column| column.pigments.len() > 1)
@@ -263,7 +268,7 @@ fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
     }
 }
 
-/// A scan that cannot be surveyed.
+/// We cannot survey a scan.
 #[derive(Debug, thiserror::Error)]
 pub enum SurveyError {
     /// The scan cannot be read.
@@ -278,7 +283,7 @@ pub enum SurveyError {
         region.rows.start, region.rows.end, region.columns.start, region.columns.end
     )]
     Region {
-        /// Region that was asked for.
+        /// Region that you asked for.
         region: Region,
         /// Rows of the scan.
         lines: usize,
@@ -305,7 +310,7 @@ impl Explain for SurveyError {
     }
 }
 
-/// Share below which a pigment takes no part in the mapped mixture of a spot.
+/// A pigment with a smaller share takes no part in the mapped mixture of a spot.
 const LEAST_SHARE: f32 = 1e-4;
 
 /// A pigment or group in a spot.
@@ -321,12 +326,12 @@ pub struct SpotPigment {
     pub presence: f64,
 }
 
-/// A pixel or region of a scan, its mean spectrum mapped as one pixel.
+/// A pixel or region of a scan. We map its mean spectrum as one pixel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spot {
     /// Rows and columns.
     pub region: Region,
-    /// Number of pixels in the mean. Each could be mapped.
+    /// Number of pixels in the mean. We leave out pixels that cannot be mapped.
     pub pixels: usize,
     /// Wavelengths of the scan's bands in nm.
     pub measured_nm: Vec<f64>,
@@ -334,9 +339,10 @@ pub struct Spot {
     pub measured: Vec<f64>,
     /// Wavelengths of the library in nm.
     pub mapped_nm: Vec<f64>,
-    /// Reflectance of the mapped mixture, of its single pigments.
+    /// Reflectance of the mapped mixture of single pigments.
     pub mapped: Vec<f64>,
-    /// Pigments and groups with a share, the greatest first, or none where the spectrum is out of gamut.
+    /// Pigments and groups with a share, the greatest first. If the spectrum is out of gamut, there
+    /// are none.
     pub pigments: Vec<SpotPigment>,
     /// Chi-square per degree of freedom.
     pub chi2: f64,
@@ -345,10 +351,10 @@ pub struct Spot {
 }
 
 impl SurveyedScan {
-    /// Maps the mean spectrum of `region`. `library` must be the library of the survey.
+    /// Maps the mean spectrum of `region`. Pass the library of the survey as `library`.
     ///
     /// # Errors
-    /// [`SpotError`] if the region is not within the scan, or none of its pixels can be mapped.
+    /// [`SpotError`] if the region is not within the scan, or we cannot map any of its pixels.
     pub fn spot(&self, library: &PigmentLibrary, region: Region) -> Result<Spot, SpotError> {
         let (pixels, measured) = self.cube().mean(region.rows.clone(), region.columns.clone())?;
         if pixels == 0 {
@@ -387,10 +393,10 @@ impl SurveyedScan {
     }
 }
 
-/// A spot that cannot be told.
+/// We cannot map a spot.
 #[derive(Debug, thiserror::Error)]
 pub enum SpotError {
-    /// The region is not within the scan, or the scan cannot be read.
+    /// The region is not within the scan, or we cannot read the scan.
     #[error(transparent)]
     Cube(#[from] CubeError),
     /// The spectrum does not fit the survey.
@@ -399,7 +405,7 @@ pub enum SpotError {
     /// The library lacks a pigment of the survey.
     #[error(transparent)]
     Recipe(#[from] RecipeError),
-    /// No pixel of the region can be mapped.
+    /// We cannot map any pixel of the region.
     #[error(
         "rows {}..{}, columns {}..{}: none of these pixels can be mapped",
         region.rows.start, region.rows.end, region.columns.start, region.columns.end

@@ -1,7 +1,7 @@
-//! Arrays of Zarr, format 3: the part of the format that scans and maps need.
+//! Arrays of Zarr, format 3. We support the part of the format that scans and maps need.
 //!
-//! This file holds the description `zarr.json`, the codecs, arrays read chunk by chunk, and shards, which
-//! hold many chunks and an index of their places. Its faults have no path. The caller adds it.
+//! You find here the description `zarr.json`, the codecs, arrays read chunk by chunk, and shards,
+//! which hold many chunks and an index of their places. Faults do not name a path, so add it.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -11,29 +11,26 @@ use serde_json::{Map, Value, json};
 
 use crate::numbers::{ByteOrder, NumberType};
 
-/// An array in a folder.
 #[derive(Debug)]
 pub(crate) struct ZarrArray {
     pub(crate) folder: PathBuf,
     pub(crate) about: ArrayMetadata,
 }
 
-/// A chunk that cannot be read.
+/// We cannot read a chunk.
 #[derive(Debug)]
 pub(crate) enum ChunkError {
-    /// The operating system cannot read it.
     Io(PathBuf, io::Error),
-    /// It is damaged.
     Fault(PathBuf, ZarrFault),
 }
 
 impl ZarrArray {
-    /// The array that `document`, the `zarr.json` of `folder`, describes.
+    /// The array in `folder`. `document` is its `zarr.json`.
     pub(crate) fn new(folder: &Path, document: &Value) -> Result<Self, ZarrFault> {
         Ok(Self { folder: folder.to_owned(), about: ArrayMetadata::of(document)? })
     }
 
-    /// Distance in numbers between neighbours along each axis of an unpacked chunk.
+    /// For each axis, how many numbers lie between neighbours in an unpacked chunk.
     pub(crate) fn strides(&self) -> Vec<usize> {
         let axes = self.about.chunk.len();
         let order = self.about.chain.transpose.clone().unwrap_or_else(|| (0..axes).collect());
@@ -63,7 +60,7 @@ impl ZarrArray {
         self.folder.join(key)
     }
 
-    /// Numbers of the chunk `at` as bytes, or `None` if it holds the fill value.
+    /// Numbers of the chunk `at` as bytes, or `None` if it holds only the fill value.
     pub(crate) fn chunk(&self, at: &[usize]) -> Result<Option<Vec<u8>>, ChunkError> {
         let Some((counts, at_end)) = &self.about.shard else {
             let file = self.file(at);
@@ -108,7 +105,8 @@ impl ZarrArray {
 
 type Stored = Option<Result<Vec<u8>, ZarrFault>>;
 
-/// Stored bytes of the chunk `inside` a shard of `chunks` chunks, of at most `most` bytes each.
+/// Stored bytes of the chunk `inside` a shard. The shard has `chunks` chunks of at most `most`
+/// bytes each.
 fn stored_in_shard(
     file: &Path,
     (chunks, most): (usize, u64),
@@ -122,13 +120,7 @@ fn stored_in_shard(
         let problem = format!("has {length} bytes, fewer than its index of {size}");
         return Ok(Some(Err(ZarrFault::damaged(problem))));
     }
-    let mut read = |start: u64, bytes: u64| -> io::Result<Vec<u8>> {
-        opened.seek(SeekFrom::Start(start))?;
-        let mut found = vec![0; usize::try_from(bytes).map_err(io::Error::other)?];
-        opened.read_exact(&mut found)?;
-        Ok(found)
-    };
-    let index = read(if at_end { length - size } else { 0 }, size)?;
+    let index = read_part(&mut opened, if at_end { length - size } else { 0 }, size)?;
     let place = match places(index) {
         Ok(places) => places.get(inside).copied().flatten(),
         Err(fault) => return Ok(Some(Err(fault))),
@@ -142,7 +134,14 @@ fn stored_in_shard(
         let problem = format!("its index gives a chunk {bytes} bytes, expected at most {most}");
         return Ok(Some(Err(ZarrFault::damaged(problem))));
     }
-    read(start, bytes).map(|stored| Some(Ok(stored)))
+    read_part(&mut opened, start, bytes).map(|stored| Some(Ok(stored)))
+}
+
+fn read_part(opened: &mut File, start: u64, bytes: u64) -> io::Result<Vec<u8>> {
+    opened.seek(SeekFrom::Start(start))?;
+    let mut found = vec![0; usize::try_from(bytes).map_err(io::Error::other)?];
+    opened.read_exact(&mut found)?;
+    Ok(found)
 }
 
 /// Bytes of the place of a chunk: offset and length.
@@ -155,7 +154,8 @@ pub(crate) fn index_bytes(chunks: usize) -> usize {
     chunks * ENTRY + SUM
 }
 
-/// Places of chunks in a shard: offset and length, `None` for chunks that hold the fill value.
+/// Reads the places of chunks in a shard, offset and length. A chunk that holds only the fill value
+/// has `None`.
 pub(crate) fn places(index: Vec<u8>) -> Result<Vec<Option<(u64, u64)>>, ZarrFault> {
     let index = without_checksum(index)?;
     let (numbers, _) = index.as_chunks::<8>();
@@ -168,8 +168,8 @@ fn is_there(pair: &[u64; 2]) -> bool {
     *pair != [u64::MAX; 2]
 }
 
-/// A shard that is put together in memory. Chunks stand in the order in which they are added, the
-/// index stands at the end.
+/// Builds a shard in memory. Chunks stand in the order in which you add them, and the index stands
+/// at the end.
 #[derive(Debug)]
 pub(crate) struct ShardBuilder {
     bytes: Vec<u8>,
@@ -177,18 +177,16 @@ pub(crate) struct ShardBuilder {
 }
 
 impl ShardBuilder {
-    /// A shard of `chunks` chunks, none of which is there yet.
     pub(crate) fn new(chunks: usize) -> Self {
         Self { bytes: Vec::new(), places: vec![[u64::MAX; 2]; chunks] }
     }
 
-    /// Adds the packed chunk with the number `at` in the order of rows.
+    /// Adds the packed chunk with the number `at`. We count chunks row by row.
     pub(crate) fn add(&mut self, at: usize, packed: &[u8]) {
         self.places[at] = [self.bytes.len() as u64, packed.len() as u64];
         self.bytes.extend_from_slice(packed);
     }
 
-    /// Bytes of the file.
     pub(crate) fn finish(mut self) -> Vec<u8> {
         let index: Vec<u8> = self.places.iter().flatten().flat_map(|n| n.to_le_bytes()).collect();
         self.bytes.extend_from_slice(&index);
@@ -197,22 +195,21 @@ impl ShardBuilder {
     }
 }
 
-/// Most bytes of an unpacked chunk: a chunk is held in memory as a whole.
+/// Most bytes of an unpacked chunk, because we hold a whole chunk in memory.
 const MOST_CHUNK_BYTES: usize = 1 << 29;
 
-/// Most chunks of a shard. Its index is read at once.
+/// Most chunks of a shard, because we read the whole index at once.
 const MOST_CHUNKS: usize = 1 << 24;
 
-/// Description of an array of numbers.
 #[derive(Debug, Clone)]
 pub(crate) struct ArrayMetadata {
     pub(crate) shape: Vec<usize>,
     pub(crate) number_type: NumberType,
-    /// Size of the chunks that are unpacked one by one.
+    /// Size of the chunks that we unpack one by one.
     pub(crate) chunk: Vec<usize>,
     pub(crate) chain: Chain,
-    /// Chunks of a shard along each axis, and whether the index stands at the end, or `None` where each
-    /// chunk is a file.
+    /// Chunks of a shard along each axis, and whether the index stands at the end. If each chunk is
+    /// a file, this is `None`.
     pub(crate) shard: Option<(Vec<usize>, bool)>,
     /// Text between the numbers of a chunk's key, and whether keys begin with `c`.
     pub(crate) separator: char,
@@ -256,7 +253,6 @@ fn fill_value(value: &Value) -> f64 {
 }
 
 impl ArrayMetadata {
-    /// Reads the description of an array.
     pub(crate) fn of(document: &Value) -> Result<Self, ZarrFault> {
         let shape = sizes(&document["shape"], "shape")?;
         let axes = shape.len();
@@ -334,8 +330,8 @@ impl ArrayMetadata {
     }
 }
 
-/// Checks that the index of shards is one of plain numbers with a checksum. Returns whether it stands at
-/// the end.
+/// Checks that the index of shards holds plain numbers with a checksum. Returns whether it stands
+/// at the end.
 fn check_index(settings: &Value) -> Result<bool, ZarrFault> {
     let none = Vec::new();
     let codecs = settings["index_codecs"].as_array().unwrap_or(&none);
@@ -347,15 +343,14 @@ fn check_index(settings: &Value) -> Result<bool, ZarrFault> {
     Ok(settings["index_location"] != "start")
 }
 
-/// An array to be described.
 #[derive(Debug, Clone)]
 pub(crate) struct ArrayDocument<'d> {
     pub(crate) shape: &'d [usize],
-    /// Name of the data type: `float16`, `uint8` and so on, or `string`.
+    /// Name of the data type, e.g. `float16`, `uint8` or `string`.
     pub(crate) data_type: &'d str,
-    /// Size of a shard, or of the chunk where there are no shards.
+    /// Size of a shard, or of a chunk if there are no shards.
     pub(crate) outer: &'d [usize],
-    /// Size of the chunks of a shard, or `None` where each chunk is a file.
+    /// Size of the chunks of a shard, or `None` if each chunk is a file.
     pub(crate) inner: Option<&'d [usize]>,
     pub(crate) fill: Value,
     pub(crate) dimensions: &'d [&'d str],
@@ -363,7 +358,7 @@ pub(crate) struct ArrayDocument<'d> {
 }
 
 impl<'d> ArrayDocument<'d> {
-    /// The array of the places along the dimension `name`, in one chunk.
+    /// Describes the array of coordinates along the dimension `name`, in one chunk.
     pub(crate) fn coordinate(
         name: &'d &'d str,
         length: &'d usize,
@@ -382,7 +377,6 @@ impl<'d> ArrayDocument<'d> {
         }
     }
 
-    /// The `zarr.json` of the array.
     pub(crate) fn json(&self) -> Value {
         let bytes = match self.data_type {
             "string" => json!({"name": "vlen-utf8"}),
@@ -421,7 +415,8 @@ impl<'d> ArrayDocument<'d> {
     }
 }
 
-/// The `zarr.json` of a group with the descriptions of its arrays, so that readers open one file.
+/// The `zarr.json` of a group with the descriptions of its arrays, so that readers need only this
+/// file.
 pub(crate) fn group_document(
     attributes: Map<String, Value>,
     arrays: impl IntoIterator<Item = (String, Value)>,
@@ -439,7 +434,7 @@ pub(crate) fn group_document(
     })
 }
 
-/// Level at which chunks are packed: higher ones take longer and save little.
+/// We pack chunks at this level, because higher ones take longer and save little.
 pub(crate) const GZIP_LEVEL: u32 = 4;
 
 /// A step from bytes to bytes.
@@ -450,16 +445,16 @@ enum Step {
     Crc32c,
 }
 
-/// Codecs of a chunk that end in plain numbers.
+/// Codecs that turn a stored chunk into plain numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Chain {
-    /// Order of the axes in the stored chunk, where it differs.
+    /// Order of the axes in the stored chunk, if it differs.
     pub(crate) transpose: Option<Vec<usize>>,
     pub(crate) byte_order: ByteOrder,
     steps: Vec<Step>,
 }
 
-/// Name and settings of a codec, which may be written as a name alone.
+/// Name and settings of a codec. A file may also state the name alone.
 pub(crate) fn named(codec: &Value) -> (&str, &Value) {
     match codec {
         Value::String(name) => (name, &Value::Null),
@@ -503,12 +498,12 @@ impl Chain {
         }
     }
 
-    /// Most bytes that a stored chunk of `expected` bytes can have: packing may make noise larger.
+    /// Most bytes that a stored chunk of `expected` bytes can have. This allows a little more,
+    /// because packing may make noise larger.
     pub(crate) fn most_stored(&self, expected: usize) -> usize {
         self.steps.iter().fold(expected, |most, _| most.saturating_add(most / 8 + 4096))
     }
 
-    /// Unpacks a stored chunk of `expected` bytes.
     pub(crate) fn unpack(&self, stored: Vec<u8>, expected: usize) -> Result<Vec<u8>, ZarrFault> {
         let mut bytes = stored;
         for (index, step) in self.steps.iter().enumerate().rev() {
@@ -560,7 +555,7 @@ fn read_all(reader: impl Read, most: usize) -> Result<Vec<u8>, ZarrFault> {
     Ok(bytes)
 }
 
-/// Bytes without the CRC-32C at their end, which must fit.
+/// Checks the CRC-32C at the end of the bytes and removes it.
 pub(crate) fn without_checksum(mut bytes: Vec<u8>) -> Result<Vec<u8>, ZarrFault> {
     let Some((data, sum)) = bytes.split_last_chunk::<4>() else {
         return Err(ZarrFault::damaged("a chunk is too short for its checksum"));
@@ -572,7 +567,8 @@ pub(crate) fn without_checksum(mut bytes: Vec<u8>) -> Result<Vec<u8>, ZarrFault>
     Ok(bytes)
 }
 
-/// Bytes packed by gzip, always to the same bytes: the head holds no time and no name.
+/// Packs bytes by gzip. The same bytes always give the same result, because the head holds no time
+/// and no name.
 pub(crate) fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let level = flate2::Compression::new(GZIP_LEVEL);
     let mut encoder = flate2::GzBuilder::new().operating_system(255).write(Vec::new(), level);
@@ -580,26 +576,26 @@ pub(crate) fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-/// A fault and the way out of it.
+/// A fault and a remedy.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ZarrFault {
     pub(crate) problem: String,
     pub(crate) way_out: &'static str,
 }
 
-/// Advice for arrays of a kind that is not read. Without `drop_encoding` xarray would pack the copy as the original.
+/// Advice for arrays of a kind that we do not read. Without `drop_encoding` xarray would pack the
+/// copy like the original.
 const SAVE_AGAIN: &str =
     "copy it in Python: xarray.open_zarr(\"OLD\").drop_encoding().to_zarr(\"NEW\", zarr_format=3)";
 /// Advice for arrays that are damaged.
 const COPY_AGAIN: &str = "copy or write the array again";
 
 impl ZarrFault {
-    /// A kind of array that is not read.
+    /// A kind of array that we do not read.
     pub(crate) fn unread(problem: impl Into<String>) -> Self {
         Self { problem: problem.into(), way_out: SAVE_AGAIN }
     }
 
-    /// Damage to stored bytes.
     pub(crate) fn damaged(problem: impl Into<String>) -> Self {
         Self { problem: problem.into(), way_out: COPY_AGAIN }
     }

@@ -1,5 +1,5 @@
-//! Accuracy of maps on measured swatches and simulated paintings, seeded. The example `accuracy` prints
-//! the numbers. The bounds in this file lie a little below them.
+//! Accuracy of maps on measured swatches and simulated paintings with fixed seeds. If you want to
+//! see the numbers, run the example `accuracy`. The bounds in this file lie a little below them.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -28,7 +28,7 @@ fn scan(pixels: usize) -> (Mapper, Vec<f32>) {
     (Mapper::new(&oils, &nm, &settings()).unwrap(), painting.spectra)
 }
 
-/// All numbers of a map as bits, so that NaN equals NaN.
+/// All numbers of a map as bits, so that e.g. NaN equals NaN.
 fn bits(maps: &BlockMaps) -> Vec<u32> {
     let lists = [&maps.share, &maps.share_sd, &maps.presence, &maps.chi2, &maps.rms];
     let numbers = lists.into_iter().flatten().map(|value| value.to_bits());
@@ -180,11 +180,13 @@ fn bare_ground_is_told_and_paint_is_not_taken_for_it() {
     let knows = Mapper::new(&oils, &nm, &knows).unwrap();
     // Bare ground of other lightness and gloss, with the noise of the sensor.
     for pixel in 0..40 {
-        let noise = |band: usize| 0.003 * ((pixel * 31 + band) as f64 * 12.9898).sin();
         let factor = 1.0 + 0.03 * (pixel as f64).sin();
         let gloss = 0.004 * (pixel as f64 * 0.7).cos();
         let bare = linen(&nm).into_iter().enumerate();
-        spectra.extend(bare.map(|(band, r)| (r * factor + gloss + noise(band)) as f32));
+        spectra.extend(bare.map(|(band, r)| {
+            let noise = 0.003 * ((pixel * 31 + band) as f64 * 12.9898).sin();
+            (r * factor + gloss + noise) as f32
+        }));
     }
     let book = knows.survey(&spectra, &Task::default()).unwrap();
     assert_eq!(book.entries.len(), 300, "the ground is no part of the survey");
@@ -244,13 +246,13 @@ fn a_survey_finds_the_palette_and_maps_know_it() {
 #[test]
 fn a_scan_of_two_paints_keeps_their_pigments() {
     let (oils, nm) = oils();
-    let film = |parts: &[(&str, f64)]| -> Vec<f32> {
+    let recipes = [&[("Zinc White", 0.8), ("Viridian", 0.2)][..], &[("Vermilion", 1.0)]];
+    let films = recipes.map(|parts| {
         let mixture = oils.mix(oils.recipe(parts.iter().copied()).unwrap()).unwrap();
-        mixture.hiding(oils.saunderson).iter().map(|r| *r as f32).collect()
-    };
-    let green = film(&[("Zinc White", 0.8), ("Viridian", 0.2)]);
-    let red = film(&[("Vermilion", 1.0)]);
-    let spectra = [green.repeat(20), red.repeat(20)].concat();
+        let film: Vec<f32> = mixture.hiding(oils.saunderson).iter().map(|r| *r as f32).collect();
+        film.repeat(20)
+    });
+    let spectra = films.concat();
     let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
     let book = mapper.survey(&spectra, &Task::default()).unwrap();
     let place = |name: &str| mapper.pigments().iter().position(|known| known == name).unwrap();

@@ -14,11 +14,11 @@ mod word {
     syn::custom_keyword!(none);
 }
 
-/// All attributes of a variant, a struct or a whole enum that this macro reads.
+/// All attributes that this macro reads from a variant, a struct or a whole enum.
 pub(crate) struct Advice {
     pub(crate) hints: Vec<HintAttribute>,
     pub(crate) fault: Option<FaultAttribute>,
-    /// Whether the message is the one of the inner error.
+    /// Whether the message comes from the inner error.
     pub(crate) transparent: bool,
 }
 
@@ -47,26 +47,25 @@ impl Advice {
     }
 }
 
-/// The attribute `#[hint(..)]` of a variant.
 pub(crate) struct HintAttribute {
-    /// The condition after `if`.
     pub(crate) condition: Option<Expr>,
     pub(crate) source: HintSource,
 }
 
-/// Where a hint comes from.
+/// Where the macro takes a hint from.
 pub(crate) enum HintSource {
-    /// A text, perhaps with arguments.
-    Text { verbatim: bool, text: LitStr, arguments: Vec<Expr> },
-    /// An expression or a function.
+    /// A text, with arguments if you give some.
+    Text {
+        verbatim: bool,
+        text: LitStr,
+        arguments: Vec<Expr>,
+    },
     With(Expr),
-    /// The error that this one wraps.
+    /// The hint of the error that this one wraps.
     Inner(Inner),
-    /// The variant has no hint.
     None,
 }
 
-/// `inner` or `inner = field`.
 pub(crate) struct Inner {
     pub(crate) span: Span,
     pub(crate) field: Option<Ident>,
@@ -127,11 +126,9 @@ impl Parse for HintSource {
     }
 }
 
-/// The attribute `#[fault(..)]` of a variant.
 pub(crate) enum FaultAttribute {
-    /// A variant of `Fault`.
+    /// A variant of `Fault`, e.g. `Setting`.
     Kind(Ident),
-    /// An expression or a function.
     With(Expr),
     /// The fault of the error that this one wraps.
     Inner(Inner),
@@ -158,7 +155,7 @@ impl Parse for FaultAttribute {
     }
 }
 
-/// The value of an expression. A path to a function is called with the error.
+/// The value of an expression. If it is a path to a function, we call this with the error.
 pub(crate) fn called(expression: &Expr) -> TokenStream {
     match expression {
         Expr::Path(path) => quote_spanned!(path.span()=> #path(self)),
@@ -166,8 +163,8 @@ pub(crate) fn called(expression: &Expr) -> TokenStream {
     }
 }
 
-/// The text of a hint with its fields and arguments in place. Without arguments `{0}` is the first
-/// field of a tuple.
+/// The text of a hint with its fields and arguments in place. Without arguments, you write `{0}`
+/// for the first field of a tuple.
 pub(crate) fn formatted(text: &LitStr, arguments: &[Expr]) -> TokenStream {
     let value = text.value();
     let text = match arguments.is_empty() {
@@ -180,12 +177,12 @@ pub(crate) fn formatted(text: &LitStr, arguments: &[Expr]) -> TokenStream {
     }
 }
 
-/// The name by which a field of a tuple is bound.
+/// The name that we bind a field of a tuple to.
 pub(crate) fn tuple_field(index: usize) -> Ident {
     format_ident!("_{}", index)
 }
 
-/// `{0}` as `{_0}`, the name of a field of a tuple.
+/// Writes `{0}` as `{_0}`, the name of a field of a tuple.
 fn with_named_fields(text: &str) -> String {
     let mut named = String::new();
     let mut letters = text.chars().peekable();

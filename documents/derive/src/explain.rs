@@ -9,7 +9,7 @@ use crate::advice::{
     Advice, FaultAttribute, HintAttribute, HintSource, Inner, called, formatted, tuple_field,
 };
 
-/// Path of the trait's module.
+/// Path of the module that holds the trait.
 fn module() -> TokenStream {
     quote!(::documents::hint)
 }
@@ -62,7 +62,6 @@ pub(crate) fn explain(input: &DeriveInput) -> Result<TokenStream> {
     })
 }
 
-/// A variant of an enum, or a struct.
 struct Variant<'a> {
     pattern: TokenStream,
     span: Span,
@@ -81,7 +80,7 @@ impl<'a> Variant<'a> {
         Ok(Self { pattern, span, fields, advice })
     }
 
-    /// The expression of the hint, an `Option<Hint>`. `whole` are the attributes of the enum.
+    /// The expression of the hint, an `Option<Hint>`. Pass the attributes of the enum as `whole`.
     fn hint(&self, whole: &Advice) -> Result<TokenStream> {
         let own = &self.advice.hints;
         if own.is_empty() && self.advice.transparent {
@@ -117,7 +116,7 @@ impl<'a> Variant<'a> {
         })
     }
 
-    /// The expression of the fault. `whole` are the attributes of the enum.
+    /// The expression of the fault. Pass the attributes of the enum as `whole`.
     fn fault(&self, whole: &Advice) -> Result<TokenStream> {
         let module = module();
         let inner_of = |inner: &Inner| {
@@ -143,7 +142,7 @@ impl<'a> Variant<'a> {
         whole.fault.as_ref().map_or(Ok(quote!(#module::Fault::Input)), given)
     }
 
-    /// The bound name of the wrapped error, with the span of its type.
+    /// The name that we bind the wrapped error to, with the span of its type.
     fn inner(&self, inner: &Inner) -> Result<TokenStream> {
         let index = self.inner_index(inner)?;
         let name = bound_name(self.fields, index);
@@ -151,23 +150,23 @@ impl<'a> Variant<'a> {
         Ok(quote_spanned!(span=> (#name)))
     }
 
-    /// The place of the wrapped error: the field that is named, else the one with `#[from]` or
-    /// `#[source]`, else `source` or `error`, else the only one.
+    /// The place of the wrapped error. This is the field that the attribute names, else the one
+    /// with `#[from]` or `#[source]`, else `source` or `error`, else the only one.
     fn inner_index(&self, inner: &Inner) -> Result<usize> {
         let named = |wanted: &dyn Fn(&Ident) -> bool| {
             self.fields.iter().position(|field| field.ident.as_ref().is_some_and(wanted))
         };
         if let Some(field) = &inner.field {
-            let missing = || Error::new(field.span(), "there is no such field");
-            return named(&|name| name == field).ok_or_else(missing);
+            return named(&|name| name == field)
+                .ok_or_else(|| Error::new(field.span(), "there is no such field"));
         }
         let marked = self.fields.iter().position(|field| {
             let is = |name: &str| field.attrs.iter().any(|one| one.path().is_ident(name));
             is("from") || is("source")
         });
-        let usual = || named(&|name| name == "source").or_else(|| named(&|name| name == "error"));
-        let only = || (self.fields.len() == 1).then_some(0);
-        let found = marked.or_else(usual).or_else(only);
+        let found = marked
+            .or_else(|| named(&|name| name == "source").or_else(|| named(&|name| name == "error")))
+            .or_else(|| (self.fields.len() == 1).then_some(0));
         found.ok_or_else(|| {
             let text =
                 "which field is the inner error? mark it with #[source], or write `inner = field`";
@@ -175,7 +174,7 @@ impl<'a> Variant<'a> {
         })
     }
 
-    /// The type of the wrapped error, where hint or fault are taken from it.
+    /// The type of the wrapped error, if hint or fault come from it.
     fn inner_type(&self) -> Option<&Type> {
         let by_hint = self.advice.hints.iter().find_map(|hint| match &hint.source {
             HintSource::Inner(inner) => Some(inner),
@@ -193,13 +192,13 @@ impl<'a> Variant<'a> {
     }
 }
 
-/// The name by which a field is bound in a pattern.
+/// The name that we bind a field to in a pattern.
 fn bound_name(fields: &Fields, index: usize) -> Ident {
     let field = fields.iter().nth(index).and_then(|field| field.ident.clone());
     field.unwrap_or_else(|| tuple_field(index))
 }
 
-/// The generics with `Explain` for every parameter that the type of a wrapped error names.
+/// The generics, with `Explain` required for every parameter in the type of a wrapped error.
 fn with_bounds(generics: &Generics, variants: &[Variant<'_>]) -> Generics {
     let module = module();
     let inner: Vec<&Type> = variants.iter().filter_map(Variant::inner_type).collect();
@@ -214,7 +213,6 @@ fn with_bounds(generics: &Generics, variants: &[Variant<'_>]) -> Generics {
     all
 }
 
-/// Whether a type names `parameter`.
 fn names(inner: TokenStream, parameter: &Ident) -> bool {
     inner.into_iter().any(|token| match token {
         TokenTree::Group(group) => names(group.stream(), parameter),

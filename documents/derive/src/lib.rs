@@ -5,7 +5,7 @@ mod explain;
 
 use proc_macro::TokenStream;
 
-/// Implements `documents::hint::Explain`: hints stand beside messages, as `#[hint("..")]` after
+/// Implements `documents::hint::Explain`. You write hints beside messages: `#[hint("..")]` after
 /// `#[error("..")]`. The page of the trait lists all forms.
 #[proc_macro_derive(Explain, attributes(hint, fault))]
 pub fn derive_explain(input: TokenStream) -> TokenStream {

@@ -1,6 +1,6 @@
 //! The file system of the machine or, in a page, one in memory (`memory`).
 //!
-//! Both have the same calls, those of [`std::fs`], so that code that keeps files runs in a page too.
+//! Both have the calls of [`std::fs`], so that your code runs in a page too.
 
 use std::path::{Path, PathBuf};
 
@@ -34,10 +34,10 @@ pub fn is_dir(path: &Path) -> bool {
     metadata(path).is_ok_and(|found| found.is_dir())
 }
 
-/// `path` from the root on, without a look at the disk.
+/// `path` from the root on. This does not look at the disk.
 ///
 /// # Errors
-/// As [`std::path::absolute`]. A page has the root as its current folder, and never fails.
+/// See [`std::path::absolute`]. In a page this never fails, because the root is its current folder.
 pub fn absolute(path: &Path) -> std::io::Result<PathBuf> {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]
     return Ok(super::memory::from_root(path));
@@ -48,7 +48,7 @@ pub fn absolute(path: &Path) -> std::io::Result<PathBuf> {
 /// `path` from the root on, without links.
 ///
 /// # Errors
-/// As [`std::fs::canonicalize`]: nothing lies there.
+/// If nothing lies there, see [`std::fs::canonicalize`].
 pub fn canonicalize(path: &Path) -> std::io::Result<PathBuf> {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]
     return metadata(path).map(|_| super::memory::from_root(path));
@@ -56,7 +56,7 @@ pub fn canonicalize(path: &Path) -> std::io::Result<PathBuf> {
     std::fs::canonicalize(path)
 }
 
-/// Number of this process, or in a page, which has none, the time of its start in ms.
+/// Number of this process. A page has none, so you get the time of its start in ms.
 #[must_use]
 pub fn process_number() -> u32 {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]

@@ -1,4 +1,4 @@
-//! Writing a file piece by piece, where it is too large for the memory.
+//! Writing a file piece by piece. Use this if the file is too large for the memory.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,8 +7,8 @@ use std::sync::Arc;
 use super::replace::{Replacement, unnamed};
 use super::whole::{FileAction, FileError};
 
-/// A file that is written piece by piece. Until [`FileInPieces::finish`] the path holds what it held
-/// before. If you drop this value instead, nothing remains of it.
+/// A file that you write piece by piece. Until you call [`FileInPieces::finish`], the path holds
+/// what it held before. If you drop this value instead, nothing remains of it.
 ///
 /// ```
 /// use documents::file::FileInPieces;
@@ -30,7 +30,7 @@ pub struct FileInPieces {
 }
 
 impl FileInPieces {
-    /// Begins a file that replaces `path` when it is finished.
+    /// Begins a file that replaces `path` when you finish it.
     ///
     /// # Errors
     /// [`FileError`] with the path, in the cases of [`super::write_whole`].
@@ -40,17 +40,11 @@ impl FileInPieces {
     }
 
     /// Adds `bytes` at the end.
-    ///
-    /// # Errors
-    /// [`FileError`] with the path, for example for a full disk.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), FileError> {
         self.replacement.write(bytes).map_err(|reason| fault(&self.path, reason))
     }
 
     /// Flushes the file to the disk and gives it its name.
-    ///
-    /// # Errors
-    /// [`FileError`] with the path.
     pub fn finish(self) -> Result<(), FileError> {
         self.replacement.finish().map_err(|reason| fault(&self.path, reason))
     }

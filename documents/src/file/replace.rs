@@ -6,15 +6,14 @@ use std::path::{Path, PathBuf};
 
 use super::temporary::{PREFIX, Temporary, clean};
 
-/// Flushes the directory entries of `folder` to the disk, so that a renamed file keeps
-/// its new name after a power failure. Does nothing on systems without this operation.
+/// Flushes the directory entries of `folder` to the disk, so that a renamed file keeps its new name
+/// after a power failure. This does nothing on systems without this operation.
 pub fn sync_folder(folder: &Path) {
     if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
     }
 }
 
-/// Checks that [`replace`] could write `path`, and leaves no file behind.
 pub(super) fn check(path: &Path) -> io::Result<()> {
     let (target, folder) = target(path)?;
     regular_file(&target)?;
@@ -32,7 +31,7 @@ fn replace_named(path: &Path, bytes: &[u8]) -> io::Result<()> {
     replacement.finish()
 }
 
-/// A file that is being written to a temporary file beside its target.
+/// A file during writing. Its bytes go to a temporary file beside its target.
 #[derive(Debug)]
 pub(super) struct Replacement {
     temporary: Temporary,
@@ -50,12 +49,10 @@ impl Replacement {
         Ok(Self { temporary: Temporary::new(&folder)?, target, folder, before })
     }
 
-    /// Adds `bytes` at the end.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.temporary.file()?.write_all(bytes)
     }
 
-    /// Flushes the file to the disk and renames it to the target.
     pub(super) fn finish(mut self) -> io::Result<()> {
         let file = self.temporary.file()?;
         file.sync_all()?;
@@ -75,8 +72,8 @@ fn target(path: &Path) -> io::Result<(PathBuf, PathBuf)> {
     Ok((target, folder))
 }
 
-/// Metadata of the regular file at `target`, `None` if it does not exist. A folder or a
-/// device is an error.
+/// Metadata of the regular file at `target`, or `None` if it does not exist. This fails for a
+/// folder or a device.
 fn regular_file(target: &Path) -> io::Result<Option<std::fs::Metadata>> {
     match std::fs::metadata(target) {
         Ok(found) if found.is_file() => Ok(Some(found)),
@@ -85,8 +82,8 @@ fn regular_file(target: &Path) -> io::Result<Option<std::fs::Metadata>> {
     }
 }
 
-/// An error without the name of a temporary file, which the crate `tempfile` adds: nobody chose
-/// that name, and the file is gone.
+/// Removes the name of the temporary file, which the crate `tempfile` adds to errors. Nobody chose
+/// this name, and the file is gone.
 pub(super) fn unnamed(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {

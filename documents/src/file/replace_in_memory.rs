@@ -1,14 +1,14 @@
-//! The operations of `replace` on the files of a page, which lie in memory.
+//! The operations of `replace` in a page, where files lie in memory.
 
 use std::io;
 use std::path::Path;
 
 use super::disk;
 
-/// Does nothing: what is written is in the file at once.
+/// Does nothing, because what you write is in the file at once.
 pub fn sync_folder(_: &Path) {}
 
-/// Does nothing: no write is interrupted.
+/// Does nothing, because nobody can interrupt a write.
 pub fn abandon_writes() {}
 
 pub(super) fn check(path: &Path) -> io::Result<()> {

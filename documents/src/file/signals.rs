@@ -1,9 +1,9 @@
 //! Signals that end the program: temporary files are removed first.
 
-/// Watches for SIGINT (Ctrl-C), SIGTERM and SIGHUP on a thread of its own. The first of them removes
-/// the temporary files of writes under way and ends the process by that signal, so that a shell sees
-/// the exit status 128 + its number. A signal that the process was started to ignore, as SIGHUP is by
-/// `nohup`, stays ignored.
+/// Watches for SIGINT (Ctrl-C), SIGTERM and SIGHUP on a thread of its own. The first of them
+/// removes the temporary files of writes under way and ends the process by this signal, so that a
+/// shell sees the exit status 128 + its number. If you started the process to ignore a signal, e.g.
+/// SIGHUP with `nohup`, this still ignores it.
 #[cfg(unix)]
 pub fn end_cleanly_on_signals() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -18,12 +18,12 @@ pub fn end_cleanly_on_signals() {
     });
 }
 
-/// Does nothing: there are no such signals.
+/// Does nothing, because this system has no such signals.
 #[cfg(not(unix))]
 pub fn end_cleanly_on_signals() {}
 
-/// Whether the process was started to ignore a signal. Linux lists the signals as bits. Where the
-/// system does not list them, SIGHUP is left alone.
+/// Whether the process was started to ignore a signal. Linux lists the signals as bits. If the
+/// system does not list them, we leave SIGHUP alone.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let Ok(status) = std::fs::read_to_string("/proc/self/status") else {

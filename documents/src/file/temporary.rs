@@ -1,5 +1,6 @@
-//! Temporary files beside the files that they become: known while they live, so that a program
-//! that has to end can remove them, and recognisable afterwards, so that the next one can.
+//! Temporary files beside the files that they become. We list them while they live, so that a
+//! program that has to end can remove them. We can also recognise them later by their names, so
+//! that the next program can remove what is left.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -9,14 +10,12 @@ use std::time::{Duration, SystemTime};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// Beginning of the names of temporary files.
 pub(super) const PREFIX: &str = ".impasto-";
-/// End of the names of temporary files.
 const SUFFIX: &str = ".tmp";
-/// Age from which a temporary file is left over, whoever wrote it.
+/// A temporary file of this age is left over, whoever wrote it.
 const OLD: Duration = Duration::from_secs(3600);
 
-/// Temporary files of writes under way, and folders that were cleaned.
+/// Temporary files of writes under way, and folders that we have cleaned.
 #[derive(Debug, Default)]
 struct Known {
     files: BTreeSet<PathBuf>,
@@ -29,16 +28,15 @@ fn known() -> MutexGuard<'static, Known> {
     KNOWN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A temporary file that is removed when dropped.
+/// A temporary file. If you drop this value, the file goes away.
 #[derive(Debug)]
 pub(super) struct Temporary {
-    /// The file. `None` once it was renamed or removed.
+    /// The file, or `None` once we renamed or removed it.
     file: Option<NamedTempFile>,
     path: PathBuf,
 }
 
 impl Temporary {
-    /// Creates a temporary file in `folder`.
     pub(super) fn new(folder: &Path) -> io::Result<Self> {
         let beginning = format!("{PREFIX}{}-{}-", machine(), std::process::id());
         let mut builder = Builder::new();
@@ -57,7 +55,6 @@ impl Temporary {
         Ok(Self { file: Some(file), path })
     }
 
-    /// The open file.
     pub(super) fn file(&mut self) -> io::Result<&mut std::fs::File> {
         self.file
             .as_mut()
@@ -65,7 +62,6 @@ impl Temporary {
             .ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
-    /// Renames the file to `target`.
     pub(super) fn persist(mut self, target: &Path) -> io::Result<()> {
         let Some(file) = self.file.take() else { return Err(io::ErrorKind::NotFound.into()) };
         let mut known = known();
@@ -84,10 +80,10 @@ impl Drop for Temporary {
     }
 }
 
-/// Removes the temporary files of all writes under way, and lets no further write begin or end:
-/// threads that write wait for ever. For a program that has to end, and ends then.
+/// Removes the temporary files of all writes under way. No further write begins or ends, because
+/// threads that write wait for ever. Call this only if you end the program right after.
 ///
-/// Nothing that was written whole is lost: a file is renamed before or after this call.
+/// You lose no file that was written whole, because we rename a file before or after this call.
 pub fn abandon_writes() {
     let known = known();
     for file in &known.files {
@@ -97,8 +93,8 @@ pub fn abandon_writes() {
     std::mem::forget(known);
 }
 
-/// Removes temporary files that earlier runs left in `folder`, once for each folder. A file is left
-/// over if its process has ended, or after an hour.
+/// Removes temporary files that earlier runs left in `folder`, once for each folder. We call a file
+/// left over if its process has ended, or after an hour.
 pub(super) fn clean(folder: &Path) {
     if !known().cleaned.insert(folder.to_owned()) {
         return;
@@ -116,7 +112,6 @@ pub(super) fn clean(folder: &Path) {
     }
 }
 
-/// The process that wrote a temporary file.
 #[derive(Debug, PartialEq, Eq)]
 struct Writer<'n> {
     machine: &'n str,
@@ -124,7 +119,7 @@ struct Writer<'n> {
 }
 
 impl<'n> Writer<'n> {
-    /// The writer of a file of this name. `None` for any other file.
+    /// Finds the writer from the name of a file, or `None` for any other file.
     fn of(name: &'n str) -> Option<Self> {
         let inside = name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
         let mut parts = inside.split('-');
@@ -134,15 +129,14 @@ impl<'n> Writer<'n> {
         (is_ours && parts.next()?.len() == 6 && parts.next().is_none()).then_some(writer)
     }
 
-    /// Whether a file of this age is left over.
+    /// Whether a file of this writer and age is left over.
     fn has_left(&self, age: Duration) -> bool {
-        let ended = || self.machine == machine() && is_running(self.process) == Some(false);
-        age > OLD || ended()
+        age > OLD || self.machine == machine() && is_running(self.process) == Some(false)
     }
 }
 
-/// Eight digits that differ between machines, starts of one machine, and its containers, in which
-/// numbers of processes mean other processes.
+/// Eight digits that differ between machines, between starts of one machine, and between its
+/// containers. In each of these the number of a process means another process.
 fn machine() -> &'static str {
     static MACHINE: OnceLock<String> = OnceLock::new();
     MACHINE.get_or_init(|| {
@@ -157,7 +151,7 @@ fn machine() -> &'static str {
     })
 }
 
-/// Whether a process of this machine runs. `None` where we cannot find out.
+/// Whether a process of this machine runs, or `None` if we cannot find out.
 fn is_running(process: u32) -> Option<bool> {
     let processes = Path::new("/proc");
     // Without the folder of this process there is no list of processes.
@@ -179,7 +173,7 @@ mod tests {
         path
     }
 
-    /// A process number that no Linux system gives.
+    /// No Linux system gives a process this number.
     const NOBODY: u32 = 1 << 30;
 
     #[test]

@@ -9,20 +9,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::replace::{check, replace};
 use crate::hint::{Explain, Fault, Hint};
 
-/// A file that could not be read or written. Nothing on the disk was changed.
+/// We could not read or write a file. Nothing on the disk has changed.
 #[derive(Debug, Clone)]
 pub struct FileError {
-    /// Path of the file, as the caller gave it.
+    /// Path of the file as you gave it.
     pub path: PathBuf,
     /// Whether reading or writing failed.
     pub action: FileAction,
-    /// The error of the operating system. Shared, so that errors that hold this one can
-    /// be cloned.
+    /// The error of the operating system. We share it, so that you can clone errors that hold this
+    /// one.
     pub reason: Arc<io::Error>,
 }
 
 impl FileError {
-    /// The error `reason` of reading `path`, for files that are not read by [`read`].
+    /// The error `reason` of reading `path`. Use this if you do not call [`read`].
     #[must_use]
     pub fn reading(path: &Path, reason: io::Error) -> Self {
         error(path, FileAction::Read, reason)
@@ -77,11 +77,9 @@ impl Explain for FileError {
     }
 }
 
-/// Reads all bytes of a file. The path `-` is standard input, which is read to its end once and
-/// kept, so that every reader of it gets the same bytes. A file called `-` is `./-`.
-///
-/// # Errors
-/// [`FileError`] with the path.
+/// Reads all bytes of a file. The path `-` is standard input. We read it to its end once and keep
+/// the bytes, so that you get the same ones if you read it again. For a file called `-` write
+/// `./-`.
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let bytes = match is_standard_input(path) {
         true => standard_input(),
@@ -90,11 +88,10 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     bytes.map_err(|reason| error(path, FileAction::Read, reason))
 }
 
-/// Replaces the file at `path` by `bytes`, or creates it. The bytes are written to a
-/// temporary file in the same folder, flushed to the disk and renamed, so that `path`
-/// always holds either the old content or the new one. A symbolic link is kept and its
-/// target replaced. An existing file keeps its permissions. Temporary files that ended runs
-/// left in the folder are removed.
+/// Replaces the file at `path` by `bytes`, or creates it. We write the bytes to a temporary file in
+/// the same folder, flush it to the disk and rename it, so that `path` always holds either the old
+/// content or the new one. If `path` is a symbolic link, this replaces its target. An existing file
+/// keeps its permissions. This also removes temporary files that earlier runs left in the folder.
 ///
 /// # Errors
 /// [`FileError`] with the path, also if `path` is a folder or a device. In a browser
@@ -103,8 +100,8 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     replace(path, bytes).map_err(|reason| error(path, FileAction::Write, reason))
 }
 
-/// Checks that [`write_whole`] could write `path` now, and leaves nothing behind. For
-/// programs that want to fail before a long computation.
+/// Checks that [`write_whole`] could write `path` now, and leaves nothing behind. Call this if you
+/// want to fail before a long computation.
 ///
 /// # Errors
 /// [`FileError`] in the cases of [`write_whole`].
@@ -125,7 +122,7 @@ pub fn is_standard_input(path: &Path) -> bool {
     path.as_os_str() == OsStr::new(STANDARD_INPUT)
 }
 
-/// Whether `path` can be read: a file that is there, or standard input.
+/// Whether you can read `path`: it is an existing file or standard input.
 #[must_use]
 pub fn is_there(path: &Path) -> bool {
     is_standard_input(path) || super::disk::is_file(path)

@@ -1,6 +1,7 @@
 //! The macros that declare settings and presets.
 //!
-//! Settings from TOML and to TOML: whole files, changes of single settings, comments.
+//! The functions that they call read settings from TOML and write them: whole files, changes of
+//! single settings, and comments.
 
 use std::path::Path;
 
@@ -13,7 +14,8 @@ use crate::text::{
 };
 use crate::{did_you_mean, name_list};
 
-/// Declares a table of settings, one row a setting. [The module](mod@crate::settings) has an example.
+/// Declares a table of settings. You write one row for each setting. [The
+/// module](mod@crate::settings) has an example.
 ///
 /// A row is
 ///
@@ -25,20 +27,21 @@ use crate::{did_you_mean, name_list};
 ///
 /// | part | holds |
 /// | --- | --- |
-/// | `as "key"` | the key in the file, where it is not the name of the field |
+/// | `as "key"` | the key in the file, if it is not the name of the field |
 /// | `Takes(limits)` | a variant of [`Takes`](crate::settings::Takes) |
-/// | `"unit"` | the unit of the numbers. Without it there is none |
-/// | `Scales` | `Length` or `Area`, which change with the size of a picture. Without it the setting does not |
+/// | `"unit"` | the unit of the numbers. Leave it out if there is none |
+/// | `Scales` | `Length` or `Area` if the setting changes with the size of a picture |
 /// | `"Meaning"` | a sentence without its full stop: the doc comment of the field and the comment in the file |
-/// | `like "example"` | only with the type `Option<String>`: a value for the file's comment where there is none |
+/// | `like "example"` | only with the type `Option<String>`: a value for the file's comment if there is none |
 ///
-/// After the rows come nested tables: `[field as "key"]: Type => "meaning";`.
+/// Write nested tables after the rows: `[field as "key"]: Type => "meaning";`.
 ///
-/// `pub struct Name: File { .. }` is a whole file and has the functions `open`, `from_toml`, `changed`,
-/// `valid` and `documented`. `File(path)` also checks by the function at `path` what belongs together:
-/// it takes the settings and the [`KeyPath`](crate::text::KeyPath) of their table.
+/// Write `pub struct Name: File { .. }` for a whole file. You get the functions `open`,
+/// `from_toml`, `changed`, `valid` and `documented`. If settings depend on each other, write
+/// `File(path)`. The function at `path` checks them: it takes the settings and the
+/// [`KeyPath`](crate::text::KeyPath) of their table.
 ///
-/// The crate that declares settings depends on `serde` with its derive macros.
+/// Your crate must depend on `serde` with its derive macros.
 #[macro_export]
 macro_rules! settings {
     (
@@ -132,43 +135,33 @@ macro_rules! settings {
 
     (@File $name:ident) => {
         impl $name {
-            /// Reads a TOML file. Keys that it leaves out have the defaults.
-            ///
-            /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) with file, line and key.
+            /// Reads a TOML file. If you leave out a key, it has its default.
             pub fn open(path: &::std::path::Path) -> ::core::result::Result<Self, $crate::settings::SettingsError> {
                 $crate::settings::open(path)
             }
 
-            /// Parses the text of a file of settings. Errors call it `name`.
-            ///
-            /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) with line and key.
+            /// Parses the text of a file of settings, which errors call `name`.
             pub fn from_toml(name: &str, text: &str) -> ::core::result::Result<Self, $crate::settings::SettingsError> {
                 $crate::settings::from_toml(name, text)
             }
 
-            /// A copy of these settings in which the keys of `text` (TOML) are replaced. Errors call the text
-            /// `name`.
+            /// A copy of these settings with the values of `text` (TOML), which errors call `name`.
             ///
             /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) if the text is no TOML, a key is unknown, or a
-            /// value is out of its range.
+            /// [`SettingsError`]($crate::settings::SettingsError) if the text is not TOML, a key is
+            /// unknown, or a value is out of its range.
             pub fn changed(&self, name: &str, text: &str) -> ::core::result::Result<Self, $crate::settings::SettingsError> {
                 $crate::settings::changed(self, name, text)
             }
 
-            /// Checks settings that were made by code.
-            ///
-            /// # Errors
-            /// [`SettingsError`]($crate::settings::SettingsError) for the first value that is out of its range.
+            /// Checks settings that you made by code.
             pub fn valid(&self) -> ::core::result::Result<(), $crate::settings::SettingsError> {
                 let checked = $crate::settings::check(self, &$crate::text::KeyPath::default());
                 ::core::result::Result::Ok(checked.map_err($crate::text::TextError::Invalid)?)
             }
 
-            /// The text of a TOML file of these settings: `title` as a comment, then each key below its meaning,
-            /// unit and range. Reading it gives the same settings to the bit.
+            /// The text of a TOML file of these settings: `title` as a comment, then each key below
+            /// its meaning, unit and range. If you read it, you get the same settings to the bit.
             #[must_use]
             pub fn documented(&self, title: &str) -> ::std::string::String {
                 $crate::settings::documented(self, title)
@@ -211,8 +204,8 @@ macro_rules! settings {
     };
 }
 
-/// Declares the presets of a file of settings: an enum, each variant with its name, the file that holds what
-/// differs from the default, and a sentence.
+/// Declares the presets of a file of settings as an enum. Give each variant a name, a file with the
+/// values that differ from the default, and a sentence.
 ///
 /// ```text
 /// documents::presets! {
@@ -223,8 +216,8 @@ macro_rules! settings {
 /// }
 /// ```
 ///
-/// The enum has `ALL`, `name`, `about`, `settings`, `changes` (the text of the file), `text` (all settings with
-/// comments) and `FromStr`.
+/// You get `ALL`, `name`, `about`, `settings`, `changes` (the text of the file), `text` (all
+/// settings with comments) and `FromStr`.
 #[macro_export]
 macro_rules! presets {
     (
@@ -247,10 +240,9 @@ macro_rules! presets {
             /// All presets, in the order in which programs list them.
             pub const ALL: [Self; Self::NAMES.len()] = [$(Self::$variant),*];
 
-            /// Names of all presets.
             const NAMES: &'static [&'static str] = &[$($word),*];
 
-            /// The name in lower case, which `parse` accepts.
+            /// The name in lower case. You can `parse` it.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $word,)* }
@@ -262,16 +254,13 @@ macro_rules! presets {
                 match self { $(Self::$variant => $about,)* }
             }
 
-            /// The TOML text of what differs from the default.
+            /// The values that differ from the default, as TOML.
             #[must_use]
             pub fn changes(self) -> &'static str {
                 match self { $(Self::$variant => ::core::include_str!($file),)* }
             }
 
             /// The settings of the preset.
-            ///
-            /// # Panics
-            /// Never: a test reads all presets.
             #[must_use]
             pub fn settings(self) -> $settings {
                 $settings::from_toml(self.name(), self.changes()).expect("a shipped preset is valid")
@@ -319,7 +308,7 @@ macro_rules! presets {
 /// Longest line of a comment.
 const WIDTH: usize = 90;
 
-/// Settings cannot be read.
+/// We cannot read settings.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum SettingsError {
     /// The text has a fault.
@@ -330,7 +319,7 @@ pub enum SettingsError {
     #[hint(verbatim, "{}", way_to_preset(name, known))]
     #[fault(Setting)]
     Preset {
-        /// Name that was asked for.
+        /// Name that you asked for.
         name: String,
         /// Names of all presets.
         known: &'static [&'static str],
@@ -344,18 +333,12 @@ fn way_to_preset(name: &str, known: &[&str]) -> String {
     })
 }
 
-/// Reads a TOML file. Keys that it leaves out have the defaults.
-///
-/// # Errors
-/// [`SettingsError`] with file, line and key.
+/// Reads a TOML file. If you leave out a key, it has its default.
 pub fn open<T: Table>(path: &Path) -> Result<T, SettingsError> {
     read(&path.display().to_string(), &read_text(path)?)
 }
 
-/// Parses the text of a file of settings. Errors call it `name`.
-///
-/// # Errors
-/// [`SettingsError`] with line and key.
+/// Parses the text of a file of settings, which errors call `name`.
 pub fn read<T: Table>(name: &str, text: &str) -> Result<T, SettingsError> {
     let source = Source::toml(name, text)?;
     let settings: T = typed(&source)?;
@@ -363,10 +346,10 @@ pub fn read<T: Table>(name: &str, text: &str) -> Result<T, SettingsError> {
     Ok(settings)
 }
 
-/// A copy of `settings` in which the keys of `text` (TOML) are replaced. Errors call the text `name`.
+/// A copy of `settings` with the values of `text` (TOML), which errors call `name`.
 ///
 /// # Errors
-/// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its range.
+/// [`SettingsError`] if the text is not TOML, a key is unknown, or a value is out of its range.
 pub fn changed<T: Table>(settings: &T, name: &str, text: &str) -> Result<T, SettingsError> {
     let source = Source::toml(name, text)?;
     // The text is read alone first, so that errors give its lines and keys.
@@ -375,7 +358,7 @@ pub fn changed<T: Table>(settings: &T, name: &str, text: &str) -> Result<T, Sett
     Ok(changed.map_err(|fault| source.located(fault))?)
 }
 
-/// A copy of `settings` in which the keys of `changes` are replaced. Faults name keys below `base`.
+/// A copy of `settings` with the values of `changes`. Faults name keys below `base`.
 ///
 /// # Errors
 /// The fault of the first value that does not fit.
@@ -410,7 +393,8 @@ fn merge(all: &mut Toml, changes: &Toml, rows: &[Row]) {
     }
 }
 
-/// Checks that every value is in its range, and those that belong together. Faults name keys below `base`.
+/// Checks that every value is in its range, and that values fit together. Faults name keys below
+/// `base`.
 ///
 /// # Errors
 /// The fault of the first value that does not fit.
@@ -478,7 +462,7 @@ fn plain(value: &Value) -> String {
     }
 }
 
-/// The whole text as settings. Where the parser knows no way out, the hint is the usual value.
+/// Reads the whole text as settings. If the parser gives no hint, ours names the usual value.
 fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
     source.typed().map_err(|mut error| {
         if let TextError::Syntax { key: Some(key), hint, .. } = &mut error
@@ -497,15 +481,15 @@ fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
     })
 }
 
-/// The settings as a table of TOML. It fails for whole numbers that TOML does not have.
+/// The settings as a table of TOML. This fails for whole numbers that TOML does not have.
 fn toml_of<T: Table>(settings: &T, base: &KeyPath) -> Result<Toml, Box<ValueFault>> {
     Toml::try_from(settings).map_err(|error| {
         ValueFault::new(base, "values of TOML", error, "whole numbers reach to 2^63 - 1")
     })
 }
 
-/// The text of a TOML file of these settings: `title` as a comment, then each key below its meaning, unit
-/// and range. Reading it gives the same settings to the bit.
+/// The text of a TOML file of these settings: `title` as a comment, then each key below its
+/// meaning, unit and range. If you read it, you get the same settings to the bit.
 #[must_use]
 pub fn documented<T: Table>(settings: &T, title: &str) -> String {
     let mut text = comment(title);
@@ -549,7 +533,7 @@ fn meaning(row: &Row) -> String {
     }
 }
 
-/// `text` as lines of a comment.
+/// Breaks `text` into lines of a comment.
 fn comment(text: &str) -> String {
     let mut lines = String::new();
     let mut line = "#".to_owned();
@@ -565,7 +549,7 @@ fn comment(text: &str) -> String {
     format!("{lines}{line}\n")
 }
 
-/// The lines of TOML that make `settings` of `base`.
+/// The lines of TOML that turn `base` into `settings`.
 #[must_use]
 pub fn differences<T: Table>(settings: &T, base: &T) -> String {
     let [own, base] = [settings, base].map(|table| Toml::try_from(table).unwrap_or_default());
@@ -589,7 +573,7 @@ fn difference_rows(text: &mut String, rows: &[Row], own: &Toml, base: &Toml, pat
     }
 }
 
-/// Every setting with its path, such as `edges.strength`, in the order of a file.
+/// Every setting with its path, e.g. `edges.strength`, in the order of a file.
 #[must_use]
 pub fn rows<T: Table>() -> Vec<(String, &'static Row)> {
     let mut all = Vec::new();
@@ -607,7 +591,7 @@ fn collect_rows(all: &mut Vec<(String, &'static Row)>, rows: &'static [Row], pat
     }
 }
 
-/// All settings as a table in Markdown, for guides: key, default, values, meaning.
+/// All settings as a table in Markdown for guides: key, default, values, meaning.
 #[must_use]
 pub fn guide_table<T: Table>() -> String {
     let usual = Toml::try_from(T::default()).unwrap_or_default();
@@ -627,15 +611,16 @@ pub fn guide_table<T: Table>() -> String {
     text
 }
 
-/// A number that is equal for equal settings, to the bit: FNV-1a (Fowler, Noll and Vo 1991) of all values in
-/// the order of their keys. Tests hold presets to it.
+/// A number that changes if you change any bit of the settings: FNV-1a (Fowler, Noll and Vo 1991)
+/// of all values in the order of their keys. Tests hold presets to this number.
 #[must_use]
 pub fn digest<T: Table>(settings: &T) -> u64 {
     let mut lines = Vec::new();
     digest_lines(&mut lines, "", &Value::Table(Toml::try_from(settings).unwrap_or_default()));
     lines.sort();
-    let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    lines.join("\n").bytes().fold(0xcbf2_9ce4_8422_2325, hash)
+    lines.join("\n").bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte: u8| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 fn digest_lines(lines: &mut Vec<String>, path: &str, value: &Value) {
@@ -649,7 +634,7 @@ fn digest_lines(lines: &mut Vec<String>, path: &str, value: &Value) {
     }
 }
 
-/// A value as text that differs in every bit.
+/// Writes a value as text that shows every bit.
 fn bits(value: &Value) -> String {
     match value {
         Value::Float(number) if f64::from(*number as f32) == *number => {

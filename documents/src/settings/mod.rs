@@ -1,9 +1,10 @@
-//! Settings that are declared once.
+//! Settings that you declare once.
 //!
-//! A row of [`settings!`](crate::settings!) is one setting: its field, type, default, range, unit and
-//! meaning. The macro makes the documented struct, its default, the list of rows, the check of ranges, the
-//! TOML file with comments, and what changes with the size of a picture. Presets
-//! ([`presets!`](crate::presets!)) are files that hold only what differs from the default.
+//! You write one row of [`settings!`](crate::settings!) for each setting, with field, type,
+//! default, range, unit and meaning. The macro makes the documented struct, its default, the list
+//! of rows, the check of ranges, the TOML file with comments, and the scaling with the size of a
+//! picture. Presets ([`presets!`](crate::presets!)) are files with only the values that differ from
+//! the default.
 //!
 //! ```
 //! use documents::hint::Explain;
@@ -67,7 +68,7 @@ pub use declared::{
     guide_table, open, out_of_range, read as from_toml, rows,
 };
 
-/// A table of settings, which [`settings!`](crate::settings!) implements.
+/// A table of settings. The macro [`settings!`](crate::settings!) implements this.
 pub trait Table: Serialize + DeserializeOwned + Default + Clone {
     /// The settings, in the order of a file.
     const ROWS: &'static [Row];
@@ -75,7 +76,7 @@ pub trait Table: Serialize + DeserializeOwned + Default + Clone {
     /// Multiplies all lengths by `by`, and all areas by its square.
     fn scale(&mut self, by: f32);
 
-    /// Checks settings that belong together. Faults name keys below `base`.
+    /// Checks that settings fit together. Faults name keys below `base`.
     ///
     /// # Errors
     /// The fault of a value that does not fit those beside it.
@@ -104,20 +105,20 @@ pub trait Preset: Copy + Send + Sync + FromStr<Err = SettingsError> + 'static {
     fn text(self) -> String;
 }
 
-/// A setting: where it stands, the values that it takes, and what it does.
+/// One setting: its key, the values that it takes, and what it does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
     /// Key in its table.
     pub key: &'static str,
     /// Values that it takes.
     pub takes: Takes,
-    /// Unit of the numbers. Empty for shares and words.
+    /// Unit of the numbers. This is empty for shares and words.
     pub unit: &'static str,
     /// How it changes with the size of a picture.
     pub scales: Scales,
     /// Its meaning in a sentence without a full stop.
     pub about: &'static str,
-    /// A value as a person writes it, of a setting that may be left out.
+    /// A value as you would write it, if you may leave the setting out.
     pub example: Option<&'static str>,
 }
 
@@ -128,7 +129,7 @@ pub enum Takes {
     Number(f64, f64),
     /// A whole number from the first to the second.
     Whole(u64, u64),
-    /// Any whole number from 0 on, such as a seed.
+    /// Any whole number from 0 on, e.g. a seed.
     Any,
     /// One of these whole numbers.
     OneOf(&'static [u64]),
@@ -136,7 +137,7 @@ pub enum Takes {
     Numbers(f64, f64),
     /// One of these words.
     Words(&'static [&'static str]),
-    /// Any text, such as a path.
+    /// Any text, e.g. a path.
     Text,
     /// A list of texts, such as names of pigments.
     Texts,
@@ -150,15 +151,15 @@ pub enum Takes {
     Table(&'static [Row]),
 }
 
-/// How a setting changes when a picture is made larger.
+/// How a setting changes if you make a picture larger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scales {
-    /// It does not.
+    /// It does not change.
     #[default]
     No,
-    /// As the width of the picture.
+    /// It grows as the width of the picture.
     Length,
-    /// As the square of the width.
+    /// It grows as the square of the width.
     Area,
 }
 
@@ -189,7 +190,8 @@ impl Takes {
 }
 
 impl fmt::Display for Takes {
-    /// Writes the range as messages have it: `0 to 1`. Nothing where any value of the type will do.
+    /// Writes the range for messages, e.g. `0 to 1`. Writes nothing if any value of the type will
+    /// do.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(least, most) => write!(f, "{least} to {most}"),
@@ -215,13 +217,13 @@ impl fmt::Display for Takes {
     }
 }
 
-/// Whether a number lies in a range. A number of single precision is compared as it is written, so that
-/// the ends of a range belong to it.
+/// Whether a number lies in a range. We compare a number of single precision with the digits that
+/// we write, so that the ends of a range belong to it.
 fn is_within(value: &Value, least: f64, most: f64) -> bool {
     value.as_float().is_some_and(|number| (least..=most).contains(&as_written(number)))
 }
 
-/// A number of single precision with the digits that it has in a file. Others as they are.
+/// Gives a number of single precision the digits that it has in a file. Others stay as they are.
 fn as_written(number: f64) -> f64 {
     let single = number as f32;
     if f64::from(single) != number {
@@ -230,7 +232,7 @@ fn as_written(number: f64) -> f64 {
     single.to_string().parse().unwrap_or(number)
 }
 
-/// A value as a file has it. Numbers of single precision have their few digits.
+/// Writes a value for a file. Numbers of single precision have their few digits.
 #[must_use]
 pub fn text_of(value: &Value) -> String {
     match value {

@@ -1,4 +1,4 @@
-//! Paths of keys in a text, and where these lie.
+//! Paths of keys in a text, and where the values lie.
 
 use std::fmt;
 use std::ops::Range;
@@ -28,7 +28,7 @@ pub enum KeyStep {
 pub struct KeyPath(pub Vec<KeyStep>);
 
 impl KeyPath {
-    /// The path with these keys, which are joined by dots.
+    /// The path with these keys. Join them by dots, e.g. `edges.strength`.
     #[must_use]
     pub fn of(keys: &str) -> Self {
         Self(keys.split('.').map(|key| KeyStep::Key(key.to_owned())).collect())
@@ -60,7 +60,7 @@ impl KeyPath {
 }
 
 impl fmt::Display for KeyPath {
-    /// Writes keys joined by dots. Lists of tables stand in brackets, and entries count from 1.
+    /// Writes keys joined by dots. Lists of tables stand in brackets, and we count entries from 1.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut after_entry = false;
         for (place, step) in self.0.iter().enumerate() {
@@ -101,7 +101,6 @@ enum Inner {
 }
 
 impl Node {
-    /// The values of a text in TOML.
     pub(super) fn of_toml(table: &Spanned<DeTable<'_>>) -> Self {
         Self { span: table.span(), inner: Inner::of_toml_table(table.get_ref()) }
     }
@@ -121,7 +120,8 @@ impl Node {
         entries.iter().find(|(name, ..)| name == key)
     }
 
-    /// The byte offset of the key at `path`, or of the last key on the way that the text has.
+    /// The byte offset of the key at `path`. If the text does not have it, this is the last key on
+    /// the way to it.
     pub(super) fn offset_of(&self, path: &KeyPath) -> usize {
         let mut offset = 0;
         let mut node = self;
@@ -190,7 +190,7 @@ fn holds(span: &Range<usize>, bytes: &Range<usize>) -> bool {
     !bytes.is_empty() && span.start <= bytes.start && bytes.end <= span.end
 }
 
-/// A walk over valid JSON. On other text it ends early without a panic.
+/// Walks over valid JSON. On other text this ends early without a panic.
 struct JsonWalk<'t> {
     text: &'t [u8],
     at: usize,
@@ -261,7 +261,7 @@ impl JsonWalk<'_> {
         }
     }
 
-    /// Goes on to `wanted`, or beyond `end`. Returns whether it is there.
+    /// Goes on to `wanted`, or beyond `end`. Returns whether it found it.
     fn skip_to(&mut self, wanted: u8, end: u8) -> bool {
         while let Some(byte) = self.byte() {
             if byte == wanted {

@@ -1,5 +1,5 @@
-//! Texts of TOML and JSON that people write: values with their lines, and errors that name file, line, key
-//! and the way out.
+//! Texts of TOML and JSON that people write: values with their lines, and errors that name file,
+//! line, key and a remedy.
 //!
 //! ```
 //! use documents::hint::Explain;
@@ -45,10 +45,10 @@ use key_path::Node;
 
 pub use key_path::{KeyPath, KeyStep};
 
-/// Longest text that is read, in bytes.
+/// We read at most this many bytes of text.
 const MOST_BYTES: usize = 16 << 20;
 
-/// The way out of a wrong type where a text has no other.
+/// The hint for a wrong type, if there is no better one.
 pub(crate) const USUAL_HINT: &str = "write a value of the kind that the key takes";
 
 /// A text of TOML or JSON with its name for errors.
@@ -69,18 +69,12 @@ enum Language {
 
 impl<'t> Source<'t> {
     /// Parses `text` in TOML, which errors call `file`.
-    ///
-    /// # Errors
-    /// [`TextError`] if it is too long or not TOML.
     pub fn toml(file: &'t str, text: &'t str) -> Result<Self, TextError> {
         Self::hinted_toml(file, text, None)
     }
 
-    /// Parses `text` in TOML. `hint` is the way out wherever the parser knows none, such as the list of
-    /// keys.
-    ///
-    /// # Errors
-    /// [`TextError`] if it is too long or not TOML.
+    /// Parses `text` in TOML. Pass a `hint` for errors where the parser knows none, e.g. the list
+    /// of keys.
     pub fn toml_with_hint(file: &'t str, text: &'t str, hint: &'t str) -> Result<Self, TextError> {
         Self::hinted_toml(file, text, Some(hint))
     }
@@ -108,9 +102,6 @@ impl<'t> Source<'t> {
     }
 
     /// Parses `text` in JSON, which errors call `file`.
-    ///
-    /// # Errors
-    /// [`TextError`] if it is too long or not JSON.
     pub fn json(file: &'t str, text: &'t str) -> Result<Self, TextError> {
         check_length(file, text)?;
         if let Err(error) = serde_json::from_str::<IgnoredAny>(text) {
@@ -126,7 +117,7 @@ impl<'t> Source<'t> {
         Ok(Self { file, text, language: Language::Json, values, hint: None })
     }
 
-    /// The value at a key of the whole text, in its own words.
+    /// The value at a key of the whole text, as the text writes it.
     #[must_use]
     pub fn value_of(&self, key: &str) -> Option<&'t str> {
         self.text.get(self.values.value_span(key)?)
@@ -183,7 +174,7 @@ impl<'t> Source<'t> {
         line_of(self.text, self.values.offset_of(key))
     }
 
-    /// The error of a fault, with its place.
+    /// Turns a fault into an error with its place.
     #[must_use]
     pub fn located(&self, fault: Box<ValueFault>) -> TextError {
         let place = self.place(self.values.offset_of(&fault.key));
@@ -192,13 +183,12 @@ impl<'t> Source<'t> {
 
     fn explained(&self, bytes: Range<usize>, message: &str) -> TextError {
         let ParserReason { reason, hint } = ParserReason::of(message);
-        let usual = || self.hint.unwrap_or(USUAL_HINT).to_owned();
         TextError::Syntax {
             file: self.file.to_owned(),
             place: self.place(bytes.start),
             key: self.values.path_at(&bytes),
             reason: reason.into(),
-            hint: hint.unwrap_or_else(usual).into(),
+            hint: hint.unwrap_or_else(|| self.hint.unwrap_or(USUAL_HINT).to_owned()).into(),
         }
     }
 
@@ -212,12 +202,12 @@ impl<'t> Source<'t> {
     }
 }
 
-/// Where a text has a fault. JSON, which often stands on one line, has a column.
+/// Where a text has a fault. For JSON you also get a column, because it often stands on one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// Line, counted from 1.
     pub line: usize,
-    /// Letter in the line, counted from 1.
+    /// Letter in the line, counted from 1. Only JSON has this.
     pub column: Option<usize>,
 }
 
@@ -244,11 +234,11 @@ pub type Checked = Result<(), Box<ValueFault>>;
 pub struct ValueFault {
     /// Path of the value.
     pub key: KeyPath,
-    /// Values that are allowed.
+    /// Values that you may write.
     pub wanted: String,
     /// The value as text.
     pub found: String,
-    /// Sentence on the way out.
+    /// Sentence on how you repair this.
     pub hint: String,
 }
 
@@ -272,7 +262,7 @@ pub enum TextError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file is longer than any that a person writes.
+    /// The file is longer than any that we read.
     #[error("{file}: it has {bytes} bytes, more than `{most}`")]
     #[hint("divide it, or record less often")]
     TooLong {
@@ -291,7 +281,7 @@ pub enum TextError {
         file: String,
         /// Line, counted from 1.
         line: usize,
-        /// First byte that belongs to no letter.
+        /// First byte that does not belong to a letter.
         byte: u8,
     },
     /// The text is not TOML or JSON, or has an unknown key or a value of a wrong type.
@@ -302,11 +292,11 @@ pub enum TextError {
         file: String,
         /// Place of the fault.
         place: Place,
-        /// Path of the value. `None` where the text cannot be parsed at all.
+        /// Path of the value. `None` if we cannot parse the text at all.
         key: Option<KeyPath>,
         /// Reason, with the value.
         reason: Box<str>,
-        /// Sentence on the way out.
+        /// Sentence on how you repair this.
         hint: Box<str>,
     },
     /// A value is wrong.
@@ -315,20 +305,17 @@ pub enum TextError {
     Value {
         /// Name of the file.
         file: String,
-        /// Place of the value, or of the table that lacks it.
+        /// Place of the value, or the table that lacks it.
         place: Place,
-        /// The value and the way out.
+        /// The value, and how you repair this.
         fault: Box<ValueFault>,
     },
-    /// A value that was made by code is wrong.
+    /// A value that you made by code is wrong.
     #[error(transparent)]
     Invalid(#[from] Box<ValueFault>),
 }
 
 /// Reads a file of UTF-8 text.
-///
-/// # Errors
-/// [`TextError`] if it cannot be read or holds other bytes.
 pub fn read_text(path: &Path) -> Result<String, TextError> {
     String::from_utf8(read(path)?).map_err(|error| {
         let good = error.utf8_error().valid_up_to();
@@ -341,7 +328,7 @@ pub fn read_text(path: &Path) -> Result<String, TextError> {
     })
 }
 
-/// The line, counted from 1, of a byte of `text`.
+/// The line, counted from 1, in which a byte of `text` lies.
 #[must_use]
 pub fn line_of(text: &str, offset: usize) -> usize {
     let before = &text.as_bytes()[..offset.min(text.len())];
@@ -354,7 +341,7 @@ fn offset_at(text: &str, line: usize, column: usize) -> usize {
     (before + column).min(text.len())
 }
 
-/// A message of the JSON parser without the place at its end.
+/// Cuts the place from the end of a message of the JSON parser.
 fn without_place(message: &str) -> String {
     message.rsplit_once(" at line ").map_or(message, |(reason, _)| reason).to_owned()
 }

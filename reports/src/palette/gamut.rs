@@ -14,15 +14,14 @@ use crate::style::{Color, FAINT, HAIR, INK, SERIES, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
 use crate::svg::{Anchor, Canvas};
 
-/// Number of sectors of an outline.
+/// An outline has this many sectors.
 const SECTORS: usize = 72;
-/// Side of a cell in units of a*, b*, and in units of x, y.
+/// Side of a cell, first in units of a* and b*, then of x and y.
 const CELLS: [f64; 2] = [4.0, 0.015];
-/// Number of sectors in the outline of a band of lightness, which has fewer samples.
+/// The outline of a band of lightness has fewer sectors, because a band has fewer samples.
 const BAND_SECTORS: usize = 36;
-/// Minimum chroma of masstones that are labelled.
+/// We label masstones from this chroma on.
 const NAMED: f64 = 12.0;
-/// Bands of L*.
 const BANDS: [[f64; 2]; 5] = [[0.0, 20.0], [20.0, 40.0], [40.0, 60.0], [60.0, 80.0], [80.0, 100.0]];
 
 pub(crate) fn gamut_section(subject: &Subject<'_>) -> Section {
@@ -48,17 +47,16 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     let title = format!("a*, b* (area {:.0})", lab.area());
     let plane = Panel::new(a, b, marks).with_title(title);
 
-    let chromaticity = |sample: &GamutSample| {
-        let white = palette.weights().white();
+    let white = palette.weights().white();
+    let mut marks = field(gamut, CELLS[1], |sample| {
         let xyy = sample.color.xyz.to_xyy(white);
-        [xyy.x, xyy.y]
-    };
-    let mut marks = field(gamut, CELLS[1], |sample| lit(sample).then(|| chromaticity(sample)));
+        lit(sample).then_some([xyy.x, xyy.y])
+    });
     let locus = spectral_locus(palette.viewing());
     let mut horseshoe: Vec<(f64, f64)> = locus.iter().map(|(_, [x, y])| (*x, *y)).collect();
     horseshoe.extend(horseshoe.first().copied());
     marks.push(Mark::Line { points: horseshoe, color: FAINT, width: 1.2 });
-    let mut triangle = srgb_primaries(palette.weights().white()).map(|[x, y]| (x, y)).to_vec();
+    let mut triangle = srgb_primaries(white).map(|[x, y]| (x, y)).to_vec();
     triangle.extend(triangle.first().copied());
     marks.push(Mark::Dashes { points: triangle, color: SERIES[0] });
     marks.push(outline(&xy, 1.2));
@@ -144,11 +142,11 @@ fn lab_place(sample: &GamutSample) -> [f64; 2] {
     [sample.color.lab.a, sample.color.lab.b]
 }
 
-/// Axes of a* and b* with one range, so that a circle stays round.
+/// Axes of a* and b* with the same range, so that a circle stays round.
 fn axes(whole: &Boundary) -> [Axis; 2] {
-    let all = || whole.polygon().into_iter().flatten();
-    let low = (all().fold(0.0, f64::min) / 20.0 - 0.1).floor() * 20.0;
-    let high = (all().fold(0.0, f64::max) / 20.0 + 0.1).ceil() * 20.0;
+    let all = whole.polygon().into_iter().flatten();
+    let low = (all.clone().fold(0.0, f64::min) / 20.0 - 0.1).floor() * 20.0;
+    let high = (all.fold(0.0, f64::max) / 20.0 + 0.1).ceil() * 20.0;
     ["a*", "b*"].map(|name| Axis { name: name.to_owned(), ..Axis::linear("", "", low, high, 8) })
 }
 
@@ -204,7 +202,7 @@ fn masstones(
     [Mark::Dots { points, color: INK, radius: 2.2 }, Mark::Names { names, around, color: INK }]
 }
 
-/// Labels of greys would overlap. Chromatic pigments come first.
+/// We label chromatic pigments first, because labels of greys would overlap.
 fn far(((x, y), _): &((f64, f64), String)) -> f64 {
     x.hypot(*y)
 }
@@ -219,7 +217,7 @@ fn outline_columns(group: &str, first: &str, second: &str) -> [Column; 5] {
     ]
 }
 
-/// Appends the outermost sample of each sector to `data`. `group` goes into the first column.
+/// Appends the outermost sample of each sector to `data`, with `group` in the first column.
 fn push_outline(
     data: &mut Table,
     palette: &Palette<'_>,
@@ -244,9 +242,9 @@ fn push_outline(
 
 /// Parts of white to one part of pigment in the tint next to the masstone.
 const TINT: f64 = 3.0;
-/// Maximum CIEDE2000 difference of a metameric pair under the first light (chosen by eye).
+/// A metameric pair has at most this CIEDE2000 difference under the first light (chosen by eye).
 const ALIKE: f64 = 2.0;
-/// Maximum number of metameric pairs shown.
+/// We show at most this many metameric pairs.
 const PAIRS: usize = 8;
 
 pub(crate) fn lights_section(subject: &Subject<'_>) -> Section {

@@ -1,5 +1,5 @@
-//! Sections on the palette of a library: mixtures, gamut, hiding power, tinting strength and other lights.
-//! Their numbers come from `calibrate::palette`.
+//! Sections on the palette of a library: mixtures, gamut, hiding power, tinting strength and other
+//! lights. We get the numbers from `calibrate::palette`.
 
 mod patch;
 mod gamut;
@@ -25,7 +25,7 @@ use patch::{
 
 pub(crate) use gamut::{gamut_section, lights_section};
 
-/// Width for the names, in px.
+/// Width in px for the names. The other sizes are in px too.
 const NAME: f64 = 170.0;
 
 pub(crate) fn mixing_section(subject: &Subject<'_>) -> Section {
@@ -145,15 +145,10 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     subject.figure(words, Drawing::Canvas(canvas), data)
 }
 
-/// Width for the names, in px.
 const GRADED_NAME: f64 = 112.0;
-/// Width for the mean errors, in px.
 const MEAN: f64 = 84.0;
-/// Height of a patch, in px.
 const PATCH: f64 = 40.0;
-/// Height of a row, in px.
 const ROW: f64 = 60.0;
-/// Height above the first row, in px.
 const HEAD: f64 = 40.0;
 
 pub(crate) fn graded_section(subject: &Subject<'_>) -> Section {
@@ -181,18 +176,18 @@ pub(crate) fn graded_section(subject: &Subject<'_>) -> Section {
     })
 }
 
-/// Quadratures of three and eight wavelengths: from the report if it has both, else newly computed.
+/// Quadratures of three and eight wavelengths. We take them from the report if it has both, and
+/// compute them otherwise.
 fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
-    let tried = |count: usize| {
+    let tried = [8, 3].map(|count| {
         let mut trials = subject.quadratures.iter();
-        trials
-            .find(|trial: &&QuadratureTrial| {
-                trial.method == QuadratureMethod::Library && trial.rule.nodes_nm.len() == count
-            })
-            .map(|trial| trial.rule.clone())
-    };
-    match (tried(8), tried(3)) {
-        (Some(eight), Some(three)) => PainterRules { eight, three },
+        let trial = trials.find(|trial: &&QuadratureTrial| {
+            trial.method == QuadratureMethod::Library && trial.rule.nodes_nm.len() == count
+        });
+        trial.map(|trial| trial.rule.clone())
+    });
+    match tried {
+        [Some(eight), Some(three)] => PainterRules { eight, three },
         _ => PainterRules::of(palette).expect("three and eight wavelengths are allowed"),
     }
 }
@@ -319,9 +314,9 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     };
     let mut powers = hiding_powers(palette);
     powers.sort_by(|a, b| sort(a.hides).total_cmp(&sort(b.hides)));
-    let known = || powers.iter().filter_map(|power| power.hides.thickness());
-    let low = known().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
-    let axis = Axis::log(quantity, &unit, low, known().fold(0.0, f64::max), 6);
+    let known = powers.iter().filter_map(|power| power.hides.thickness());
+    let low = known.clone().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
+    let axis = Axis::log(quantity, &unit, low, known.fold(0.0, f64::max), 6);
     let mut data = Table::new([
         Column::text("pigment"),
         Column::quantity(&quantity.to_lowercase(), &unit, 3),
@@ -408,15 +403,15 @@ fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
 
 fn cards(palette: &Palette<'_>) -> String {
     let cards = palette.cards();
-    let card = |name: &str, measured: bool, values: &[f64]| {
-        let how = if measured { "measured" } else { "not measured, taken as the standard's" };
+    let texts = [
+        ("Black", cards.black_measured, &cards.black),
+        ("White", cards.white_measured, &cards.white),
+    ];
+    let texts = texts.map(|(name, is_measured, values)| {
+        let how = if is_measured { "measured" } else { "not measured, taken as the standard's" };
         format!("{name} card: Y = {:.1}, {how}.", palette.weights().xyz(values).y)
-    };
-    format!(
-        "{} {}",
-        card("Black", cards.black_measured, &cards.black),
-        card("White", cards.white_measured, &cards.white)
-    )
+    });
+    texts.join(" ")
 }
 
 /// `value` to three significant digits, with at most `most` decimals.

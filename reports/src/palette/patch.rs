@@ -9,7 +9,7 @@ use crate::style::{Color, FAINT, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT, WIDTH
 use crate::subject::Subject;
 use crate::svg::{Anchor, Canvas};
 
-/// Side of the notch in a patch, in px.
+/// Side of the notch in a patch, in px. The other sizes are in px too.
 const PATCH_NOTCH: f64 = 6.0;
 
 /// Draws a patch of colour with its upper left corner `at`, in px. The upper right corner is cut
@@ -67,47 +67,46 @@ pub(super) fn color_columns() -> [Column; 5] {
     ]
 }
 
-/// The cells of a colour for [`color_columns`].
 pub(super) fn color_cells(appearance: &Appearance) -> [Cell; 5] {
     let outside = if appearance.srgb.in_gamut() { "no" } else { "yes" };
     let [l, a, b] = appearance.lab.to_array();
     [l.into(), a.into(), b.into(), Color::from_rgb(appearance.srgb).into(), outside.into()]
 }
 
-/// The figure's own columns followed by the columns of a colour.
+/// The figure's own columns, then the columns of a colour.
 pub(super) fn columns(own: impl Into<Vec<Column>>) -> Vec<Column> {
     let mut all: Vec<Column> = own.into();
     all.extend(color_columns());
     all
 }
 
-/// A row for [`columns`]: the figure's own cells followed by the cells of a colour.
+/// A row for [`columns`]: the figure's own cells, then the cells of a colour.
 pub(super) fn row(own: impl Into<Vec<Cell>>, appearance: &Appearance) -> Vec<Cell> {
     let mut all: Vec<Cell> = own.into();
     all.extend(color_cells(appearance));
     all
 }
 
-/// Explanation of the notch in a patch.
+/// Text that explains the notch in a patch.
 pub(super) const NOTCH: &str = "A notched corner: outside sRGB, shown clipped.";
 
-/// The paints that can be mixed, or `None` if there are none.
+/// The paints that you can mix, or `None` if there are none.
 pub(super) fn palette<'a>(subject: &'a Subject<'_>) -> Option<Palette<'a>> {
     Palette::new(subject.library, subject.viewing, subject.cards.clone()).ok()
 }
 
-/// The measured samples that the palette can mix, or empty without measurements.
+/// The measured samples that the palette can mix. This is empty without measurements.
 pub(super) fn measured(subject: &Subject<'_>, palette: &Palette<'_>) -> Vec<MeasuredSample> {
     let comparison = subject.comparison.as_ref();
     comparison.map_or_else(Vec::new, |comparison| comparison.measured_samples(palette))
 }
 
-/// Name of the paint that lightens tints: the white, or water where the palette has none.
+/// Name of the paint that lightens tints: the white, or water if the palette has none.
 pub(super) fn thinner(palette: &Palette<'_>) -> String {
     palette.white().map_or_else(|| "water".to_owned(), |white| palette.label(white))
 }
 
-/// A sentence that says whether mixtures are drawn as opaque films or as washes.
+/// A sentence that says whether we draw mixtures as opaque films or as washes.
 pub(super) fn films(palette: &Palette<'_>) -> &'static str {
     match palette.library().amounts {
         AmountKind::Relative => "Films that hide.",
@@ -117,7 +116,6 @@ pub(super) fn films(palette: &Palette<'_>) -> &'static str {
     }
 }
 
-/// The unit of film thickness, as text.
 pub(super) fn thickness_unit(palette: &Palette<'_>) -> String {
     match palette.white() {
         Some(white) => format!("S d of {} = 1", palette.label(white)),
@@ -125,26 +123,19 @@ pub(super) fn thickness_unit(palette: &Palette<'_>) -> String {
     }
 }
 
-/// Width for the names, in px.
 const NAME: f64 = 190.0;
-/// Width for the values, in px.
 const VALUE: f64 = 200.0;
-/// Height of a row, in px.
 const ROW: f64 = 24.0;
-/// Height above the first row, in px.
 const HEAD: f64 = 8.0;
 /// Height for the axis below the last row, in px.
 const FOOT: f64 = 48.0;
 
-/// One bar with its texts.
 pub(super) struct Bar {
-    /// Name, written on the left.
     pub(super) name: String,
     /// Value on the axis, or `None` for no bar.
     pub(super) value: Option<f64>,
     /// Value as text, written on the right.
     pub(super) label: String,
-    /// Colour of the bar.
     pub(super) appearance: Appearance,
 }
 
@@ -176,19 +167,16 @@ pub(super) fn bars(axis: &Axis, bars: &[Bar]) -> Canvas {
 
 /// Thicknesses of the stripes, in the unit of [`thickness_unit`] (chosen by eye).
 const THICKNESSES: [f64; 5] = [0.3, 1.0, 3.0, 10.0, 30.0];
-/// Cards in a row.
 const COLUMNS: usize = 6;
-/// Width and height of a card, in px.
+/// Width and height of a card.
 const CARD: (f64, f64) = (140.0, 84.0);
-/// Width of a stripe, in px.
 const STRIPE: f64 = 20.0;
-/// Space between cards, in px.
 const GAP: f64 = 18.0;
-/// Height of the name above a card, in px: two lines.
+/// Height of the name above a card: two lines.
 const CARD_NAME: f64 = 28.0;
-/// Height above a card, in px.
+/// Height above a card.
 const CARD_HEAD: f64 = CARD_NAME + 6.0;
-/// Height for the thicknesses below a card, in px.
+/// Height for the thicknesses below a card.
 const CARD_FOOT: f64 = 20.0;
 
 pub(super) fn figure(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {

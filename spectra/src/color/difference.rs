@@ -1,13 +1,13 @@
-//! Colour differences in CIELAB, and metamerism: the difference under one light of two colours that match under
-//! another.
+//! Colour differences in CIELAB, and metamerism: the difference under one light of two colours that
+//! match under another.
 //!
-//! CIE94 and CMC are asymmetric by definition. Their first colour is the standard.
+//! CIE94 and CMC are asymmetric by definition: pass the standard first, or you get another number.
 
 use documents::hint::Explain;
 
 use super::xyz::{Lab, Matrix3, Xyz};
 
-/// CIE 1976 colour difference, the Euclidean distance in CIELAB (ISO/CIE 11664-4).
+/// CIE 1976 colour difference: the Euclidean distance in CIELAB (ISO/CIE 11664-4).
 #[must_use]
 pub fn delta_e_cie76(first: Lab, second: Lab) -> f64 {
     let (d_l, d_a, d_b) = differences(first, second);
@@ -40,7 +40,7 @@ impl ColorDifferences {
     }
 }
 
-/// The application for which CIE94 weights its terms.
+/// The application that you use CIE94 for. It sets the weight of lightness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Cie94 {
     /// Graphic arts and paint (k_L = 1).
@@ -105,27 +105,27 @@ pub fn delta_e_cmc(standard: Lab, sample: Lab, weights: Cmc) -> f64 {
     (l * l + c * c + d_h_squared / (s_h * s_h)).sqrt()
 }
 
-/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6, mean hue by Sharma, Wu and
-/// Dalal 2005, equation 14).
+/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6, mean hue by Sharma,
+/// Wu and Dalal 2005, equation 14).
 ///
-/// Not taken from the crate `palette`: its version 0.7.7 leaves a mean hue above 360 degrees
-/// unreduced, an error of 2e-5 where two hues lie on either side of 0.
+/// We do not take this from the crate `palette`, because its version 0.7.7 leaves a mean hue above
+/// 360 degrees unreduced, an error of 2e-5 where two hues lie on either side of 0.
 #[must_use]
 pub fn delta_e_ciede2000(first: Lab, second: Lab) -> f64 {
     let [l, c, h, r_t] = ciede2000_terms(first, second);
     (l * l + c * c + h * h + r_t * c * h).max(0.0).sqrt()
 }
 
-/// Three residuals with squares that sum to the squared CIEDE2000 difference, at any distance, for least
-/// squares. They are the weighted differences of lightness, chroma and hue, the last two rotated so that the
-/// cross term of the formula vanishes.
+/// Three residuals for least squares. Their squares sum to the squared CIEDE2000 difference at any
+/// distance. They are the weighted differences of lightness, chroma and hue, the last two rotated
+/// so that the cross term of the formula vanishes.
 #[must_use]
 pub fn ciede2000_residuals(first: Lab, second: Lab) -> [f64; 3] {
     let [l, c, h, r_t] = ciede2000_terms(first, second);
     [l, c + r_t / 2.0 * h, h * (1.0 - r_t * r_t / 4.0).max(0.0).sqrt()]
 }
 
-/// The weighted differences of lightness, chroma and hue, and the rotation term R_T.
+/// Returns the weighted differences of lightness, chroma and hue, and the rotation term R_T.
 fn ciede2000_terms(first: Lab, second: Lab) -> [f64; 4] {
     let mean_chroma = f64::midpoint(first.a.hypot(first.b), second.a.hypot(second.b));
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(mean_chroma));
@@ -161,12 +161,12 @@ fn ciede2000_terms(first: Lab, second: Lab) -> [f64; 4] {
     [d_l / s_l, d_c / s_c, d_h / s_h, r_t]
 }
 
-/// The linear map M for which `|M (lab - center)|` approximates the CIEDE2000 difference of
-/// colours near `center`, for least squares.
+/// The linear map M with `|M (lab - center)|` close to the CIEDE2000 difference near `center`. Use
+/// this for least squares.
 ///
-/// The weighting functions are taken at `center`. For random colours at a distance of 0.05
-/// the result agrees with CIEDE2000 to 1 % where the chroma exceeds 5, and to 6 % near grey,
-/// where the hue changes fast.
+/// We take the weighting functions at `center`. For random colours at a distance of 0.05 the result
+/// agrees with CIEDE2000 to 1 % where the chroma exceeds 5, and to 6 % near grey, where the hue
+/// changes fast.
 #[must_use]
 pub fn ciede2000_metric(center: Lab) -> Matrix3 {
     let chroma = center.a.hypot(center.b);
@@ -227,12 +227,12 @@ fn hue_degrees(a: f64, b: f64) -> f64 {
     if degrees < 0.0 { degrees + 360.0 } else { degrees }
 }
 
-/// Corrects a sample under the test light for its difference from the standard under the
-/// reference light: each tristimulus value is multiplied by the ratio of standard to sample
-/// under the reference light (CIE 15:2018, section 9.2).
+/// Corrects a sample under the test light for its difference from the standard under the reference
+/// light: each tristimulus value is multiplied by the ratio of standard to sample under the
+/// reference light (CIE 15:2018, section 9.2).
 ///
 /// # Errors
-/// [`MetamerismError`] if the sample is black under the reference light, which leaves the ratio
+/// [`MetamerismError`] if the sample is black under the reference light, because the ratio is then
 /// undefined.
 pub fn corrected_to_match(
     sample_test: Xyz,
@@ -252,9 +252,9 @@ pub fn corrected_to_match(
     Ok(corrected.into())
 }
 
-/// Special metamerism index for a change of illuminant (CIE 15:2018, section 9.2): the
-/// CIEDE2000 difference of the pair under the test light after [`corrected_to_match`].
-/// `standard` and `sample` each hold XYZ under the reference light and under the test light.
+/// Special metamerism index for a change of illuminant (CIE 15:2018, section 9.2): the CIEDE2000
+/// difference of the pair under the test light after [`corrected_to_match`]. Pass `standard` and
+/// `sample` each as XYZ under the reference light and under the test light.
 ///
 /// # Errors
 /// [`MetamerismError`] if the sample is black under the reference light.

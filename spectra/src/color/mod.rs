@@ -1,7 +1,8 @@
 //! Colour: tristimulus values, CIELAB, display RGB, and colour differences.
 //!
-//! XYZ is scaled so that the white has Y = 100. White points are computed from an illuminant and an observer.
-//! Only the white points of RGB standards are constants, because the standards define them.
+//! XYZ is scaled so that the white has Y = 100. We compute white points from an illuminant and an
+//! observer. Only the white points of RGB standards, e.g. sRGB, are constants, because the
+//! standards define them.
 
 mod xyz;
 mod rgb;

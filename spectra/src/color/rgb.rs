@@ -1,5 +1,5 @@
-//! Display RGB (sRGB and Display P3), colours as text, and colours outside the gamut of a display, which are moved
-//! to the most colourful displayable colour of the same hue and lightness.
+//! Display RGB (sRGB and Display P3), colours as text, and the mapping of colours that a display
+//! cannot show to ones that it can.
 
 use std::str::FromStr;
 use std::sync::LazyLock;
@@ -32,7 +32,7 @@ impl RgbSpace {
         }
     }
 
-    /// Note on a colour that a display of this space cannot show, for people.
+    /// The note that people read beside a colour that this display cannot show.
     #[must_use]
     pub fn outside_note(self) -> &'static str {
         match self {
@@ -47,8 +47,8 @@ impl RgbSpace {
         Xyy { x: 0.3127, y: 0.3290, luminance: 100.0 }.into()
     }
 
-    /// The matrix from linear RGB (white 1) to XYZ (white Y = 100). Computed from the primaries
-    /// at full precision. The standards list a rounded one.
+    /// The matrix from linear RGB (white 1) to XYZ (white Y = 100). We compute it from the
+    /// primaries at full precision, because the standards list a rounded one.
     #[must_use]
     pub fn xyz_from_linear(self) -> Matrix3 {
         let columns = self.primaries().map(|(x, y)| [x / y, 1.0, (1.0 - x - y) / y]);
@@ -63,8 +63,8 @@ impl RgbSpace {
         primaries.after(&Matrix3::diagonal(scale))
     }
 
-    /// Linear RGB of `xyz` under the white point `white`, adapted to the white of the display.
-    /// Below 0 or above 1 outside the gamut.
+    /// Linear RGB of `xyz` under the white point `white`, adapted to the white of the display. If
+    /// the display cannot show the colour, a channel is below 0 or above 1.
     #[must_use]
     pub fn linear_from_xyz(self, xyz: Xyz, white: Xyz, adaptation: Adaptation) -> Rgb {
         let at_display = adapt(xyz, white, self.white(), adaptation);
@@ -139,8 +139,8 @@ impl Rgb {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// The code of [`Rgb::to_hex`] for people: a colour outside of `space` is marked, since its code belongs
-    /// to another colour.
+    /// The code of [`Rgb::to_hex`] for people. If the colour lies outside `space`, this adds a
+    /// note, because the code then belongs to another colour.
     #[must_use]
     pub fn to_hex_with_note(self, space: RgbSpace) -> String {
         let hex = self.to_hex();
@@ -159,8 +159,8 @@ pub struct ColorValues {
     pub xyz: Xyz,
     /// CIELAB relative to the white of the light.
     pub lab: Lab,
-    /// Encoded sRGB, adapted from the light's white to the display's (Bradford). Outside
-    /// 0 to 1 where the display cannot show the colour.
+    /// Encoded sRGB, adapted from the light's white to the display's (Bradford). A channel is
+    /// outside 0 to 1 if the display cannot show the colour.
     pub srgb: Rgb,
 }
 
@@ -196,12 +196,12 @@ impl ColorValues {
 pub enum ColorCode {
     /// Encoded sRGB, each channel 0 to 1.
     Srgb(Rgb),
-    /// CIELAB relative to the white of any light.
+    /// CIELAB relative to the white of the light that you choose later.
     Lab(Lab),
 }
 
 impl ColorCode {
-    /// CIELAB of the colour, relative to the display's white for sRGB.
+    /// CIELAB of the colour. For sRGB it is relative to the display's white.
     #[must_use]
     pub fn lab(self) -> Lab {
         match self {
@@ -213,8 +213,8 @@ impl ColorCode {
         }
     }
 
-    /// XYZ of the colour under a light with the given white. sRGB is adapted from the
-    /// display's white (Bradford).
+    /// XYZ of the colour under a light with the given white. This adapts sRGB from the display's
+    /// white (Bradford).
     #[must_use]
     pub fn xyz(self, white: Xyz) -> Xyz {
         match self {
@@ -243,7 +243,7 @@ pub struct ColorCodeError {
     pub text: String,
 }
 
-/// Halvings of the range of chroma: to a 16,000th of it, below a step of 8 bits.
+/// Halvings of the range of chroma. This reaches a 16,000th of it, less than a step of 8 bits.
 const HALVINGS: usize = 14;
 
 /// XYZ relative to the white of sRGB from linear sRGB, and the inverse.
@@ -255,12 +255,13 @@ static MATRICES: LazyLock<[Matrix3; 2]> = LazyLock::new(|| {
 });
 
 impl Rgb {
-    /// The linear sRGB colour itself if the display can show it (bit for bit), else the most
-    /// colourful one that it can show of the same lightness L* and hue angle of CIELAB. Lighter
-    /// than white is white, darker than black is black.
+    /// Maps a linear sRGB colour into the gamut. You get the colour back bit for bit if the display
+    /// can show it. Otherwise this returns the most colourful displayable colour of the same
+    /// lightness L* and hue angle. A colour lighter than white becomes white, and one darker than
+    /// black becomes black.
     ///
     /// On the line from a colour to the grey of its lightness, f(X) and f(Z) of CIELAB move evenly
-    /// to f(Y), which stays (ISO/CIE 11664-4, equations 1 to 6).
+    /// to f(Y), which does not change (ISO/CIE 11664-4, equations 1 to 6).
     #[must_use]
     pub fn mapped_into_gamut(self) -> Self {
         if self.in_gamut() || self.0.iter().any(|value| value.is_nan()) {
@@ -287,12 +288,10 @@ impl Rgb {
     }
 }
 
-/// The function f of CIELAB.
 fn root(t: f64) -> f64 {
     if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 }
 }
 
-/// The inverse of [`root`].
 fn cubed(f: f64) -> f64 {
     if f > 6.0 / 29.0 { f * f * f } else { (116.0 * f - 16.0) / KAPPA }
 }

@@ -4,9 +4,9 @@ use super::xyz::Xyz;
 use crate::illuminant::{Illuminant, Observer};
 use documents::hint::Explain;
 
-/// Least whiteness to which the formula applies. The greatest is 5 Y - 280.
+/// The formula applies from this whiteness on, up to 5 Y - 280.
 const LEAST_WHITENESS: f64 = 40.0;
-/// Range of tints to which the formula applies.
+/// The formula applies to tints in this range.
 const TINTS: [f64; 2] = [-4.0, 2.0];
 
 /// Whiteness W and tint T of the CIE (CIE 15:2018, section 9.4).
@@ -35,8 +35,8 @@ impl Whiteness {
     /// Whiteness of `xyz` under the white point `white` of `light` for `observer`.
     ///
     /// # Errors
-    /// [`WhitenessError`] for another light than D65 or C, an observer for which there is no formula, or a
-    /// colour that is not white in the sense of the CIE.
+    /// [`WhitenessError`] if the light is not D65 or C, if the CIE has no formula for the observer,
+    /// or if the CIE does not call this colour white.
     pub fn of(
         xyz: Xyz,
         white: Xyz,
@@ -74,7 +74,7 @@ impl Whiteness {
 /// A colour that has no CIE whiteness.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum WhitenessError {
-    /// The formula is made for daylight.
+    /// The CIE made the formula for daylight only.
     #[error("whiteness is defined under D65 and C, not under {name}")]
     #[hint("choose [illuminant=D65]")]
     #[fault(Setting)]
@@ -82,7 +82,7 @@ pub enum WhitenessError {
         /// Name of the light.
         name: String,
     },
-    /// The formula is made for the observers of 1931 and 1964.
+    /// The CIE made the formula for the observers of 1931 and 1964 only.
     #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {observer}")]
     #[hint("choose [observer=10]")]
     #[fault(Setting)]
@@ -95,7 +95,7 @@ pub enum WhitenessError {
         "not white: W {whiteness:.1} is not between {LEAST_WHITENESS} and 5 Y - 280 = {most:.1}"
     )]
     NotWhite {
-        /// Result of the formula, which means nothing.
+        /// Result of the formula. It has no meaning here.
         whiteness: f64,
         /// Greatest whiteness at this luminance factor.
         most: f64,

@@ -47,7 +47,7 @@ impl From<[f64; 3]> for Xyz {
 }
 
 impl From<Xyy> for Xyz {
-    /// Converts to XYZ. A chromaticity with y = 0 has no finite X and Z and gives black.
+    /// Converts to XYZ. If y is 0, X and Z have no finite value, and you get black.
     fn from(xyy: Xyy) -> Self {
         if xyy.y == 0.0 {
             return Self::default();
@@ -126,8 +126,8 @@ impl Lab {
         }
     }
 
-    /// Parses three numbers separated by commas or blanks: L* from 0 to 100, a* and b* from
-    /// -300 to 300, optionally inside `lab(..)`. `None` for any other text.
+    /// Parses three numbers separated by commas or blanks: L* from 0 to 100, a* and b* from -300 to
+    /// 300, optionally inside `lab(..)`. Any other text gives `None`.
     #[must_use]
     pub fn from_text(text: &str) -> Option<Self> {
         let lower = text.trim().to_ascii_lowercase();
@@ -215,7 +215,7 @@ fn uniform_chromaticity(xyz: Xyz) -> [f64; 2] {
     if sum > 0.0 { [4.0 * xyz.x / sum, 9.0 * xyz.y / sum] } else { [0.0; 2] }
 }
 
-/// The cone space in which von Kries adaptation is computed.
+/// The cone space in which we compute von Kries adaptation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Adaptation {
     /// Bradford transform (Lam 1985) in its linear form, as used by ICC profiles.
@@ -247,9 +247,10 @@ impl Adaptation {
         self.partial_matrix(from, to, 1.0)
     }
 
-    /// The matrix for an eye that adapted from the white `from` to the white `to` by a `degree`
-    /// D of 0 (XYZ stay) to 1 (completely). It scales each response of the cones by
-    /// D to / from + 1 - D (CIECAM02, CIE 159:2004, for whites of the same luminance).
+    /// The matrix for an eye that adapted from the white `from` to the white `to` by the `degree`
+    /// D. With 0 this leaves XYZ as they are. With 1 the eye adapts completely. The matrix scales
+    /// each response of the cones by D to / from + 1 - D (CIECAM02, CIE 159:2004, for whites of the
+    /// same luminance).
     #[must_use]
     pub fn partial_matrix(self, from: Xyz, to: Xyz, degree: f64) -> Matrix3 {
         let cone_from_xyz = self.cone_from_xyz();
@@ -267,7 +268,7 @@ pub fn adapt(xyz: Xyz, from: Xyz, to: Xyz, adaptation: Adaptation) -> Xyz {
     adaptation.matrix(from, to).apply(xyz.to_array()).into()
 }
 
-/// A 3 x 3 matrix as an array of rows. Names read target from source: `rgb_from_xyz`.
+/// A 3 x 3 matrix as an array of rows. We name matrices by target and source, e.g. `rgb_from_xyz`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matrix3(pub [[f64; 3]; 3]);
 
@@ -303,7 +304,7 @@ impl Matrix3 {
     /// The inverse, by cofactors.
     ///
     /// # Panics
-    /// If the matrix is singular. Matrices of independent primaries or cone responses are not.
+    /// If the matrix is singular. This never happens for independent primaries or cone responses.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let m = &self.0;

@@ -64,9 +64,9 @@ fn cells(line: &str) -> Vec<String> {
 
 const FORMAT: &str = "Avantes AvaSoft 7";
 
-/// Numbers between the coefficients and the pixels in version 60, where the serial number stands there.
+/// Numbers between the coefficients and the pixels in version 60. The serial number stands there.
 const SERIAL: usize = 9;
-/// Numbers of serial number and name before the coefficients in version 70.
+/// Numbers of the serial number and the name, which version 70 writes before the coefficients.
 const NAMES: usize = SERIAL + 64;
 /// Numbers between the pixels and the data in either version.
 const SETTINGS: [usize; 2] = [2, 19];
@@ -127,8 +127,8 @@ fn is_pixel(pixel: f64) -> bool {
 
 const AVASOFT8_FORMAT: &str = "Avantes AvaSoft 8";
 
-/// Bytes from the settings of a measurement behind its averages to the comment: corrections and triggers,
-/// times and temperatures, coefficients.
+/// Bytes between the averages and the comment of a measurement: corrections, triggers, times,
+/// temperatures and coefficients.
 const AVASOFT8_SETTINGS: usize = 25 + 8 + 20 + 40;
 /// Bytes of the comment, and of the group behind the tables.
 const COMMENT: usize = 130;
@@ -162,7 +162,7 @@ pub(super) fn read_avasoft8(
     Ok(records)
 }
 
-/// The next spectrum, with the counts of which it is made.
+/// Reads the next spectrum and the counts from which it was made.
 fn spectrum(
     file: &str,
     reader: &mut BinaryBytes<'_>,
@@ -221,8 +221,8 @@ fn spectrum(
     Ok(records)
 }
 
-/// One spectrum of `values` at the wavelengths `nm` of the pixels. Pixels without a finite value are left
-/// out, with a remark.
+/// One spectrum of `values` at the wavelengths `nm` of the pixels. This leaves out pixels without a
+/// finite value and adds a remark.
 pub(super) fn of_pixels(
     file: &str,
     name: String,

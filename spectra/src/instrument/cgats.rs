@@ -61,7 +61,7 @@ enum Part {
     Rows,
 }
 
-/// The names of fields in a line, separated by tabs if it contains any, otherwise by blanks.
+/// Splits a line into names of fields, at tabs if it contains any, otherwise at blanks.
 fn named(number: usize, line: &str, words: Vec<String>) -> Vec<Cell> {
     if line.contains('\t') {
         let cells = line.trim().split('\t').map(|cell| cell.trim().trim_matches('"'));
@@ -71,7 +71,6 @@ fn named(number: usize, line: &str, words: Vec<String>) -> Vec<Cell> {
     }
 }
 
-/// The table that is being read.
 #[derive(Default)]
 struct Table {
     /// Line, keyword and value of each keyword so far.
@@ -162,7 +161,6 @@ impl Table {
         found.map(|(_, _, value)| value.as_str())
     }
 
-    /// The measured quantity according to the keywords.
     fn quantity(&self) -> MeasuredQuantity {
         use MeasuredQuantity::{Power, Reflectance, Transmittance, Unstated};
         let words = ["QUANTITY", "MEAS_TYPE", "MEASUREMENT_TYPE"];
@@ -202,10 +200,10 @@ impl Table {
     }
 }
 
-/// The place in the file that gives the wavelength of a value.
+/// Where the file gives the wavelength of a value.
 #[derive(Clone, Copy, PartialEq)]
 enum WavelengthSource {
-    /// In the name of the value's field, in nm.
+    /// In the name of the value's field, e.g. `SPEC_400`, in nm.
     Nm(f64),
     /// In the field before the value's.
     FieldBefore,
@@ -216,7 +214,7 @@ pub(super) struct Fields {
     /// Column of each spectral value, with the source of its wavelength.
     values: Vec<(usize, WavelengthSource)>,
     unit: Unit,
-    /// Value of a perfect white (keyword SPECTRAL_NORM), if the file states it.
+    /// Value of a perfect white, if the file states it (keyword SPECTRAL_NORM).
     norm: Option<f64>,
     name: Option<usize>,
     id: Option<usize>,
@@ -279,8 +277,8 @@ impl Fields {
         Ok(fields)
     }
 
-    /// Argyll rounds the wavelengths in field names to whole nm. Restores the exact ones from
-    /// the keywords if these agree with the names.
+    /// Restores the exact wavelengths from the keywords, because Argyll rounds the ones in field
+    /// names to whole nm. This changes nothing if keywords and names disagree.
     fn restore_exact_wavelengths(&mut self, bands: f64, start: f64, end: f64) {
         let last = (self.values.len().max(2) - 1) as f64;
         let exact = |index: usize| start + (end - start) * index as f64 / last;
@@ -317,7 +315,6 @@ impl Fields {
         }
     }
 
-    /// Reads the spectrum of one row, with its unit.
     pub(super) fn spectrum(
         &self,
         file: &str,

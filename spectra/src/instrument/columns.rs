@@ -1,8 +1,8 @@
 //! Columns of numbers: a wavelength and one or more values, with or without headings.
 //!
-//! Cells are separated by semicolon, tab, spaces or comma. A decimal comma is read where commas
-//! do not separate cells. Lines that start with `#` are comments. Bruker OPUS data point tables (.dpt) are
-//! columns without a heading.
+//! Cells are separated by semicolon, tab, spaces or comma. You may write a decimal comma if commas
+//! do not separate cells. Lines that start with `#` are comments. Bruker OPUS data point tables
+//! (.dpt) are columns without a heading.
 
 use super::decode::{Decimal, lines, number, required_number};
 use super::measured::{
@@ -10,8 +10,7 @@ use super::measured::{
 };
 use super::points::{Duplicates, Point, ordered};
 
-/// Whether `text` consists of such columns: most lines are numbers, and the first number of
-/// each is a wavelength.
+/// Whether `text` consists of columns: most lines are numbers, and each starts with a wavelength.
 pub(super) fn is_column_text(text: &str) -> bool {
     let Some(layout) = Layout::of(content(text).map(|(_, line)| line)) else { return false };
     let mut rows = 0_usize;
@@ -74,7 +73,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         .collect()
 }
 
-/// Whether the lines above the rows state figures of a light, as light meters do.
+/// Whether the lines above the rows state figures of a light, e.g. lux. Light meters write these.
 fn is_of_a_light(words: &str) -> bool {
     let lower = words.to_ascii_lowercase();
     lower
@@ -102,21 +101,19 @@ pub(super) struct ColumnLabel {
 /// Rows of numbers, and the lines above them.
 pub(super) struct NumberTable<'a> {
     pub(super) above: Vec<&'a str>,
-    /// `None` if there are no rows.
     layout: Option<Layout>,
-    /// Rows with their line numbers. All have the same number of cells, at least 2.
+    /// Rows with their line numbers. All rows have the same number of cells, at least 2.
     pub(super) rows: Vec<(usize, Vec<f64>)>,
 }
 
 impl NumberTable<'_> {
-    /// The headings, from the last line above the rows that has one for every column.
+    /// The headings. We take the last line above the rows that has one for every column.
     fn headings(&self, width: usize) -> Vec<&str> {
         let Some(layout) = self.layout else { return Vec::new() };
         let cells = self.above.iter().rev().map(|line| layout.cells(line));
         cells.into_iter().find(|cells| cells.len() == width).unwrap_or_default()
     }
 
-    /// The spectrum in `column`.
     pub(super) fn spectrum(
         &self,
         file: &str,
@@ -160,7 +157,7 @@ pub(super) fn table<'a>(file: &str, text: &'a str) -> Result<NumberTable<'a>, In
     Ok(table)
 }
 
-/// The text with its first `count` lines left empty, so that the others keep their numbers.
+/// Empties the first `count` lines of the text. The others keep their line numbers.
 pub(super) fn below(text: &str, count: usize) -> String {
     let mut data = "\n".repeat(count);
     for (_, line) in lines(text).skip(count) {
@@ -178,12 +175,9 @@ fn content(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
     lines.into_iter()
 }
 
-/// The unit of an abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
-    /// Wavelength in nm.
     Nanometres,
-    /// Wavelength in micrometres.
     Micrometres,
     /// Waves per centimetre.
     Wavenumbers,
@@ -226,8 +220,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The layout under which the most lines are rows of two or more numbers. `None` if no line
-    /// is. A comma counts as separator only if no other separator fits as well.
+    /// Finds the layout that makes the most lines rows of two or more numbers, or `None` if it
+    /// makes none. We take a comma as separator only if no other separator fits as well.
     pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Option<Self> {
         let mut best: (usize, Option<Self>) = (0, None);
         for separator in [Some(';'), Some('\t'), None, Some(',')] {
@@ -247,7 +241,7 @@ impl Layout {
         best.1
     }
 
-    /// The cells of a line, trimmed, without empty ones at its end.
+    /// The cells of a line, trimmed, but not the empty ones at its end.
     pub(super) fn cells<'a>(&self, line: &'a str) -> Vec<&'a str> {
         split(line, self.separator)
     }
@@ -257,8 +251,8 @@ impl Layout {
         is_row(&split(line, self.separator))
     }
 
-    /// The numbers of a line. It must have `width` cells, or any number of 2 and more if
-    /// `width` is 0.
+    /// The numbers of a line. The line must have `width` cells. If you pass 0, any number from 2 on
+    /// will do.
     pub(super) fn numbers(
         &self,
         file: &str,
@@ -304,7 +298,7 @@ fn is_row(cells: &[&str]) -> bool {
         })
 }
 
-/// An abscissa above this must be a wavenumber: no colour instrument measures longer
+/// We take an abscissa above this for a wavenumber, because no colour instrument measures longer
 /// wavelengths.
 const LONGEST_NM: f64 = 3300.0;
 

@@ -1,12 +1,12 @@
 //! CxF3, the Color Exchange Format (ISO 17972-1:2015, namespace "CxF3-core").
 //!
-//! The objects of a collection contain spectra. Each spectrum refers to a colour specification
-//! with the increment of the wavelengths, the geometry and the device. Reflectance and
-//! transmittance are fractions, white near 1. Objects with colours only are skipped.
+//! The objects of a collection contain spectra. Each spectrum refers to a colour specification with
+//! the increment of the wavelengths, the geometry and the device. Reflectance and transmittance are
+//! fractions, white near 1. We skip objects that hold colours only.
 //!
-//! When writing, the order of elements, required elements and bounds follow the schema of CxF3-core. A list
-//! of values must start at a whole wavelength from 360 to 400 nm and have a whole increment. Other grids are
-//! written point by point.
+//! When we write a file, the elements, their order and their bounds follow the schema of CxF3-core.
+//! A list of values must start at a whole wavelength from 360 to 400 nm and have a whole increment.
+//! We write other grids point by point.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -20,21 +20,18 @@ use super::xml::{Element, parse};
 use crate::grid::Grid;
 use crate::spectrum::{Reflectance, Spectrum};
 
-/// A file with a reflectance from this value up is in percent: the schema keeps fractions below
-/// 3.
+/// If a file has a reflectance of this or more, it is in percent, because the schema keeps
+/// fractions below 3.
 const MOST_FRACTION: f64 = 3.0;
 
-/// Values at one wavelength are averaged if they differ by at most this fraction of full scale
+/// We average values at one wavelength if they differ by at most this fraction of full scale
 /// (chosen by eye).
 const MOST_APART: f64 = 0.1;
 
-/// Description of a wavelength in errors.
 const NM: &str = "a wavelength in nm";
 
-/// Description of a value in errors.
 const NUMBER: &str = "a number";
 
-/// Reads every spectrum of a CxF3 file, in the order of the file.
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     // CxF 1 and 2 hold samples and no resources.
@@ -61,11 +58,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     make_names_unique(&mut found);
     let mut records: Vec<MeasuredSpectrum> = found.into_iter().map(|found| found.record).collect();
 
-    let above =
-        |record: &MeasuredSpectrum| record.values.iter().any(|&value| value >= MOST_FRACTION);
     // Some writers use percent. One value of 3 or more shows that all fractions of the file are
     // percent.
-    if records.iter().any(|record| record.unit == Unit::Fraction && above(record)) {
+    let mut fractions = records.iter().filter(|record| record.unit == Unit::Fraction);
+    if fractions.any(|record| record.values.iter().any(|&value| value >= MOST_FRACTION)) {
         for record in records.iter_mut().filter(|record| record.unit == Unit::Fraction) {
             record.unit = Unit::Percent;
         }
@@ -73,7 +69,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     Ok(records)
 }
 
-/// A spectrum, with the specification and illumination of its measurement.
+/// A spectrum with the specification and the illumination under which it was measured.
 struct Found {
     record: MeasuredSpectrum,
     specification: String,
@@ -199,8 +195,8 @@ fn irregular(file: &str, element: &Element) -> Result<Vec<Point>, InstrumentErro
         .collect()
 }
 
-/// Makes names unique for spectra of one object under several specifications (M0 and M1,
-/// several angles), which are not repeated readings.
+/// Makes names unique where one object has spectra under several specifications, e.g. M0 and M1 or
+/// several angles. These are not repeated readings.
 fn make_names_unique(found: &mut [Found]) {
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (index, found) in found.iter().enumerate() {
@@ -235,7 +231,7 @@ fn quantity(element: &str) -> Option<MeasuredQuantity> {
     }
 }
 
-/// The quantity of a spectrum with its own wavelengths, according to its specification.
+/// The quantity that the specification states for a spectrum with its own wavelengths.
 fn custom_quantity(measurement_type: &str) -> MeasuredQuantity {
     match measurement_type {
         "Spectrum_Reflectance" => MeasuredQuantity::Reflectance,
@@ -268,15 +264,15 @@ pub struct CxfHead<'a> {
     pub description: &'a str,
     /// Origin of the reflectances: the geometry of the measurement, or `predicted`.
     pub geometry: &'a str,
-    /// Date and time as `2026-01-31T12:00:00Z`. The schema requires one for every object.
-    /// `None` writes 1970, so that equal spectra give equal files.
+    /// Date and time as `2026-01-31T12:00:00Z`. The schema requires one for every object. With
+    /// `None` we write 1970, so that equal spectra give equal files.
     pub creation_date: Option<&'a str>,
 }
 
 /// Writes named reflectances as a CxF3 file, to six decimals.
 ///
-/// Names may contain any character. Characters that XML cannot represent (control characters)
-/// become U+FFFD. White space around a name is lost on reading.
+/// Names may contain any character. A control character, which XML cannot represent, becomes
+/// U+FFFD. If you read the file again, white space around a name is lost.
 #[must_use]
 pub fn write_cxf(head: &CxfHead<'_>, spectra: &[(&str, &Spectrum<Reflectance>)]) -> String {
     let date = escaped(head.creation_date.unwrap_or("1970-01-01T00:00:00Z"));
@@ -356,8 +352,8 @@ fn whole_nm(nm: f64) -> Option<u32> {
     (nm.fract() == 0.0 && nm <= 1000.0).then_some(nm as u32)
 }
 
-/// Escapes text for an element or an attribute. Characters that would be read back as a space
-/// are written by number.
+/// Escapes text for an element or an attribute. This writes characters by number if a reader would
+/// turn them into a space.
 fn escaped(text: &str) -> String {
     let text: String = text
         .chars()
@@ -437,15 +433,15 @@ mod tests {
 
     #[test]
     fn values_at_a_repeated_custom_wavelength_are_averaged_unless_far_apart() {
-        let points = |second: f64| {
+        let [near, far] = [0.28, 0.31].map(|second| {
             let points = point(400.0, 0.1) + &point(500.0, 0.2) + "\n" + &point(500.0, second);
             let spec = "<c:CustomSpectrum ColorSpecification='s'>";
             read("f", &file(&object("a", &format!("{spec}{points}</c:CustomSpectrum>"))))
-        };
-        let found = &points(0.28).unwrap()[0];
+        });
+        let found = &near.unwrap()[0];
         assert!((found.values[1] - 0.24).abs() < 1e-12 && found.values.len() == 2, "{found:?}");
         assert!(found.remarks[0].contains("averaged"), "{found:?}");
-        let error = points(0.31).unwrap_err().to_string();
+        let error = far.unwrap_err().to_string();
         assert!(error.starts_with("f, line 3: 500 nm occurs more than once"), "{error}");
     }
 

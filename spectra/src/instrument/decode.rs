@@ -8,9 +8,9 @@ use zip::ZipArchive;
 
 use super::measured::InstrumentError;
 
-/// Decodes the text of a file and names its encoding: UTF-8 or UTF-16 by byte order mark,
-/// UTF-16 by its zero bytes, UTF-8 if the bytes are valid, otherwise Windows-1252 (which
-/// contains Latin-1). Never fails: invalid characters become U+FFFD.
+/// Decodes the text of a file and names its encoding. A byte order mark decides between UTF-8 and
+/// UTF-16. Without one, zero bytes mean UTF-16, valid bytes UTF-8, and anything else is
+/// Windows-1252 (which contains Latin-1). This never fails: invalid characters become U+FFFD.
 #[must_use]
 pub fn decode_text(bytes: &[u8]) -> (String, &'static str) {
     let (encoding, bytes) = match Encoding::for_bom(bytes) {
@@ -64,25 +64,22 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     .map(|(line, number)| (number, line))
 }
 
-/// The decimal sign of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Decimal {
-    /// A decimal point: `0.5`.
     Point,
-    /// A decimal comma: `0,5`.
     Comma,
 }
 
 impl Decimal {
-    /// The decimal sign of `cells`: a comma if any cell contains one. In a file with both signs
-    /// the first point is then an error, because a separator of thousands cannot be
-    /// distinguished from a decimal sign.
+    /// The decimal sign of `cells`: a comma if any cell contains one. If a file has both signs, the
+    /// first point is an error, because we cannot tell a separator of thousands from a decimal
+    /// sign.
     pub(super) fn of<'a>(mut cells: impl Iterator<Item = &'a str>) -> Self {
         if cells.any(|cell| cell.contains(',')) { Self::Comma } else { Self::Point }
     }
 }
 
-/// Parses a finite number. `None` if `text` is anything else.
+/// Parses a finite number. Anything else gives `None`.
 pub(super) fn number(text: &str, decimal: Decimal) -> Option<f64> {
     let text = text.trim();
     // `inf`, `nan` and the like count as words.
@@ -110,12 +107,10 @@ pub(super) fn required_number(
     number(text, decimal).ok_or_else(|| InstrumentError::line(file, line, expected, text))
 }
 
-/// The bytes of a file, read from its start.
 pub(super) struct BinaryBytes<'a> {
     file: &'a str,
     format: &'static str,
     bytes: &'a [u8],
-    /// Number of the next byte, from 0.
     at: usize,
 }
 
@@ -135,12 +130,10 @@ impl<'a> BinaryBytes<'a> {
         self
     }
 
-    /// Number of bytes from here to the end.
     pub(super) fn left(&self) -> usize {
         self.bytes.len().saturating_sub(self.at)
     }
 
-    /// The next `count` bytes.
     pub(super) fn take(&mut self, count: usize) -> Result<&'a [u8], InstrumentError> {
         let end = self.at.checked_add(count).filter(|end| *end <= self.bytes.len());
         let Some(end) = end else {
@@ -198,7 +191,7 @@ impl<'a> BinaryBytes<'a> {
         Ok(printable.map(|byte| char::from(*byte)).collect::<String>().trim().to_owned())
     }
 
-    /// Checks the length before memory for the numbers is asked for.
+    /// Checks the length before we allocate memory for the numbers.
     fn check_left(&self, count: usize, size: usize) -> Result<(), InstrumentError> {
         if count.saturating_mul(size) <= self.left() {
             return Ok(());
@@ -209,10 +202,9 @@ impl<'a> BinaryBytes<'a> {
     }
 }
 
-/// Most bytes that a file in an archive may unpack to. Spectra have less by far.
+/// We unpack at most this many bytes of a file in an archive. Spectra are far smaller.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// An archive in memory.
 pub(super) struct Archive<'a> {
     file: &'a str,
     archive: ZipArchive<Cursor<&'a [u8]>>,
@@ -235,7 +227,6 @@ impl<'a> Archive<'a> {
         self.archive.file_names().find(|name| is_wanted(name)).map(str::to_owned)
     }
 
-    /// The content of the file `name` of the archive.
     pub(super) fn read(&mut self, name: &str) -> Result<Vec<u8>, InstrumentError> {
         let faulty = |fault: String| InstrumentError::faulty(self.file, "zip", fault);
         let entry = self.archive.by_name(name);

@@ -1,19 +1,19 @@
 //! Field spectrometers: ASD FieldSpec, Spectral Evolution and Spectra Vista.
 //!
-//! The binary `.asd` file follows "ASD File Format version 8, revision B" (Analytical Spectral Devices). The
-//! spectrum follows a header of 484 bytes. From version 2 on a reading of the white follows, with the same state
-//! of the instrument, so that their ratio is the reflectance. ASD's programs convert the file to text, which is
-//! read as well.
+//! The binary `.asd` file follows "ASD File Format version 8, revision B" (Analytical Spectral
+//! Devices). The spectrum follows a header of 484 bytes. From version 2 on a reading of the white
+//! follows, with the same state of the instrument, so that their ratio is the reflectance. ASD's
+//! programs convert the file to text, and we read that as well.
 //!
-//! Spectral Evolution `.sed` has lines `Key: value`, a line `Data:`, a line of headings that names wavelength,
-//! white and sample, and rows between tabs. Columns are named as DARWin writes them: `Wvl`, `Rad. (Ref.)`,
-//! `Rad. (Target)`, `Reflect. %` or `Reflect. [1.0]`, `Tgt./Ref. %`, `Irrad. (Target)`, `Norm. DN (Target)` and
-//! `Chan.#`.
+//! Spectral Evolution `.sed` has lines `Key: value`, a line `Data:`, a line of headings that names
+//! wavelength, white and sample, and rows between tabs. Columns are named as DARWin writes them:
+//! `Wvl`, `Rad. (Ref.)`, `Rad. (Target)`, `Reflect. %` or `Reflect. [1.0]`, `Tgt./Ref. %`,
+//! `Irrad. (Target)`, `Norm. DN (Target)` and `Chan.#`.
 //!
-//! Spectra Vista `.sig` has a first line in comment signs, lines `key= value`, a line `data=`, and rows of
-//! wavelength, white, sample and reflectance in percent. Without the last column the file holds power or counts.
-//! Where the software did not remove the overlap of the detectors, the wavelengths go back once or twice beyond
-//! 900 nm.
+//! Spectra Vista `.sig` has a first line in comment signs, lines `key= value`, a line `data=`, and
+//! rows of wavelength, white, sample and reflectance in percent. Without the last column the file
+//! holds power or counts. Where the software did not remove the overlap of the detectors, the
+//! wavelengths go back once or twice beyond 900 nm.
 
 use super::columns::{Axis, ColumnLabel, below, table};
 use super::decode::{BinaryBytes, lines};
@@ -22,10 +22,10 @@ use super::points::{Duplicates, Point, ordered};
 
 const FORMAT: &str = "ASD FieldSpec";
 
-/// Byte at which the spectrum begins.
+/// The spectrum begins at this byte.
 const SPECTRUM: usize = 484;
 
-/// A stored ratio is below this, and counts of a detector are above.
+/// Numbers below this are a ratio, and larger ones are counts of a detector.
 const MOST_RATIO: f64 = 2.5;
 
 /// Whether a binary file is of ASD: its first bytes name the version.
@@ -40,7 +40,6 @@ pub(super) fn is_asd_text(text: &str) -> bool {
     lines(text).take(60).any(|(_, line)| line.contains("ASD spectrum file"))
 }
 
-/// The spectrum of a binary file.
 pub(super) fn read_asd_binary(
     file: &str,
     bytes: &[u8],
@@ -134,11 +133,6 @@ pub(super) fn read_asd_text(
     let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
     let names: Vec<&str> = heading.trim().split(['\t', ';', ',']).map(str::trim).collect();
     let width = first.len();
-    let name = |column: usize| match names.get(column) {
-        Some(name) if names.len() == width && !name.is_empty() => (*name).to_owned(),
-        _ if width > 2 => format!("{} {column}", stem(file)),
-        _ => stem(file),
-    };
     let details: Vec<(String, String)> = lines(&head)
         .filter_map(|(_, line)| line.split_once(':'))
         .map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()))
@@ -146,7 +140,12 @@ pub(super) fn read_asd_text(
         .collect();
     (1..width)
         .map(|column| {
-            let label = ColumnLabel { name: name(column), quantity, unit: unit(quantity) };
+            let name = match names.get(column) {
+                Some(name) if names.len() == width && !name.is_empty() => (*name).to_owned(),
+                _ if width > 2 => format!("{} {column}", stem(file)),
+                _ => stem(file),
+            };
+            let label = ColumnLabel { name, quantity, unit: unit(quantity) };
             let record = table.spectrum(file, column, Axis::Nanometres, label)?;
             Ok(MeasuredSpectrum { details: details.clone(), ..record })
         })
@@ -177,7 +176,7 @@ fn quantity(head: &str) -> MeasuredQuantity {
     }
 }
 
-/// Whether the line `line` after the line `before` is the one of the headings.
+/// Whether `line`, which follows the line `before`, holds the headings.
 pub(super) fn is_heading(before: &str, line: &str) -> bool {
     before.trim() == "Data:" && (line.starts_with("Wvl") || line.starts_with("Chan.#"))
 }
@@ -241,7 +240,6 @@ pub(super) fn read_sed(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, 
     Ok(records)
 }
 
-/// Start of the first line.
 const FIRST: &str = "/*** Spectra Vista";
 
 pub(super) fn is_sig(text: &str) -> bool {
@@ -256,10 +254,8 @@ pub(super) fn read_sig(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, 
     let stated = lines(text).take(at - 1).filter_map(|(_, line)| line.split_once('='));
     let details: Vec<(String, String)> =
         stated.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned())).collect();
-    let detail = |name: &str| {
-        let found = details.iter().find(|(key, _)| key == name);
-        found.map_or("", |(_, value)| value.as_str())
-    };
+    let units = details.iter().find(|(key, _)| key == "units");
+    let units = units.map_or("", |(_, value)| value.as_str());
     let data = below(text, at);
     let mut table = table(file, &data)?;
     let Some(&(line, ref first)) = table.rows.first() else { return Ok(Vec::new()) };
@@ -276,7 +272,7 @@ pub(super) fn read_sig(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, 
         format!("the detectors overlap from {nm} nm on; longer wavelengths are left out")
     });
     let name = stem(file);
-    let raw = match MeasuredQuantity::of_words(detail("units")) {
+    let raw = match MeasuredQuantity::of_words(units) {
         MeasuredQuantity::Unstated => MeasuredQuantity::Counts,
         stated => stated,
     };

@@ -1,6 +1,8 @@
-//! The file formats: their names, detection by content, and the text of a file or of a workbook's sheet.
+//! The file formats: their names, detection by content, and the text of a file or of a workbook's
+//! sheet.
 //!
-//! The first bytes decide whether a file is text, a binary format that is read, or one that is refused by name.
+//! The first bytes decide whether a file is text, a binary format that we read, or one that we
+//! refuse by name.
 
 use super::decode::{Archive, decode_text, is_utf16, is_zip, lines};
 use super::measured::InstrumentError;
@@ -162,7 +164,6 @@ impl Format {
     }
 }
 
-/// The kind of a file's content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ContentKind {
     Text,
@@ -173,7 +174,8 @@ pub(super) enum ContentKind {
     Workbook,
 }
 
-/// First bytes of formats that are not read, their kind, and the way to a file that is.
+/// First bytes of formats that we do not read, their kind, and advice on how you get a file that we
+/// read.
 const NOT_READ: [(&[u8], &str, &str); 13] = [
     (b"\xd0\xcf\x11\xe0", "an old Excel workbook (.xls), or one with a password", SHEET),
     (b"\x0a\x0a\xfe\xfe", "a binary file of Bruker OPUS", "save it as a data point table (.dpt)"),
@@ -190,7 +192,7 @@ const NOT_READ: [(&[u8], &str, &str); 13] = [
     (b"Rar!", "a packed file (RAR)", "unpack it"),
 ];
 
-/// Endings of binary formats that have no fixed first bytes, in lower case.
+/// Endings of binary formats that we do not read and that have no fixed first bytes, in lower case.
 const NOT_READ_ENDINGS: [(&str, &str, &str); 5] = [
     ("spc", "a binary file of GRAMS (.spc)", "save it as JCAMP-DX or CSV"),
     ("mes", "a file of Konica Minolta SpectraMagic NX", MINOLTA),
@@ -203,9 +205,9 @@ const TEXT: &str = "export text or CSV from the instrument's program";
 const SHEET: &str = "save it as .xlsx without a password, or as CSV";
 const MINOLTA: &str = "export text or CSV from SpectraMagic";
 
-/// This many first bytes decide whether a file is binary or text.
+/// We look at this many first bytes to decide whether a file is binary or text.
 const LOOKED_AT: usize = 4096;
-/// Share of control characters, and of zeros, above which a file is not text, chosen by eye.
+/// A file with a larger share of control characters, or of zeros, is not text (chosen by eye).
 const MOST_CONTROL: f64 = 0.02;
 const MOST_ZEROS: f64 = 0.1;
 
@@ -213,8 +215,8 @@ impl ContentKind {
     /// The kind of `bytes`, the content of `file`.
     ///
     /// # Errors
-    /// [`InstrumentError::NotRead`] for a binary format that is not read, [`InstrumentError::Faulty`] for an
-    /// archive that cannot be opened.
+    /// [`InstrumentError::NotRead`] for a binary format that we do not read,
+    /// [`InstrumentError::Faulty`] for an archive that cannot be opened.
     pub(super) fn of(file: &str, bytes: &[u8]) -> Result<Self, InstrumentError> {
         if field_spectrometers::is_asd_binary(bytes) {
             return Ok(Self::Asd);
@@ -257,10 +259,11 @@ fn is_noise(bytes: &[u8]) -> bool {
     if is_utf16(start) {
         return false;
     }
-    let share = |count: usize| count as f64 / start.len().max(1) as f64;
-    share(start.iter().filter(|byte| matches!(byte, 1..=8 | 11 | 14..=26 | 28..=31 | 127)).count())
-        > MOST_CONTROL
-        || share(start.iter().filter(|byte| **byte == 0).count()) > MOST_ZEROS
+    let controls = start.iter().filter(|byte| matches!(byte, 1..=8 | 11 | 14..=26 | 28..=31 | 127));
+    let zeros = start.iter().filter(|byte| **byte == 0);
+    let [controls, zeros] =
+        [controls.count(), zeros.count()].map(|count| count as f64 / start.len().max(1) as f64);
+    controls > MOST_CONTROL || zeros > MOST_ZEROS
 }
 
 /// Text that a file holds.
@@ -268,22 +271,23 @@ fn is_noise(bytes: &[u8]) -> bool {
 pub struct FileText {
     /// Path of the file, followed by the name of the sheet if it is a workbook.
     pub file: String,
-    /// The text. Of a sheet, the cells of each row with tabs between them, in the lines of their rows.
+    /// The text. A sheet gives one line a row, with tabs between the cells.
     pub text: String,
     /// Name of the encoding.
     pub encoding: &'static str,
     /// Whether the text is a sheet of a workbook.
     pub is_sheet: bool,
-    /// Message about sheets that are not read.
+    /// Message about sheets that we do not read.
     pub remark: Option<String>,
 }
 
 impl FileText {
-    /// The text in `bytes`, the content of `file`. `None` if it is binary and of a format that
+    /// The text in `bytes`, the content of `file`. You get `None` for a binary file that
     /// [`read`](super::read) knows.
     ///
     /// # Errors
-    /// [`InstrumentError::NotRead`] for other binary files, [`InstrumentError::Faulty`] for a damaged workbook.
+    /// [`InstrumentError::NotRead`] for other binary files, [`InstrumentError::Faulty`] for a
+    /// damaged workbook.
     pub fn of(file: &str, bytes: &[u8]) -> Result<Option<Self>, InstrumentError> {
         match ContentKind::of(file, bytes)? {
             ContentKind::Text => {

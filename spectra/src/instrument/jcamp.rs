@@ -2,8 +2,8 @@
 //! sequence.
 //!
 //! McDonald and Wilks, "JCAMP-DX: a standard form for exchange of infrared spectra in computer
-//! readable form", Applied Spectroscopy 42 (1988) 151. Supported are XYDATA= (X++(Y..Y)) in
-//! every packed form, XYPOINTS= (XY..XY), and the pages of NTUPLES.
+//! readable form", Applied Spectroscopy 42 (1988) 151. We read XYDATA= (X++(Y..Y)) in every packed
+//! form, XYPOINTS= (XY..XY), and the pages of NTUPLES.
 
 use super::columns::Axis;
 use super::decode::{Decimal, lines, required_number};
@@ -11,7 +11,7 @@ use super::jcamp_data::{Field, Scaling, StatedStep, pages, points, runs};
 use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
 
-/// A processed spectrum with all values above this percentage is in fact counts.
+/// If all values of a processed spectrum exceed this percentage, they are in fact counts.
 const MOST_PERCENT: f64 = 200.0;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -52,14 +52,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     Ok(records)
 }
 
-/// A label in the form in which the standard compares them: upper case, without spaces and
-/// `-/_`.
+/// Writes a label as the standard compares labels: in upper case, without spaces and `-/_`.
 fn normalize(label: &str) -> String {
     let kept = label.chars().filter(|c| !c.is_whitespace() && !"-/_".contains(*c));
     kept.map(|c| c.to_ascii_uppercase()).collect()
 }
 
-/// The labelled records of a block.
 #[derive(Default)]
 struct Block<'a> {
     fields: Vec<Field<'a>>,
@@ -111,7 +109,6 @@ impl Block<'_> {
             .collect()
     }
 
-    /// The step that DELTAX states.
     fn stated_step(&self, file: &str) -> Result<Option<StatedStep>, InstrumentError> {
         let Some(step) = self.number(file, "DELTAX")? else { return Ok(None) };
         let (line, text) = self.field("DELTAX").unwrap_or((1, ""));
@@ -120,7 +117,6 @@ impl Block<'_> {
         Ok(Some(StatedStep { line, step, rounding }))
     }
 
-    /// The spectrum of the block, if it has one.
     fn spectrum(&self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
         let Some(data) =
             self.fields.iter().find(|field| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str()))
@@ -202,7 +198,7 @@ impl Block<'_> {
         (MeasuredQuantity::of_words(units), Role::Main, unit)
     }
 
-    /// The records that are not needed to read the data.
+    /// The records that we do not need to read the data.
     fn details(&self) -> Vec<(String, String)> {
         let needed = [
             "TITLE",
@@ -244,7 +240,7 @@ impl Block<'_> {
     }
 }
 
-/// The unit of abscissas that `units`, in line `line`, names.
+/// Reads the unit of abscissas from `units`, the text in line `line`.
 fn axis(file: &str, line: usize, units: &str) -> Result<Axis, InstrumentError> {
     let expected = "NANOMETERS, MICROMETERS or 1/CM";
     Axis::of_words(units).ok_or_else(|| InstrumentError::line(file, line, expected, units))
@@ -350,6 +346,13 @@ mod tests {
         assert_eq!((found[0].line, found[1].line), (13, 17));
     }
 
+    fn faulty_line(text: &str) -> usize {
+        match read("f", text) {
+            Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => line,
+            other => panic!("{other:?}"),
+        }
+    }
+
     #[test]
     fn faults_of_tuples_name_their_line() {
         for (old, new, at) in [
@@ -360,14 +363,7 @@ mod tests {
             ("LAST= 430", "LAST= 830", 15),
             ("##SYMBOL= X, Y, N\n", "", 12),
         ] {
-            let found = read("f", &TUPLES.replacen(old, new, 1));
-            let line = match found {
-                Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => {
-                    line
-                }
-                other => panic!("{new}: {other:?}"),
-            };
-            assert_eq!(line, at, "{new}");
+            assert_eq!(faulty_line(&TUPLES.replacen(old, new, 1)), at, "{new}");
         }
     }
 
@@ -386,14 +382,7 @@ mod tests {
             ("##END=\n", "", 13),
             ("(X++(Y..Y))", "(XYA)", 10),
         ] {
-            let found = read("f", &good.replacen(old, new, 1));
-            let line = match found {
-                Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => {
-                    line
-                }
-                other => panic!("{new}: {other:?}"),
-            };
-            assert_eq!(line, at, "{new}");
+            assert_eq!(faulty_line(&good.replacen(old, new, 1)), at, "{new}");
         }
     }
 }

@@ -14,7 +14,7 @@ use super::decode::{Decimal, number, required_number};
 use super::measured::InstrumentError;
 use super::points::Point;
 
-/// Maximum number of points, more than any spectrometer writes. It bounds the memory that a DUP
+/// Maximum number of points. No spectrometer writes so many, and this bounds the memory that a DUP
 /// count can request.
 const MOST_POINTS: usize = 4_000_000;
 
@@ -30,11 +30,11 @@ pub(super) struct Field<'a> {
 pub(super) struct StatedStep {
     pub(super) line: usize,
     pub(super) step: f64,
-    /// Half of the last decimal in which it is written.
+    /// Half of the last decimal place that the file writes.
     pub(super) rounding: f64,
 }
 
-/// Share by which a stated step may differ from the one that limits and number give.
+/// A stated step may differ by this share from the step that limits and number give.
 const STEP_TOLERANCE: f64 = 0.01;
 
 impl StatedStep {
@@ -70,8 +70,8 @@ impl Scaling {
     }
 }
 
-/// Reads `(XY..XY)`: pairs separated by commas, semicolons or blanks. `nm` of each point holds
-/// the abscissa, whatever its unit.
+/// Reads `(XY..XY)`: pairs separated by commas, semicolons or blanks. The field `nm` of each point
+/// holds the abscissa in whatever unit.
 pub(super) fn points(
     file: &str,
     lines: &[(usize, &str)],
@@ -189,7 +189,7 @@ enum Token {
     Times(usize),
 }
 
-/// The tokens of a row. `None` if one is invalid.
+/// The tokens of a row, or `None` if one is invalid.
 fn tokens(text: &str) -> Option<Vec<Token>> {
     let mut found = Vec::new();
     let mut rest = text.trim_start_matches(is_blank);
@@ -262,19 +262,14 @@ fn letters_after(first: char, zero: char) -> u32 {
     (first as u32).wrapping_sub(zero as u32)
 }
 
-/// One page of a file.
 pub(super) struct Page {
-    /// The value of the page variable, for example `N=1`.
+    /// The value of the page variable, e.g. `N=1`.
     pub(super) name: String,
-    /// Name of the dependent variable.
     pub(super) variable: String,
-    /// Unit of the dependent variable.
     pub(super) units: String,
-    /// Unit of the independent variable.
     pub(super) x_units: String,
-    /// Line on which the table begins.
     pub(super) line: usize,
-    /// Points. Their `nm` holds the independent variable in its unit.
+    /// Points with the independent variable, in its own unit, in the field `nm`.
     pub(super) points: Vec<Point>,
 }
 
@@ -336,8 +331,8 @@ pub(super) fn pages(file: &str, fields: &[Field<'_>]) -> Result<Vec<Page>, Instr
     Ok(found)
 }
 
-/// Places of the two variables that a form such as `(X++(R..R))` or `(XY..XY)` names, and whether
-/// the first is given once for each row only.
+/// Places of the two variables in a form such as `(X++(R..R))` or `(XY..XY)`, and whether the file
+/// gives the first one only once for each row.
 fn variables(symbols: &[&str], form: &str) -> Option<(usize, usize, bool)> {
     let pairs = (0..symbols.len()).flat_map(|x| (0..symbols.len()).map(move |y| (x, y)));
     pairs.filter(|(x, y)| !symbols[*x].is_empty() && !symbols[*y].is_empty()).find_map(|(x, y)| {

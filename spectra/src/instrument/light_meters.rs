@@ -13,7 +13,7 @@ use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role,
 use super::points::{Duplicates, Point, ordered, sorted};
 use super::xml::parse;
 
-/// Key of a row and the rest of it.
+/// Splits a row into its key and the rest.
 fn key_and_value(line: &str) -> Option<(&str, &str)> {
     let (key, value) = line.split_once(['\t', ';']).or_else(|| line.split_once(','))?;
     Some((key.trim().trim_matches('"'), value))
@@ -102,7 +102,7 @@ pub(super) fn read_uprtek(
     Ok(records)
 }
 
-/// Start of a line of the spectrum: `Spectral Data 380[nm],0.001`.
+/// A line of the spectrum starts with this, e.g. `Spectral Data 380[nm],0.001`.
 const SPECTRAL: &str = "Spectral Data";
 
 /// The readings of a Sekonic file, each at the finest step of the file.
@@ -188,19 +188,17 @@ fn spectrum(
     })
 }
 
-/// The spectral distributions of a TM-27 file.
 pub(super) fn read_tm27(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     if !root.name.starts_with("IESTM27") {
         return Err(InstrumentError::line(file, root.line, "an IESTM2714 element", &root.name));
     }
     let header = root.child("Header").map_or_else(Vec::new, |header| header.leaves());
-    let header_text = |name: &str| {
+    let mut names = ["Description", "CatalogNumber"].into_iter().filter_map(|name| {
         let text = header.iter().find(|(key, _)| key == name).map(|(_, text)| text.as_str());
         text.filter(|text| !matches!(*text, "N/A" | "Unknown"))
-    };
-    let name = header_text("Description").or_else(|| header_text("CatalogNumber"));
-    let name = name.map_or_else(|| stem(file), str::to_owned);
+    });
+    let name = names.next().map_or_else(|| stem(file), str::to_owned);
     let mut records = Vec::new();
     for distribution in root.all("SpectralDistribution") {
         let mut points = Vec::new();

@@ -1,5 +1,5 @@
-//! One spectrum out of an instrument's file, the choice of one by name, and errors in these files with their
-//! place.
+//! One spectrum from an instrument's file, how you choose one by name, and errors that name their
+//! place in the file.
 
 use std::path::Path;
 
@@ -92,8 +92,7 @@ pub enum Role {
 /// One spectrum as its file contains it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredSpectrum {
-    /// Name of the sample according to the file, otherwise a name made from its place in the
-    /// file.
+    /// Name of the sample in the file. If it has none, we make one from its place in the file.
     pub name: String,
     /// The quantity that was measured.
     pub quantity: MeasuredQuantity,
@@ -107,15 +106,16 @@ pub struct MeasuredSpectrum {
     pub values: Vec<f64>,
     /// Number of the line on which the spectrum begins, from 1.
     pub line: usize,
-    /// Other statements of the file on the spectrum (geometry, instrument, integration time
-    /// ..), as pairs of keyword and text in their order.
+    /// What else the file states about the spectrum, e.g. geometry, instrument or integration time:
+    /// pairs of keyword and text in the order of the file.
     pub details: Vec<(String, String)>,
     /// Assumptions and corrections made in reading the spectrum, as messages for the user.
     pub remarks: Vec<String>,
 }
 
 impl MeasuredSpectrum {
-    /// Whether the values are in percent: as the file states, otherwise if any exceeds 2.
+    /// Whether the values are in percent. If the file does not state this, they are when any
+    /// exceeds 2.
     #[must_use]
     pub fn is_percent(&self) -> bool {
         match self.unit {
@@ -125,8 +125,8 @@ impl MeasuredSpectrum {
         }
     }
 
-    /// Whether the values are relative to a white, as the file shows by their unit or by the white
-    /// reading from which they were computed, though it may not name the quantity.
+    /// Whether the values are relative to a white. We see this from their unit or from a white
+    /// reading in the file, even if the file does not name the quantity.
     #[must_use]
     pub fn is_relative_to_white(&self) -> bool {
         self.unit != Unit::Unstated
@@ -135,12 +135,11 @@ impl MeasuredSpectrum {
             })
     }
 
-    /// The reflectance on a regular grid ([`Grid::suited_to`] the wavelengths, irregular
-    /// ones interpolated by a spline), as a fraction.
+    /// The reflectance as a fraction on a regular grid ([`Grid::suited_to`] the wavelengths). This
+    /// interpolates irregular wavelengths by a spline.
     ///
     /// # Errors
-    /// [`ReflectanceError`] if the spectrum is another quantity, or has a value outside
-    /// 0 to 2.
+    /// [`ReflectanceError`] if the spectrum is another quantity, or has a value outside 0 to 2.
     pub fn reflectance(&self) -> Result<Spectrum<Reflectance>, ReflectanceError> {
         use MeasuredQuantity::{Reflectance, Unstated};
         if !matches!(self.quantity, Reflectance | Unstated) {
@@ -197,7 +196,7 @@ pub enum ReflectanceError {
     },
 }
 
-/// Name for a spectrum without one: the file name without folder and extension.
+/// Makes a name for a spectrum without one: the file name without folder and extension.
 pub(super) fn stem(file: &str) -> String {
     let path = Path::new(file);
     path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
@@ -206,8 +205,8 @@ pub(super) fn stem(file: &str) -> String {
 /// Maximum number of names listed in an error.
 const LISTED: usize = 8;
 
-/// Splits `FILE#NAME` into file and name. The name of a plain `FILE` is `None`. If the whole
-/// text is the path of a file, it is not split.
+/// Splits `FILE#NAME` into file and name. A plain `FILE` has the name `None`. This does not split
+/// the text if a file has the whole of it as path.
 #[must_use]
 pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
     match text.rsplit_once('#') {
@@ -216,9 +215,8 @@ pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Selects the spectrum called `name` from `spectra`, the content of `file`. Without a name,
-/// selects the only main spectrum ([`Role::Main`]), or the only spectrum if there is no main
-/// one.
+/// Selects the spectrum called `name` from `spectra`, the content of `file`. If you pass no name,
+/// you get the only main spectrum ([`Role::Main`]), or the only spectrum if there is no main one.
 ///
 /// # Errors
 /// [`ChoiceError`] if no spectrum or more than one qualifies.
@@ -252,7 +250,7 @@ fn names<'a>(spectra: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String>
     spectra.take(LISTED).map(|spectrum| spectrum.name.clone()).collect()
 }
 
-/// A selection that does not determine one spectrum.
+/// The selection does not fit exactly one spectrum.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ChoiceError {
     /// No spectrum has the name.
@@ -279,8 +277,7 @@ pub enum ChoiceError {
     },
 }
 
-/// An instrument's file that cannot be read. Every variant names the file, and the line where
-/// possible.
+/// We cannot read an instrument's file. Every variant names the file, and the line where possible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum InstrumentError {
     /// The content matches none of the formats in `Format`.
@@ -290,15 +287,15 @@ pub enum InstrumentError {
         /// Path of the file.
         file: String,
     },
-    /// The file is of a format that is known and not read.
+    /// We know the format of the file but do not read it.
     #[error("{file}: this is {kind}, which is not read")]
     #[hint("{way}")]
     NotRead {
         /// Path of the file.
         file: String,
-        /// The kind of file, with its article.
+        /// The kind of file with its article, e.g. `a PDF file`.
         kind: &'static str,
-        /// The way to a file that is read.
+        /// Advice on how you get a file that we read.
         way: &'static str,
     },
     /// A binary file, or a part of it, does not follow its format.
@@ -307,7 +304,7 @@ pub enum InstrumentError {
     Faulty {
         /// Path of the file.
         file: String,
-        /// Name of the format as which it was read.
+        /// Name of the format in which we read it.
         format: &'static str,
         /// The fault, and its place in the file.
         fault: String,
@@ -318,7 +315,7 @@ pub enum InstrumentError {
     Empty {
         /// Path of the file.
         file: String,
-        /// Name of the format as which it was read.
+        /// Name of the format in which we read it.
         format: &'static str,
     },
     /// A workbook has no sheet of the wanted name.
@@ -421,7 +418,7 @@ pub enum InstrumentError {
 }
 
 impl InstrumentError {
-    /// An error for a line that does not follow the format. Its text is shortened and made
+    /// An error for a line that does not follow the format. This shortens the text and makes it
     /// printable.
     pub(super) fn line(file: &str, line: usize, expected: &'static str, text: &str) -> Self {
         const LONGEST: usize = 60;
@@ -434,7 +431,6 @@ impl InstrumentError {
         Self::Line { file: file.to_owned(), line, expected, text }
     }
 
-    /// An error for a binary file that does not follow its format.
     pub(super) fn faulty(file: &str, format: &'static str, fault: impl Into<String>) -> Self {
         Self::Faulty { file: file.to_owned(), format, fault: fault.into() }
     }

@@ -1,8 +1,7 @@
 //! Files of measuring instruments.
 //!
-//! In scope: detecting the format, and reading the spectra with everything that the file states
-//! about them. Out of scope: interpreting them as readings of paint (see
-//! `calibrate::measurement`).
+//! This module detects the format and reads the spectra with everything that the file states about
+//! them. If you want to use them as readings of paint, see `calibrate::measurement`.
 
 mod measured;
 mod points;

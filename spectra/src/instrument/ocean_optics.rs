@@ -1,14 +1,15 @@
 //! Ocean Optics and Ocean Insight: text of SpectraSuite, OceanView and Jaz, and `.ProcSpec`.
 //!
-//! Text has lines `Key: value`, then data from `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or
-//! in Jaz files wavelength, dark, reference, sample and processed (W D R S P). With a reference the software
-//! writes percent of it (or absorbance) and does not state which. Without one it writes counts. Jaz files contain
-//! the counts as well. Only the first line of a Jaz file or the ending (`.JazIrrad`, `.OVIrrad`) says that the
-//! values are absolute irradiance.
+//! Text has lines `Key: value`, then data from `>>>>>Begin` to `>>>>>End` or the end of the file:
+//! two columns, or in Jaz files wavelength, dark, reference, sample and processed (W D R S P). With
+//! a reference the software writes percent of it (or absorbance) and does not state which. Without
+//! one it writes counts. Jaz files contain the counts as well. Only the first line of a Jaz file or
+//! the ending (`.JazIrrad`, `.OVIrrad`) says that the values are absolute irradiance.
 //!
-//! `.ProcSpec` is a zip archive with the file `ps_N.xml`, in which lists of `double` hold wavelengths, counts of
-//! sample, white and dark, and the processed spectrum. Element names are those that the R package lightr reads.
-//! SpectraSuite writes bytes into the XML that are not text, and these are left out.
+//! `.ProcSpec` is a zip archive with the file `ps_N.xml`, in which lists of `double` hold
+//! wavelengths, counts of sample, white and dark, and the processed spectrum. Element names are
+//! those that the R package lightr reads. SpectraSuite writes bytes into the XML that are not text.
+//! We leave these out.
 
 use super::columns::{Axis, ColumnLabel, table};
 use super::decode::{Archive, Decimal, lines, required_number};
@@ -63,7 +64,7 @@ pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>,
     Ok(blocks.into_iter().flatten().collect())
 }
 
-/// The spectra of one block of data, which ends before line `end`. The first is the main one.
+/// The spectra of one block of data, the main one first. The block ends before line `end`.
 fn spectra(
     file: &str,
     data: &str,
@@ -210,7 +211,7 @@ fn numbers(file: &str, element: Option<&Element>) -> Result<Vec<(usize, f64)>, I
     element.map_or_else(|| Ok(Vec::new()), |element| doubles(file, element))
 }
 
-/// The first descendant called `name` that is in none of the elements `apart`.
+/// The first descendant called `name` outside the elements `apart`.
 fn find<'a>(element: &'a Element, name: &str, apart: &[&str]) -> Option<&'a Element> {
     element.children.iter().find_map(|child| {
         if child.name == name {
@@ -237,7 +238,7 @@ fn doubles(file: &str, element: &Element) -> Result<Vec<(usize, f64)>, Instrumen
     Ok(found)
 }
 
-/// Whether the spectrum was processed to irradiance, which the class of a processor names.
+/// Whether the spectrum was processed to irradiance. The class of a processor tells us.
 fn has_irradiance(element: &Element) -> bool {
     let class = element.attribute("class").unwrap_or_default();
     class.to_ascii_lowercase().contains("irradiance") || element.children.iter().any(has_irradiance)

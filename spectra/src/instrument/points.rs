@@ -2,26 +2,23 @@
 
 use super::measured::InstrumentError;
 
-/// Treatment of a wavelength that occurs more than once.
+/// How we treat a wavelength that occurs more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Duplicates {
-    /// An error. For tables of few wavelengths, which list each once.
+    /// An error. Use this for tables of few wavelengths, which list each once.
     Refuse,
-    /// The mean, with a remark. Dense exports round the wavelengths of neighbouring pixels to
-    /// the same number.
+    /// The mean, with a remark. Use this for dense exports, which round the wavelengths of
+    /// neighbouring pixels to the same number.
     Average,
-    /// The mean, with a remark, if the values differ by at most this, otherwise an error.
+    /// The mean, with a remark, if the values differ by at most this number. Otherwise an error.
     AverageWithin(f64),
 }
 
-/// One value of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point {
     /// Line number in the file, from 1.
     pub(super) line: usize,
-    /// Wavelength in nm, finite.
     pub(super) nm: f64,
-    /// Value at the wavelength, finite.
     pub(super) value: f64,
 }
 
@@ -33,11 +30,11 @@ pub(super) struct Ordered {
     pub(super) remarks: Vec<String>,
 }
 
-/// Brings points to rising order of wavelength. Falling points are reversed.
+/// Brings points to rising order of wavelength. This reverses falling points.
 ///
 /// # Errors
-/// [`InstrumentError`] for a wavelength that is not above 0, for wavelengths that neither rise
-/// nor fall throughout, and for repeated wavelengths where `duplicates` refuses them.
+/// [`InstrumentError`] for a wavelength that is not above 0, for wavelengths that neither rise nor
+/// fall throughout, and for repeated wavelengths where `duplicates` refuses them.
 pub(super) fn ordered(
     file: &str,
     mut points: Vec<Point>,
@@ -67,7 +64,8 @@ pub(super) fn ordered(
         let first = group[0];
         let last = group[group.len() - 1];
         if group.len() > 1 && duplicates == Duplicates::Refuse {
-            let (line, before) = (first.line.max(last.line), first.line.min(last.line));
+            let line = first.line.max(last.line);
+            let before = first.line.min(last.line);
             let file = file.to_owned();
             return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
         }
@@ -95,9 +93,9 @@ pub(super) fn ordered(
     Ok(ordered)
 }
 
-/// Sorts points, for formats that give every value its own wavelength. Repeated equal points
-/// are kept once. Different values at one wavelength are kept. Returns the points and a remark
-/// if their order changed.
+/// Sorts points of formats that give every value its own wavelength. This keeps repeated equal
+/// points once, and keeps different values at one wavelength. You also get a remark if the order
+/// changed.
 pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
     let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);
     points.sort_by(|a, b| a.nm.total_cmp(&b.nm));

@@ -25,9 +25,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         }
         let mut values = vec![(number, value)];
         // A long list may continue in the following lines.
-        let goes_on =
-            |(_, line): &(usize, &str)| !line.contains('=') && !line.trim_start().starts_with('[');
-        while let Some(more) = lines.next_if(goes_on) {
+        while let Some(more) = lines.next_if(|(_, line): &(usize, &str)| {
+            !line.contains('=') && !line.trim_start().starts_with('[')
+        }) {
             values.push(more);
         }
         let word = ["standard", "batch"][kind];

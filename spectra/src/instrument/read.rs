@@ -23,11 +23,7 @@ pub struct InstrumentFile {
     pub spectra: Vec<MeasuredSpectrum>,
 }
 
-/// Reads the spectra in `bytes`, the content of `file`, in the given format or in the one
-/// detected.
-///
-/// # Errors
-/// [`InstrumentError`] with the line, or with the place in a binary file.
+/// Reads the spectra in `bytes`, the content of `file`. If you pass no format, this detects it.
 pub fn read(
     file: &str,
     bytes: &[u8],
@@ -63,7 +59,7 @@ pub fn read(
     Ok(found)
 }
 
-/// Reads a binary file, in which `format` must be its own if it is given.
+/// Reads a binary file. If you pass a `format`, it must be the file's own.
 fn read_binary(
     file: &str,
     bytes: &[u8],
@@ -103,21 +99,15 @@ fn checked(
     Ok(InstrumentFile { format, spectra })
 }
 
-/// Bytes of a file that is given as `FILE` or `FILE.xlsx#SHEET`.
-///
-/// # Errors
-/// [`FileError`] if the file cannot be read.
+/// Bytes of the file that you name as `FILE` or `FILE.xlsx#SHEET`.
 pub fn bytes_of(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
     let path = path.as_ref();
     let sheet = path.to_str().map(split_file_and_sheet).filter(|(_, sheet)| sheet.is_some());
     file::read(sheet.map_or(path, |(file, _)| Path::new(file)))
 }
 
-/// Reads all spectra of an instrument's file, or of the sheet `FILE.xlsx#SHEET`. The format is detected from
-/// the content.
-///
-/// # Errors
-/// [`OpenError`] if the file cannot be read or is faulty.
+/// Reads all spectra of an instrument's file, or of the sheet `FILE.xlsx#SHEET`. This detects the
+/// format from the content.
 pub fn open(path: impl AsRef<Path>) -> Result<InstrumentFile, OpenError> {
     let path = path.as_ref();
     Ok(read(&path.display().to_string(), &bytes_of(path)?, None)?)
@@ -126,7 +116,7 @@ pub fn open(path: impl AsRef<Path>) -> Result<InstrumentFile, OpenError> {
 /// One spectrum of a file, with the content of that file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenedSpectrum {
-    /// Path of the file, as it was given.
+    /// Path of the file as you gave it.
     pub file: String,
     /// All bytes of the file, for a checksum.
     pub bytes: Vec<u8>,
@@ -134,12 +124,12 @@ pub struct OpenedSpectrum {
     pub spectrum: MeasuredSpectrum,
 }
 
-/// Reads one spectrum, given as `FILE` or `FILE#NAME`. For one sheet of a workbook write
+/// Reads one spectrum, which you name as `FILE` or `FILE#NAME`. For one sheet of a workbook write
 /// `FILE.xlsx#SHEET#NAME`.
 ///
 /// # Errors
-/// [`OpenError`] if the file cannot be read or is faulty, or if the spectrum is not
-/// determined: no spectrum of that name, or several in a file given without a name.
+/// [`OpenError`] if we cannot read the file, if it has no spectrum of this name, or if it has
+/// several and you give no name.
 pub fn open_spectrum(file_and_name: &str) -> Result<OpenedSpectrum, OpenError> {
     let (file, name) = split_file_and_name(file_and_name);
     let bytes = bytes_of(file)?;
@@ -157,7 +147,7 @@ pub enum OpenError {
     /// The content is faulty or of no known format.
     #[error(transparent)]
     Instrument(#[from] InstrumentError),
-    /// The requested spectrum is not determined.
+    /// The text does not name exactly one spectrum.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
 }

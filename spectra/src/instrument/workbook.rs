@@ -1,7 +1,7 @@
 //! Workbooks (`.xlsx`): the sheet with the most numbers, as text with tabs between the cells.
 //!
-//! A cell keeps its row and column, so that messages name the places of the sheet. Formulas count with the
-//! values that the spreadsheet program stored.
+//! A cell keeps its row and column, so that messages name the places that you see in the sheet. For
+//! a formula we take the value that the spreadsheet program stored.
 
 use std::io::Cursor;
 
@@ -12,24 +12,21 @@ use documents::name_list;
 
 const FORMAT: &str = "Excel workbook";
 
-/// Most columns of a sheet that is read, more than any instrument has wavelengths.
+/// We read at most this many columns. No instrument has so many wavelengths.
 const MOST_COLUMNS: u32 = 8192;
-/// Most names of sheets that an error lists.
+/// An error lists at most this many names of sheets.
 const NAMES: usize = 12;
-/// Most bytes of a sheet as text.
 const MOST_BYTES: usize = 512 << 20;
 
-/// A sheet of a workbook.
 #[derive(Debug, PartialEq)]
 pub(super) struct Sheet {
     pub(super) name: String,
-    /// Cells of a row between tabs. Line number and row number agree.
+    /// One line a row, with tabs between the cells. Line number and row number agree.
     pub(super) text: String,
     /// Names of the other sheets that are not empty.
     pub(super) others: Vec<String>,
 }
 
-/// Content of a cell.
 enum Content {
     Number(f64),
     Text(String),
@@ -41,8 +38,8 @@ struct Cell {
     content: Content,
 }
 
-/// Splits `FILE.xlsx#SHEET` into the path of the workbook and the name of the sheet, which is `None` for any
-/// other text.
+/// Splits `FILE.xlsx#SHEET` into the path of the workbook and the name of the sheet. Any other text
+/// has the sheet `None`.
 #[must_use]
 pub fn split_file_and_sheet(text: &str) -> (&str, Option<&str>) {
     let lower = text.to_ascii_lowercase();
@@ -53,8 +50,8 @@ pub fn split_file_and_sheet(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The sheet that `file` names as `FILE.xlsx#SHEET`, otherwise the sheet with the most numbers, the first of
-/// several.
+/// The sheet that `file` names as `FILE.xlsx#SHEET`. If it names none, you get the first of the
+/// sheets with the most numbers.
 pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> {
     let (file, wanted) = split_file_and_sheet(file);
     let faulty = |fault: String| InstrumentError::faulty(file, FORMAT, fault);
@@ -107,7 +104,7 @@ fn count_numbers((_, cells): &(String, Vec<Cell>)) -> usize {
     cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
 }
 
-/// Content of a cell. `None` if it is empty.
+/// Content of a cell, or `None` if it is empty.
 fn content(cell: &DataRef<'_>) -> Option<Content> {
     match cell {
         DataRef::Empty => None,
@@ -128,8 +125,8 @@ fn text_content(text: &str) -> Option<Content> {
     (!plain.is_empty()).then_some(Content::Text(plain))
 }
 
-/// The text of a sheet. `None` if it is too long. Numbers get a decimal comma where texts have one, as in
-/// a column that was pasted as text.
+/// The text of a sheet, or `None` if it is too long. Numbers get a decimal comma if texts have one,
+/// e.g. in a column that was pasted as text.
 fn text(mut cells: Vec<Cell>) -> Option<String> {
     cells.sort_by_key(|cell| (cell.row, cell.column));
     let has_comma = cells.iter().any(|cell| match &cell.content {

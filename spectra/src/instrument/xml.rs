@@ -1,8 +1,8 @@
 //! Reading an XML file into a tree of elements with local names.
 //!
-//! Namespace prefixes are dropped, since writers choose them freely. Only the five predefined
-//! entities and numeric character references are expanded and the depth is limited, so that a
-//! file cannot grow in memory.
+//! We drop namespace prefixes, because writers choose them freely. We expand only the five
+//! predefined entities and numeric character references, and we limit the depth, so that a file
+//! cannot grow in memory.
 
 use quick_xml::XmlVersion;
 use quick_xml::escape::resolve_predefined_entity;
@@ -13,7 +13,6 @@ use super::measured::InstrumentError;
 
 const DEEPEST: usize = 64;
 
-/// An XML element.
 #[derive(Debug, Default)]
 pub(super) struct Element {
     /// Local name, without its prefix.
@@ -52,7 +51,6 @@ impl Element {
     }
 }
 
-/// Parses `text` and returns its root element.
 pub(super) fn parse(file: &str, text: &str) -> Result<Element, InstrumentError> {
     let fault = |at: u64, what: String| {
         let before = &text.as_bytes()[..text.len().min(at as usize)];

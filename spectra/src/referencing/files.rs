@@ -6,8 +6,8 @@ use super::{Dark, LEAST_LIGHT, Referencing, ReferencingError, Tile};
 use crate::instrument::{MeasuredSpectrum, OpenError, open_spectrum, split_file_and_name};
 use documents::hint::Explain;
 
-/// The files of a reference measurement. Each spectrum is given as `FILE`, or as
-/// `FILE#NAME` where the file holds several.
+/// The files of a reference measurement. Name each spectrum as `FILE`, or as `FILE#NAME` if the
+/// file holds several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceFiles {
     /// Reading of the white.
@@ -27,7 +27,7 @@ pub struct ReferenceFiles {
 pub enum DarkFiles {
     /// The dark is already subtracted.
     Subtracted,
-    /// One reading for each integration time, none for power, which needs no dark.
+    /// One reading for each integration time. Leave this empty for power, which needs no dark.
     Files(Vec<String>),
 }
 
@@ -50,7 +50,7 @@ pub struct OpenedReferences {
 }
 
 impl ReferenceFiles {
-    /// A white without dark readings. Its tile reflects everything.
+    /// A white without dark readings, and a tile that reflects everything.
     #[must_use]
     pub fn new(white: impl Into<String>) -> Self {
         Self {
@@ -133,7 +133,7 @@ pub enum ReferenceFilesError {
     /// The constant reflectance of the tile is out of its range.
     #[error(transparent)]
     Constant(#[from] ReferencingError),
-    /// A setting is negative or not finite.
+    /// A setting is negative, infinite or NaN.
     #[error("{} must be a number from 0 up, found `{value}`", setting.replace('_', " "))]
     #[hint("leave [{setting}] out for the default")]
     #[fault(Setting)]

@@ -25,12 +25,11 @@ use crate::spectrum::{IrregularSpectrum, SmoothCurve};
 
 pub use files::{DarkFiles, OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
 
-/// The white must exceed its dark by this many standard deviations of the dark's noise
-/// (the usual limit of detection).
+/// The white must exceed its dark by this many standard deviations of the dark's noise. This is the
+/// usual limit of detection.
 const NOISE_MULTIPLE: f64 = 3.0;
 
-/// Negative reflectance down to minus this value counts as noise and becomes 0 (chosen by
-/// eye).
+/// We take negative reflectance down to minus this value for noise and set it to 0 (chosen by eye).
 const NEGATIVE_NOISE: f64 = 0.01;
 
 /// Default of [`Referencing::least_light`].
@@ -47,8 +46,8 @@ pub struct Referencing {
     pub tile: Tile,
     /// Largest count of the detector. `None` to estimate it from the readings.
     pub full_scale: Option<f64>,
-    /// Least light of the white at every wavelength, as a fraction of its peak (default
-    /// 0.01). A larger value turns noisy ends into an error instead of noisy reflectance.
+    /// Least light of the white at every wavelength, as a fraction of its peak (default 0.01). If
+    /// you pass a larger value, noisy ends give an error instead of noisy reflectance.
     pub least_light: f64,
 }
 
@@ -63,9 +62,9 @@ impl Referencing {
         Self { white, dark, tile, full_scale, least_light }
     }
 
-    /// The reflectances of the samples among `spectra`, the spectra of one file: readings of
-    /// the white or the dark, and spectra that the instrument's program computed from
-    /// counts in the same file, are skipped. If nothing else is left, all are samples.
+    /// The reflectances of the samples among `spectra`, the spectra of one file. This skips
+    /// readings of the white or the dark, and spectra that the instrument's program computed from
+    /// counts in the same file. If nothing else is left, all are samples.
     ///
     /// # Errors
     /// [`ReferencingError`] in the cases of [`Referencing::reflectance`].
@@ -77,27 +76,28 @@ impl Referencing {
     }
 
     fn samples<'a>(&self, spectra: &'a [MeasuredSpectrum]) -> Vec<&'a MeasuredSpectrum> {
-        let is_reference = |spectrum: &MeasuredSpectrum| {
-            matches!(spectrum.role, Role::White | Role::Dark)
-                || *spectrum == self.white
-                || self.darks().is_some_and(|darks| darks.contains(spectrum))
-        };
         let has_counts = spectra.iter().any(|spectrum| spectrum.role == Role::Sample);
         let samples: Vec<&MeasuredSpectrum> = spectra
             .iter()
-            .filter(|spectrum| {
-                if has_counts { spectrum.role == Role::Sample } else { !is_reference(spectrum) }
+            .filter(|spectrum| match spectrum.role {
+                role if has_counts => role == Role::Sample,
+                Role::White | Role::Dark => false,
+                _ => {
+                    **spectrum != self.white
+                        && !self.darks().is_some_and(|darks| darks.contains(spectrum))
+                }
             })
             .collect();
         if samples.is_empty() { spectra.iter().collect() } else { samples }
     }
 
-    /// The reflectance of `sample` at its own wavelengths, as a fraction. White and
-    /// dark, which hold the lines of the lamp, are interpolated linearly, a measured tile by a spline. The remarks of the result name every assumption.
+    /// The reflectance of `sample` at its own wavelengths, as a fraction. We interpolate white and
+    /// dark linearly, because they hold the lines of the lamp, and a measured tile by a spline. The
+    /// remarks of the result name every assumption.
     ///
     /// # Errors
-    /// [`ReferencingError`] for readings that do not belong together, and for too much or
-    /// too little light from 380 to 730 nm. Outside that band such wavelengths are left out.
+    /// [`ReferencingError`] if the readings do not belong together, or have too much or too little
+    /// light from 380 to 730 nm. Outside this band we leave such wavelengths out.
     pub fn reflectance(
         &self,
         sample: &MeasuredSpectrum,
@@ -144,7 +144,7 @@ impl Referencing {
         })
     }
 
-    /// The dark readings, `None` if the dark is already subtracted.
+    /// The dark readings, or `None` if the dark is already subtracted.
     fn darks(&self) -> Option<&[MeasuredSpectrum]> {
         match &self.dark {
             Dark::Readings(darks) => Some(darks),
@@ -233,7 +233,7 @@ impl Referencing {
         }
     }
 
-    /// Factor that brings the sample's counts to the integration time of the white.
+    /// The factor that brings the sample's counts to the integration time of the white.
     fn time_scale(&self, sample: &MeasuredSpectrum, remarks: &mut Vec<String>) -> f64 {
         // Power is already per unit of time.
         if sample.quantity == MeasuredQuantity::Power {
@@ -270,16 +270,16 @@ fn irregular_of(spectrum: &MeasuredSpectrum) -> IrregularSpectrum {
     irregular(spectrum.wavelengths_nm.clone(), spectrum.values.clone())
 }
 
-/// The reflectance of a sample at the wavelengths where it can be computed.
+/// The reflectance of a sample at the wavelengths where we can compute it.
 struct SoundBand {
     nm: Vec<f64>,
     reflectance: Vec<f64>,
-    /// Remark on the wavelengths that were left out.
+    /// Remark on the wavelengths that we left out.
     left_out: Option<String>,
 }
 
-/// Evaluates the reflectance `at` the visible wavelengths of `sample`, and at those on
-/// either side up to the first that fails.
+/// Evaluates the reflectance `at` the visible wavelengths of `sample`, then outwards on either side
+/// up to the first wavelength that fails.
 fn sound_band(
     sample: &MeasuredSpectrum,
     at: impl Fn(f64) -> Result<f64, ReferencingError>,
@@ -306,8 +306,8 @@ fn sound_band(
     Ok(SoundBand { nm: all[start..end].to_vec(), reflectance, left_out })
 }
 
-/// A sample's or white's reading and its dark, each interpolated linearly: counts contain the lines of the
-/// lamp, and a spline would swing next to them.
+/// A reading of the sample or the white with its dark. We interpolate both linearly, because a
+/// spline would swing next to the lines of the lamp.
 struct Reading<'a> {
     /// `sample` or `white`, for errors.
     role: &'static str,
@@ -354,7 +354,7 @@ fn value_at(
 }
 
 /// Standard deviation of the noise in a dark reading, from the median difference between
-/// neighbouring pixels, which neither a slope nor a few hot pixels disturb.
+/// neighbouring pixels. Neither a slope nor a few hot pixels disturb this.
 fn dark_noise(dark: &[f64]) -> f64 {
     let mut steps: Vec<f64> = dark.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.sort_by(f64::total_cmp);
@@ -363,15 +363,14 @@ fn dark_noise(dark: &[f64]) -> f64 {
     steps.get(steps.len() / 2).map_or(0.0, |median| median / 0.6745 / 2.0_f64.sqrt())
 }
 
-/// Band in nm where every value must be sound. Outside it unsound values are left out.
+/// Every value must be sound in this band in nm. Outside it we leave unsound values out.
 const VISIBLE_NM: RangeInclusive<f64> = 380.0..=730.0;
 
 /// The detector's signal without light.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Dark {
-    /// Readings without light. If there are several, sample and white each use the one of
-    /// their own integration time: a dark signal is an offset plus a current and does not
-    /// scale with time.
+    /// Readings without light. If you give several, sample and white each use the one of their own
+    /// integration time. A dark signal is an offset plus a current, so it does not scale with time.
     Readings(Vec<MeasuredSpectrum>),
     /// The dark is already subtracted from sample and white.
     Subtracted,
@@ -423,7 +422,7 @@ impl Tile {
         Ok(Self::Measured(irregular(spectrum.wavelengths_nm.clone(), values)))
     }
 
-    /// The tile as a curve over wavelength.
+    /// Prepares the tile for interpolation.
     fn curve(&self) -> TileCurve<'_> {
         match self {
             Self::Even(value) => TileCurve::Even(*value),
@@ -448,14 +447,14 @@ impl TileCurve<'_> {
     }
 }
 
-/// A measured spectrum's values for interpolation.
 fn irregular(wavelengths_nm: Vec<f64>, values: Vec<f64>) -> IrregularSpectrum {
     IrregularSpectrum::new(wavelengths_nm, values)
         .expect("a measured spectrum has rising wavelengths with one value each")
 }
 
-/// The integration time in ms, from a detail, for example `Integration Time (usec): 24000 (JAZA1479)` or
-/// `Integration time: 100.00 ms`. `None` if there is none, or none with a unit.
+/// The integration time in ms from a detail, for example
+/// `Integration Time (usec): 24000 (JAZA1479)` or `Integration time: 100.00 ms`. You get `None` if
+/// no detail states one with a unit.
 #[must_use]
 pub fn integration_time_ms(record: &MeasuredSpectrum) -> Option<f64> {
     record.details.iter().find_map(|(key, value)| {
@@ -491,12 +490,13 @@ fn is_equal(a_ms: f64, b_ms: f64) -> bool {
 /// Largest counts of converters of 12, 14 and 16 bits.
 const FULL_SCALES: [f64; 3] = [4095.0, 16383.0, 65535.0];
 
-/// Number of neighbouring pixels at exactly the maximum that count as saturation rather than as
-/// a peak (chosen by eye).
+/// If this many neighbouring pixels have exactly the maximum, we call it saturation rather than a
+/// peak (chosen by eye).
 const PLATEAU: usize = 4;
 
-/// The count from which on the detector is saturated: the full scale if it is given and reached. Otherwise
-/// the maximum, if a converter ends there or several neighbours have it. `None` if nothing is saturated.
+/// The count from which on the detector is saturated, or `None` if nothing is. This is the full
+/// scale if you give it and it is reached. Otherwise it is the maximum, if a converter ends there
+/// or several neighbours have it.
 fn ceiling(counts: &[f64], full_scale: Option<f64>) -> Option<f64> {
     let most = counts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if let Some(full) = full_scale {
@@ -507,7 +507,7 @@ fn ceiling(counts: &[f64], full_scale: Option<f64>) -> Option<f64> {
     (most > 0.0 && (flat || FULL_SCALES.contains(&most))).then_some(most)
 }
 
-/// Readings of sample, white and dark that do not give a reflectance.
+/// Why readings of sample, white and dark do not give a reflectance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ReferencingError {
     /// A reading is neither counts nor power.
@@ -523,7 +523,7 @@ pub enum ReferencingError {
         /// Quantity of the reading.
         found: MeasuredQuantity,
     },
-    /// The white's own reflectance is given as another quantity.
+    /// The spectrum of the tile holds another quantity than a reflectance.
     #[error("the tile `{name}` must be a reflectance, found `{found}`")]
     #[hint("give a fraction, such as [tile=0.99], or a file of its reflectance")]
     TileQuantity {
@@ -545,7 +545,8 @@ pub enum ReferencingError {
         /// Quantity of the reading.
         found: MeasuredQuantity,
     },
-    /// Counts contain the signal of the detector without light, so they need a dark.
+    /// The dark is missing. Counts need one, because they contain the detector's signal without
+    /// light.
     #[error("counts of the {role} `{name}` need a dark reading")]
     #[hint(
         "add [dark_reading=FILE] (the same integration time, light shut off), or [dark_reading=0] if the dark is subtracted already"

@@ -147,7 +147,7 @@ fn cargo_run_runs_the_program() {
     assert_eq!(default, &["apps/cli".into()], "members with several programs need `--bin`");
 }
 
-/// The profile of tests in a manifest, without the packages that `lock` does not hold.
+/// The profile of tests in a manifest, without packages that are missing in `lock`.
 fn test_profile(manifest: &str, lock: &str) -> toml::Table {
     let manifest: toml::Table = text(manifest).parse().unwrap();
     let mut profile = manifest["profile"]["dev"].as_table().unwrap().clone();
@@ -164,14 +164,18 @@ fn the_python_package_takes_over_what_the_tests_compiled() {
     assert_eq!(ours, theirs, "[profile.dev] of apps/python/Cargo.toml and of the workspace");
 }
 
+/// Names and versions of the packages in a lock file.
+fn packages(lock: &str) -> BTreeSet<(String, String)> {
+    let lock: toml::Table = text(lock).parse().unwrap();
+    let all = lock["package"].as_array().unwrap().iter();
+    let words = all.map(|package| {
+        ["name", "version"].map(|key| package[key].as_str().unwrap().to_owned()).into()
+    });
+    words.collect()
+}
+
 #[test]
 fn workspaces_of_their_own_have_the_versions_of_this_one() {
-    let packages = |lock: &str| -> BTreeSet<(String, String)> {
-        let lock: toml::Table = text(lock).parse().unwrap();
-        let all = lock["package"].as_array().unwrap().iter();
-        let word = |package: &toml::Value, key: &str| package[key].as_str().unwrap().to_owned();
-        all.map(|package| (word(package, "name"), word(package, "version"))).collect()
-    };
     // Versions that may stand for each other: 1.2 and 1.3, 0.22.1 and 0.22.3.
     let line = |(name, version): &(String, String)| {
         let mut numbers = version.split('.');

@@ -1,4 +1,5 @@
-//! Figures of the sources and their limits: `cargo xtask figures` prints them, with `--list` the places.
+//! Figures of the sources and their limits. Call `cargo xtask figures` to see them, and `--list`
+//! for the places.
 
 use xtask::figures::Figures;
 use xtask::files::{text, texts};

@@ -1,10 +1,9 @@
-//! Order of imports: a file imports only from modules declared above it, so there is no cycle.
+//! Order of imports: a file imports only from modules declared above it. This rules out cycles.
 
 use std::collections::BTreeMap;
 
 use xtask::files::{files_below, text};
 
-/// A module: its file, its child modules, re-exports and other paths.
 #[derive(Debug, Default)]
 struct Module {
     file: String,
@@ -12,7 +11,7 @@ struct Module {
     children: Vec<String>,
     /// Re-exported names, each with its path.
     reexports: BTreeMap<String, Vec<String>>,
-    /// All other paths in its code, as they are written.
+    /// All other paths in its code, as the code writes them.
     paths: Vec<Vec<String>>,
 }
 
@@ -142,8 +141,8 @@ fn read(modules: &mut Modules, path: Vec<String>, file: &str, folder: &str) {
     modules.insert(path, module);
 }
 
-/// Module that defines the item with the path `names` in the module `from`; `None` if another crate
-/// defines it. `hops` counts the re-exports followed so far.
+/// The module that defines the item with the path `names`, seen from the module `from`. If another
+/// crate defines it, this is `None`. `hops` counts the re-exports that we have followed so far.
 fn resolve(
     modules: &Modules,
     from: &[String],
@@ -188,8 +187,8 @@ fn resolve(
     Some(at)
 }
 
-/// Faults of the order: each import from a module declared below, or of an item of a parent whose
-/// own code uses its children.
+/// Finds imports in the wrong order: from a module declared below, or of an item of a parent module
+/// when the code of the parent uses its children.
 fn faults(modules: &Modules) -> Vec<String> {
     let mut faults = Vec::new();
     let mut uses_children = BTreeMap::new();
@@ -217,8 +216,9 @@ fn faults(modules: &Modules) -> Vec<String> {
             }
         } else if path.len() > shared {
             let order = &modules[&path[..shared]].children;
-            let place = |name: &String| order.iter().position(|child| child == name);
-            if place(&target[shared]) >= place(&path[shared]) {
+            let [target, path] = [&target[shared], &path[shared]]
+                .map(|name| order.iter().position(|child| child == name));
+            if target >= path {
                 faults.push(format!("{user} uses {used}, which is declared below it"));
             }
         }
@@ -255,20 +255,21 @@ fn a_file_uses_only_files_that_stand_above_it() {
     assert!(all.is_empty(), "{} imports against the order:\n{}", all.len(), all.join("\n"));
 }
 
+fn path(path: &str) -> Vec<String> {
+    path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+fn module(file: &str, children: &[&str], uses: &[&str], reexports: &[(&str, &str)]) -> Module {
+    Module {
+        file: file.to_owned(),
+        children: children.iter().map(|child| (*child).to_owned()).collect(),
+        paths: uses.iter().map(|used| path(used)).collect(),
+        reexports: reexports.iter().map(|(name, to)| ((*name).to_owned(), path(to))).collect(),
+    }
+}
+
 #[test]
 fn imports_that_run_back_up_are_found() {
-    let module = |file: &str, children: &[&str], uses: &[&str], reexports: &[(&str, &str)]| {
-        let names = |path: &str| path.split("::").map(str::to_owned).collect::<Vec<_>>();
-        Module {
-            file: file.to_owned(),
-            children: children.iter().map(|child| (*child).to_owned()).collect(),
-            paths: uses.iter().map(|path| names(path)).collect(),
-            reexports: reexports.iter().map(|(n, path)| ((*n).to_owned(), names(path))).collect(),
-        }
-    };
-    let path = |path: &str| -> Vec<String> {
-        path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect()
-    };
     let mut modules = Modules::new();
     modules.insert(path(""), module("lib", &["low", "high"], &[], &[]));
     modules.insert(path("low"), module("low/mod", &["a", "b"], &[], &[("B", "b::B")]));

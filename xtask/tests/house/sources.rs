@@ -16,7 +16,7 @@ fn sources_are_ascii() {
 
 #[test]
 fn nothing_is_left_to_do() {
-    // Joined from two parts, so that this file does not contain the forbidden macros.
+    // We join each from two parts, so that this file does not contain the forbidden macros.
     let needles = ["todo", "unimplemented", "dbg"].map(|word| [word, "!("].concat());
     for (path, text) in texts(&[".rs"]) {
         for needle in &needles {

@@ -3,7 +3,7 @@
 use xtask::files::texts;
 
 /// Whether `line` names a command-line option: two dashes and a lower-case letter at the start of a
-/// word. Properties of a style sheet, `var(--ink)` or `{--ink:`, do not count.
+/// word. Properties of a style sheet, `var(--ink)` or `{--ink:`, do not count as one.
 fn names_an_option(line: &str) -> bool {
     let bytes = line.as_bytes();
     (0..bytes.len().saturating_sub(2)).any(|at| {

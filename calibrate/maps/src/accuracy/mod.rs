@@ -1,8 +1,10 @@
-//! How far maps can be believed: measured mixtures and simulated paintings, in which we know the pigments.
+//! How far you can believe maps. We test them on measured mixtures and simulated paintings, because
+//! we know their pigments.
 //!
-//! We have no scan of a painting with known pigments. These trials use measured swatches as pixels, each with
-//! a library that was fitted without it, and simulated pixels with K and S that differ from the library. They
-//! also run common linear methods for comparison. The readings are the Van Gogh oils that ship with impasto.
+//! We have no scan of a painting with known pigments. These trials use measured swatches as pixels,
+//! each with a library that was fitted without it, and simulated pixels with K and S that differ
+//! from the library. They also run common linear methods for comparison. The readings are the Van
+//! Gogh oils that ship with impasto.
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 mod trials;
@@ -21,7 +23,7 @@ pub use trials::{
     Unmixed, coverage, covered, reliability,
 };
 
-/// Groups by name. Every other pigment is by itself.
+/// Groups by name. Every pigment outside them is a group by itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedGroups {
     /// Names of all pigments of the trials.
@@ -43,18 +45,20 @@ impl NamedGroups {
             }
         }
         let mut count = groups.len();
-        let mut group = |name: &String| {
-            let named = groups.iter().position(|group| group.pigments.contains(name));
-            named.unwrap_or_else(|| {
-                count += 1;
-                count - 1
+        let group_of = pigments
+            .iter()
+            .map(|name: &String| {
+                let named = groups.iter().position(|group| group.pigments.contains(name));
+                named.unwrap_or_else(|| {
+                    count += 1;
+                    count - 1
+                })
             })
-        };
-        let group_of = pigments.iter().map(&mut group).collect();
+            .collect();
         Self { pigments, group_of, count }
     }
 
-    /// Values by name as a list by pigment.
+    /// Sorts values by name into a list by pigment.
     fn list<'a>(&self, values: impl IntoIterator<Item = (&'a str, f64)>) -> Vec<f64> {
         let mut list = vec![0.0; self.pigments.len()];
         for (name, value) in values {
@@ -76,7 +80,7 @@ pub struct SwatchTrials {
 }
 
 impl SwatchTrials {
-    /// Trials by a baseline, which tells each pigment of a share above `least` as present.
+    /// Trials by a baseline. It calls a pigment present if its share is above `least`.
     #[must_use]
     pub fn baseline(
         samples: &[LeftOut],
@@ -84,20 +88,22 @@ impl SwatchTrials {
         baseline: Baseline,
         least: f64,
     ) -> Self {
-        let trial = |sample: &LeftOut| -> Option<Trial> {
-            let library = &sample.library;
-            let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-            let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
-            let paints = crate::films::film::Paints::new(library, &[], &bands).ok()?;
-            let shares = baseline.unmix(&paints, &sample.mixture.measured).shares;
-            let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
-            let truth = named.list(true_shares(sample));
-            let present = told.iter().map(|share| *share > least).collect();
-            let probability = Vec::new();
-            let sd = Vec::new();
-            Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
-        };
-        let pigments: Vec<Trial> = samples.iter().filter_map(trial).collect();
+        let pigments: Vec<Trial> = samples
+            .iter()
+            .filter_map(|sample: &LeftOut| -> Option<Trial> {
+                let library = &sample.library;
+                let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+                let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
+                let paints = crate::films::film::Paints::new(library, &[], &bands).ok()?;
+                let shares = baseline.unmix(&paints, &sample.mixture.measured).shares;
+                let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
+                let truth = named.list(true_shares(sample));
+                let present = told.iter().map(|share| *share > least).collect();
+                let probability = Vec::new();
+                let sd = Vec::new();
+                Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
+            })
+            .collect();
         let groups = pigments.iter().map(|t| t.joined(&named.group_of, named.count)).collect();
         Self { pigments, groups }
     }
@@ -108,7 +114,7 @@ fn true_shares(sample: &LeftOut) -> impl Iterator<Item = (&str, f64)> {
     sample.mixture.shares.iter().map(|(name, share)| (name.as_str(), *share))
 }
 
-/// Errors of the predictions for `samples`, or `None` if there are none.
+/// Errors of the predictions for `samples`, or `None` if you pass no samples.
 #[must_use]
 pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Option<Residuals> {
     let mut samples = samples.into_iter().peekable();
@@ -123,11 +129,8 @@ pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Optio
     })
 }
 
-/// Maps each of `samples` with its own library and the residuals of all others: by single pigment, and by the
-/// groups `groups`.
-///
-/// # Errors
-/// [`MapError`] if a library cannot be used.
+/// Maps each of `samples` with its own library and the residuals of all others, once by single
+/// pigment and once by `groups`.
 pub fn swatch_trials(
     samples: &[LeftOut],
     settings: &MapSettings,
@@ -135,68 +138,72 @@ pub fn swatch_trials(
 ) -> Result<SwatchTrials, MapError> {
     use rayon::prelude::*;
     let named = NamedGroups::of(samples, groups);
-    let trial = |index: usize| -> Result<(Trial, Trial), MapError> {
-        let sample = &samples[index];
-        let others = samples.iter().enumerate().filter(|(other, _)| *other != index);
-        let residuals = residuals_of(others.map(|(_, sample)| sample));
-        let library = &sample.library;
-        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-        let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
-        let own = |groups: &[PigmentGroup]| MapSettings {
-            groups: groups.to_vec(),
-            group_alike: false,
-            model_error: settings
-                .model_error
-                .clone()
-                .or(residuals.clone().map(ModelError::Residuals)),
-            ..settings.clone()
-        };
-        let truth = named.list(true_shares(sample));
-        let single = Mapper::new(library, &nm, &own(&[]))?;
-        let maps = single.search(&spectrum)?;
-        let names = || single.columns().iter().map(|column| column.name.as_str());
-        let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
-        let list = |values: &[f64]| named.list(names().zip(values.iter().copied()));
-        let pigments = Trial {
-            truth: truth.clone(),
-            told: list(&plain.told),
-            present: list(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
-            probability: list(&plain.probability),
-            sd: list(&plain.sd),
-            chi2: plain.chi2,
-            least: 0.0,
-        };
-        let joined = Mapper::new(library, &nm, &own(groups))?;
-        let maps = joined.search(&spectrum)?;
-        let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
-        let mut sums = vec![0.0; named.count];
-        truth.iter().zip(&named.group_of).for_each(|(share, &group)| sums[group] += share);
-        let by_group = |values: &[f64]| {
-            let mut list = vec![0.0; named.count];
-            for (column, value) in joined.columns().iter().zip(values) {
-                let place = named.pigments.iter().position(|known| *known == column.pigments[0]);
-                list[place.map_or(0, |place| named.group_of[place])] = *value;
-            }
-            list
-        };
-        let groups = Trial {
-            truth: sums,
-            told: by_group(&plain.told),
-            present: by_group(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
-            probability: by_group(&plain.probability),
-            sd: by_group(&plain.sd),
-            chi2: plain.chi2,
-            least: 0.0,
-        };
-        Ok((pigments, groups))
-    };
-    let found: Vec<(Trial, Trial)> =
-        (0..samples.len()).into_par_iter().map(trial).collect::<Result<_, _>>()?;
+    let found: Vec<(Trial, Trial)> = (0..samples.len())
+        .into_par_iter()
+        .map(|index: usize| -> Result<(Trial, Trial), MapError> {
+            let sample = &samples[index];
+            let others = samples.iter().enumerate().filter(|(other, _)| *other != index);
+            let residuals = residuals_of(others.map(|(_, sample)| sample));
+            let library = &sample.library;
+            let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+            let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
+            let own = |groups: &[PigmentGroup]| MapSettings {
+                groups: groups.to_vec(),
+                group_alike: false,
+                model_error: settings
+                    .model_error
+                    .clone()
+                    .or(residuals.clone().map(ModelError::Residuals)),
+                ..settings.clone()
+            };
+            let truth = named.list(true_shares(sample));
+            let single = Mapper::new(library, &nm, &own(&[]))?;
+            let maps = single.search(&spectrum)?;
+            let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
+            let list = |values: &[f64]| {
+                let names = single.columns().iter().map(|column| column.name.as_str());
+                named.list(names.zip(values.iter().copied()))
+            };
+            let pigments = Trial {
+                truth: truth.clone(),
+                told: list(&plain.told),
+                present: list(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
+                probability: list(&plain.probability),
+                sd: list(&plain.sd),
+                chi2: plain.chi2,
+                least: 0.0,
+            };
+            let joined = Mapper::new(library, &nm, &own(groups))?;
+            let maps = joined.search(&spectrum)?;
+            let plain = Trial::of_map(&maps, 0, &vec![0.0; maps.pigments]);
+            let mut sums = vec![0.0; named.count];
+            truth.iter().zip(&named.group_of).for_each(|(share, &group)| sums[group] += share);
+            let by_group = |values: &[f64]| {
+                let mut list = vec![0.0; named.count];
+                for (column, value) in joined.columns().iter().zip(values) {
+                    let place =
+                        named.pigments.iter().position(|known| *known == column.pigments[0]);
+                    list[place.map_or(0, |place| named.group_of[place])] = *value;
+                }
+                list
+            };
+            let groups = Trial {
+                truth: sums,
+                told: by_group(&plain.told),
+                present: by_group(&plain.probability).iter().map(|p| *p >= 0.5).collect(),
+                probability: by_group(&plain.probability),
+                sd: by_group(&plain.sd),
+                chi2: plain.chi2,
+                least: 0.0,
+            };
+            Ok((pigments, groups))
+        })
+        .collect::<Result<_, _>>()?;
     let (pigments, groups) = found.into_iter().unzip();
     Ok(SwatchTrials { pigments, groups })
 }
 
-/// Trials with the penalty of each fold chosen on the other folds.
+/// Trials after we chose the penalty of each fold on the other folds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     /// Trials, each with the penalty that suits the other folds best.
@@ -205,28 +212,33 @@ pub struct Choice {
     pub penalties: Vec<f64>,
 }
 
-/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own:
-/// swatch `i` is in fold `i` modulo `folds`, and takes the penalty with the best harmonic mean of
-/// precision and recall, of pigments and groups alike, is greatest in the other folds.
+/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own
+/// penalty. Swatch `i` is in fold `i` modulo `folds`. It takes the penalty with the best harmonic
+/// mean of precision and recall, of pigments and groups alike, in the other folds.
 #[must_use]
 pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choice {
     let count = of_penalty.first().map_or(0, |(_, trials)| trials.groups.len());
     let mut trials = SwatchTrials { pigments: Vec::new(), groups: Vec::new() };
     let value = |trials: &SwatchTrials, fold: usize| {
-        let others = |list: &[Trial]| {
+        let [groups, pigments] = [&trials.groups, &trials.pigments].map(|list| {
             let kept = list.iter().enumerate().filter(|(index, _)| index % folds != fold);
             Scores::of(kept.map(|(_, trial)| trial)).f1()
-        };
-        others(&trials.groups) + others(&trials.pigments)
+        });
+        groups + pigments
     };
-    let best = |fold: usize| {
-        (0..of_penalty.len())
-            .reduce(|a: usize, b: usize| {
-                if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) { b } else { a }
-            })
-            .unwrap_or(0)
-    };
-    let chosen: Vec<usize> = (0..folds).map(best).collect();
+    let chosen: Vec<usize> = (0..folds)
+        .map(|fold: usize| {
+            (0..of_penalty.len())
+                .reduce(|a: usize, b: usize| {
+                    if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) {
+                        b
+                    } else {
+                        a
+                    }
+                })
+                .unwrap_or(0)
+        })
+        .collect();
     for index in 0..count {
         let (_, own) = &of_penalty[chosen[index % folds]];
         trials.pigments.push(own.pigments[index].clone());
@@ -235,7 +247,7 @@ pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choic
     Choice { trials, penalties: chosen.iter().map(|&index| of_penalty[index].0).collect() }
 }
 
-/// Groups of the Van Gogh oils that look alike from 400 to 700 nm, for which figures are told.
+/// Groups of the Van Gogh oils that look alike from 400 to 700 nm. We report figures for these.
 #[must_use]
 pub fn oil_groups() -> Vec<PigmentGroup> {
     let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
@@ -251,8 +263,8 @@ pub fn oil_groups() -> Vec<PigmentGroup> {
         .collect()
 }
 
-/// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, because other
-/// pigments hardly show in mixtures with them.
+/// Eight of the Van Gogh oils that a painter would set out. We leave out black and Prussian blue,
+/// because other pigments hardly show in mixtures with them.
 #[must_use]
 pub fn light_palette() -> Vec<String> {
     let names = [
@@ -268,10 +280,10 @@ pub fn light_palette() -> Vec<String> {
     names.map(str::to_owned).to_vec()
 }
 
-/// Readings of the Van Gogh oils with the options by which their library is fitted.
+/// Prepares the readings of the Van Gogh oils with the options that we fit their library with.
 ///
 /// # Errors
-/// [`FittingError`] if `readings` are others.
+/// [`FittingError`] if `readings` are of other paints.
 pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     let below_surface = Some(BelowSurface::Floor);
     PreparedFit::new(
@@ -284,9 +296,9 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
 /// Trials of simulated paintings of several seeds.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PaintingTrials {
-    /// Trials of pixels that were searched whole.
+    /// Trials of pixels that we searched whole.
     pub searched: Vec<Trial>,
-    /// Trials of pixels that were mapped with a survey.
+    /// Trials of pixels that we mapped with a survey.
     pub mapped: Vec<Trial>,
     /// Best set of each searched pixel beside its true pigments.
     pub beside: Vec<BesideTruth>,
@@ -295,7 +307,8 @@ pub struct PaintingTrials {
 }
 
 impl PaintingTrials {
-    /// Share of the pixels in which the search ended at a worse score than the true pigments have.
+    /// Share of the pixels for which the search found only sets with a worse score than the true
+    /// pigments.
     #[must_use]
     pub fn worse(&self) -> f64 {
         let worse = self.beside.iter().filter(|beside| beside.is_worse).count();
@@ -318,20 +331,18 @@ pub fn tone(mean_reflectance: f32) -> usize {
     TONES.iter().filter(|end| mean_reflectance >= **end).count()
 }
 
-/// Knowledge of the pigments that a painting holds, beside the library.
+/// How much we know of the pigments in a painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Told {
-    /// No pigment of it is named.
+    /// We know no pigment of it.
     Nothing,
-    /// All its pigments are named, and no others.
+    /// We know all its pigments.
     Palette,
 }
 
-/// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with the library
-/// `known`, `settings`, and the palette of the painting if it is told.
-///
-/// # Errors
-/// [`MapError`] if library and settings cannot be used.
+/// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with
+/// the library `known` and `settings`. If `told` says so, the map also knows the palette of the
+/// painting.
 pub fn painting_trials(
     (real, known): (&PigmentLibrary, &PigmentLibrary),
     plan: &PaintingPlan,
@@ -358,24 +369,23 @@ pub fn painting_trials(
     Ok(trials)
 }
 
-/// Trials of pixels with one pigment that the library lacks.
+/// Trials of pixels with a pigment that the library lacks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Missing {
-    /// Median chi-square per degree of freedom of pixels without the pigment, and of those with it.
+    /// Median chi-square per degree of freedom, first of pixels without the pigment, then of pixels
+    /// with it.
     pub chi2: [f64; 2],
     /// Share of the pixels containing the pigment that have a chi-square above the 95th percentile of
     /// pixels without it.
     pub noticed: f64,
-    /// Mean number of pigments that are told to be present but are not, in pixels without the missing one,
-    /// and with it.
+    /// Mean number of pigments that the map wrongly finds in a pixel, first in pixels without the
+    /// missing one, then with it.
     pub false_presences: [f64; 2],
 }
 
-/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each: the first that is
-/// in no group of `settings`, because another of its group would take its place.
-///
-/// # Errors
-/// [`MapError`] if library and settings cannot be used.
+/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each. This
+/// is the first that is not in a group of `settings`, because another pigment of the group would
+/// take its place.
 pub fn missing_pigment(
     library: &PigmentLibrary,
     plan: &PaintingPlan,
@@ -387,8 +397,9 @@ pub fn missing_pigment(
     let mut wrong = [0.0, 0.0];
     for seed in seeds {
         let painting = Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
-        let alike = |name: &String| settings.groups.iter().any(|g| g.pigments.contains(name));
-        let Some(lacking) = painting.pigments.iter().position(|name| !alike(name)) else {
+        let Some(lacking) = painting.pigments.iter().position(|name: &String| {
+            !settings.groups.iter().any(|group| group.pigments.contains(name))
+        }) else {
             continue;
         };
         let missing = &painting.pigments[lacking];
@@ -406,11 +417,11 @@ pub fn missing_pigment(
     }
     chi2.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));
     let usual = at_share(&chi2[0], 0.95);
-    let count = |with: usize| chi2[with].len().max(1) as f64;
+    let counts = [&chi2[0], &chi2[1]].map(|values| values.len().max(1) as f64);
     Ok(Missing {
         chi2: [at_share(&chi2[0], 0.5), at_share(&chi2[1], 0.5)],
-        noticed: chi2[1].iter().filter(|value| **value > usual).count() as f64 / count(1),
-        false_presences: [wrong[0] / count(0), wrong[1] / count(1)],
+        noticed: chi2[1].iter().filter(|value| **value > usual).count() as f64 / counts[1],
+        false_presences: [wrong[0] / counts[0], wrong[1] / counts[1]],
     })
 }
 

@@ -15,23 +15,24 @@ use crate::films::film::Paints;
 use crate::mapping::{Gap, Mapper};
 use crate::pixel_maps::{BlockMaps, MapError, Mask};
 
-/// Length in nm over which the simulated errors of K and S are alike.
+/// Simulated errors of K and S are alike over this length in nm.
 const SMOOTH_NM: f64 = 50.0;
-/// Standard deviation of the logarithm of each amount, from pixel to pixel of one recipe.
+/// Standard deviation of the logarithm of each amount between pixels of one recipe.
 const UNEVEN: f64 = 0.1;
-/// Difference of scores that does not count as worse.
+/// A difference of scores up to this does not count as worse.
 const EQUAL: f32 = 0.05;
 
-/// Plan of a simulated painting. Every number is drawn from its seed.
+/// Plan of a simulated painting. We draw every number from its seed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaintingPlan {
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Pigments of the painting, drawn from the library, or from `palette` if it names some.
+    /// Number of pigments in the painting. We draw them from the library, or from `palette` if it
+    /// names some.
     pub pigments: usize,
-    /// Names of the pigments that may be drawn, or empty for all of the library.
+    /// Names of the pigments that we may draw. If this is empty, we may draw all of the library.
     pub palette: Vec<String>,
-    /// Recipes of the painting, each of one to `at_most` of its pigments.
+    /// Number of recipes. Each has one to `at_most` pigments.
     pub recipes: usize,
     /// Most pigments of a recipe.
     pub at_most: usize,
@@ -62,31 +63,32 @@ impl Default for PaintingPlan {
     }
 }
 
-/// Best set of a whole search beside the true pigments of a pixel.
+/// Compares the best set of a whole search with the true pigments of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BesideTruth {
-    /// Whether its score is worse than the score of the true pigments, which a wider search would have
-    /// found.
+    /// Whether its score is worse than the score of the true pigments. Then a wider search would
+    /// have found them.
     pub is_worse: bool,
-    /// Whether it has the pigments or groups of the truth.
+    /// Whether it has the true pigments or groups.
     pub is_right: bool,
-    /// Its chi-square minus the chi-square of the true pigments: the evidence for them in the spectrum.
+    /// Its chi-square minus the chi-square of the true pigments. This shows how much the spectrum
+    /// speaks for them.
     pub chi2: f64,
 }
 
-/// Pixels with their truth.
+/// Simulated pixels and their truth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Painting {
     /// Names of the pigments of the painting.
     pub pigments: Vec<String>,
-    /// Pigments of each pixel, by place in `pigments`, with their shares.
+    /// Pigments of each pixel with their shares. A pigment is a place in `pigments`.
     pub truth: Vec<Vec<(usize, f64)>>,
     /// Reflectances, pixel after pixel, on the library's grid.
     pub spectra: Vec<f32>,
 }
 
 impl Painting {
-    /// Paints with the pigments of `real` that are in `known` too.
+    /// Paints with the pigments of `real` that you also find in `known`.
     #[must_use]
     pub fn simulate(real: &PigmentLibrary, known: &PigmentLibrary, plan: &PaintingPlan) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
@@ -99,13 +101,16 @@ impl Painting {
         ids.sort_unstable();
         let grid = real.grid;
         let factor = smooth_factor(&grid.wavelengths_nm().collect::<Vec<f64>>());
-        let mut off = |values: &[f64]| -> Vec<f64> {
-            let normal = DVector::from_fn(values.len(), |_, _| StandardNormal.sample(&mut random));
-            let errors: DVector<f64> = &factor * normal;
-            values.iter().zip(&errors).map(|(v, e)| v * (plan.error * e).exp()).collect()
-        };
-        let curves: Vec<(Vec<f64>, Vec<f64>)> =
-            ids.iter().map(|&id| (off(&real[id].absorption), off(&real[id].scattering))).collect();
+        let curves: Vec<[Vec<f64>; 2]> = (ids.iter())
+            .map(|&id| {
+                [&real[id].absorption, &real[id].scattering].map(|values| {
+                    let normal =
+                        DVector::from_fn(values.len(), |_, _| StandardNormal.sample(&mut random));
+                    let errors: DVector<f64> = &factor * normal;
+                    values.iter().zip(&errors).map(|(v, e)| v * (plan.error * e).exp()).collect()
+                })
+            })
+            .collect();
         let recipes: Vec<Vec<(usize, f64)>> =
             (0..plan.recipes).map(|_| recipe(&mut random, ids.len(), plan)).collect();
         let mut truth = Vec::new();
@@ -119,7 +124,7 @@ impl Painting {
             let sum: f64 = shares.iter().map(|(_, share)| share).sum();
             shares.iter_mut().for_each(|(_, share)| *share /= sum);
             let parts = shares.iter().map(|&(place, share)| {
-                let (k, s) = &curves[place];
+                let [k, s] = &curves[place];
                 (share, k.as_slice(), s.as_slice())
             });
             let film = Curves::weighted_sum(grid, parts).hiding(real.saunderson);
@@ -139,7 +144,7 @@ impl Painting {
         self.spectra[index * bands..(index + 1) * bands].iter().sum::<f32>() / bands as f32
     }
 
-    /// True shares of pixel `index` by the columns of `mapper`.
+    /// True shares of pixel `index`, in the columns of `mapper`.
     #[must_use]
     pub fn truth_by_column(&self, mapper: &Mapper, index: usize) -> Vec<f64> {
         let mut list = vec![0.0; mapper.columns().len()];
@@ -152,7 +157,7 @@ impl Painting {
         list
     }
 
-    /// Trials of all pixels in `maps`, which `mapper` made.
+    /// Trials of all pixels in `maps`. Pass the `mapper` that made them.
     #[must_use]
     pub fn trials(&self, mapper: &Mapper, maps: &BlockMaps) -> Vec<Trial> {
         (0..self.truth.len())
@@ -160,11 +165,11 @@ impl Painting {
             .collect()
     }
 
-    /// Compares the best set of a whole search of each pixel with its true pigments. The shares are
-    /// refined.
+    /// Compares the best set of a whole search of each pixel with its true pigments. This refines
+    /// the shares.
     ///
     /// # Errors
-    /// [`MapError::Length`] if the library of `mapper` is on other wavelengths.
+    /// [`MapError::Length`] if the library of `mapper` has other wavelengths.
     pub fn beside_truth(&self, mapper: &Mapper) -> Result<Vec<BesideTruth>, MapError> {
         let true_sets = self.truth.iter().map(|shares| {
             let named = shares.iter().map(|&(place, share)| (self.pigments[place].as_str(), share));
@@ -207,7 +212,7 @@ fn recipe(random: &mut ChaCha8Rng, pigments: usize, plan: &PaintingPlan) -> Vec<
     shares
 }
 
-/// Matrix that makes smooth curves of variance 1 out of independent normal numbers.
+/// Matrix that turns independent normal numbers into smooth curves of variance 1.
 fn smooth_factor(nm: &[f64]) -> DMatrix<f64> {
     let covariance = DMatrix::from_fn(nm.len(), nm.len(), |i, j| {
         let x = (nm[i] - nm[j]) / SMOOTH_NM;
@@ -222,24 +227,24 @@ fn smooth_factor(nm: &[f64]) -> DMatrix<f64> {
 pub struct Trial {
     /// True shares, sum 1.
     pub truth: Vec<f64>,
-    /// Shares that were told.
+    /// Shares that the method found.
     pub told: Vec<f64>,
-    /// Whether each is told to be present.
+    /// Whether the method finds each present.
     pub present: Vec<bool>,
-    /// Probability that each is present, or empty if the method tells none.
+    /// Probability that each is present. This is empty if the method does not give one.
     pub probability: Vec<f64>,
-    /// Standard deviation of each share, or empty if the method tells none.
+    /// Standard deviation of each share. This is empty if the method does not give one.
     pub sd: Vec<f64>,
-    /// Chi-square per degree of freedom, or NaN if the method tells none.
+    /// Chi-square per degree of freedom, or NaN if the method does not give one.
     pub chi2: f64,
-    /// Least true share that counts as present. A trace, smaller than that, is neither right nor wrong to
-    /// tell, or 0 if there are no traces.
+    /// Least true share that counts as present, or 0 if we do not look for traces. A smaller share
+    /// is a trace: finding it is neither right nor wrong.
     pub least: f64,
 }
 
 impl Trial {
-    /// Trial of pixel `index` of a map, with the true shares `truth` by column. A column counts as
-    /// present where its probability is one half or more.
+    /// Trial of pixel `index` of a map. Pass the true shares by column as `truth`. A column counts
+    /// as present if its probability is one half or more.
     #[must_use]
     pub fn of_map(maps: &BlockMaps, index: usize, truth: &[f64]) -> Self {
         let columns = index * maps.pigments..(index + 1) * maps.pigments;
@@ -269,26 +274,26 @@ impl Trial {
         }
     }
 
-    /// The trial with that told to be present which has a share in the best set.
+    /// Copies the trial, but calls present whatever has a share in the best set.
     #[must_use]
     pub fn of_best_set(&self) -> Self {
         Self { present: self.told.iter().map(|share| *share > 0.0).collect(), ..self.clone() }
     }
 
-    /// The trial with those columns joined that have one number in `group_of`, of which there are `count`.
-    /// Probabilities and deviations cannot be joined and are dropped.
+    /// Joins the columns that have the same number in `group_of`, where numbers go up to `count`.
+    /// This drops probabilities and deviations, because you cannot join them.
     #[must_use]
     pub fn joined(&self, group_of: &[usize], count: usize) -> Self {
-        let sum = |values: &[f64]| {
+        let [truth, told] = [&self.truth, &self.told].map(|values| {
             let mut sums = vec![0.0; count];
             values.iter().zip(group_of).for_each(|(value, &group)| sums[group] += value);
             sums
-        };
+        });
         let mut present = vec![false; count];
         self.present.iter().zip(group_of).for_each(|(&is, &group)| present[group] |= is);
         Self {
-            truth: sum(&self.truth),
-            told: sum(&self.told),
+            truth,
+            told,
             present,
             probability: Vec::new(),
             sd: Vec::new(),
@@ -301,9 +306,9 @@ impl Trial {
 /// Figures of many trials.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scores {
-    /// Part of the pigments told to be present that are.
+    /// How many of the pigments that the method finds are present, 0 to 1.
     pub precision: f64,
-    /// Part of the present pigments that are told.
+    /// How many of the present pigments the method finds, 0 to 1.
     pub recall: f64,
     /// Mean over pixels of half the sum of the absolute errors of the shares.
     pub share_error: f64,
@@ -333,14 +338,14 @@ impl std::fmt::Display for Scores {
     }
 }
 
-/// Sums over trials, which may come one after another.
+/// Sums over trials. You may add them one after another.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ScoreSums {
     /// Number of trials.
     pub count: f64,
-    /// Pigments that are told to be present and are.
+    /// Pigments that the method finds and that are present.
     pub right: f64,
-    /// Pigments that are told to be present, traces left out.
+    /// Pigments that the method finds, without traces.
     pub told: f64,
     /// Pigments that are present.
     pub there: f64,
@@ -377,7 +382,7 @@ fn ratio(value: f64, of: f64) -> f64 {
     if of > 0.0 { value / of } else { 0.0 }
 }
 
-/// Told probabilities of one range, with the part of them that is true.
+/// How far the probabilities of one range are true.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reliability {
     /// Least probability of the range.
@@ -386,37 +391,39 @@ pub struct Reliability {
     pub count: usize,
     /// Mean of these probabilities.
     pub told: f64,
-    /// Part of them where the pigment is present.
+    /// Share of them where the pigment is present.
     pub true_part: f64,
 }
 
-/// Reliability of the probabilities of `trials` in ranges that begin at `ends` and end before the next.
+/// Reliability of the probabilities of `trials` in ranges. Each begins at one of `ends` and ends
+/// before the next.
 #[must_use]
 pub fn reliability<'a>(
     trials: impl IntoIterator<Item = &'a Trial> + Clone,
     ends: &[f64],
 ) -> Vec<Reliability> {
-    let range = |index: usize| {
-        let from = ends[index];
-        let to = ends.get(index + 1).copied().unwrap_or(f64::INFINITY);
-        let mut count = 0;
-        let mut told = 0.0;
-        let mut is_true = 0.0;
-        for trial in trials.clone() {
-            for (index, &probability) in trial.probability.iter().enumerate() {
-                if let (Some(is_there), true) =
-                    (trial.is_there(index), (from..to).contains(&probability))
-                {
-                    count += 1;
-                    told += probability;
-                    is_true += f64::from(u8::from(is_there));
+    (0..ends.len())
+        .map(|index: usize| {
+            let from = ends[index];
+            let to = ends.get(index + 1).copied().unwrap_or(f64::INFINITY);
+            let mut count = 0;
+            let mut told = 0.0;
+            let mut is_true = 0.0;
+            for trial in trials.clone() {
+                for (index, &probability) in trial.probability.iter().enumerate() {
+                    if let (Some(is_there), true) =
+                        (trial.is_there(index), (from..to).contains(&probability))
+                    {
+                        count += 1;
+                        told += probability;
+                        is_true += f64::from(u8::from(is_there));
+                    }
                 }
             }
-        }
-        let of = (count as f64).max(1.0);
-        Reliability { from, count, told: told / of, true_part: is_true / of }
-    };
-    (0..ends.len()).map(range).collect()
+            let of = (count as f64).max(1.0);
+            Reliability { from, count, told: told / of, true_part: is_true / of }
+        })
+        .collect()
 }
 
 /// How often shares lie within their standard deviation of the truth.
@@ -428,8 +435,8 @@ pub struct Coverage {
     pub within: f64,
 }
 
-/// Coverage of the shares of all that is told to be present. Films of one column alone are left out,
-/// because their share is 1 by definition.
+/// Coverage of the shares of all pigments that the method finds. We leave out films of one column
+/// alone, because their share is 1 by definition.
 #[must_use]
 pub fn coverage<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Coverage {
     let mut count = 0;
@@ -442,15 +449,15 @@ pub fn coverage<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Coverage {
     Coverage { count, within: within as f64 / (count as f64).max(1.0) }
 }
 
-/// Number of shares of one trial that [`coverage`] counts, and of those within one standard deviation.
+/// Number of shares of one trial that [`coverage`] counts, and how many of them lie within one
+/// standard deviation.
 #[must_use]
 pub fn covered(trial: &Trial) -> (usize, usize) {
     let alone = trial.present.iter().filter(|is| **is).count() < 2;
     let counted = (0..trial.sd.len()).filter(|&index| trial.present[index] && !alone);
-    let is_within =
-        |&index: &usize| (trial.truth[index] - trial.told[index]).abs() <= trial.sd[index];
-    let counted: Vec<usize> = counted.collect();
-    (counted.len(), counted.iter().filter(|index| is_within(index)).count())
+    let within = (counted.clone())
+        .filter(|&index| (trial.truth[index] - trial.told[index]).abs() <= trial.sd[index]);
+    (counted.count(), within.count())
 }
 
 /// A linear method.
@@ -475,7 +482,7 @@ pub struct Unmixed {
 
 /// Weight of the equation that makes the shares sum to 1.
 const SUM: f64 = 100.0;
-/// Sweeps of coordinate descent.
+/// We stop coordinate descent after this many sweeps.
 const SWEEPS: usize = 20_000;
 
 impl Baseline {
@@ -493,25 +500,23 @@ impl Baseline {
         }
     }
 
-    /// Shares of the pigments of `paints` in a film of this reflectance on their bands.
+    /// Shares of the pigments of `paints` in a film. Pass its reflectance on their bands.
     #[must_use]
     pub fn unmix(self, paints: &Paints, reflectance: &[f64]) -> Unmixed {
-        let space = |reflectance: &[f64]| -> Vec<f64> {
-            reflectance
-                .iter()
-                .map(|&r: &f64| match self {
-                    Self::Reflectance | Self::Angle => r,
-                    Self::Absorbance => -r.max(1e-3).ln(),
-                    Self::Ratio => {
-                        let internal = paints.surface.internal_from_measured(r).unwrap_or(0.0);
-                        absorption_over_scattering(internal.clamp(1e-3, 1.0))
-                    }
-                })
-                .collect()
-        };
-        let mut target = space(reflectance);
-        let masstones = (0..paints.count()).map(|p| space(&paints.reflectance(&[(p, 1.0)])));
-        let mut columns: Vec<Vec<f64>> = masstones.collect();
+        let masstones = (0..paints.count()).map(|p| paints.reflectance(&[(p, 1.0)]));
+        let mut spectra: Vec<Vec<f64>> = masstones.chain([reflectance.to_vec()]).collect();
+        for value in spectra.iter_mut().flatten() {
+            *value = match self {
+                Self::Reflectance | Self::Angle => *value,
+                Self::Absorbance => -value.max(1e-3).ln(),
+                Self::Ratio => {
+                    let internal = paints.surface.internal_from_measured(*value).unwrap_or(0.0);
+                    absorption_over_scattering(internal.clamp(1e-3, 1.0))
+                }
+            };
+        }
+        let mut target = spectra.pop().unwrap_or_default();
+        let mut columns = spectra;
         if self == Self::Angle {
             let cosine = |column: &Vec<f64>| dot(column, &target) / dot(column, column).sqrt();
             let nearest = (0..columns.len())
@@ -539,7 +544,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Nonnegative least squares by coordinate descent, which converges for every start.
+/// Nonnegative least squares by coordinate descent, which converges from every start.
 fn nonnegative(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let count = columns.len();
     let gram: Vec<Vec<f64>> =

@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use documents::file::FileError;
 use documents::hint::{Explain, Fault, Hint};
 
-/// A cube that cannot be opened or read.
+/// We cannot open or read a cube.
 #[derive(Debug, thiserror::Error)]
 pub enum CubeError {
     /// The operating system cannot read a file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file or folder is no cube, or one of a kind that is not read.
+    /// The file or folder is not a cube, or it is of a kind that we do not read.
     #[error("{}: {problem}", path.display())]
     Format {
-        /// Path as the caller gave it.
+        /// Path as you gave it.
         path: PathBuf,
-        /// The kind that was found, as a sentence part.
+        /// The kind that we found, as part of a sentence.
         problem: String,
         /// Advice on how to go on.
         way_out: String,
@@ -27,11 +27,11 @@ pub enum CubeError {
     Key {
         /// Path of the header.
         path: PathBuf,
-        /// Line from 1, or 0 if the key is not there.
+        /// Line from 1, or 0 if the key is missing.
         line: usize,
         /// Name of the key.
         key: String,
-        /// The fault of the key, with the value that was found.
+        /// The fault of the key, with the value that we found.
         problem: String,
         /// Advice on how to go on.
         way_out: String,
@@ -46,14 +46,14 @@ pub enum CubeError {
         data: PathBuf,
         /// Path of the header.
         header: PathBuf,
-        /// Bytes by the header.
+        /// Number of bytes that the header describes.
         expected: u64,
-        /// Bytes of the file.
+        /// Number of bytes in the file.
         found: u64,
         /// Offset and sizes that the header names, in words.
         sizes: String,
     },
-    /// The values are counts of a detector, or a multiple of reflectance that nothing tells.
+    /// The values are counts of a detector, or a multiple of reflectance that we cannot find out.
     #[error("{}: the values are no reflectances: the largest read is `{largest}`", path.display())]
     NoReflectance {
         /// Path of the cube.
@@ -61,12 +61,12 @@ pub enum CubeError {
         /// Largest value of the sampled pixels.
         largest: f64,
     },
-    /// No sampled pixel can be used.
+    /// We cannot use any sampled pixel.
     #[error("{}: {problem}", path.display())]
     Unusable {
         /// Path of the cube.
         path: PathBuf,
-        /// The fault of all pixels that were sampled.
+        /// The fault of all sampled pixels.
         problem: String,
         /// Advice on how to go on.
         way_out: String,
@@ -83,7 +83,7 @@ pub enum CubeError {
         /// Advice on how to go on.
         way_out: String,
     },
-    /// Stored data cannot be decoded.
+    /// We cannot decode stored data.
     #[error("{}: {problem}", path.display())]
     Data {
         /// Path of the file.
@@ -93,12 +93,12 @@ pub enum CubeError {
         /// Advice on how to go on.
         way_out: String,
     },
-    /// A caller asks for pixels or bands that the cube does not have.
+    /// You ask for pixels or bands that the cube does not have.
     #[error("{}: {asked} lie outside the cube of {has}", path.display())]
     Outside {
         /// Path of the cube.
         path: PathBuf,
-        /// Rows, columns or wavelengths that were asked for.
+        /// Rows, columns or wavelengths that you asked for.
         asked: String,
         /// Sizes of the cube.
         has: String,
@@ -113,12 +113,10 @@ fn line_words(line: usize) -> String {
 }
 
 impl CubeError {
-    /// The error of reading `path`.
     pub(crate) fn reading(path: &Path, reason: io::Error) -> Self {
         Self::File(FileError::reading(path, reason))
     }
 
-    /// The error of unpacking the file `path`.
     #[cfg(feature = "files")]
     pub(crate) fn unpacking(path: &Path, reason: io::Error) -> Self {
         match reason.kind() {
@@ -129,7 +127,7 @@ impl CubeError {
         }
     }
 
-    /// A file of a kind that is not read.
+    /// A file of a kind that we do not read.
     pub(crate) fn format(
         path: &Path,
         problem: impl Into<String>,
@@ -138,7 +136,7 @@ impl CubeError {
         Self::Format { path: path.to_owned(), problem: problem.into(), way_out: way_out.into() }
     }
 
-    /// Data that cannot be decoded.
+    /// Data that we cannot decode.
     pub(crate) fn data(
         path: &Path,
         problem: impl Into<String>,
@@ -176,7 +174,7 @@ impl Explain for CubeError {
     }
 }
 
-/// Kinds that other programs read, by their first bytes.
+/// Kinds of files that only other programs read, by their first bytes.
 const OTHERS: [(&[u8], &str, &str); 5] = [
     (
         b"\x89HDF\r\n",
@@ -201,7 +199,7 @@ const OTHERS: [(&[u8], &str, &str); 5] = [
     ),
 ];
 
-/// Refuses a file that begins with `start` where another program reads it.
+/// Refuses a file that begins with `start` if only another program reads its kind.
 pub(crate) fn refuse_other_kinds(path: &Path, start: &[u8]) -> Result<(), CubeError> {
     match OTHERS.iter().find(|(magic, ..)| start.starts_with(magic)) {
         None => Ok(()),
@@ -212,8 +210,8 @@ pub(crate) fn refuse_other_kinds(path: &Path, start: &[u8]) -> Result<(), CubeEr
 /// Scale of the values of a cube.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum CubeScale {
-    /// By the file; where it does not tell, values up to 2 are fractions and up to 200 percent, if
-    /// they are no integers.
+    /// The file states the scale. If it does not, values up to 2 are fractions and values up to 200
+    /// percent, unless they are integers.
     #[default]
     ByFile,
     /// A white reads about 1.
@@ -227,10 +225,10 @@ pub enum CubeScale {
 /// Dark reading of a camera.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum DarkReading {
-    /// None is given.
+    /// There is no dark reading.
     #[default]
     Missing,
-    /// The camera's program subtracted it already.
+    /// The camera's program has already subtracted it.
     Subtracted,
     /// A scan with the shutter closed, at the settings of the scan.
     File(PathBuf),
@@ -241,20 +239,20 @@ pub enum DarkReading {
 pub struct CubeOptions {
     /// A scan of a white at the settings of the scan, for raw counts.
     pub white_reading: Option<PathBuf>,
-    /// The dark that belongs to it.
+    /// The dark that belongs to this white.
     pub dark_reading: DarkReading,
-    /// Reflectance of that white.
+    /// Reflectance of this white.
     pub tile: f64,
     /// Scale of the values.
     pub scale: CubeScale,
-    /// Largest count of the detector. We guess it where it is not given.
+    /// Largest count of the detector. We guess this if you do not give it.
     pub full_scale: Option<f64>,
-    /// File with the wavelengths of the bands, for cubes that name none.
+    /// File with the wavelengths of the bands, for cubes that do not name them.
     pub wavelengths: Option<PathBuf>,
-    /// Name of the array, for Zarr groups that hold several.
+    /// Name of the array, if a Zarr group holds several.
     pub variable: Option<String>,
-    /// Folder for the unpacked values of packed images. It is the system's folder for temporary files
-    /// where none is given.
+    /// Folder for the unpacked values of packed images. If you do not give one, this is the
+    /// system's folder for temporary files.
     pub scratch: Option<PathBuf>,
 }
 
@@ -274,13 +272,8 @@ impl Default for CubeOptions {
 }
 
 impl CubeOptions {
-    /// Checks the range of every number. `path` is the scan's name in messages.
+    /// Checks the range of every number. Messages call the scan `path`.
     pub(crate) fn check(&self, path: &Path) -> Result<(), CubeError> {
-        let fault = |name: &str, found: f64| {
-            let problem =
-                format!("the setting `{name}` must be above 0 and finite, found `{found}`");
-            CubeError::format(path, problem, format!("give a number with [{name}]"))
-        };
         if !(self.tile > 0.0 && self.tile <= 1.2) {
             let problem = format!(
                 "the white's reflectance must be above 0 and at most 1.2, found `{}`",
@@ -288,14 +281,18 @@ impl CubeOptions {
             );
             return Err(CubeError::format(path, problem, "give a fraction, such as [tile=0.99]"));
         }
-        if let CubeScale::White(white) = self.scale
-            && !(white.is_finite() && white > 0.0)
-        {
-            return Err(fault("scale", white));
+        let scale = match self.scale {
+            CubeScale::White(white) => Some(white),
+            _ => None,
+        };
+        for (name, number) in [("scale", scale), ("full_scale", self.full_scale)] {
+            if let Some(found) = number.filter(|number| !(number.is_finite() && *number > 0.0)) {
+                let problem =
+                    format!("the setting `{name}` must be above 0 and finite, found `{found}`");
+                let way_out = format!("give a number with [{name}]");
+                return Err(CubeError::format(path, problem, way_out));
+            }
         }
-        match self.full_scale {
-            Some(full) if !(full.is_finite() && full > 0.0) => Err(fault("full_scale", full)),
-            _ => Ok(()),
-        }
+        Ok(())
     }
 }

@@ -6,22 +6,22 @@ use super::error::{CubeError, CubeOptions, CubeScale};
 use super::window::{Conversion, Opened, Pixels, Terms, Values, Window};
 use crate::pixel_maps::Mask;
 
-/// Rows that are sampled.
+/// We sample this many rows.
 const ROWS: usize = 16;
-/// Pixels of a row that are sampled.
+/// We sample this many pixels of a row.
 const COLUMNS: usize = 256;
-/// Largest value of most pixels up to which values are fractions.
+/// If the largest value of most pixels is at most this, values are fractions.
 const MOST_FRACTION: f32 = 2.0;
-/// Largest value of most pixels up to which values are percent.
+/// If the largest value of most pixels is at most this, values are percent.
 const MOST_PERCENT: f32 = 200.0;
-/// Full scales of detectors with numbers that have unused bits.
+/// Full scales of detectors that do not use all bits of a number.
 const FULL_SCALES: [f32; 4] = [1023.0, 4095.0, 16383.0, 65535.0];
 
-/// How values become reflectance, and sentences about it.
+/// How values become reflectance, with remarks for the user.
 #[derive(Debug)]
 pub(crate) struct Interpreted {
     pub(crate) conversion: Conversion,
-    /// Bands that stay, in the order of rising wavelength.
+    /// Bands that we keep, in the order of rising wavelength.
     pub(crate) bands: Vec<usize>,
     pub(crate) white_sd: Option<Vec<f64>>,
     pub(crate) black_sd: Option<Vec<f64>>,
@@ -59,23 +59,25 @@ impl Sample {
     /// Largest values of pixels with data, in rising order.
     fn largest(&self, ignore: Option<f32>) -> Vec<f32> {
         let pixels = self.values.chunks_exact(self.bands);
-        let has_data =
-            |pixel: &&[f32]| pixel.iter().all(|value| value.is_finite() && Some(*value) != ignore);
-        let largest = |pixel: &[f32]| pixel.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let mut found: Vec<f32> = pixels.filter(has_data).map(largest).collect();
+        let mut found: Vec<f32> = pixels
+            .filter(|pixel: &&[f32]| {
+                pixel.iter().all(|value| value.is_finite() && Some(*value) != ignore)
+            })
+            .map(|pixel: &[f32]| pixel.iter().copied().fold(f32::NEG_INFINITY, f32::max))
+            .collect();
         found.sort_by(f32::total_cmp);
         found
     }
 }
 
-/// Bands in the order of rising wavelength, without those that are bad.
+/// Bands in the order of rising wavelength, without bad ones.
 fn rising(nm: &[f64], good: &[bool]) -> Vec<usize> {
     let mut bands: Vec<usize> = (0..nm.len()).filter(|&band| good[band]).collect();
     bands.sort_by(|&a, &b| nm[a].total_cmp(&nm[b]));
     bands
 }
 
-/// Finds how the values of `scan` become reflectance. `nm` are its wavelengths.
+/// Finds how the values of `scan` become reflectance. Pass its wavelengths as `nm`.
 pub(crate) fn interpret(
     scan: &Opened,
     nm: &[f64],
@@ -118,14 +120,9 @@ pub(crate) fn interpret(
     let conversion = Conversion { ignore, saturated: full_scale, terms };
     let conversion = conversion.of_bands(&bands, scan.bands);
     check_usable(scan, &sample, &conversion)?;
-    let sorted = |of: Option<Vec<f64>>| of.map(|all| bands.iter().map(|&band| all[band]).collect());
-    Ok(Interpreted {
-        white_sd: sorted(white_sd),
-        black_sd: sorted(black_sd),
-        conversion,
-        bands,
-        remarks,
-    })
+    let [white_sd, black_sd] =
+        [white_sd, black_sd].map(|of| of.map(|all| bands.iter().map(|&band| all[band]).collect()));
+    Ok(Interpreted { white_sd, black_sd, conversion, bands, remarks })
 }
 
 fn check_has_light(scan: &Opened, largest: &[f32]) -> Result<(), CubeError> {
@@ -141,7 +138,7 @@ fn check_has_light(scan: &Opened, largest: &[f32]) -> Result<(), CubeError> {
     })
 }
 
-/// Terms for values that no reading accompanies.
+/// Terms for values without a white reading.
 fn terms_of_values(
     scan: &Opened,
     largest: &[f32],
@@ -156,7 +153,6 @@ fn terms_of_values(
     }
     // A few glints or dead pixels do not decide.
     let most = largest[(largest.len() - 1) * 98 / 100];
-    let refused = || CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) };
     match &scan.values {
         Values::Divided(factor) => Ok(Terms::One((1.0 / factor) as f32)),
         Values::Gains(pairs) => {
@@ -169,17 +165,18 @@ fn terms_of_values(
                 gain,
             })
         }
-        Values::Counts | Values::Unknown { are_whole: true } => Err(refused()),
         Values::Unknown { are_whole: false } if most <= MOST_FRACTION => Ok(Terms::One(1.0)),
         Values::Unknown { are_whole: false } if most <= MOST_PERCENT => {
             remarks.push(format!("values up to {most} are taken for percent"));
             Ok(Terms::One(0.01))
         }
-        Values::Unknown { .. } => Err(refused()),
+        Values::Counts | Values::Unknown { .. } => {
+            Err(CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) })
+        }
     }
 }
 
-/// Full scale by a maximum that several values share.
+/// Guesses the full scale from a maximum that several values share.
 fn guessed_full_scale(most: f32, white: f32, largest: &[f32]) -> Option<f32> {
     let shared = largest.iter().filter(|value| **value == most).count() > 1;
     full(white).or_else(|| full(most).filter(|_| shared && white <= most))
@@ -202,7 +199,7 @@ fn check_white(scan: &Opened, readings: &Readings, full: f32) -> Result<(), Cube
     })
 }
 
-/// Refuses a scan of which most sampled pixels cannot be used, for one reason.
+/// Refuses a scan if we cannot use most of its sampled pixels for one and the same reason.
 fn check_usable(scan: &Opened, sample: &Sample, conversion: &Conversion) -> Result<(), CubeError> {
     let mut counts = [0_usize; Mask::ALL.len()];
     let mut values = sample.values.clone();
@@ -237,13 +234,13 @@ fn check_usable(scan: &Opened, sample: &Sample, conversion: &Conversion) -> Resu
     })
 }
 
-/// Least light of a band: share of the brightest band's.
+/// Least light of a band as a share of the brightest band's light.
 const LEAST_LIGHT: f64 = 0.01;
-/// Columns without light from which a white reading is refused, as a share of all.
+/// We refuse a white reading if more than this share of its columns is without light.
 const MOST_DEAD: f64 = 0.05;
 /// Range in which every band must have light, in nm.
 const VISIBLE_NM: std::ops::RangeInclusive<f64> = 380.0..=730.0;
-/// Bytes of the values that are read at once.
+/// We read this many bytes of values at once.
 const BLOCK_BYTES: usize = 16 << 20;
 
 /// Mean of a reading over its lines.
@@ -251,7 +248,8 @@ const BLOCK_BYTES: usize = 16 << 20;
 pub(crate) struct Reading {
     /// Mean of each band of each column, column after column.
     mean: Vec<f64>,
-    /// Standard deviation of each band over lines, all columns together, or 0 for one line.
+    /// Standard deviation of each band over lines, for all columns together. This is 0 if there is
+    /// only one line.
     sd: Vec<f64>,
     /// Largest single value.
     pub(crate) largest: f32,
@@ -259,7 +257,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// Averages `opened` over its lines. It must fit to `scan`.
+    /// Averages `opened` over its lines. It must fit `scan`.
     pub(crate) fn of(
         opened: &Opened,
         scan: &Opened,
@@ -333,35 +331,32 @@ impl Reading {
     }
 }
 
-/// Readings that belong to a scan.
 #[derive(Debug)]
 pub(crate) struct Readings {
     pub(crate) white: Reading,
-    /// Dark of the scan, or `None` if it is subtracted already.
+    /// Dark of the scan, or `None` if someone subtracted it already.
     pub(crate) dark: Option<Reading>,
-    /// Dark of the white, where it has one of its own.
+    /// Dark of the white, if it has its own.
     pub(crate) white_dark: Option<Reading>,
-    /// Reflectance of the white.
     pub(crate) tile: f64,
     /// Integration time of the scan divided by the white's.
     pub(crate) time_ratio: f64,
 }
 
-/// Reflectance by readings.
 #[derive(Debug)]
 pub(crate) struct Referenced {
     pub(crate) terms: Terms,
     /// Whether each band has light.
     pub(crate) good: Vec<bool>,
-    /// Standard deviation of a white's reflectance in each band, by the scatter of the white.
+    /// Standard deviation of a white's reflectance in each band, from the scatter of the white.
     pub(crate) white_sd: Vec<f64>,
-    /// Standard deviation of a black's reflectance in each band, by the scatter of the dark.
+    /// Standard deviation of a black's reflectance in each band, from the scatter of the dark.
     pub(crate) black_sd: Vec<f64>,
     pub(crate) remarks: Vec<String>,
 }
 
 impl Readings {
-    /// Terms for the counts of `scan`. `nm` are its wavelengths.
+    /// Terms for the counts of `scan`. Pass its wavelengths as `nm`.
     pub(crate) fn terms(&self, scan: &Opened, nm: &[f64]) -> Result<Referenced, CubeError> {
         let fault = |problem: String, way_out: &str| CubeError::Reading {
             path: scan.path.clone(),

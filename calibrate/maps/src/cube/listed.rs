@@ -10,12 +10,12 @@ use super::raw_file::{PositionalFile, ReadAt};
 use super::scan::Cube;
 use super::window::Opened;
 
-/// First bytes by which the kind of a file is told.
+/// We tell the kind of a file by this many first bytes.
 const START: usize = 16;
-/// Advice where a header or its data are missing.
+/// Advice if a header or its data are missing.
 const BOTH: &str = "give the header (.hdr) and its data file together";
 
-/// A file that the caller reads.
+/// A file that you read for us, e.g. in a browser.
 #[derive(Debug, Clone)]
 pub struct ScanFile {
     /// Name of the file, as messages show it.
@@ -40,19 +40,15 @@ impl ScanFile {
 impl Cube {
     /// Opens the ENVI scan among `files`: a header and its data. Readings of white and dark that `options` name
     /// are among them too.
-    ///
-    /// # Errors
-    /// [`CubeError`] with file, place and advice.
     pub fn of_files(files: &[ScanFile], options: &CubeOptions) -> Result<Self, CubeError> {
         let dark = match &options.dark_reading {
             DarkReading::File(path) => Some(path),
             _ => None,
         };
-        let is_reading =
-            |file: &&ScanFile| [options.white_reading.as_ref(), dark].contains(&Some(&file.name));
+        let given = [options.white_reading.as_ref(), dark];
         let mut headers = Vec::new();
         for file in files {
-            if file.is_header()? && !is_reading(&file) {
+            if file.is_header()? && !given.contains(&Some(&file.name)) {
                 headers.push(file);
             }
         }
@@ -71,7 +67,7 @@ impl Cube {
     }
 }
 
-/// The refusal of files none of which is a header.
+/// The error if none of the files is a header.
 fn without_header(files: &[ScanFile]) -> Result<CubeError, CubeError> {
     let Some(first) = files.first() else {
         return Ok(CubeError::format(Path::new("scan"), "no file is given", BOTH));
@@ -97,7 +93,8 @@ fn open(files: &[ScanFile], path: &Path) -> Result<Opened, CubeError> {
     Ok(envi::opened(path, header, data))
 }
 
-/// The data of a header: by name, and among several by size. Otherwise it is the only other file.
+/// Finds the data of a header by name, and among several files by size. If no name fits, this is
+/// the only other file.
 fn data_of<'f>(
     files: &'f [ScanFile],
     path: &Path,
@@ -106,8 +103,11 @@ fn data_of<'f>(
     let places = envi::places(path);
     let named: Vec<&ScanFile> =
         places.iter().filter_map(|place| files.iter().find(|f| f.name == *place)).collect();
-    let fits = |file: &&&ScanFile| header.layout.file_bytes() == Some(file.contents.bytes());
-    if let Some(file) = named.iter().find(fits).or(named.first()) {
+    if let Some(file) = named
+        .iter()
+        .find(|file: &&&ScanFile| header.layout.file_bytes() == Some(file.contents.bytes()))
+        .or(named.first())
+    {
         return Ok(file);
     }
     let mut others = Vec::new();
@@ -125,15 +125,14 @@ fn data_of<'f>(
 /// Readings that lie beside a scan.
 #[derive(Debug, Default)]
 pub(crate) struct OwnReadings {
-    /// White of the camera.
     pub(crate) white: Option<PathBuf>,
-    /// Dark of the scan.
     pub(crate) dark: Option<PathBuf>,
-    /// Dark of the white, where the camera took one.
+    /// Dark of the white, if the camera took one.
     pub(crate) white_dark: Option<PathBuf>,
 }
 
-/// White and dark readings of a scan: from the settings, or else from its folder. `open` opens a reading.
+/// White and dark readings of a scan. They come from the settings, or else from its folder. `open`
+/// opens a reading.
 pub(crate) fn readings(
     scan: &Opened,
     own: Option<&OwnReadings>,
@@ -183,12 +182,8 @@ pub(crate) fn readings(
             way_out: "take the white at the integration time of the scan: a dark does not scale with time".to_owned(),
         });
     }
-    let reading = |path: &PathBuf, role| Reading::of(&open(path)?, scan, role);
-    Ok(Some(Readings {
-        white: Reading::of(&white_scan, scan, "white")?,
-        dark: dark.map(|path| reading(path, "dark")).transpose()?,
-        white_dark: white_dark.map(|path| reading(path, "dark")).transpose()?,
-        tile: options.tile,
-        time_ratio,
-    }))
+    let white = Reading::of(&white_scan, scan, "white")?;
+    let dark = dark.map(|path| Reading::of(&open(path)?, scan, "dark")).transpose()?;
+    let white_dark = white_dark.map(|path| Reading::of(&open(path)?, scan, "dark")).transpose()?;
+    Ok(Some(Readings { white, dark, white_dark, tile: options.tile, time_ratio }))
 }

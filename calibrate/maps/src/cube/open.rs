@@ -1,10 +1,11 @@
-//! Opens a cube of any kind. The kind is found by content.
+//! Opens a cube of any kind. We find the kind by content.
 //!
-//! This includes folders of Specim cameras (capture/ with the counts and their readings, results/ with
-//! reflectance) and spectral OpenEXR files, as this engine exports paintings.
+//! This includes folders of Specim cameras (capture/ with the counts and their readings, results/
+//! with reflectance) and spectral OpenEXR files, as we export paintings.
 //!
-//! OpenEXR follows A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral Images" (Journal
-//! of Computer Graphics Techniques 10(3), 2021): each wavelength has a channel such as `T.550,000000nm`.
+//! OpenEXR follows A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout for Spectral Images"
+//! (Journal of Computer Graphics Techniques 10(3), 2021): each wavelength has a channel such as
+//! `T.550,000000nm`.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -32,18 +33,12 @@ use crate::numbers::NumberType;
 impl Cube {
     /// Opens the cube at `path`: a header or data of ENVI, a folder of a Specim camera, a Zarr
     /// array or group, a spectral EXR file, a multi-page TIFF file, or a folder of pictures with
-    /// their wavelengths. The kind is found by content.
-    ///
-    /// # Errors
-    /// [`CubeError`] with file, place and advice.
+    /// their wavelengths. We find the kind by content.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, CubeError> {
         Self::open_with(path, &CubeOptions::default())
     }
 
     /// Opens the cube at `path` with settings.
-    ///
-    /// # Errors
-    /// [`CubeError`] with file, place and advice.
     pub fn open_with(path: impl AsRef<Path>, options: &CubeOptions) -> Result<Self, CubeError> {
         let path = path.as_ref();
         options.check(path)?;
@@ -57,8 +52,7 @@ impl Cube {
             false => (open_scan(path, options)?, None),
         };
         let own = own.map(OwnReadings::from);
-        let open = |path: &Path| open_kind(path, options);
-        let readings = readings(&scan, own.as_ref(), options, &open)?;
+        let readings = readings(&scan, own.as_ref(), options, &|path| open_kind(path, options))?;
         Self::of(scan, readings.as_ref(), options)
     }
 }
@@ -144,27 +138,25 @@ impl From<SpecimScan> for OwnReadings {
     }
 }
 
-/// Scan of a camera's folder.
+/// The files of a camera's folder.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct SpecimScan {
-    /// Header of the scan.
     pub(crate) scan: PathBuf,
     /// Header of the white, for counts.
     pub(crate) white: Option<PathBuf>,
     /// Header of the dark of the scan, for counts.
     pub(crate) dark: Option<PathBuf>,
-    /// Header of the dark of the white, where the camera took one.
+    /// Header of the dark of the white, if the camera took one.
     pub(crate) white_dark: Option<PathBuf>,
-    /// Sentence about the choice.
+    /// Remark that tells the user which scan we chose.
     pub(crate) remark: String,
 }
 
-/// Beginnings of the names of readings.
+/// Names of readings begin so.
 const READINGS: [&str; 3] = ["WHITEDARKREF_", "WHITEREF_", "DARKREF_"];
-/// Beginning of the name of a scan's reflectance.
+/// The name of a scan's reflectance begins so.
 const REFLECTANCE: &str = "REFLECTANCE_";
 
-/// Whether `folder` is one of a camera.
 fn is_specim(folder: &Path) -> bool {
     ["capture", "results"].iter().any(|name| folder.join(name).is_dir())
         || headers(folder).iter().any(|(name, _)| {
@@ -190,13 +182,12 @@ fn headers(folder: &Path) -> Vec<(String, PathBuf)> {
     found
 }
 
-/// Finds the scan of a camera's folder: its reflectance, else its counts with white and dark.
+/// Finds the scan of a camera's folder: its reflectance, or else its counts with white and dark.
 fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
-    let inside = |name: &str| {
+    let [results, captured] = ["results", "capture"].map(|name| {
         let inner = folder.join(name);
         headers(if inner.is_dir() { &inner } else { folder })
-    };
-    let results = inside("results");
+    });
     let computed: Vec<_> =
         results.iter().filter(|(name, _)| name.starts_with(REFLECTANCE)).collect();
     if let [(_, scan)] = computed[..] {
@@ -204,7 +195,6 @@ fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
         let scan = scan.clone();
         return Ok(SpecimScan { scan, white: None, dark: None, white_dark: None, remark });
     }
-    let captured = inside("capture");
     let scans: Vec<_> = captured.iter().filter(|(name, _)| is_scan(name)).collect();
     let [(name, scan)] = scans[..] else {
         let problem = match computed.len().max(scans.len()) {
@@ -225,12 +215,11 @@ fn is_scan(name: &str) -> bool {
     !READINGS.iter().any(|start| name.starts_with(start)) && !name.starts_with(REFLECTANCE)
 }
 
-/// Whether a file begins as OpenEXR.
 fn is_exr(start: &[u8]) -> bool {
     start.starts_with(&[0x76, 0x2f, 0x31, 0x01])
 }
 
-/// Wavelength of a channel of reflectance in nm: `T.550,5nm`.
+/// Wavelength in nm of a channel of reflectance, e.g. `T.550,5nm`.
 fn channel_nm(name: &str) -> Option<f64> {
     let number = name.strip_prefix("T.")?;
     let (number, factor) = match number.strip_suffix("nm") {
@@ -241,7 +230,8 @@ fn channel_nm(name: &str) -> Option<f64> {
     (nm.is_finite() && nm > 0.0).then_some(nm)
 }
 
-/// Layer and channels of reflectance: index of the channel in the layer, and nm, rising.
+/// Layer and channels of reflectance. Each channel has its index in the layer and its wavelength in
+/// nm, and wavelengths rise.
 fn channels(meta: &MetaData) -> Option<(usize, Vec<(usize, f64)>)> {
     let layers = meta
         .headers
@@ -257,7 +247,7 @@ fn channels(meta: &MetaData) -> Option<(usize, Vec<(usize, f64)>)> {
     layers.into_iter().find(|(_, channels)| !channels.is_empty())
 }
 
-/// Opens the file: unpacks its channels of reflectance.
+/// Opens the file and unpacks its channels of reflectance.
 fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let fault = |error: exr::error::Error| match error {
         exr::error::Error::Io(reason) => CubeError::unpacking(path, reason),
@@ -323,7 +313,7 @@ fn open_exr(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     })
 }
 
-/// Values of a line as bytes of f32.
+/// Converts the values of a line to bytes of f32.
 fn bytes_of(line: LineRef<'_>, kind: SampleType) -> exr::error::Result<Vec<u8>> {
     match kind {
         SampleType::F32 => collect::<f32>(line, |value| value),

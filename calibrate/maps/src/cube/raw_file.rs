@@ -1,4 +1,5 @@
-//! Numbers in a plain file, in any order of lines, samples and bands, read by position from several threads.
+//! Numbers in a plain file, in any order of lines, samples and bands. Several threads can read by
+//! position.
 
 use std::fmt::Debug;
 #[cfg(feature = "files")]
@@ -38,7 +39,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Bytes of the file, or `None` if the number does not exist.
+    /// Bytes of the file, or `None` if this number is too large.
     pub(crate) fn file_bytes(&self) -> Option<u64> {
         let sizes = [self.lines, self.samples, self.bands, self.number_type.bytes()];
         let sizes = sizes.into_iter().map(|size| size as u64);
@@ -46,7 +47,7 @@ impl Layout {
         numbers.checked_add(self.offset)
     }
 
-    /// Position of a number. The file has it, so nothing overflows.
+    /// Position of a number. It must lie in the file, so nothing overflows.
     pub(crate) fn position(&self, line: usize, sample: usize, band: usize) -> u64 {
         let [lines, samples, bands] =
             [self.lines, self.samples, self.bands].map(|size| size as u64);
@@ -62,7 +63,6 @@ impl Layout {
     }
 }
 
-/// A file of plain numbers.
 #[derive(Debug)]
 pub(crate) struct RawFile {
     file: PositionalFile,
@@ -71,16 +71,16 @@ pub(crate) struct RawFile {
     planes: Mutex<Vec<u8>>,
 }
 
-/// Pixels that are transposed together, so that their values stay in the fastest cache.
+/// We transpose this many pixels together, so that their values stay in the fastest cache.
 const TILE: usize = 32;
 
 impl RawFile {
-    /// Takes a file of the size that `layout` describes.
+    /// Takes a file. It must have the size that `layout` describes.
     pub(crate) fn new(file: PositionalFile, layout: Layout) -> Self {
         Self { file, layout, planes: Mutex::new(Vec::new()) }
     }
 
-    /// Converts numbers that lie band after band: `raw(band)` holds a row of the window.
+    /// Converts numbers that lie band after band. `raw(band)` holds a row of the window.
     fn transpose<'b>(&self, raw: impl Fn(usize) -> &'b [u8], bands: usize, values: &mut [f32]) {
         let Layout { number_type, byte_order, .. } = self.layout;
         let tile_bytes = TILE * number_type.bytes();
@@ -93,7 +93,7 @@ impl RawFile {
         }
     }
 
-    /// Reads a row that is stored band after band.
+    /// Reads a row that the file stores band after band.
     fn bil_row(
         &self,
         line: usize,
@@ -126,7 +126,7 @@ impl RawFile {
         Ok(())
     }
 
-    /// Reads a row that is stored pixel after pixel.
+    /// Reads a row that the file stores pixel after pixel.
     fn bip_row(
         &self,
         line: usize,
@@ -153,7 +153,8 @@ impl RawFile {
         Ok(())
     }
 
-    /// Reads a block of rows that is stored band after band: each band's rows at once.
+    /// Reads a block of rows that the file stores band after band. This reads the rows of each band
+    /// at once.
     fn bsq_rows(
         &self,
         window: &Window,
@@ -231,7 +232,8 @@ impl Source for RawFile {
     }
 }
 
-/// Bytes that are read by position: a file on a disk, or slices of one that a browser holds.
+/// Bytes that you can read by position, e.g. a file on a disk or slices of one that a browser
+/// holds.
 pub trait ReadAt: Debug + Send + Sync {
     /// Number of bytes.
     fn bytes(&self) -> u64;
@@ -239,11 +241,10 @@ pub trait ReadAt: Debug + Send + Sync {
     /// Fills `buffer` from the byte `position` on.
     ///
     /// # Errors
-    /// [`io::ErrorKind::UnexpectedEof`] if the bytes end before, or any other error of reading.
+    /// [`io::ErrorKind::UnexpectedEof`] if the bytes end too early, or any other error of reading.
     fn read_exact_at(&self, buffer: &mut [u8], position: u64) -> io::Result<()>;
 }
 
-/// A file that is read by position.
 #[derive(Debug, Clone)]
 pub(crate) struct PositionalFile {
     path: PathBuf,
@@ -251,14 +252,13 @@ pub(crate) struct PositionalFile {
 }
 
 impl PositionalFile {
-    /// Opens the regular file at `path`.
     #[cfg(feature = "files")]
     pub(crate) fn open(path: &Path) -> Result<Self, CubeError> {
         let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
         Self::of(file, path)
     }
 
-    /// Takes an open file, which messages call `path`.
+    /// Takes an open file. Messages call it `path`.
     #[cfg(feature = "files")]
     pub(crate) fn of(file: File, path: &Path) -> Result<Self, CubeError> {
         let about = file.metadata().map_err(|reason| CubeError::reading(path, reason))?;
@@ -271,7 +271,7 @@ impl PositionalFile {
         Ok(Self::with(Arc::new(DiskFile { bytes: about.len(), file }), path))
     }
 
-    /// Takes bytes that lie anywhere, which messages call `path`.
+    /// Takes bytes that lie anywhere. Messages call them `path`.
     pub(crate) fn with(source: Arc<dyn ReadAt>, path: &Path) -> Self {
         Self { path: path.to_owned(), source }
     }
@@ -282,7 +282,6 @@ impl PositionalFile {
         self.source.bytes()
     }
 
-    /// Fills `buffer` from the byte `position` on.
     pub(crate) fn read_at(&self, buffer: &mut [u8], position: u64) -> Result<(), CubeError> {
         self.source.read_exact_at(buffer, position).map_err(|reason| match reason.kind() {
             io::ErrorKind::UnexpectedEof => CubeError::data(
@@ -295,11 +294,9 @@ impl PositionalFile {
     }
 }
 
-/// A regular file on a disk.
 #[cfg(feature = "files")]
 #[derive(Debug)]
 struct DiskFile {
-    /// Bytes when it was opened.
     bytes: u64,
     #[cfg(unix)]
     file: File,

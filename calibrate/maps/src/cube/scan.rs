@@ -1,6 +1,6 @@
-//! A cube: a scan with reflectances as values, read in blocks.
+//! A cube is a scan with reflectances as values. You read it in blocks.
 //!
-//! Surveys and checksums take pixels from all over a cube.
+//! For surveys and checksums you can also take pixels from all over it.
 
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
@@ -17,12 +17,12 @@ use crate::pixel_maps::Mask;
 pub enum CubeValues {
     /// Values times this number.
     Scaled(f64),
-    /// Values by a factor and a summand a band, or by a white and a dark reading.
+    /// Values with a factor and a summand for each band, or with a white and a dark reading.
     ByBands,
 }
 
-/// A spectral scan, read in blocks of rows. Bands lie in the order of rising wavelength. The ones that
-/// the file marks as bad are left out.
+/// A spectral scan, read in blocks of rows. Bands lie in the order of rising wavelength. We leave
+/// out bands that the file marks as bad.
 #[derive(Debug)]
 pub struct Cube {
     path: PathBuf,
@@ -40,7 +40,7 @@ pub struct Cube {
 }
 
 impl Cube {
-    /// Makes a cube of a scan that its reader opened.
+    /// Makes a cube from an opened scan.
     pub(crate) fn of(
         scan: Opened,
         readings: Option<&Readings>,
@@ -72,7 +72,7 @@ impl Cube {
         })
     }
 
-    /// Path of the header or file, as it was found.
+    /// Path of the header or file, as we found it.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -96,27 +96,27 @@ impl Cube {
         &self.wavelengths_nm
     }
 
-    /// Full width at half maximum of the bands in nm, if the file has them.
+    /// Full width at half maximum of the bands in nm, if the file states it.
     #[must_use]
     pub fn fwhm_nm(&self) -> Option<&[f64]> {
         self.fwhm_nm.as_deref()
     }
 
-    /// Standard deviation of the reflectance of a white in each band, by the scatter of the white reading
-    /// over its lines, or `None` for cubes of reflectance.
+    /// Standard deviation of the reflectance of a white in each band, from the scatter of the white
+    /// reading over its lines. For cubes of reflectance this is `None`.
     #[must_use]
     pub fn white_sd(&self) -> Option<&[f64]> {
         self.white_sd.as_deref()
     }
 
-    /// Standard deviation of the reflectance of a black in each band, by the scatter of the dark reading
-    /// over its lines, or `None` for cubes of reflectance.
+    /// Standard deviation of the reflectance of a black in each band, from the scatter of the dark
+    /// reading over its lines. For cubes of reflectance this is `None`.
     #[must_use]
     pub fn black_sd(&self) -> Option<&[f64]> {
         self.black_sd.as_deref()
     }
 
-    /// Root mean square over the bands of [`Cube::white_sd`], or `None` for cubes of reflectance.
+    /// Root mean square over the bands of [`Cube::white_sd`], or `None` if this is.
     #[must_use]
     pub fn noise_of_white(&self) -> Option<f64> {
         let sd = self.white_sd().filter(|sd| !sd.is_empty())?;
@@ -133,14 +133,14 @@ impl Cube {
         }
     }
 
-    /// Sentences about how the file was understood.
+    /// Sentences about how we understood the file.
     #[must_use]
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }
 
-    /// The cube with the bands from `nm.start()` to `nm.end()` only. Other bands are no longer read
-    /// and no longer decide whether a pixel can be mapped.
+    /// The cube with the bands from `nm.start()` to `nm.end()` only. You no longer read the other
+    /// bands, and they no longer decide whether a pixel can be mapped.
     ///
     /// # Errors
     /// [`CubeError::Outside`] if no band is left.
@@ -152,27 +152,28 @@ impl Cube {
             let asked = format!("wavelengths from {} to {} nm", nm.start(), nm.end());
             return Err(self.outside(asked));
         }
-        let of_bands = |all: &mut Vec<f64>| *all = chosen.iter().map(|&band| all[band]).collect();
-        of_bands(&mut self.wavelengths_nm);
-        for list in [&mut self.fwhm_nm, &mut self.white_sd, &mut self.black_sd] {
-            list.as_mut().map(of_bands);
+        let lists = [&mut self.fwhm_nm, &mut self.white_sd, &mut self.black_sd];
+        let known = lists.into_iter().filter_map(Option::as_mut);
+        for list in known.chain([&mut self.wavelengths_nm]) {
+            *list = chosen.iter().map(|&band| list[band]).collect();
         }
         self.bands = chosen.iter().map(|&band| self.bands[band]).collect();
         self.conversion = self.conversion.of_bands(&chosen, all);
         Ok(self)
     }
 
-    /// Number of rows of a block of `columns` columns for which `bytes` of memory are enough, at
-    /// least one.
+    /// Number of rows that a block of `columns` columns may have in `bytes` of memory, at least
+    /// one.
     #[must_use]
     pub fn rows_within(&self, bytes: usize, columns: usize) -> usize {
         let row = columns * (self.bands.len() * size_of::<f32>() + size_of::<Mask>());
         let natural = self.source.natural_rows();
-        let needed = |rows: usize| {
-            row.saturating_mul(rows).saturating_add(self.source.scratch_bytes(rows, columns))
-        };
         let mut rows = 1;
-        while rows < self.lines && needed(2 * rows) <= bytes {
+        while rows < self.lines {
+            let scratch = self.source.scratch_bytes(2 * rows, columns);
+            if row.saturating_mul(2 * rows).saturating_add(scratch) > bytes {
+                break;
+            }
             rows *= 2;
         }
         // Whole parts of the file where that costs no more than a half.
@@ -182,37 +183,30 @@ impl Cube {
     /// Reads whole rows.
     ///
     /// # Errors
-    /// [`CubeError`] if the cube has no such rows or cannot be read.
+    /// [`CubeError`] if the cube has no such rows or we cannot read it.
     pub fn read_rows(&self, rows: Range<usize>) -> Result<Block, CubeError> {
         self.read(rows, 0..self.samples)
     }
 
     /// Reads the pixels of a rectangle.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or cannot be read.
     pub fn read(&self, rows: Range<usize>, columns: Range<usize>) -> Result<Block, CubeError> {
         let mut block = Block::default();
         self.read_into(rows, columns, &mut block)?;
         Ok(block)
     }
 
-    /// Reads the pixels of a rectangle into `block` and reuses its memory.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    /// Reads the pixels of a rectangle into `block`. Use this to keep its memory.
     pub fn read_into(
         &self,
         rows: Range<usize>,
         columns: Range<usize>,
         block: &mut Block,
     ) -> Result<(), CubeError> {
-        let is_inside = |range: &Range<usize>, end| range.start <= range.end && range.end <= end;
-        if !is_inside(&rows, self.lines) {
-            return Err(self.outside(format!("rows {} to {}", rows.start, rows.end)));
-        }
-        if !is_inside(&columns, self.samples) {
-            return Err(self.outside(format!("columns {} to {}", columns.start, columns.end)));
+        for (name, range, end) in [("rows", &rows, self.lines), ("columns", &columns, self.samples)]
+        {
+            if range.start > range.end || range.end > end {
+                return Err(self.outside(format!("{name} {} to {}", range.start, range.end)));
+            }
         }
         let window = Window { rows, columns };
         block.bands = self.bands.len();
@@ -232,7 +226,7 @@ impl Cube {
     }
 }
 
-/// Pixels by which a scan is told from others, about.
+/// We tell a scan from others by about this many pixels.
 const SIGN_PIXELS: usize = 4096;
 
 /// Pixels that can be mapped, from all over a rectangle of a cube.
@@ -242,12 +236,12 @@ pub struct SpreadPixels {
     pub values: Vec<f32>,
     /// Row and column of each pixel.
     pub places: Vec<(usize, usize)>,
-    /// Number of pixels that were looked at, those that cannot be mapped included.
+    /// Number of pixels that we looked at. This includes ones that cannot be mapped.
     pub looked_at: usize,
 }
 
-/// Distance between rows and between columns, so that about `about` of `rows` x `columns` pixels are
-/// met.
+/// Distance between rows and between columns, so that you meet about `about` of `rows` x `columns`
+/// pixels.
 fn steps(rows: usize, columns: usize, about: usize) -> (usize, usize) {
     let ratio = (rows as f64 * columns as f64 / about.max(1) as f64).max(1.0);
     let down = (ratio.sqrt().round() as usize).clamp(1, rows.max(1));
@@ -263,11 +257,8 @@ fn steps(rows: usize, columns: usize, about: usize) -> (usize, usize) {
 }
 
 impl Cube {
-    /// Reads about `about` pixels of a rectangle, evenly spread: rows and columns at equal distances. Only
-    /// the rows of these pixels are read. Those that cannot be mapped are left out.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    /// Reads about `about` pixels of a rectangle, evenly spread in rows and columns. This reads
+    /// only the rows of these pixels, and leaves out pixels that cannot be mapped.
     pub fn spread(
         &self,
         rows: Range<usize>,
@@ -290,11 +281,8 @@ impl Cube {
         Ok(found)
     }
 
-    /// Number of the pixels of a rectangle that can be mapped, and their mean reflectance by band; 0 in every band
-    /// if there are none.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    /// Number of the pixels of a rectangle that can be mapped, and their mean reflectance by band.
+    /// If there are none, every band is 0.
     pub fn mean(
         &self,
         rows: Range<usize>,
@@ -311,12 +299,9 @@ impl Cube {
         Ok((pixels, mean))
     }
 
-    /// SHA-256, in hexadecimal digits, of the sizes, the wavelengths and the reflectances of about 4,000
-    /// pixels: a sign by which another scan, or this one read in another way, is told apart without
-    /// reading all of it.
-    ///
-    /// # Errors
-    /// [`CubeError`] if the cube cannot be read.
+    /// A sign that tells this scan from another one, or from itself read in another way, so that
+    /// you need not read all of it. This is the SHA-256, in hexadecimal digits, of the sizes, the
+    /// wavelengths and the reflectances of about 4,000 pixels.
     pub fn sign(&self) -> Result<String, CubeError> {
         let mut hash = Sha256::new();
         for size in [self.lines(), self.samples(), self.wavelengths_nm().len()] {

@@ -1,7 +1,8 @@
-//! Files beside a packed scan: the list of its wavelengths, and the temporary file of unpacked values.
+//! Files beside a packed scan: the list of its wavelengths, and the temporary file of unpacked
+//! values.
 //!
-//! Packed images can only be read from their beginning, but a cube is read in any order. The temporary file
-//! has no name and vanishes when the program ends.
+//! You can read a packed image only from its beginning, but we read a cube in any order. The
+//! temporary file has no name and vanishes when the program ends.
 
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
@@ -12,12 +13,12 @@ use super::raw_file::{Interleave, Layout, PositionalFile, RawFile};
 use super::wavelengths::Wavelengths;
 use crate::numbers::{ByteOrder, NumberType};
 
-/// Advice for a list that cannot be read.
+/// Advice for a list that we cannot read.
 const WAY_OUT: &str = "write one wavelength in nm in each line";
 
-/// Reads wavelengths in nm (or micrometres, told by a heading or by their range): one in each line, or
-/// all in one line. Of several columns the one with a heading of wavelengths counts, else the last number
-/// of each line. Text after `#` is a comment.
+/// Reads wavelengths, one in each line or all in one line. They are in nm, or in micrometres if a
+/// heading or their range shows this. If there are several columns, we take the one with a heading
+/// of wavelengths, or else the last number of each line. Text after `#` is a comment.
 pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
     let bytes = documents::file::read(path)?;
     let text = String::from_utf8_lossy(&bytes);
@@ -46,14 +47,18 @@ pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
         }
     }
     let (column, unit) = heading.unwrap_or((None, None));
-    let of_row = |row: &Vec<f64>| match column {
-        Some(column) => row.get(column).copied().unwrap_or(f64::NAN),
-        None => row.iter().copied().rev().find(|value| value.is_finite()).unwrap_or(f64::NAN),
-    };
     let values: Vec<f64> = match &rows[..] {
         // Units and words between the numbers are passed over.
         [list] if column.is_none() => list.iter().copied().filter(|nm| nm.is_finite()).collect(),
-        rows => rows.iter().map(of_row).collect(),
+        rows => rows
+            .iter()
+            .map(|row: &Vec<f64>| match column {
+                Some(column) => row.get(column).copied().unwrap_or(f64::NAN),
+                None => {
+                    row.iter().copied().rev().find(|value| value.is_finite()).unwrap_or(f64::NAN)
+                }
+            })
+            .collect(),
     };
     if values.is_empty() {
         return Err(CubeError::format(path, "holds no wavelengths", WAY_OUT));
@@ -68,43 +73,43 @@ fn words(line: &str) -> Vec<&str> {
     words.filter(|word| !word.is_empty()).collect()
 }
 
-/// A number, also with its unit: `450`, `450nm`.
+/// Reads a number, also with its unit, e.g. `450` or `450nm`.
 fn number_of(word: &str) -> Option<f64> {
     word.strip_suffix("nm").unwrap_or(word).parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// Column and unit of the wavelengths, where a line of words names them.
+/// Column and unit of the wavelengths, if a line of words names them.
 fn heading_of(words: &[&str]) -> Option<(Option<usize>, Option<&'static str>)> {
     let lower: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
-    let has = |word: &String, parts: &[&str]| parts.iter().any(|part| word.contains(part));
-    let names = |word: &String| has(word, &["wavelength", "lambda"]) || word == "nm";
-    let unit = |parts: &[&str]| lower.iter().any(|word| has(word, parts));
-    let unit = match (unit(&["nm", "nanomet"]), unit(&["micromet", "(um)", "_um"])) {
-        (true, _) => Some("nm"),
-        (_, true) => Some("um"),
-        _ => None,
-    };
-    let column = lower.iter().position(names);
+    let units = [("nm", &["nm", "nanomet"][..]), ("um", &["micromet", "(um)", "_um"])];
+    let unit = units.into_iter().find(|(_, parts)| lower.iter().any(|word| has(word, parts)));
+    let unit = unit.map(|(name, _)| name);
+    let column =
+        lower.iter().position(|word: &String| has(word, &["wavelength", "lambda"]) || word == "nm");
     (column.is_some() || unit.is_some()).then_some((column, unit))
+}
+
+fn has(word: &str, parts: &[&str]) -> bool {
+    parts.iter().any(|part| word.contains(part))
 }
 
 /// Order of the bytes of unpacked numbers.
 const ORDER: ByteOrder =
     if cfg!(target_endian = "big") { ByteOrder::Big } else { ByteOrder::Little };
 
-/// A temporary file that is filled with the numbers of a cube.
+/// A temporary file that we fill with the numbers of a cube.
 #[derive(Debug)]
 pub(crate) struct Spool {
     file: File,
-    /// End of the bytes written last, where the file stands.
+    /// End of the bytes that we wrote last. The file stands there.
     at: u64,
     folder: PathBuf,
     layout: Layout,
 }
 
 impl Spool {
-    /// Creates the file in `folder`, or in the system's folder for temporary files. Its numbers have
-    /// the byte order of this machine.
+    /// Creates the file in `folder`, or in the system's folder for temporary files. The numbers
+    /// have the byte order of this machine.
     pub(crate) fn new(
         folder: Option<&Path>,
         (lines, samples, bands): (usize, usize, usize),
@@ -118,7 +123,7 @@ impl Spool {
         Ok(Self { file, at: 0, folder, layout })
     }
 
-    /// Writes the bytes of numbers that lie one after another, from this number on.
+    /// Writes the bytes of neighbouring numbers, beginning at this number.
     pub(crate) fn write(
         &mut self,
         (line, sample, band): (usize, usize, usize),
@@ -135,7 +140,7 @@ impl Spool {
         Ok(())
     }
 
-    /// Ends writing. `path` is the name of the packed images in messages.
+    /// Ends writing. Messages call the packed images `path`.
     pub(crate) fn finish(self, path: &Path) -> Result<RawFile, CubeError> {
         let file = PositionalFile::of(self.file, path)?;
         let expected = self.layout.file_bytes().unwrap_or(u64::MAX);

@@ -1,5 +1,5 @@
-//! Stacks of pictures: a TIFF or PNG picture for each wavelength in a folder, or one TIFF file with bands as
-//! pages or as values of pixels.
+//! Stacks of pictures. A folder holds a TIFF or PNG picture for each wavelength, or one TIFF file
+//! holds the bands as pages or as values of pixels.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -21,26 +21,21 @@ use crate::numbers::NumberType;
 pub(crate) struct Plane {
     pub(crate) samples: usize,
     pub(crate) lines: usize,
-    /// Numbers of a pixel.
     pub(crate) bands: usize,
     pub(crate) number_type: NumberType,
 }
 
 impl Plane {
-    /// Checks that this picture is like the first of its stack. `place` names the picture.
+    /// Checks that this picture is like the first of its stack. Messages call it `place`.
     pub(crate) fn check_like(self, first: Self, path: &Path, place: &str) -> Result<(), CubeError> {
         if self == first {
             return Ok(());
         }
-        let words = |plane: Self| {
-            let bands = match plane.bands {
-                1 => String::new(),
-                bands => format!("{bands} "),
-            };
-            format!("{} x {} pixels of {bands}{:?}", plane.samples, plane.lines, plane.number_type)
-        };
-        let problem =
-            format!("{place} has {}, the first picture of the stack {}", words(self), words(first));
+        let [found, first] = [self, first].map(|Self { samples, lines, bands, number_type }| {
+            let bands = if bands == 1 { String::new() } else { format!("{bands} ") };
+            format!("{samples} x {lines} pixels of {bands}{number_type:?}")
+        });
+        let problem = format!("{place} has {found}, the first picture of the stack {first}");
         Err(CubeError::format(path, problem, "export all pictures at one size and one depth"))
     }
 }
@@ -54,7 +49,7 @@ pub(crate) fn not_gray(path: &Path, place: &str, found: impl std::fmt::Debug) ->
     )
 }
 
-/// Files of a folder that have one of these endings, in the order in which people number them.
+/// Files of a folder with one of these endings, in the order in which people number them.
 pub(crate) fn files_ending_in(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
@@ -68,7 +63,7 @@ pub(crate) fn files_ending_in(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// A name as texts and numbers in turn, so that `band 10` comes after `band 9`.
+/// Splits a name into texts and numbers in turn, so that e.g. `band 10` comes after `band 9`.
 fn natural(name: &str) -> Vec<(String, u128)> {
     let mut parts = Vec::new();
     let mut rest = name;
@@ -187,7 +182,6 @@ fn png_reader(path: &Path) -> Result<Reader<BufReader<File>>, CubeError> {
     Decoder::new(BufReader::new(file)).read_info().map_err(|error| png_fault(path, error))
 }
 
-/// Size and numbers of the picture.
 pub(crate) fn png_plane(path: &Path) -> Result<Plane, CubeError> {
     let reader = png_reader(path)?;
     let info = reader.info();
@@ -201,7 +195,7 @@ pub(crate) fn png_plane(path: &Path) -> Result<Plane, CubeError> {
     Ok(Plane { samples, lines, bands: 1, number_type })
 }
 
-/// Unpacks the picture row after row as the band `band`.
+/// Unpacks the picture row by row as the band `band`.
 pub(crate) fn unpack_png(
     path: &Path,
     plane: Plane,
@@ -231,7 +225,7 @@ pub(crate) fn unpack_png(
     Ok(())
 }
 
-/// Most bands of a file. With this limit, a file with pages in a circle ends.
+/// We read at most this many bands, so that a file with pages in a circle ends.
 const MOST_BANDS: usize = 65_536;
 
 /// Whether a file begins as TIFF or BigTIFF.
@@ -263,7 +257,7 @@ pub(crate) fn tiff_pages(path: &Path) -> Result<Pages, CubeError> {
     TiffDecoder::new(BufReader::new(file)).map_err(|error| tiff_fault(path, error))
 }
 
-/// Size and numbers of the page that the decoder stands on.
+/// Size and numbers of the decoder's page.
 pub(crate) fn tiff_plane(pages: &mut Pages, path: &Path, place: &str) -> Result<Plane, CubeError> {
     let colors = pages.colortype().map_err(|error| tiff_fault(path, error))?;
     let bands = match colors {
@@ -288,7 +282,7 @@ fn has_parts_of_bands(pages: &mut Pages, path: &Path) -> Result<bool, CubeError>
     Ok(order == Some(PlanarConfiguration::Planar.to_u16()))
 }
 
-/// Unpacks the page that the decoder stands on, part after part, as `band` and those that follow.
+/// Unpacks the decoder's page part by part, as `band` and the bands after it.
 pub(crate) fn unpack_tiff(
     pages: &mut Pages,
     path: &Path,
@@ -340,7 +334,7 @@ pub(crate) fn unpack_tiff(
     Ok(())
 }
 
-/// Type and bytes of numbers, in the order of this machine.
+/// Type and bytes of numbers, in the byte order of this machine.
 fn bytes_of(numbers: DecodingResult) -> (NumberType, Vec<u8>) {
     macro_rules! bytes {
         ($kind:expr, $numbers:expr) => {
@@ -362,15 +356,15 @@ fn bytes_of(numbers: DecodingResult) -> (NumberType, Vec<u8>) {
     }
 }
 
-/// File of the wavelengths beside a TIFF file.
+/// Finds the list of wavelengths beside a TIFF file.
 fn list_beside(path: &Path) -> Option<PathBuf> {
     let named = ["txt", "csv"].map(|ending| path.with_extension(ending));
     let common = ["wavelengths.txt", "wavelengths.csv"].map(|name| path.with_file_name(name));
     named.into_iter().chain(common).find(|place| place.is_file())
 }
 
-/// Opens a TIFF file with a page a wavelength, or with several values a pixel in its pages, first page
-/// first. The wavelengths come from the settings or from a list beside the file.
+/// Opens a TIFF file with a page for each wavelength, or with several values a pixel in its pages,
+/// first page first. We take the wavelengths from the settings or from a list beside the file.
 pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let mut decoder = tiff_pages(path)?;
     let first = tiff_plane(&mut decoder, path, "page 1")?;

@@ -12,11 +12,11 @@ pub(crate) struct Wavelengths {
     pub(crate) nm: Vec<f64>,
     /// Factor from the file's unit to nm.
     pub(crate) factor: f64,
-    /// Sentence about a unit that was judged by the range.
+    /// Remark if we judged the unit by the range.
     pub(crate) remark: Option<String>,
 }
 
-/// Factor from the unit `name` to nm. `Ok(None)` if the name tells nothing.
+/// Factor from the unit `name` to nm. You get `Ok(None)` if the name is not a unit.
 fn factor(name: &str) -> Result<Option<f64>, String> {
     let plain = name.trim().trim_matches(['"', '{', '}']).trim().to_lowercase();
     match plain.as_str() {
@@ -34,10 +34,10 @@ fn factor(name: &str) -> Result<Option<f64>, String> {
 }
 
 impl Wavelengths {
-    /// Converts `values` with the unit `unit`. Without a unit, values from 0.15 to 30 are taken for
-    /// micrometres and values from 150 to 30,000 for nm.
+    /// Converts `values` with the unit `unit`. If you pass no unit, we take values from 0.15 to 30
+    /// for micrometres and values from 150 to 30,000 for nm.
     ///
-    /// The error says what is wrong with the list, without its name.
+    /// The error says what is wrong with the list, but not its name.
     pub(crate) fn of(values: &[f64], unit: Option<&str>) -> Result<Self, String> {
         let told = unit.map(factor).transpose()?.flatten();
         if let Some(at) = values.iter().position(|value| !(value.is_finite() && *value > 0.0)) {

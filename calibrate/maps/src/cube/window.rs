@@ -1,6 +1,6 @@
 //! Windows of raw values, and blocks of pixels with their reflectances.
 //!
-//! This file also converts raw values to reflectance and gives the reasons why a pixel cannot be mapped.
+//! Here we also convert raw values to reflectance and find out why a pixel cannot be mapped.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -11,7 +11,6 @@ use rayon::prelude::*;
 use super::error::CubeError;
 use crate::pixel_maps::Mask;
 
-/// Rows and columns of a cube.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Window {
     pub(crate) rows: Range<usize>,
@@ -19,28 +18,25 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Number of pixels in a row of the window.
     pub(crate) fn width(&self) -> usize {
         self.columns.len()
     }
 
-    /// Number of pixels.
     pub(crate) fn pixels(&self) -> usize {
         self.rows.len() * self.columns.len()
     }
 }
 
-/// Values and masks of the pixels of a window, to be filled.
+/// Values and masks of the pixels of a window, which a reader fills.
 #[derive(Debug)]
 pub(crate) struct Pixels<'p> {
-    /// Values, pixel after pixel.
     pub(crate) values: &'p mut [f32],
     /// One mask a pixel.
     pub(crate) mask: &'p mut [Mask],
 }
 
 impl<'p> Pixels<'p> {
-    /// The rows of a window, each with its line: to be filled by all threads.
+    /// The rows of a window, each with its line, so that all threads can fill them.
     pub(crate) fn rows(
         self,
         window: &Window,
@@ -52,7 +48,7 @@ impl<'p> Pixels<'p> {
         rows.map(|((values, mask), line)| (line, Pixels { values, mask }))
     }
 
-    /// The first `rows` rows and the rest.
+    /// Splits this into the first `rows` rows and the rest.
     #[cfg(feature = "files")]
     pub(crate) fn split(self, window: &Window, bands: usize, rows: usize) -> (Self, Self) {
         let pixels = rows * window.width();
@@ -62,11 +58,11 @@ impl<'p> Pixels<'p> {
     }
 }
 
-/// Raw values of a cube: lines x samples x bands numbers as the file stores them.
+/// Raw values of a cube, lines x samples x bands numbers as the file stores them.
 pub(crate) trait Source: Debug + Send + Sync {
-    /// Fills `pixels` with the values of `bands` (indices in the file) of the pixels of `window`, and
-    /// converts each row by `conversion` when it is read. The window and the bands lie inside the
-    /// cube.
+    /// Fills `pixels` with the values of `bands` (indices in the file) for the pixels of `window`.
+    /// After reading a row, this converts it by `conversion`. The window and the bands must lie
+    /// inside the cube.
     fn read(
         &self,
         window: &Window,
@@ -75,46 +71,46 @@ pub(crate) trait Source: Debug + Send + Sync {
         pixels: Pixels<'_>,
     ) -> Result<(), CubeError>;
 
-    /// Bytes of memory that reading needs beside the values, for a window of `rows` x `columns`.
+    /// Bytes of memory that you need beside the values to read a window of `rows` x `columns`.
     fn scratch_bytes(&self, rows: usize, columns: usize) -> usize;
 
-    /// Number of rows that are best read together, and after which a new part of the file begins.
+    /// Number of rows that you should read together. After them a new part of the file begins.
     fn natural_rows(&self) -> usize {
         1
     }
 
-    /// Largest value at which a detector saturates, if the type of the numbers tells it.
+    /// Value at which a detector saturates, if the type of the numbers shows this.
     fn full_scale(&self) -> Option<f64> {
         None
     }
 }
 
-/// Least reflectance of a pixel that is mapped: noise around black.
+/// We map pixels from this reflectance on, because of the noise around black.
 pub const LEAST_REFLECTANCE: f32 = -0.1;
-/// Greatest reflectance of a pixel that is mapped: a little gloss on white.
+/// We map pixels up to this reflectance, because of a little gloss on white.
 pub const GREATEST_REFLECTANCE: f32 = 1.2;
 
 /// Numbers that turn raw values into reflectance: (raw - dark) x gain.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Terms {
-    /// One gain for all values, no dark.
+    /// One gain for all values without a dark.
     One(f32),
-    /// A dark and a gain for each band of each column, column after column. One column stands for
-    /// all.
+    /// A dark and a gain for each band of each column, column after column. If there is only one
+    /// column, it counts for all.
     Columns { dark: Vec<f32>, gain: Vec<f32> },
 }
 
 /// How raw values become reflectance.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Conversion {
-    /// Raw value that marks a pixel without data. NaN marks none but itself.
+    /// Raw value that marks a pixel without data. If this is NaN, only NaN marks such a pixel.
     pub(crate) ignore: Option<f32>,
-    /// Raw value from which the detector is saturated.
+    /// From this raw value on the detector is saturated.
     pub(crate) saturated: Option<f32>,
     pub(crate) terms: Terms,
 }
 
-/// Signs that the values of a pixel gave.
+/// Signs that we saw in the values of a pixel.
 #[derive(Debug, Clone, Copy, Default)]
 struct Signs {
     ignored: bool,
@@ -123,7 +119,7 @@ struct Signs {
 }
 
 impl Conversion {
-    /// Leaves values as the file stores them.
+    /// A conversion that leaves values as the file stores them.
     pub(crate) fn none() -> Self {
         Self { ignore: None, saturated: None, terms: Terms::One(1.0) }
     }
@@ -136,7 +132,7 @@ impl Conversion {
         }
     }
 
-    /// Converts the raw values of the pixel in `column` and tells whether it can be mapped.
+    /// Converts the raw values of the pixel in `column`. Returns whether it can be mapped.
     pub(crate) fn pixel(&self, column: usize, values: &mut [f32]) -> Mask {
         let signs = match &self.terms {
             Terms::One(gain) => {
@@ -181,15 +177,17 @@ impl Conversion {
         signs
     }
 
-    /// The conversion of these bands only: indices into the bands so far, of which there are `all`.
+    /// The conversion of some bands only. `chosen` are indices into the `all` bands so far.
     pub(crate) fn of_bands(&self, chosen: &[usize], all: usize) -> Self {
-        let of = |terms: &Vec<f32>| -> Vec<f32> {
-            let columns = terms.chunks_exact(all);
-            columns.flat_map(|column| chosen.iter().map(|&band| column[band])).collect()
-        };
         let terms = match &self.terms {
             Terms::One(gain) => Terms::One(*gain),
-            Terms::Columns { dark, gain } => Terms::Columns { dark: of(dark), gain: of(gain) },
+            Terms::Columns { dark, gain } => {
+                let [dark, gain] = [dark, gain].map(|terms| {
+                    let columns = terms.chunks_exact(all);
+                    columns.flat_map(|column| chosen.iter().map(|&band| column[band])).collect()
+                });
+                Terms::Columns { dark, gain }
+            }
         };
         Self { terms, ..self.clone() }
     }
@@ -232,10 +230,10 @@ impl Block {
     }
 }
 
-/// How raw values become reflectance, as far as the file tells.
+/// How raw values become reflectance, as far as the file states this.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Values {
-    /// The file does not tell. `are_whole`: its numbers are integers.
+    /// The file does not state it. `are_whole` says whether its numbers are integers.
     Unknown { are_whole: bool },
     /// Reflectance is the value divided by this number.
     Divided(f64),
@@ -245,25 +243,23 @@ pub(crate) enum Values {
     Counts,
 }
 
-/// A scan before its values are interpreted.
+/// A scan before we interpret its values.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) path: PathBuf,
     pub(crate) lines: usize,
     pub(crate) samples: usize,
-    /// Bands of the file.
     pub(crate) bands: usize,
-    /// One wavelength a band, or `None` if the file has none.
+    /// One wavelength for each band, or `None` if the file has none.
     pub(crate) wavelengths_nm: Option<Vec<f64>>,
     /// Full width at half maximum of each band, if known.
     pub(crate) fwhm_nm: Option<Vec<f64>>,
-    /// Whether each band is good.
     pub(crate) good: Vec<bool>,
     /// Value that marks pixels without data.
     pub(crate) ignore: Option<f64>,
     pub(crate) values: Values,
     pub(crate) integration_time: Option<f64>,
-    /// Sentences that a user should see.
+    /// Sentences that you should show to the user.
     pub(crate) remarks: Vec<String>,
     pub(crate) source: Box<dyn Source>,
 }

@@ -1,5 +1,5 @@
-//! Cubes in Zarr arrays, as xarray writes them: (y, x, wavelength) in any order, with the wavelengths as a
-//! coordinate.
+//! Cubes in Zarr arrays, e.g. from xarray. The axes are (y, x, wavelength) in any order, with the
+//! wavelengths as a coordinate.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,11 +14,10 @@ use crate::zarr::{ChunkError, ZarrArray, ZarrFault};
 
 /// Names of the axis of the bands, in lower case.
 const BAND_AXES: [&str; 6] = ["wavelength", "wavelengths", "wl", "lambda", "band", "bands"];
-/// Names of the axis of the rows.
 const ROW_AXES: [&str; 5] = ["y", "row", "rows", "line", "lines"];
 
-/// Most bands of a scan, and most numbers of one of its rows, which is held in memory: a description takes no
-/// memory that no file backs.
+/// We accept at most this many bands, and numbers in a row, which we hold in memory. So a
+/// description alone cannot take much memory.
 const MOST_BANDS: usize = 65_536;
 const MOST_ROW: usize = 1 << 28;
 
@@ -63,7 +62,6 @@ fn names(arrays: &BTreeMap<String, (PathBuf, Value)>) -> String {
     documents::name_list(&names, MOST, ", ")
 }
 
-/// Folder and description of the cube's array.
 fn chosen(folder: &Path, options: &CubeOptions) -> Result<(PathBuf, Value), CubeError> {
     let about = document(folder)?;
     if about["node_type"] == "array" {
@@ -95,9 +93,8 @@ fn chosen(folder: &Path, options: &CubeOptions) -> Result<(PathBuf, Value), Cube
 fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
     let names: Vec<String> =
         array.about.dimensions.iter().map(|name| name.to_lowercase()).collect();
-    let place = |wanted: &[&str]| names.iter().position(|name| wanted.contains(&name.as_str()));
-    let band = place(&BAND_AXES);
-    let row = place(&ROW_AXES);
+    let [band, row] = [&BAND_AXES[..], &ROW_AXES]
+        .map(|wanted| names.iter().position(|name| wanted.contains(&name.as_str())));
     let (Some(band), 3) = (band, array.about.shape.len()) else {
         return Err(CubeError::format(
             &array.folder,
@@ -117,7 +114,7 @@ fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
     })
 }
 
-/// Refuses a cube that no camera makes.
+/// Refuses a cube of a size that no camera makes.
 fn check_size(array: &ZarrArray, [lines, samples, bands]: [usize; 3]) -> Result<(), CubeError> {
     let row = samples.checked_mul(bands);
     if bands <= MOST_BANDS && row.is_some_and(|row| row <= MOST_ROW) && lines <= u32::MAX as usize {
@@ -129,7 +126,7 @@ fn check_size(array: &ZarrArray, [lines, samples, bands]: [usize; 3]) -> Result<
     Err(CubeError::format(&array.folder, problem, "save the scan in parts of fewer columns"))
 }
 
-/// All numbers of an array of one axis, which has `bands` numbers.
+/// Reads all numbers of an array with one axis. It must have `bands` numbers.
 fn coordinate(folder: &Path, bands: usize) -> Result<(Vec<f64>, Option<String>), CubeError> {
     let array = ZarrArray::new(folder, &document(folder)?).map_err(fault_at(folder))?;
     let about = &array.about;
@@ -155,7 +152,7 @@ fn coordinate(folder: &Path, bands: usize) -> Result<(Vec<f64>, Option<String>),
     Ok((values, unit))
 }
 
-/// Number of an attribute, also in the base 64 form in which xarray writes fill values.
+/// Reads the number of an attribute, also in base 64, because xarray writes fill values so.
 fn attribute(array: &ZarrArray, name: &str) -> Option<f64> {
     match array.about.attributes.get(name)? {
         Value::Number(number) => number.as_f64(),
@@ -164,7 +161,7 @@ fn attribute(array: &ZarrArray, name: &str) -> Option<f64> {
     }
 }
 
-/// A 64-bit float, little endian, written in base 64.
+/// Decodes a little-endian 64-bit float from base 64.
 fn from_base_64(text: &str) -> Option<f64> {
     const DIGITS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let digits = text.trim_end_matches('=').bytes();
@@ -231,22 +228,21 @@ fn chunk_error(error: ChunkError) -> CubeError {
     }
 }
 
-/// Chunks of an array as raw values.
+/// Reads the chunks of an array as raw values.
 #[derive(Debug)]
 struct ZarrSource {
     array: ZarrArray,
     strides: Vec<usize>,
-    /// Numbers of the axes of rows, columns and bands.
+    /// Places of the axes of rows, columns and bands in the array.
     axes: [usize; 3],
 }
 
 impl ZarrSource {
-    /// The array with these numbers of the axes of rows, columns and bands.
     fn new(array: ZarrArray, axes: [usize; 3]) -> Self {
         Self { strides: array.strides(), array, axes }
     }
 
-    /// Reads rows that lie in one row of chunks.
+    /// Reads rows that all lie in one row of chunks.
     fn read_part(
         &self,
         window: &Window,
@@ -263,21 +259,22 @@ impl ZarrSource {
         depths.dedup();
         let places: Vec<(usize, usize)> =
             columns.flat_map(|column| depths.iter().map(move |&depth| (column, depth))).collect();
-        let read = |&(column, depth): &(usize, usize)| {
-            let mut at = [0; 3];
-            for (axis, number) in self.axes.into_iter().zip([row, column, depth]) {
-                at[axis] = number;
-            }
-            let chunk = self.array.chunk(&at).map_err(chunk_error)?;
-            let numbers = chunk.map(|bytes| {
-                let mut numbers = vec![0.0; bytes.len() / about.number_type.bytes()];
-                about.number_type.convert(about.chain.byte_order, &bytes, &mut numbers, 1);
-                numbers
-            });
-            Ok(((column, depth), numbers))
-        };
-        let chunks: BTreeMap<_, Option<Vec<f32>>> =
-            places.par_iter().map(read).collect::<Result<_, CubeError>>()?;
+        let chunks: BTreeMap<_, Option<Vec<f32>>> = places
+            .par_iter()
+            .map(|&(column, depth): &(usize, usize)| {
+                let mut at = [0; 3];
+                for (axis, number) in self.axes.into_iter().zip([row, column, depth]) {
+                    at[axis] = number;
+                }
+                let chunk = self.array.chunk(&at).map_err(chunk_error)?;
+                let numbers = chunk.map(|bytes| {
+                    let mut numbers = vec![0.0; bytes.len() / about.number_type.bytes()];
+                    about.number_type.convert(about.chain.byte_order, &bytes, &mut numbers, 1);
+                    numbers
+                });
+                Ok(((column, depth), numbers))
+            })
+            .collect::<Result<_, CubeError>>()?;
         let [by_row, by_column, by_band] = self.axes.map(|axis| self.strides[axis]);
         pixels.rows(window, bands.len()).for_each(|(line, filled)| {
             let pixels = filled.values.chunks_exact_mut(bands.len()).zip(window.columns.clone());

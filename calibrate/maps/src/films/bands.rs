@@ -1,10 +1,12 @@
 //! Bands of a scan, cut to the library's wavelengths and folded to its resolution.
 //!
-//! A scan often has several bands within one step of the library's grid. They carry no more about K and S
-//! than one band, but more noise, and more arithmetic. Each folded band is a weighted mean of the bands
-//! around its wavelength, with weights that leave every straight line over wavelength unchanged.
+//! A scan often has several bands within one step of the library's grid. You learn no more about K
+//! and S from them than from one band, but they cost more time. Each folded band is a weighted mean
+//! of the bands around its wavelength, with weights that leave every straight line over wavelength
+//! unchanged.
 //!
-//! The bare ground of a painting is folded the same way; with it, pixels without paint are recognised.
+//! We also fold the bare ground of a painting in this way, so that we recognise pixels without
+//! paint.
 
 use std::cmp::Ordering::Greater;
 
@@ -12,14 +14,14 @@ use spectra::Grid;
 
 use crate::pixel_maps::MapError;
 
-/// Most folded bands.
+/// We fold a scan to at most this many bands.
 pub const MOST_BANDS: usize = 64;
-/// Least number of bands of a scan within the library's wavelengths.
+/// A scan needs this many bands within the library's wavelengths.
 pub const LEAST_BANDS: usize = 4;
-/// A step of the scan that is smaller than this part of the wanted step is folded (chosen by eye).
+/// We fold a scan if its step is smaller than this part of the wanted step (chosen by eye).
 const FINER: f64 = 0.8;
 
-/// A value of a folded band as a weighted sum of other values.
+/// A folded value as a weighted sum of other values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Places of the values, with their weights, which sum to 1.
@@ -30,7 +32,7 @@ impl Row {
     /// The weighted sum of `values`.
     ///
     /// # Panics
-    /// If `values` is shorter than the list for which the row was made.
+    /// If `values` is shorter than the list that you made the row for.
     #[must_use]
     pub fn apply(&self, values: &[f64]) -> f64 {
         self.terms.iter().map(|&(index, weight)| weight * values[index]).sum()
@@ -42,9 +44,9 @@ impl Row {
 pub struct Bands {
     /// Wavelengths of the folded bands in nm, rising; 4 to 64.
     pub nm: Vec<f64>,
-    /// Folded bands from the bands of the scan.
+    /// For each folded band, how it follows from the bands of the scan.
     pub from_scan: Vec<Row>,
-    /// Folded bands from values on the library's grid.
+    /// For each folded band, how it follows from values on the library's grid.
     pub from_library: Vec<Row>,
     /// Number of bands of the scan.
     pub scan_bands: usize,
@@ -53,8 +55,8 @@ pub struct Bands {
 impl Bands {
     /// Folds the bands of a scan at the wavelengths `nm` to the resolution of `grid`.
     ///
-    /// Bands outside the grid are left out. Where the scan is coarser than the grid its bands stay as
-    /// they are, and the grid is folded to them.
+    /// We leave out bands outside the grid. If the scan is coarser than the grid, its bands stay as
+    /// they are, and we fold the grid to them.
     ///
     /// # Errors
     /// [`MapError::Order`] unless `nm` rises strictly, [`MapError::Overlap`] if fewer than
@@ -118,13 +120,13 @@ impl Bands {
         self.nm.len()
     }
 
-    /// Values on the library's grid, folded.
+    /// Folds values on the library's grid.
     #[must_use]
     pub fn fold_library(&self, values: &[f64]) -> Vec<f64> {
         self.from_library.iter().map(|row| row.apply(values)).collect()
     }
 
-    /// Reflectances of one pixel of the scan, folded.
+    /// Folds the reflectances of one pixel of the scan.
     #[must_use]
     pub fn fold_scan(&self, values: &[f64]) -> Vec<f64> {
         self.from_scan.iter().map(|row| row.apply(values)).collect()
@@ -148,7 +150,7 @@ fn median_step(nm: &[f64]) -> f64 {
     steps.get(steps.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// Wavelengths of the grid itself where its step is the wanted one, else evenly spaced ones.
+/// Wavelengths of the grid itself if it has the wanted step, else evenly spaced ones.
 fn centers(grid: Grid, first: f64, last: f64, wanted: f64) -> Vec<f64> {
     let slack = 1e-9 * wanted;
     let own: Vec<f64> =
@@ -161,45 +163,48 @@ fn centers(grid: Grid, first: f64, last: f64, wanted: f64) -> Vec<f64> {
     (0..count).map(|index| start + wanted * index as f64).collect()
 }
 
-/// Rows of triangular weights of half width `reach` around each centre, made exact for straight lines, or
-/// `None` where no value is within reach. With a reach of 0 each centre is one of the values.
+/// Rows of triangular weights with the half width `reach` around each centre, corrected so that
+/// they are exact for straight lines. A centre without a value within reach has `None`. If you pass
+/// a reach of 0, each centre must be one of the values.
 fn rows(nm: &[f64], centers: &[f64], reach: f64) -> Vec<Option<Row>> {
-    let row = |&center: &f64| {
-        if reach == 0.0 {
-            let index = nm.iter().position(|&nm| nm == center)?;
-            return Some(Row { terms: vec![(index, 1.0)] });
-        }
-        let near = nm.iter().enumerate().filter_map(|(index, &nm)| {
-            let x = (nm - center) / reach;
-            (x.abs() < 1.0 - 1e-9).then_some((index, x, 1.0 - x.abs()))
-        });
-        let near: Vec<(usize, f64, f64)> = near.collect();
-        let moment = |power: i32| near.iter().map(|(_, x, w)| w * x.powi(power)).sum::<f64>();
-        let s0 = moment(0);
-        let s1 = moment(1);
-        let s2 = moment(2);
-        let determinant = s0 * s2 - s1 * s1;
-        let is_line = determinant > 1e-9 * s0 * s0;
-        let weight = |x: f64, w: f64| {
-            if is_line { w * (s2 - s1 * x) / determinant } else { w / s0 }
-        };
-        // A single value stands for its own wavelength only.
-        let fits = is_line || near.iter().any(|(_, x, _)| x.abs() < 1e-6);
-        fits.then(|| Row { terms: near.iter().map(|&(i, x, w)| (i, weight(x, w))).collect() })
-    };
-    centers.iter().map(row).collect()
+    centers
+        .iter()
+        .map(|&center: &f64| {
+            if reach == 0.0 {
+                let index = nm.iter().position(|&nm| nm == center)?;
+                return Some(Row { terms: vec![(index, 1.0)] });
+            }
+            let near = nm.iter().enumerate().filter_map(|(index, &nm)| {
+                let x = (nm - center) / reach;
+                (x.abs() < 1.0 - 1e-9).then_some((index, x, 1.0 - x.abs()))
+            });
+            let near: Vec<(usize, f64, f64)> = near.collect();
+            let [s0, s1, s2] =
+                [0, 1, 2].map(|power| near.iter().map(|(_, x, w)| w * x.powi(power)).sum::<f64>());
+            let determinant = s0 * s2 - s1 * s1;
+            let is_line = determinant > 1e-9 * s0 * s0;
+            // A single value stands for its own wavelength only.
+            let fits = is_line || near.iter().any(|(_, x, _)| x.abs() < 1e-6);
+            let terms = near.iter().map(|&(i, x, w)| {
+                (i, if is_line { w * (s2 - s1 * x) / determinant } else { w / s0 })
+            });
+            fits.then(|| Row { terms: terms.collect() })
+        })
+        .collect()
 }
 
-/// Standard deviation of the ground's lightness from place to place, relative to its reflectance.
+/// The lightness of the ground varies from place to place by this standard deviation, relative to
+/// its reflectance.
 const LIGHTNESS: f64 = 0.03;
-/// Standard deviation of the light that the surface reflects itself, in reflectance.
+/// The light that the surface itself reflects varies by this standard deviation, in reflectance.
 const GLOSS: f64 = 0.005;
-/// Standard deviation by which the bands of bare ground differ otherwise, relative to its reflectance.
+/// Each band of bare ground also varies by itself, with this standard deviation relative to its
+/// reflectance.
 const UNEVEN: f64 = 0.005;
-/// Chi-square per band up to which a pixel is bare ground.
+/// A pixel is bare ground up to this chi-square per band.
 const EXPLAINED: f64 = 2.0;
 
-/// Reflectance of the bare ground of a painting, as the scan sees it.
+/// Reflectance of the bare ground of a painting in the scan.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Ground {
     nm: Vec<f64>,
@@ -207,11 +212,11 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Reflectances, 0 to 1.5, at the wavelengths `nm` in nm, which rise.
+    /// Pass reflectances, 0 to 1.5, at rising wavelengths `nm` in nm.
     ///
     /// # Errors
-    /// [`MapError::Ground`] for two lists of different lengths, for wavelengths that do not rise, and for numbers
-    /// that are no reflectances.
+    /// [`MapError::Ground`] if the lists differ in length, the wavelengths do not rise, or a number
+    /// is not a reflectance.
     pub fn new(nm: Vec<f64>, reflectance: Vec<f64>) -> Result<Self, MapError> {
         if nm.len() != reflectance.len() || nm.len() < 2 {
             let nm = nm.len();
@@ -223,8 +228,7 @@ impl Ground {
             let after = nm[place + 1];
             return Err(ground_error(format!("has {after} nm after {before} nm")));
         }
-        let is_reflectance = |value: &f64| (0.0..=1.5).contains(value);
-        if let Some(place) = reflectance.iter().position(|value| !is_reflectance(value)) {
+        if let Some(place) = reflectance.iter().position(|value| !(0.0..=1.5).contains(value)) {
             let value = reflectance[place];
             let nm = nm[place];
             return Err(ground_error(format!("reflects {value} at {nm} nm")));
@@ -232,7 +236,7 @@ impl Ground {
         Ok(Self { nm, reflectance })
     }
 
-    /// Reflectance at a wavelength, between its neighbours, or `None` outside.
+    /// Interpolates the reflectance at a wavelength. Outside the measured ones this is `None`.
     fn at(&self, nm: f64) -> Option<f64> {
         let after = self.nm.iter().position(|own| *own >= nm)?;
         if self.nm[after] == nm {
@@ -252,20 +256,21 @@ fn ground_error(problem: String) -> MapError {
     MapError::Ground { problem }
 }
 
-/// The ground on the bands of a map, with the covariance of its differences from place to place: of the
-/// bands by themselves, of a common lightness and of a common gloss.
+/// The ground on the bands of a map, and the covariance with which it differs from place to place.
+/// We take three differences together: a common lightness, a common gloss, and each band by itself.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BareGround {
     reflectance: Vec<f64>,
     /// 1 / variance of each band.
     weights: Vec<f64>,
-    /// Weights of two sums. The common differences subtract the squares of these sums from chi-square.
+    /// Weights of two sums. We subtract their squares from chi-square, because of the common
+    /// differences.
     common: [Vec<f64>; 2],
 }
 
 impl BareGround {
-    /// `ground` on `bands` of a scan at the wavelengths `wavelengths`, with the variances `sensor` of the
-    /// bands.
+    /// Prepares `ground` for `bands` of a scan at `wavelengths`. `sensor` holds the variance of
+    /// each band.
     pub(crate) fn new(
         ground: &Ground,
         wavelengths: &[f64],
@@ -303,7 +308,7 @@ impl BareGround {
         Ok(Self { reflectance, weights, common: [of_first, of_second] })
     }
 
-    /// Chi-square per band of a pixel, if it is bare ground.
+    /// Chi-square per band of a pixel, assuming that it is bare ground.
     pub(crate) fn chi2(&self, reflectance: &[f32]) -> f64 {
         let mut sum = 0.0;
         let mut common = [0.0; 2];
@@ -316,7 +321,6 @@ impl BareGround {
         (sum - common[0] * common[0] - common[1] * common[1]) / self.reflectance.len() as f64
     }
 
-    /// Tells whether a pixel is bare ground.
     pub(crate) fn explains(&self, reflectance: &[f32]) -> bool {
         self.chi2(reflectance) <= EXPLAINED
     }
@@ -472,17 +476,15 @@ mod tests {
     fn ground_of_other_wavelengths_is_interpolated() {
         let (nm, reflectance) = linen();
         let bands = Bands::new(&nm, Grid::from_nm(400.0, 10.0, 31).unwrap()).unwrap();
-        let interpolated = |of_few: Vec<f64>| {
-            let ground = Ground::new(vec![375.0, 505.0, 565.0, 725.0], of_few).unwrap();
+        let few = [[0.175, 0.305, 0.365, 0.525], [0.1, 0.36, 0.24, 0.56]];
+        let [straight, bent] = few.map(|few| {
+            let ground = Ground::new(vec![375.0, 505.0, 565.0, 725.0], few.to_vec()).unwrap();
             BareGround::new(&ground, &nm, &bands, &[9e-6; 31]).unwrap().reflectance
-        };
-        for (found, expected) in
-            interpolated(vec![0.175, 0.305, 0.365, 0.525]).iter().zip(&reflectance)
-        {
+        });
+        for (found, expected) in straight.iter().zip(&reflectance) {
             assert!((found - expected).abs() < 1e-9, "{found} {expected}");
         }
         // A ground that bends between the bands lies between its neighbours everywhere.
-        let bent = interpolated(vec![0.1, 0.36, 0.24, 0.56]);
         let expected = nm.iter().map(|nm| match nm {
             ..505.0 => 0.1 + 0.002 * (nm - 375.0),
             ..565.0 => 0.36 - 0.002 * (nm - 505.0),

@@ -1,4 +1,5 @@
-//! Films of paint on the bands of a map, and one pixel in f32, eight bands or pigments at a time.
+//! Films of paint on the bands of a map, and one pixel in f32. We compute eight bands or pigments
+//! at a time.
 
 use pigment::library::PigmentLibrary;
 use pigment::{PigmentId, RecipeError};
@@ -12,9 +13,9 @@ use super::whitening::{
 };
 use crate::pixel_maps::{BlockMaps, MapError};
 
-/// Most pigments of a set.
+/// A set holds at most this many pigments.
 pub(crate) const MOST_IN_SET: usize = 4;
-/// Range of internal reflectances to which a pixel is moved where it is linearised.
+/// Before we linearise a pixel, we move its internal reflectances into this range.
 const INTERNAL: [f32; 2] = [1e-4, 0.9995];
 
 /// K, S and surface of the pigments, laid out for vectors.
@@ -24,8 +25,8 @@ pub(crate) struct Films {
     pub(crate) bands: usize,
     /// Blocks of bands, with K = S = 1 beyond the last band.
     pub(crate) blocks: usize,
-    /// Blocks of pigments, with K = S = 0 before the first pigment: where each one is combined with those after
-    /// it, the last block holds most.
+    /// Blocks of pigments, with K = S = 0 before the first pigment. We combine each pigment with
+    /// the ones after it, so it is best if the last block is full.
     pub(crate) columns: usize,
     /// K and S by pigment, each `blocks` long.
     absorption: Vec<f32x8>,
@@ -41,7 +42,8 @@ pub(crate) struct Films {
     k2: f32x8,
 }
 
-/// A pixel's measured reflectance, the internal one within the range of films, and the whitening near it.
+/// A pixel: its measured reflectance, its internal reflectance (moved into the range of films), and
+/// the whitening near it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pixel {
     measured: Spectrum,
@@ -49,11 +51,10 @@ pub(crate) struct Pixel {
     white: Whitening,
 }
 
-/// Differences of a pixel from a film: chi-square, and the normal equations of the shares.
+/// How a pixel differs from a film: chi-square, and the normal equations of the shares.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Difference {
     pub(crate) chi2: f32,
-    /// Sum of squares of the differences in reflectance.
     pub(crate) squares: f32,
     pub(crate) normal: [[f32; MOST_IN_SET]; MOST_IN_SET],
     pub(crate) right: [f32; MOST_IN_SET],
@@ -65,33 +66,39 @@ impl Films {
         let bands = paints.bands();
         let blocks = bands.div_ceil(LANES);
         let columns = pigments.div_ceil(LANES);
-        let by_pigment = |curves: &[Vec<f64>]| -> Vec<f32x8> {
-            let value = |p: usize, b: usize| if b < bands { curves[p][b] as f32 } else { 1.0 };
-            let block = |p: usize, block: usize| {
-                f32x8::new(std::array::from_fn(|lane| value(p, block * LANES + lane)))
-            };
-            (0..pigments * blocks).map(|i| block(i / blocks, i % blocks)).collect()
-        };
+        let [absorption, scattering] = [&paints.absorption, &paints.scattering].map(|curves| {
+            let blocks = (0..pigments).flat_map(|p| (0..blocks).map(move |block| (p, block)));
+            let blocks = blocks.map(|(p, block)| {
+                f32x8::new(std::array::from_fn(|lane| {
+                    curves[p].get(block * LANES + lane).map_or(1.0, |value| *value as f32)
+                }))
+            });
+            blocks.collect()
+        });
         let before = columns * LANES - pigments;
-        let by_band = |curves: &[Vec<f64>]| -> Vec<f32x8> {
-            let value = |b: usize, lane: usize| {
-                if b < bands && lane >= before { curves[lane - before][b] as f32 } else { 0.0 }
-            };
-            let block = |b: usize, block: usize| {
-                f32x8::new(std::array::from_fn(|lane| value(b, block * LANES + lane)))
-            };
-            (0..blocks * LANES * columns).map(|i| block(i / columns, i % columns)).collect()
-        };
+        let of_band = [&paints.absorption, &paints.scattering].map(|curves| {
+            let blocks =
+                (0..blocks * LANES).flat_map(|b| (0..columns).map(move |block| (b, block)));
+            let blocks = blocks.map(|(b, block)| {
+                f32x8::new(std::array::from_fn(|lane| {
+                    let pigment = (block * LANES + lane).checked_sub(before);
+                    let value = pigment.and_then(|pigment| curves[pigment].get(b));
+                    value.map_or(0.0, |value| *value as f32)
+                }))
+            });
+            blocks.collect()
+        });
+        let [absorption_of_band, scattering_of_band] = of_band;
         let surface = paints.surface;
         Self {
             pigments,
             bands,
             blocks,
             columns,
-            absorption: by_pigment(&paints.absorption),
-            scattering: by_pigment(&paints.scattering),
-            absorption_of_band: by_band(&paints.absorption),
-            scattering_of_band: by_band(&paints.scattering),
+            absorption,
+            scattering,
+            absorption_of_band,
+            scattering_of_band,
             inside: spectrum(&vec![1.0; bands], 0.0),
             floor: f32x8::splat(surface.floor() as f32),
             through: f32x8::splat(((1.0 - surface.k1) * (1.0 - surface.k2)) as f32),
@@ -99,7 +106,7 @@ impl Films {
         }
     }
 
-    /// A pixel of these measured reflectances, one for each band, with errors like `noise`.
+    /// Prepares a pixel. Pass one measured reflectance for each band, with errors like `noise`.
     pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
         let measured = spectrum(&reflectance[..self.bands], 0.3);
         let mut internal = measured;
@@ -205,8 +212,8 @@ impl Films {
         found
     }
 
-    /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
-    /// with secants to the film of internal reflectance and 1/S `about`.
+    /// Products of all pigments' rows. For the shares of a film like `pixel` the rows sum to 0. We
+    /// linearise with secants to the film `about`, which you pass as internal reflectance and 1/S.
     pub(crate) fn products(&self, pixel: &Pixel, about: (&Spectrum, &Spectrum), work: &mut Work) {
         by_vectors(Products { films: self, pixel, about, work });
     }
@@ -317,12 +324,12 @@ impl Task for Products<'_> {
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
     white: Vec<f32x8>,
-    /// Mean S of each pigment relative to the film about which the rows are linearised, by which each row
-    /// is divided. Else pigments of little S would seem to explain every pixel.
+    /// Mean S of each pigment relative to the film that we linearise about. We divide each row by
+    /// this, because pigments of little S would otherwise seem to explain every pixel.
     sizes: Vec<f32x8>,
     inverse: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments. The upper half is valid. Row and lane of a pigment
-    /// are `before` its place.
+    /// Products of the rows of all pairs of pigments. The upper half is valid. The row and lane of
+    /// a pigment is `before` plus its place.
     pub(crate) products: Vec<f32x8>,
     before: usize,
 }
@@ -338,7 +345,7 @@ impl Work {
         }
     }
 
-    /// Product of the rows of two pigments, of which `a` is not after `b`.
+    /// Product of the rows of two pigments. `a` must not come after `b`.
     #[inline(always)]
     pub(crate) fn product(&self, a: usize, b: usize) -> f32 {
         let a = a + self.before;
@@ -346,14 +353,14 @@ impl Work {
         self.products[a * self.sizes.len() + b / LANES].as_array()[b % LANES]
     }
 
-    /// Size by which the row of a pigment is divided.
+    /// We divide the row of a pigment by this size.
     pub(crate) fn size(&self, pigment: usize) -> f32 {
         let lane = pigment + self.before;
         self.sizes[lane / LANES].as_array()[lane % LANES]
     }
 }
 
-/// Least K and S relative to the greatest of its pigment; below it the optics have no slope.
+/// Least K and S relative to the greatest of the pigment. Below this the optics have no slope.
 const LEAST: f64 = 1e-7;
 
 /// Pigments on the bands of a map.
@@ -370,12 +377,12 @@ pub struct Paints {
 }
 
 impl Paints {
-    /// Pigments of `library` that are called one of `palette`; or, for an empty palette, all pigments
-    /// with measured K and S.
+    /// The pigments of `library` that `palette` names. If you pass an empty palette, these are all
+    /// pigments with measured K and S.
     ///
     /// # Errors
-    /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`] unless 1 to
-    /// 64 take part.
+    /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`]
+    /// unless 1 to 64 take part.
     pub fn new(
         library: &PigmentLibrary,
         palette: &[String],
@@ -396,15 +403,18 @@ impl Paints {
             let most = BlockMaps::MOST_PIGMENTS;
             return Err(MapError::Pigments { found, most });
         }
-        let folded = |values: &[f64]| {
-            let folded = bands.fold_library(values);
-            let greatest = folded.iter().copied().fold(0.0, f64::max).max(1e-6);
-            folded.into_iter().map(|value| value.max(LEAST * greatest)).collect::<Vec<f64>>()
-        };
+        let curves = chosen.iter().map(|&id| {
+            [&library[id].absorption, &library[id].scattering].map(|values| {
+                let folded = bands.fold_library(values);
+                let greatest = folded.iter().copied().fold(0.0, f64::max).max(1e-6);
+                folded.into_iter().map(|value| value.max(LEAST * greatest)).collect::<Vec<f64>>()
+            })
+        });
+        let (absorption, scattering) = curves.map(<(_, _)>::from).unzip();
         Ok(Self {
             names: chosen.iter().map(|&id| library[id].name.clone()).collect(),
-            absorption: chosen.iter().map(|&id| folded(&library[id].absorption)).collect(),
-            scattering: chosen.iter().map(|&id| folded(&library[id].scattering)).collect(),
+            absorption,
+            scattering,
             surface: library.saunderson,
         })
     }
@@ -430,14 +440,16 @@ impl Paints {
     /// K and S of a mixture by band, from pigments with their shares.
     #[must_use]
     pub fn mixed(&self, shares: &[(usize, f64)]) -> (Vec<f64>, Vec<f64>) {
-        let sum = |curves: &[Vec<f64>], band: usize| -> f64 {
-            shares.iter().map(|&(pigment, share)| share * curves[pigment][band]).sum()
-        };
-        let of = |curves: &[Vec<f64>]| (0..self.bands()).map(|band| sum(curves, band)).collect();
-        (of(&self.absorption), of(&self.scattering))
+        let curves = [&self.absorption, &self.scattering].map(|curves| {
+            let bands = (0..self.bands()).map(|band| {
+                shares.iter().map(|&(pigment, share)| share * curves[pigment][band]).sum()
+            });
+            bands.collect()
+        });
+        curves.into()
     }
 
-    /// Measured reflectance of a mixture in a film that hides, by band.
+    /// Measured reflectance of an opaque film of a mixture, by band.
     #[must_use]
     pub fn reflectance(&self, shares: &[(usize, f64)]) -> Vec<f64> {
         let (absorption, scattering) = self.mixed(shares);
@@ -486,8 +498,8 @@ mod tests {
         assert_eq!(paints.count(), 18, "two pigments have no known S");
         let recipe = library.recipe([("Zinc White", 0.8), ("Viridian", 0.2)]).unwrap();
         let expected = library.mix(recipe).unwrap().hiding(library.saunderson);
-        let place = |name| paints.place(name).unwrap();
-        let found = paints.reflectance(&[(place("Zinc White"), 0.8), (place("Viridian"), 0.2)]);
+        let [white, green] = ["Zinc White", "Viridian"].map(|name| paints.place(name).unwrap());
+        let found = paints.reflectance(&[(white, 0.8), (green, 0.2)]);
         for (a, b) in found.iter().zip(&expected) {
             assert!((a - b).abs() < 1e-12, "{a} {b}");
         }
@@ -498,10 +510,11 @@ mod tests {
         let (library, bands) = library_and_bands();
         let paints = Paints::new(&library, &[], &bands).unwrap();
         for q in [1e-3, 0.1, 1.0, 30.0] {
-            let at =
-                |log: f64| paints.surface.measured_from_internal(infinite_film(f64::exp(log), 1.0));
-            let log = f64::ln(q);
-            let quotient = (at(log + 1e-5) - at(log - 1e-5)) / 2e-5;
+            let [above, below] = [1e-5, -1e-5].map(|step| {
+                let film = infinite_film(f64::exp(f64::ln(q) + step), 1.0);
+                paints.surface.measured_from_internal(film)
+            });
+            let quotient = (above - below) / 2e-5;
             let slope = paints.log_slope(infinite_film(q, 1.0));
             assert!((quotient - slope).abs() < 1e-7, "{q}: {quotient} {slope}");
         }
@@ -537,22 +550,23 @@ mod tests {
     /// The covariance that the noise describes near a reflectance.
     fn covariance(oils: &Oils, noise: &Noise, reflectance: &[f64]) -> DMatrix<f64> {
         let surface = oils.paints.surface;
-        let scale = |r: f64| match noise.scale {
-            Scale::FourthRoot => 4.0 * r.powf(0.75),
-            Scale::LogRatio => {
-                oils.paints.log_slope(surface.internal_from_measured(r).unwrap()).abs()
-            }
-        };
+        let scales: Vec<f64> = (reflectance.iter())
+            .map(|&r| match noise.scale {
+                Scale::FourthRoot => 4.0 * r.powf(0.75),
+                Scale::LogRatio => {
+                    oils.paints.log_slope(surface.internal_from_measured(r).unwrap()).abs()
+                }
+            })
+            .collect();
         DMatrix::from_fn(reflectance.len(), reflectance.len(), |i, j| {
             let common: f64 =
                 noise.curves[i].iter().zip(&noise.curves[j]).map(|(a, b)| a * b).sum();
-            let both = scale(reflectance[i]) * scale(reflectance[j]);
+            let both = scales[i] * scales[j];
             let own = if i == j { noise.own[i] } else { 0.0 };
             both * (common + own) + if i == j { noise.sensor[i] } else { 0.0 }
         })
     }
 
-    /// Errors of invented mixtures.
     fn residuals() -> Residuals {
         Residuals { mixtures: (0..12).map(mixture).collect(), ..Residuals::van_gogh_oils() }
     }
@@ -569,8 +583,8 @@ mod tests {
     }
 
     fn curve(number: usize, scale: f64) -> Vec<f64> {
-        let wave = |i: usize| (0.3 * (i * (1 + number % 5)) as f64 + number as f64).sin();
-        (0..31).map(|i| scale * (1.1 + wave(i))).collect()
+        let phases = (0..31).map(|i| 0.3 * (i * (1 + number % 5)) as f64 + number as f64);
+        phases.map(|phase| scale * (1.1 + phase.sin())).collect()
     }
 
     #[test]
@@ -615,12 +629,12 @@ mod tests {
         let found = at(shares);
         for i in 0..3 {
             let step = 0.01 * shares[i];
-            let moved = |sign: f32| {
+            let [above, below] = [step, -step].map(|step| {
                 let mut moved = shares;
-                moved[i] += sign * step;
+                moved[i] += step;
                 f64::from(at(moved).chi2)
-            };
-            let quotient = (moved(1.0) - moved(-1.0)) / (2.0 * f64::from(step));
+            });
+            let quotient = (above - below) / (2.0 * f64::from(step));
             let slope = -2.0 * f64::from(found.right[i]);
             assert!((quotient / slope - 1.0).abs() < 0.02, "{i}: {quotient} {slope}");
         }

@@ -1,8 +1,8 @@
 //! Settings of a map, and its noise: the sensor's noise and the error of the library's predictions.
 //!
-//! The errors of Kubelka-Munk predictions are smooth over wavelength and far greater than the sensor's noise.
-//! Spectra are compared after whitening by the covariance of both, so that neighbouring bands with a common
-//! error do not count twice.
+//! The errors of Kubelka-Munk predictions are smooth over wavelength and far greater than the
+//! sensor's noise. We whiten spectra by the covariance of both before we compare them, so that
+//! neighbouring bands with a common error do not count twice.
 
 use calibrate::{Residuals, ResidualsError};
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -21,28 +21,30 @@ pub struct PigmentGroup {
     pub pigments: Vec<String>,
 }
 
-/// Settings of [`Mapper::new`](crate::Mapper::new).
+/// Settings that you pass to [`Mapper::new`](crate::Mapper::new).
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapSettings {
     /// Most pigments of a mixture, 1 to 4. Default: 3.
     pub at_most: usize,
     /// Names of the pigments that take part. Default: all pigments of the library with measured K and S.
     pub palette: Vec<String>,
-    /// Groups of pigments that are mapped as one. Default: none.
+    /// Groups of pigments to map as one. Default: none.
     pub groups: Vec<PigmentGroup>,
-    /// Whether pigments that the bands cannot tell apart are mapped as one. Default: yes.
+    /// Whether to map pigments as one if the bands cannot tell them apart. Default: yes.
     pub group_alike: bool,
-    /// Standard deviation of the noise of each band of the scan, in reflectance; 0 to 1. Default: 0.003.
+    /// Standard deviation of the noise of each band of the scan, in reflectance, 0 to 1. Default:
+    /// 0.003.
     pub sensor_noise: f64,
-    /// Error of the library's predictions. Default: for the library that ships the errors of the mixtures left
-    /// out of its fit, for any other 10 % of K and S, with which the measured Van Gogh oils are unmixed best of
-    /// 5 to 70 %.
+    /// Error of the library's predictions. Default: the errors of left-out mixtures for the library
+    /// that we ship, and 10 % of K and S for any other. Of 5 to 70 %, this unmixes the measured Van
+    /// Gogh oils best.
     pub model_error: Option<ModelError>,
-    /// Chi-square that a pigment must save beyond the prior, by which mixtures of any number of pigments are alike,
-    /// unless the survey finds it in the palette; 0 to 100. Default: 2.
+    /// A further pigment must save this chi-square, 0 to 100, unless the survey finds it in the
+    /// palette. This adds to the prior, which makes mixtures of any number of pigments equally
+    /// likely. Default: 2.
     pub penalty: f64,
-    /// The bare ground. Its pixels are reported and not mapped. Default: none, and bare ground is mapped
-    /// as paint.
+    /// The bare ground. We report its pixels and do not map them. If you leave this out (the
+    /// default), bare ground looks like paint.
     pub ground: Option<Ground>,
 }
 
@@ -62,12 +64,12 @@ impl Default for MapSettings {
 }
 
 impl MapSettings {
-    /// Error of the predictions of `library`: as stated, else the usual one. Residuals are on the library's
-    /// wavelengths.
+    /// Error of the predictions of `library`: the one that you state, else the usual one. We put
+    /// residuals on the library's wavelengths.
     ///
     /// # Errors
-    /// [`ResidualsError`] if residuals hold fewer than [`LEAST_MIXTURES`] mixtures, or do not cover the
-    /// library's wavelengths.
+    /// [`ResidualsError`] if residuals hold fewer than [`LEAST_MIXTURES`] mixtures, or do not cover
+    /// the library's wavelengths.
     pub fn model_error_of(&self, library: &PigmentLibrary) -> Result<ModelError, ResidualsError> {
         let residuals = match &self.model_error {
             Some(ModelError::Stated(relative)) => return Ok(ModelError::Stated(*relative)),
@@ -106,44 +108,45 @@ impl MapSettings {
     }
 }
 
-/// Part of the covariance of left-out residuals that is moved to its diagonal. A few dozen mixtures do
-/// not determine a covariance of 31 bands. We chose it on the Van Gogh oils, where 0.3 to 0.6 give the
-/// same.
+/// We move this part of the covariance of left-out residuals to its diagonal. A few dozen mixtures
+/// do not determine a covariance of 31 bands. We chose it on the Van Gogh oils, where 0.3 to 0.6
+/// give the same.
 const SHRINKAGE: f64 = 0.5;
 /// Degrees of freedom of the residuals' distribution. Some mixtures err ten times as much as others, so
 /// that their tails are heavier than normal ones. We chose it on the Van Gogh oils.
 const TAIL: f64 = 10.0;
-/// Lengths in nm over which stated errors of K and S are alike, with their parts of the variance. The
-/// rest is independent from band to band. We chose it on simulated paintings with other seeds than the
-/// tests use: longer ones give deviations that are too small.
+/// Lengths in nm over which stated errors of K and S are alike, with their parts of the variance.
+/// The rest is independent from band to band. We chose this on simulated paintings with other seeds
+/// than the tests use. Longer ones give deviations that are too small.
 const SMOOTH: [(f64, f64); 2] = [(60.0, 0.5), (30.0, 0.45)];
-/// Relative error of K and S where the settings state none.
+/// Relative error of K and S if you do not state one.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
-/// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
-/// cancel: 2 for one pigment, 1 for two alike in strength. This is a mean.
+/// Stated errors of a mixture's pigments partly cancel. This is a mean of the sum of squares of the
+/// pigments' parts in K and in S: 2 for one pigment, 1 for two of the same strength.
 const CANCELLED: f64 = 1.8;
-/// Least number of left-out mixtures that show how a library errs. With fewer, their mean product depends
-/// on a few contradictory swatches.
+/// You need this many left-out mixtures to see how a library errs. With fewer, their mean product
+/// depends on a few contradictory swatches.
 pub const LEAST_MIXTURES: usize = 10;
 /// Least standard deviation of a band, in reflectance.
 const LEAST_SD: f64 = 1e-4;
 /// Least part of a band's variance that is its own.
 const LEAST_OWN: f64 = 1e-3;
-/// Curves over wavelength that describe errors which bands have in common.
+/// We describe errors that bands have in common by this many curves over wavelength.
 pub(crate) const CURVES: usize = 8;
 
 /// Error of a library's predictions.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ModelError {
-    /// Errors of at least [`LEAST_MIXTURES`] mixtures that the library had not seen, on wavelengths that cover
-    /// its own.
+    /// Errors of at least [`LEAST_MIXTURES`] mixtures that were left out of the library's fit, on
+    /// wavelengths that cover its own.
     Residuals(Residuals),
-    /// Smooth errors of K and S of each pigment, as a standard deviation relative to their values; 0 to 1.
+    /// Smooth errors of K and S of each pigment, as a standard deviation relative to their values,
+    /// 0 to 1.
     Stated(f64),
 }
 
 impl ModelError {
-    /// Words for messages and books. Errors of equal words are equal.
+    /// Text for messages and books. If two errors have the same text, they are equal.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -165,30 +168,30 @@ impl ModelError {
 pub(crate) struct Noise {
     /// Variance of the sensor's noise in each band.
     pub(crate) sensor: Vec<f64>,
-    /// Curves by band, each with the standard deviation that it describes.
+    /// For each band, the standard deviation that each curve describes.
     pub(crate) curves: Vec<[f64; CURVES]>,
-    /// Variance of each band that the curves do not describe.
+    /// Variance of each band beyond the curves.
     pub(crate) own: Vec<f64>,
     pub(crate) scale: Scale,
     /// Degrees of freedom of Student's distribution, infinite for a normal one.
     pub(crate) tail: f64,
-    /// How many independent bands tell as much of the library's error.
+    /// This many independent bands would show as much of the library's error.
     pub(crate) effective_bands: f64,
 }
 
-/// Scale on which errors of predictions are alike for dark and light films.
+/// Scale on which the errors of dark and light films are alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scale {
-    /// Fourth root of reflectance: near the perceptually even cube root of the fit, but made of square roots,
-    /// which every machine rounds alike.
+    /// Fourth root of reflectance. This is near the perceptually even cube root of the fit, but we
+    /// compute it by square roots, which every machine rounds alike.
     FourthRoot,
     /// Logarithm of K/S.
     LogRatio,
 }
 
 impl Noise {
-    /// Noise on `bands` of a sensor with the standard deviation `sensor` in each band, and of predictions
-    /// with the error `model`.
+    /// Noise on `bands`: `sensor` is the standard deviation of the sensor in each band, `model` the
+    /// error of the predictions.
     pub(crate) fn new(bands: &Bands, sensor: f64, model: &ModelError) -> Self {
         let sensor: Vec<f64> =
             bands.noise(sensor).iter().map(|sd| (sd * sd).max(LEAST_SD * LEAST_SD)).collect();

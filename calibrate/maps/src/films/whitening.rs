@@ -1,7 +1,7 @@
 //! Whitening of differences near one pixel, in f32, with the widest vectors of the processor.
 //!
-//! Every sum has one order, no multiplication is fused with an addition, and each operation rounds like the
-//! one on single numbers. So all machines give the same bits.
+//! We fix the order of every sum, never fuse a multiplication with an addition, and round each
+//! operation like the one on single numbers. So you get the same bits on all machines.
 
 #![expect(
     clippy::needless_range_loop,
@@ -16,21 +16,23 @@ use wide::f32x8;
 use super::bands::MOST_BANDS;
 use super::settings::{CURVES, Noise, Scale};
 
-/// Numbers that are computed at once.
+/// We compute this many numbers at once.
 pub(crate) const LANES: usize = 8;
-/// Most blocks of bands that are computed at once.
+/// We compute at most this many blocks of bands at once.
 pub(crate) const MOST_BLOCKS: usize = MOST_BANDS / LANES;
 
-/// A number for each band, in blocks. Lanes beyond the last band are undefined.
+/// One number for each band, in blocks. Lanes beyond the last band are undefined.
 pub(crate) type Spectrum = [f32x8; MOST_BLOCKS];
 
-/// Values in blocks, with `beyond` after the last.
+/// Sorts values into blocks, with `beyond` after the last.
 pub(crate) fn spectrum(values: &[f32], beyond: f32) -> Spectrum {
-    let value = |index: usize| values.get(index).copied().unwrap_or(beyond);
-    std::array::from_fn(|block| f32x8::new(std::array::from_fn(|lane| value(block * LANES + lane))))
+    std::array::from_fn(|block| {
+        f32x8::new(std::array::from_fn(|lane| {
+            values.get(block * LANES + lane).copied().unwrap_or(beyond)
+        }))
+    })
 }
 
-/// Sum of all lanes.
 #[inline(always)]
 pub(crate) fn total<E: Eight>(lanes: E) -> f32 {
     let [a, b, c, d, e, f, g, h] = lanes.store().to_array();
@@ -68,7 +70,7 @@ pub(crate) struct WhiteningNoise {
 /// x - A (I + L^T)^-1 L^-1 A^T x has the covariance I, as Potter's square root of a filter has.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Whitening {
-    /// 1 / standard deviation of each band by itself; 0 beyond the last.
+    /// 1 / standard deviation of each band by itself, and 0 beyond the last.
     pub(crate) scale: Spectrum,
     /// A by band, with all curves of one.
     curves: [f32x8; MOST_BANDS],
@@ -88,7 +90,7 @@ impl WhiteningNoise {
         }
     }
 
-    /// Whitening near a pixel of these measured reflectances, with the slopes `slope` by the logarithm of
+    /// Whitening near a pixel. Pass its measured reflectances, and their slopes by the logarithm of
     /// K/S.
     pub(crate) fn near(&self, measured: &Spectrum, slope: &Spectrum) -> Whitening {
         by_vectors(Near { noise: self, measured, slope })
@@ -251,8 +253,8 @@ impl Whitening {
         }
     }
 
-    /// Whitens many differences, which stand side by side in rows of `columns` blocks for each band, and are
-    /// already multiplied by the scale.
+    /// Whitens many differences, which stand side by side in rows of `columns` blocks for each
+    /// band. Multiply them by the scale before.
     #[inline(always)]
     pub(crate) fn whiten_rows<V: Vectors>(&self, v: V, columns: usize, values: &mut [f32x8]) {
         for column in 0..columns {
@@ -277,22 +279,23 @@ impl Whitening {
     }
 }
 
-/// Arithmetic that is inlined as a whole, so that it is compiled for each kind of processor.
+/// Arithmetic that the compiler inlines as a whole, so that it compiles it for each kind of
+/// processor.
 pub(crate) trait Task {
     type Result;
 
-    /// Runs the task. Implementations must be inlined.
+    /// Runs the task. Mark your implementation `#[inline(always)]`.
     fn run<V: Vectors>(self, vectors: V) -> Self::Result;
 }
 
-/// Vectors of a kind of processor: a proof that this one has them.
+/// Vectors of a kind of processor. If you hold such a value, this processor has them.
 pub(crate) trait Vectors: Copy {
     type Eight: Eight;
 
     /// Eight times `value`.
     fn splat(self, value: f32) -> Self::Eight;
 
-    /// Numbers from memory.
+    /// Loads numbers from memory.
     fn load(self, numbers: f32x8) -> Self::Eight;
 }
 
@@ -302,14 +305,14 @@ pub(crate) trait Eight:
 {
     fn sqrt(self) -> Self;
 
-    /// The greater of each two numbers. The result for NaN depends on the processor.
+    /// The greater number of each pair. For NaN the result depends on the processor.
     fn greater(self, other: Self) -> Self;
 
-    /// Bits of the numbers that are greater than their counterparts in `other`. The lowest bit is the
-    /// first number.
+    /// A bit for each number, set if it is greater than its counterpart in `other`. The lowest bit
+    /// belongs to the first number.
     fn is_above(self, other: Self) -> u32;
 
-    /// The numbers for memory.
+    /// Stores the numbers in memory.
     fn store(self) -> f32x8;
 }
 
@@ -363,8 +366,8 @@ impl Eight for f32x8 {
     }
 }
 
-/// Vectors of 256 bits. Without them the crate `wide` computes two halves also within code that is compiled for
-/// AVX2, in nearly twice the time.
+/// Vectors of 256 bits. The crate `wide` would compute two halves even in code for AVX2, and take
+/// nearly twice the time.
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use std::arch::x86_64::__m256;
@@ -389,7 +392,7 @@ mod avx2 {
         }
     }
 
-    /// Eight numbers, with the proof that the processor has vectors for them.
+    /// Eight numbers. The token proves that the processor has vectors for them.
     #[derive(Debug, Clone, Copy)]
     pub(crate) struct Numbers {
         vectors: V3,
@@ -483,7 +486,7 @@ mod avx2 {
 mod tests {
     use super::*;
 
-    /// All operations on eight numbers, and the bits of those above.
+    /// The results of all operations on eight numbers.
     struct All([f32x8; 2]);
 
     impl Task for All {

@@ -1,8 +1,8 @@
-//! Maps of pixels by the book of a survey.
+//! Maps pixels with the book of a survey.
 //!
-//! The book holds spectra of some pixels with the sets of pigments that explain them. Each pixel is compared
-//! with the sets of the four nearest pixels in the book; where none explains it, all sets are searched. Its
-//! result depends only on the pixel and the book.
+//! The book holds spectra of some pixels with the sets of pigments that explain them. We compare
+//! each pixel with the sets of the four nearest pixels in the book. If none of them explains it, we
+//! search all sets. The result depends only on the pixel and the book.
 
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,6 @@ use crate::pixel_maps::{MapError, Mask};
 use crate::search::set_fit::{Scores, SetFit};
 use crate::search::{Engine, Nearest, Point, Scratch, Table};
 
-/// Version of the file of a book.
 const VERSION: u32 = 3;
 
 /// A set of pigments of an entry, with its shares.
@@ -33,7 +32,7 @@ pub struct BookSet {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BookEntry {
-    /// Coordinates of the spectrum, by which similar pixels are found.
+    /// Coordinates of the spectrum. We use them to find similar pixels.
     pub point: Vec<f32>,
     /// Chi-square of the best set.
     pub chi2: f32,
@@ -41,17 +40,17 @@ pub struct BookEntry {
     pub sets: Vec<BookSet>,
 }
 
-/// A set of pigments with the part of the survey that it explains.
+/// A set of pigments, and how much of the survey it explains.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SetFrequency {
     /// Places of the pigments in the book's list of names.
     pub pigments: Vec<u8>,
-    /// Sum of the set's probabilities over the pixels of the survey, divided by their number.
+    /// Mean probability of the set over the pixels of the survey.
     pub part: f32,
 }
 
-/// Result of a survey: all that a map of any other pixel depends on, beside the library and the settings.
+/// Result of a survey. With the library and the settings, you need nothing else to map a pixel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Book {
@@ -59,17 +58,17 @@ pub struct Book {
     version: u32,
     /// Identity of library, wavelengths and settings.
     pub identity: String,
-    /// Error of the library's predictions, in words.
+    /// Error of the library's predictions, as text.
     pub model_error: String,
     /// Names of the pigments.
     pub pigments: Vec<String>,
     /// Sets that the survey found, the most frequent first.
     pub sets: Vec<SetFrequency>,
-    /// Probability of each pigment to be in the palette of the scan, 0 to 1.
+    /// Probability that each pigment is in the palette of the scan, 0 to 1.
     pub palette: Vec<f32>,
-    /// Chi-square that nineteen of twenty pixels of the survey do not exceed.
+    /// 95th percentile of chi-square over the pixels of the survey.
     pub usual_chi2: f32,
-    /// Pixels of the survey.
+    /// The pixels of the survey.
     pub entries: Vec<BookEntry>,
 }
 
@@ -89,18 +88,15 @@ impl Book {
     }
 
     /// The book as JSON.
-    ///
-    /// # Errors
-    /// [`MapError::Book`] if a number cannot be written.
     pub fn to_json(&self) -> Result<String, MapError> {
         serde_json::to_string(self).map_err(|error| MapError::Book { reason: error.to_string() })
     }
 
-    /// Reads a book that [`Book::to_json`] wrote.
+    /// Reads a book that you wrote with [`Book::to_json`].
     ///
     /// # Errors
-    /// [`MapError::Book`] for text that is not a book of this version, or with numbers that contradict
-    /// each other.
+    /// [`MapError::Book`] if the text is not a book of this version, or its numbers contradict each
+    /// other.
     pub fn from_json(text: &str) -> Result<Self, MapError> {
         let book: Self = serde_json::from_str(text)
             .map_err(|error| MapError::Book { reason: error.to_string() })?;
@@ -113,16 +109,15 @@ impl Book {
                 && set.windows(2).all(|pair| pair[0] < pair[1])
                 && set.iter().all(|&p| usize::from(p) < book.pigments.len())
         };
-        let is_entry = |entry: &BookEntry| {
-            entry.point.len() == crate::search::DIMENSIONS
-                && entry.point.iter().all(|value| value.is_finite())
-                && entry.sets.iter().all(|set: &BookSet| {
-                    known(&set.pigments)
-                        && set.shares.len() == set.pigments.len()
-                        && set.shares.iter().all(|share| (0.0..=1.0).contains(share))
+        if let Some(index) = book.entries.iter().position(|entry: &BookEntry| {
+            entry.point.len() != crate::search::DIMENSIONS
+                || entry.point.iter().any(|value| !value.is_finite())
+                || entry.sets.iter().any(|set: &BookSet| {
+                    !known(&set.pigments)
+                        || set.shares.len() != set.pigments.len()
+                        || set.shares.iter().any(|share| !(0.0..=1.0).contains(share))
                 })
-        };
-        if let Some(index) = book.entries.iter().position(|entry| !is_entry(entry)) {
+        }) {
             return Err(MapError::Book { reason: format!("entry {} is not valid", index + 1) });
         }
         let palette = &book.palette;
@@ -138,29 +133,26 @@ impl Book {
     }
 
     /// SHA-256 of [`Book::to_json`], in hexadecimal.
-    ///
-    /// # Errors
-    /// [`MapError::Book`] if a number cannot be written.
     pub fn sha256(&self) -> Result<String, MapError> {
         let digest = Sha256::digest(self.to_json()?.as_bytes());
         Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
     }
 }
 
-/// Entries of the book that propose sets.
+/// We take sets from this many entries of the book.
 const NEIGHBOURS: usize = 4;
-/// Most proposed sets of a pixel.
+/// We try at most this many of these sets.
 const PROPOSED: usize = 8;
-/// Gauss-Newton steps of a proposed set.
+/// Gauss-Newton steps of each of these sets.
 const STEPS: usize = 1;
-/// A pixel counts as explained up to this chi-square, relative to the nearest entry's.
+/// A set explains a pixel up to this chi-square, relative to the nearest entry's.
 const WORSE: f32 = 1.2;
 
-/// A book that is ready for use.
+/// A book that is ready for mapping.
 #[derive(Debug, Clone)]
 pub struct OpenBook {
     nearest: Nearest,
-    /// Sets of each entry: ends in `sets`.
+    /// Where the sets of each entry end in `sets`.
     ends: Vec<u32>,
     sets: Vec<SetFit>,
     chi2: Vec<f32>,
@@ -173,17 +165,17 @@ impl OpenBook {
     /// Prepares `book` for the pixels of a map.
     ///
     /// # Errors
-    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings.
+    /// [`MapError::OtherBook`] if someone made it with another library, other wavelengths or other
+    /// settings.
     pub(crate) fn new(prepared: &Prepared, identity: &str, book: &Book) -> Result<Self, MapError> {
         if book.identity != identity || book.pigments != prepared.paints.names {
             let found = book.identity.clone();
             let expected = identity.to_owned();
             return Err(MapError::OtherBook { found, expected });
         }
-        let point = |values: &Vec<f32>| -> Point {
-            std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
-        };
-        let points: Vec<Point> = book.entries.iter().map(|entry| point(&entry.point)).collect();
+        let points: Vec<Point> = (book.entries.iter())
+            .map(|entry| std::array::from_fn(|i| entry.point.get(i).copied().unwrap_or(0.0)))
+            .collect();
         let mut ends = Vec::new();
         let mut sets = Vec::new();
         for entry in &book.entries {
@@ -210,8 +202,8 @@ impl OpenBook {
         &self.sets[start..self.ends[entry] as usize]
     }
 
-    /// Finds the sets that explain a pixel, the best first, in `scratch.found`. Returns whether the
-    /// book explained it.
+    /// Finds the sets that explain a pixel and leaves them in `scratch.found`, the best first.
+    /// Returns whether the book explained the pixel.
     pub(crate) fn find(&self, folded: &Folded, scratch: &mut Scratch) -> bool {
         let engine = &self.engine;
         let near = self.nearest.find::<NEIGHBOURS>(&folded.point);
@@ -252,23 +244,23 @@ impl OpenBook {
     }
 }
 
-/// Reflectances of a band that a scan can have. Others show raw counts, percent or a wrong white.
+/// A band of a scan can have these reflectances. Others show raw counts, percent or a wrong white.
 const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;
 
-/// All that does not change from pixel to pixel.
+/// Everything that does not change from pixel to pixel.
 #[derive(Debug, Clone)]
 pub(crate) struct Prepared {
     pub(crate) bands: Bands,
     pub(crate) paints: Paints,
     pub(crate) noise: Noise,
     pub(crate) engine: Engine,
-    /// Bands of the scan that take part.
+    /// Bands of the scan that we use.
     used: Vec<usize>,
-    /// Rows of the folded bands: ends in `terms`.
+    /// Where the row of each folded band ends in `terms`.
     ends: Vec<usize>,
     terms: Vec<(u32, f32)>,
     ground: Option<BareGround>,
-    /// Pigments by place, those that the bands cannot tell apart together.
+    /// Pigments by place. Pigments that the bands cannot tell apart stand together.
     pub(crate) entries: Vec<Vec<usize>>,
 }
 
@@ -280,7 +272,7 @@ pub(crate) struct Folded {
 }
 
 impl Prepared {
-    /// Prepares `library` with the errors `model` of its predictions.
+    /// Prepares `library`. `model` is the error of its predictions.
     pub(crate) fn new(
         library: &PigmentLibrary,
         wavelengths: &[f64],
@@ -310,8 +302,11 @@ impl Prepared {
         }
         used.sort_unstable();
         used.dedup();
-        let bare = |ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor);
-        let ground = settings.ground.as_ref().map(bare).transpose()?;
+        let ground = settings
+            .ground
+            .as_ref()
+            .map(|ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor))
+            .transpose()?;
         let entries = (0..paints.count()).map(|pigment| vec![pigment]).collect();
         Ok(Self { bands, paints, noise, engine, used, ends, terms, ground, entries })
     }
@@ -319,7 +314,7 @@ impl Prepared {
     /// Folds a pixel of the scan.
     ///
     /// # Errors
-    /// The reason why it cannot be mapped.
+    /// The reason why we cannot map it.
     pub(crate) fn fold(&self, scan: &[f32]) -> Result<Folded, Mask> {
         for &band in &self.used {
             let value = scan[band];

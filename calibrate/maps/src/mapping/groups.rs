@@ -1,5 +1,5 @@
-//! Pigments that the bands of a scan cannot tell apart, shares and probabilities of a pixel, and the error in
-//! the strength of paints.
+//! Groups of pigments that the bands of a scan cannot tell apart. We also sum up a pixel's shares
+//! and probabilities here, and estimate the error in the strength of paints.
 
 use calibrate::{LeftOutMixture, Residuals};
 
@@ -10,15 +10,15 @@ use crate::pixel_maps::{BlockMaps, MapError, Mask};
 use crate::search::Engine;
 use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit};
 
-/// Parts of a companion's optical strength in the films that are compared.
+/// We compare films with these parts of a companion's optical strength.
 const COMPANION_PARTS: [f64; 3] = [0.2, 0.5, 0.8];
 /// Gauss-Newton steps of a comparison.
 const STEPS: usize = 6;
-/// Probability of taking one pigment for another from which they are one group. Two pigments that
-/// cannot be told apart at all have 0.5.
+/// If you take one pigment for another with this probability or a higher one, we put them into one
+/// group. Pigments that you cannot tell apart at all have 0.5.
 pub const ALIKE: f64 = 0.12;
 
-/// Mean probabilities of taking one pigment for another, by pair.
+/// For each pair, the mean probability of taking one pigment for the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Confusion {
     count: usize,
@@ -26,8 +26,8 @@ pub struct Confusion {
 }
 
 impl Confusion {
-    /// Mean probability, 0 to 0.5, of taking pigment `a` for pigment `b` or the other way round, over films
-    /// of one of them with each other pigment.
+    /// Mean probability, 0 to 0.5, of taking pigment `a` for pigment `b` or the other way round. We
+    /// take the mean over films of one of them with each other pigment.
     ///
     /// # Panics
     /// If `a` or `b` is not the place of a pigment.
@@ -36,7 +36,6 @@ impl Confusion {
         self.of_pair[a * self.count + b]
     }
 
-    /// Compares all pigments of `paints`.
     pub(crate) fn new(engine: &Engine, paints: &Paints) -> Self {
         use rayon::prelude::*;
         let count = paints.count();
@@ -55,8 +54,8 @@ impl Confusion {
         Self { count, of_pair }
     }
 
-    /// Groups of two pigments or more, each as rising places: the two most alike are joined first, as long as
-    /// the mean over all pairs of a group stays at [`ALIKE`] or above.
+    /// Groups of two pigments or more, each as rising places. We join the two most alike first, as
+    /// long as the mean over all pairs of a group stays at [`ALIKE`] or above.
     #[must_use]
     pub fn groups(&self) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = (0..self.count).map(|p| vec![p]).collect();
@@ -100,7 +99,7 @@ fn taken_for(engine: &Engine, paints: &Paints, a: usize, b: usize) -> f64 {
     found[found.len() / 4]
 }
 
-/// Probability of taking the film `truth` for the best film of the pigments of `start`.
+/// Probability that you take the film `truth` for the best film of the pigments of `start`.
 fn probability(
     engine: &Engine,
     paints: &Paints,
@@ -131,7 +130,7 @@ fn normal_above(z: f64) -> f64 {
     (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt() * series
 }
 
-/// A pigment of a map, or a group of pigments that it shows as one.
+/// A pigment of a map, or a group of pigments that the map shows as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
     /// Name of the pigment or group.
@@ -140,11 +139,12 @@ pub struct Column {
     pub pigments: Vec<String>,
 }
 
-/// Columns of a map of `paints`: the groups that the user named, groups of `alike` pigments that are in
-/// none, and each other pigment by itself, in the order of their first pigments.
+/// Columns of a map of `paints`, in the order of their first pigments: the groups that the user
+/// named, groups of `alike` pigments outside them, and every other pigment by itself.
 ///
 /// # Errors
-/// [`MapError::Name`] for an unknown pigment, [`MapError::TwoGroups`] for one in two groups.
+/// [`MapError::Name`] for an unknown pigment, [`MapError::TwoGroups`] if a pigment is in two
+/// groups.
 pub(crate) fn columns(
     paints: &Paints,
     named: &[PigmentGroup],
@@ -193,17 +193,15 @@ pub(crate) fn columns(
     Ok(columns)
 }
 
-/// Numbers of one pixel, by column of the map.
+/// Numbers of one pixel for each column of the map.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Told {
     pub(crate) share: Vec<f64>,
     pub(crate) share_sd: Vec<f64>,
     pub(crate) presence: Vec<f64>,
-    /// Chi-square per degree of freedom.
     pub(crate) chi2: f64,
-    /// Root mean square difference in reflectance.
     pub(crate) rms: f64,
-    /// Columns of the best set that has others than the best of all, as bits.
+    /// The best set with other columns than the best of all, as bits.
     pub(crate) second: u64,
 }
 
@@ -219,7 +217,6 @@ impl Told {
         }
     }
 
-    /// Adds the numbers to `maps` for the next pixel.
     pub(crate) fn push_to(&self, maps: &mut BlockMaps) {
         maps.share.extend(self.share.iter().map(|value| *value as f32));
         maps.share_sd.extend(self.share_sd.iter().map(|value| *value as f32));
@@ -230,11 +227,11 @@ impl Told {
         maps.mask.push(Mask::Mapped);
     }
 
-    /// Sums up the sets `found`, the best first. `column_of` is the column of each pigment.
+    /// Sums up the sets `found`. Pass the best first. `column_of` is the column of each pigment.
     ///
-    /// Sets count by [`Scores::weight`]. The shares come from the best set. Their variance adds the
-    /// curvature's, the paints' strengths, and the mean square by which other sets differ, each with its
-    /// weight.
+    /// We weight sets by [`Scores::weight`]. The shares come from the best set. Their variance has
+    /// three parts: one from the curvature, one from the strengths of the paints, and the weighted
+    /// mean square by which other sets differ.
     pub(crate) fn sum(
         &mut self,
         engine: &Engine,
@@ -247,19 +244,16 @@ impl Told {
         self.presence.fill(0.0);
         self.second = 0;
         let Some(best) = found.first() else { return };
-        let bits = |set: &SetFit| {
-            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << column_of[member])
-        };
         for (member, share) in best.parts() {
             self.share[column_of[member]] += f64::from(share);
         }
-        let best_bits = bits(best);
+        let best_bits = best.columns(column_of);
         let mut total = 0.0;
         let mut shares = vec![0.0; self.share.len()];
         for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
             let weight = Scores::weight(set.score - best.score);
             total += weight;
-            let columns = bits(set);
+            let columns = set.columns(column_of);
             if self.second == 0 && columns != best_bits {
                 self.second = columns;
             }
@@ -276,14 +270,15 @@ impl Told {
         let excess = engine.scores.excess(best.chi2);
         let covariance = best.covariance(&difference);
         // A share changes with the logarithm of a paint's strength by share x (own column - column's share).
-        let of_strength = |column: usize| -> f64 {
-            let slopes = best.parts().map(|(member, share)| {
-                let own = f64::from(u8::from(column_of[member] == column));
-                f64::from(share) * (own - self.share[column])
-            });
-            slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
-        };
-        let mut variance: Vec<f64> = (0..self.share.len()).map(of_strength).collect();
+        let mut variance: Vec<f64> = (0..self.share.len())
+            .map(|column: usize| -> f64 {
+                let slopes = best.parts().map(|(member, share)| {
+                    let own = f64::from(u8::from(column_of[member] == column));
+                    f64::from(share) * (own - self.share[column])
+                });
+                slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
+            })
+            .collect();
         for (i, (a, _)) in best.parts().enumerate() {
             for (j, (b, _)) in best.parts().enumerate() {
                 if column_of[a] == column_of[b] {
@@ -304,28 +299,32 @@ impl Told {
     }
 }
 
-/// Gauss-Newton steps of a mixture's own pigments.
+/// Gauss-Newton steps when we fit a mixture's own pigments.
 const STRENGTH_STEPS: usize = 12;
 /// Part of a normal distribution within one standard deviation.
 const WITHIN: f64 = 0.6827;
-/// Least predicted reflectance by which a measured one is divided.
+/// We divide a measured reflectance by at least this predicted one.
 const LEAST: f64 = 1e-3;
 
-/// Standard deviation of the logarithm of a paint's strength with which one deviation covers 68 % of the
-/// shares of the mixtures in `residuals`, when their own pigments are fitted to them, or 0 without such
-/// mixtures.
+/// Estimates the standard deviation of the logarithm of a paint's strength. We fit each mixture in
+/// `residuals` with its own pigments and choose the deviation that covers 68 % of the shares. This
+/// is 0 if there are no such mixtures.
 ///
-/// A paint with a wrong strength looks like a paint with another share: the spectrum does not tell.
+/// A paint of a wrong strength looks like a paint with another share, and you cannot see which from
+/// the spectrum.
 pub(crate) fn strength_sd(prepared: &Prepared, residuals: &Residuals) -> f64 {
-    let of_mixture = |mixture| needed(prepared, mixture).unwrap_or_default();
-    let mut needed: Vec<f64> = residuals.mixtures.iter().flat_map(of_mixture).collect();
+    let mut needed: Vec<f64> = residuals
+        .mixtures
+        .iter()
+        .flat_map(|mixture| needed(prepared, mixture).unwrap_or_default())
+        .collect();
     needed.sort_by(f64::total_cmp);
     let place = (WITHIN * needed.len() as f64) as usize;
     needed.get(place).map_or(0.0, |variance| variance.sqrt())
 }
 
-/// Variance of the logarithm of strengths that explains the error of each share of a mixture, or `None`
-/// for a mixture of one pigment, of more than four, and of pigments that take no part.
+/// Variance of the logarithm of strengths that explains the error of each share of a mixture. You
+/// get `None` for a mixture of one pigment, of more than four, or with pigments that take no part.
 fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let parts: Vec<(usize, f64)> = mixture
         .shares
@@ -334,9 +333,8 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
         .collect::<Option<_>>()?;
     let start: Vec<(usize, f32)> = parts.iter().map(|&(p, share)| (p, share as f32)).collect();
     let mut set = SetFit::of_parts(&start).filter(|set| set.len() > 1)?;
-    let fold = |values: &[f64]| prepared.bands.fold_library(values);
-    let measured = fold(&mixture.measured);
-    let predicted = fold(&mixture.predicted);
+    let measured = prepared.bands.fold_library(&mixture.measured);
+    let predicted = prepared.bands.fold_library(&mixture.predicted);
     // This library's film, with the error that the fit without the mixture had.
     let film = prepared.paints.reflectance(&parts);
     let ratios = measured.iter().zip(&predicted).map(|(m, p)| m / p.max(LEAST));
@@ -350,11 +348,14 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let covariance = set.covariance(&difference);
     let shares: Vec<f64> = set.parts().map(|(_, share)| f64::from(share)).collect();
     let needed = (0..shares.len()).map(|i| {
-        let slope = |(j, share): (usize, &f64)| {
-            let own = f64::from(u8::from(i == j));
-            (share * (own - shares[i])).powi(2)
-        };
-        let slopes: f64 = shares.iter().enumerate().map(slope).sum();
+        let slopes: f64 = shares
+            .iter()
+            .enumerate()
+            .map(|(j, share): (usize, &f64)| {
+                let own = f64::from(u8::from(i == j));
+                (share * (own - shares[i])).powi(2)
+            })
+            .sum();
         let square = (shares[i] - f64::from(truth[i])).powi(2);
         (square - covariance[i][i] * excess).max(0.0) / slopes.max(1e-9)
     });
@@ -367,24 +368,24 @@ mod tests {
     use crate::films::settings::{MapSettings, ModelError};
     use pigment::PigmentLibrary;
 
-    /// Error found for mixtures with a second paint `factor` times as strong as the library has it.
+    /// The error that we find if the second paint of mixtures is `factor` times as strong as in the
+    /// library.
     fn told(factor: f64) -> f64 {
         let oils = PigmentLibrary::van_gogh_oils();
         let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
         let settings = MapSettings { sensor_noise: 0.0, ..MapSettings::default() };
         let exact = ModelError::Stated(0.001);
         let prepared = Prepared::new(&oils, &nm, &settings, &exact).unwrap();
-        let place = |name: &str| prepared.paints.place(name).unwrap();
-        let white = place("Zinc White");
+        let paints = &prepared.paints;
+        let white = paints.place("Zinc White").unwrap();
         let mut residuals = Residuals::van_gogh_oils();
         residuals.mixtures.truncate(4);
         let names = ["Viridian", "Cobalt Blue", "Vermilion", "Bone Black"];
         for (mixture, name) in residuals.mixtures.iter_mut().zip(names) {
-            let film =
-                |part: f64| prepared.paints.reflectance(&[(white, 0.6), (place(name), part)]);
+            let place = paints.place(name).unwrap();
             mixture.shares = [("Zinc White".to_owned(), 0.6), (name.to_owned(), 0.4)].into();
-            mixture.predicted = film(0.4);
-            mixture.measured = film(0.4 * factor);
+            mixture.predicted = paints.reflectance(&[(white, 0.6), (place, 0.4)]);
+            mixture.measured = paints.reflectance(&[(white, 0.6), (place, 0.4 * factor)]);
         }
         strength_sd(&prepared, &residuals)
     }

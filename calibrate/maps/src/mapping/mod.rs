@@ -1,4 +1,4 @@
-//! The front door of maps: a library and the wavelengths of a scan, ready for survey and map.
+//! The entry to maps. You prepare a library for the wavelengths of a scan, then survey and map.
 
 pub(crate) mod book;
 pub(crate) mod groups;
@@ -17,16 +17,16 @@ use book::{Book, Folded, OpenBook, Prepared};
 use groups::{Column, Confusion, Told, columns, strength_sd};
 use survey::{survey, survey_step};
 
-/// Gauss-Newton steps of the true pigments in a trial.
+/// Gauss-Newton steps when a trial fits the true pigments.
 const TRUTH_STEPS: usize = 12;
-/// Chi-square per degree of freedom above which no mixture explains a pixel: three standard deviations of
-/// sensor and library in all bands. The 65 measured oils reach 6.4, each without itself in the library.
-/// Spectra that no paint has 17 and more.
+/// Above this chi-square per degree of freedom no mixture explains a pixel. It means three standard
+/// deviations of sensor and library in all bands. The 65 measured oils reach 6.4, each without
+/// itself in the library. Spectra unlike any paint have 17 and more.
 const OUT_OF_GAMUT: f64 = 9.0;
-/// Pixels that a thread maps at a time.
+/// A thread maps this many pixels at a time.
 const TOGETHER: usize = 256;
 
-/// Maps the pigments of a library in scans of certain wavelengths.
+/// Maps the pigments of a library in scans with certain wavelengths.
 ///
 /// ```
 /// use documents::Task;
@@ -56,11 +56,11 @@ pub struct Mapper {
 }
 
 impl Mapper {
-    /// Prepares `library` for scans with bands at the wavelengths `wavelengths` in nm, rising.
+    /// Prepares `library` for scans with bands at `wavelengths`, in nm and rising.
     ///
     /// # Errors
-    /// [`MapError`] if wavelengths, library and residuals do not fit together, a name is unknown, or a setting
-    /// is out of range.
+    /// [`MapError`] if wavelengths, library and residuals do not fit together, a name is unknown,
+    /// or a setting is out of range.
     pub fn new(
         library: &PigmentLibrary,
         wavelengths: &[f64],
@@ -82,14 +82,15 @@ impl Mapper {
             |name: &str| library.find(name).map(|id| library[id].name.clone()),
             &alike,
         )?;
-        let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
-        let column_of =
-            prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
+        let names = prepared.paints.names.iter();
+        let column_of = names
+            .map(|name| columns.iter().position(|c| c.pigments.contains(name)).unwrap_or(0))
+            .collect();
         let identity = identity(library, wavelengths, settings, &model_error);
         Ok(Self { prepared, columns, column_of, model_error, identity })
     }
 
-    /// Columns of the maps: pigments, and groups of them that are mapped as one.
+    /// Columns of the maps: pigments, and groups of pigments that we map as one.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
@@ -101,7 +102,7 @@ impl Mapper {
         &self.prepared.paints.names
     }
 
-    /// How likely each pigment is taken for another, by places in [`Mapper::pigments`].
+    /// How likely you take each pigment for another, by places in [`Mapper::pigments`].
     #[must_use]
     pub fn confusion(&self) -> Confusion {
         Confusion::new(&self.prepared.engine, &self.prepared.paints)
@@ -113,19 +114,21 @@ impl Mapper {
         &self.prepared.bands
     }
 
-    /// Effective number of bands: how many independent ones tell as much of the library's error.
+    /// Effective number of bands: this many independent ones would show as much of the library's
+    /// error.
     #[must_use]
     pub fn effective_bands(&self) -> f64 {
         self.prepared.noise.effective_bands
     }
 
-    /// Error of the library's predictions that the maps reckon with.
+    /// Error of the library's predictions that the maps take into account.
     #[must_use]
     pub fn model_error(&self) -> &ModelError {
         &self.model_error
     }
 
-    /// Identity of library, wavelengths and settings, in hexadecimal. Books are valid for one identity.
+    /// Identity of library, wavelengths and settings, in hexadecimal. A book is valid for one
+    /// identity.
     #[must_use]
     pub fn identity(&self) -> &str {
         &self.identity
@@ -158,8 +161,9 @@ impl Mapper {
     /// Prepares the book of a survey for [`Mapper::map`], once for all blocks of a scan.
     ///
     /// # Errors
-    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings,
-    /// [`MapError::OtherModelError`] with another error of the library's predictions.
+    /// [`MapError::OtherBook`] if you made it with another library, other wavelengths or other
+    /// settings, [`MapError::OtherModelError`] if you made it with another error of the library's
+    /// predictions.
     pub fn open_book(&self, book: &Book) -> Result<OpenBook, MapError> {
         let model_error = self.model_error.words();
         if book.model_error != model_error {
@@ -170,21 +174,19 @@ impl Mapper {
         OpenBook::new(&self.prepared, &self.identity, book)
     }
 
-    /// Maps the pixels of `spectra` as [`Mapper::map`] does, with a book that is opened for them alone.
-    ///
-    /// # Errors
-    /// [`MapError::OtherBook`] and [`MapError::Length`].
+    /// Maps the pixels of `spectra` as [`Mapper::map`] does, but opens the book for them alone.
     pub fn map_block(&self, book: &Book, spectra: &[f32]) -> Result<BlockMaps, MapError> {
         self.map(&self.open_book(book)?, spectra, &[])
     }
 
-    /// Maps pixels on all cores: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands
-    /// of each. Pixels with a mask in `masks` other than [`Mask::Mapped`] are passed over. No masks mean
-    /// none. Each pixel's numbers depend on itself and the book only.
+    /// Maps pixels on all cores. Pass their reflectances, 0 to 1, as `spectra`, pixel after pixel
+    /// with all bands of each. This skips pixels with a mask other than [`Mask::Mapped`] in
+    /// `masks`. If you pass no masks, it maps all. The numbers of a pixel depend only on this pixel
+    /// and the book.
     ///
     /// # Errors
-    /// [`MapError::Length`] for a broken pixel, [`MapError::Masks`] unless there is a mask for each pixel or
-    /// none.
+    /// [`MapError::Length`] for a broken pixel, [`MapError::Masks`] unless there is a mask for each
+    /// pixel or none.
     pub fn map(
         &self,
         book: &OpenBook,
@@ -196,8 +198,9 @@ impl Mapper {
         })
     }
 
-    /// Pigments of the best set of one pixel with their shares, the greatest first: the single pigments, also
-    /// where the maps show their group. `None` if the pixel cannot be mapped.
+    /// Pigments of the best set of one pixel with their shares, the greatest first. These are
+    /// single pigments even if the maps show their group. You get `None` if we cannot map the
+    /// pixel.
     ///
     /// # Errors
     /// [`MapError::Length`] unless `spectrum` has one reflectance a band.
@@ -216,14 +219,16 @@ impl Mapper {
         book.find(&folded, &mut scratch);
         let Some(best) = scratch.found.first() else { return Ok(None) };
         let members = best.members.iter().zip(best.shares).take(usize::from(best.count));
-        let name = |place: &u8| self.prepared.paints.names[usize::from(*place)].clone();
-        let mut set: Vec<(String, f64)> =
-            members.map(|(place, share)| (name(place), f64::from(share))).collect();
+        let names = &self.prepared.paints.names;
+        let mut set: Vec<(String, f64)> = members
+            .map(|(place, share)| (names[usize::from(*place)].clone(), f64::from(share)))
+            .collect();
         set.sort_by(|a, b| b.1.total_cmp(&a.1));
         Ok(Some(set))
     }
 
-    /// Searches every pixel whole, without a survey. This is slow, and tells what a survey can save.
+    /// Searches every pixel whole, without a survey. This is slow. Use it to see how much a survey
+    /// saves.
     ///
     /// # Errors
     /// [`MapError::Length`] for a broken pixel.
@@ -235,8 +240,8 @@ impl Mapper {
         })
     }
 
-    /// Compares the best set of a whole search with the true pigments of each pixel, their shares refined. `None` for
-    /// pixels that cannot be mapped and those with pigments that do not take part.
+    /// Compares the best set of a whole search with the true pigments of each pixel, after refining
+    /// their shares. You get `None` for pixels that we cannot map or that hold other pigments.
     pub(crate) fn gaps_to_truth(
         &self,
         spectra: &[f32],
@@ -244,27 +249,28 @@ impl Mapper {
     ) -> Result<Vec<Option<Gap>>, MapError> {
         let engine = &self.prepared.engine;
         let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
-        let columns = |set: &SetFit| {
-            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << self.column_of[member])
-        };
-        let gap = |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
-            let folded = self.prepared.fold(pixel).ok()?;
-            let place = |(name, share): &(&str, f64)| {
-                Some((self.prepared.paints.place(name)?, *share as f32))
-            };
-            let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
-            let set = SetFit::of_parts(&parts)?;
-            let nearest = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, nearest, scratch);
-            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
-            let found = scratch.found.first()?;
-            Some(Gap {
-                score: found.score - truth.score,
-                chi2: found.chi2 - truth.chi2,
-                is_right: columns(found) == columns(&truth),
-            })
-        };
-        let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
+        let found = pixels.par_iter().zip(truth).map_init(
+            || Scratch::new(&engine.films),
+            |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
+                let folded = self.prepared.fold(pixel).ok()?;
+                let parts: Vec<(usize, f32)> = parts
+                    .iter()
+                    .map(|(name, share): &(&str, f64)| {
+                        Some((self.prepared.paints.place(name)?, *share as f32))
+                    })
+                    .collect::<Option<_>>()?;
+                let set = SetFit::of_parts(&parts)?;
+                let nearest = engine.table.nearest(&folded.point);
+                engine.search(&folded.pixel, nearest, scratch);
+                let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
+                let found = scratch.found.first()?;
+                Some(Gap {
+                    score: found.score - truth.score,
+                    chi2: found.chi2 - truth.chi2,
+                    is_right: found.columns(&self.column_of) == truth.columns(&self.column_of),
+                })
+            },
+        );
         Ok(found.collect())
     }
 
@@ -324,11 +330,11 @@ impl Mapper {
     }
 }
 
-/// Best set of a search beside the true pigments of a pixel.
+/// How the best set of a search compares with the true pigments of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    /// Score of the search minus the score of the true pigments. It is 0 or below where the search found
-    /// what is as good.
+    /// Score of the search minus the score of the true pigments. It is 0 or below if the search
+    /// found a set that is as good.
     pub(crate) score: f32,
     /// Chi-square of the search minus the chi-square of the true pigments.
     pub(crate) chi2: f32,
@@ -336,8 +342,9 @@ pub(crate) struct Gap {
     pub(crate) is_right: bool,
 }
 
-/// Pigments that are alike within twice a stated error of the library, or within the errors of mixtures that
-/// it had not seen. With the error itself, measured oils are often taken for others of their kind.
+/// Groups of pigments that are alike within twice a stated error of the library, or within the
+/// errors of left-out mixtures. If we took the stated error once, we would often take measured oils
+/// for others of their kind.
 fn alike(
     library: &PigmentLibrary,
     wavelengths: &[f64],
@@ -355,7 +362,7 @@ fn alike(
     Ok(Confusion::new(&twice.engine, &twice.paints).groups())
 }
 
-/// SHA-256 of all that a map depends on, beside the pixels.
+/// SHA-256 of everything that a map depends on besides the pixels.
 fn identity(
     library: &PigmentLibrary,
     wavelengths: &[f64],

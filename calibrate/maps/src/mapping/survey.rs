@@ -1,7 +1,8 @@
-//! The survey: some pixels of a scan searched over all sets, and the palette that follows.
+//! The survey. We search some pixels of a scan over all sets and find the palette from them.
 //!
-//! A painter uses few of a library's pigments, and each of them more than once. A pigment that is needed
-//! nowhere is therefore unlikely wherever it would do as well as others, above all in dark paint.
+//! A painter uses few of a library's pigments, and each of them more than once. So if no pixel
+//! needs a pigment, it is unlikely everywhere, even where it would fit as well as others, e.g. in
+//! dark paint.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +13,13 @@ use super::book::{Book, BookEntry, BookSet, Folded, Prepared, SetFrequency};
 use crate::search::set_fit::{NEGLIGIBLE, Scores, SetFit};
 use crate::search::{Engine, Scratch};
 
-/// Pixels that a survey searches, about.
+/// A survey searches about this many pixels.
 pub const SURVEYED: usize = 20_000;
-/// Scores above the best up to which an entry keeps a set.
+/// An entry keeps sets with a score up to this above the best.
 const KEPT_SCORE: f32 = 9.0;
-/// Most sets of an entry.
+/// An entry keeps at most this many sets.
 const KEPT_SETS: usize = 6;
-/// Distance between surveyed pixels: every such pixel of `pixels`, in their order, is searched.
+/// Distance between surveyed pixels. With 3, for example, a survey searches every third pixel.
 #[must_use]
 pub fn survey_step(pixels: usize) -> usize {
     (pixels / SURVEYED).max(1)
@@ -87,17 +88,22 @@ fn of_fit(set: &SetFit) -> BookSet {
     }
 }
 
-/// Median chi-square per degree of freedom, at least 1: how far the errors of library and scan exceed those that the
-/// engine reckons with.
+/// Median chi-square per degree of freedom, at least 1. It shows how far the errors of library and
+/// scan exceed the ones that the engine expects.
 fn excess(engine: &Engine, found: &[Vec<SetFit>]) -> f32 {
-    let of_best =
-        |set: &SetFit| set.chi2 / engine.films.bands.saturating_sub(set.len() - 1).max(1) as f32;
-    let mut values: Vec<f32> = found.iter().filter_map(|sets| sets.first().map(of_best)).collect();
+    let mut values: Vec<f32> = found
+        .iter()
+        .filter_map(|sets| {
+            sets.first().map(|set: &SetFit| {
+                set.chi2 / engine.films.bands.saturating_sub(set.len() - 1).max(1) as f32
+            })
+        })
+        .collect();
     values.sort_by(f32::total_cmp);
     values.get(values.len() / 2).map_or(1.0, |median| median.max(1.0))
 }
 
-/// Chi-square that nineteen of twenty pixels do not exceed.
+/// 95th percentile of chi-square.
 fn usual(found: &[Vec<SetFit>]) -> f32 {
     let mut values: Vec<f32> = found.iter().filter_map(|sets| Some(sets.first()?.chi2)).collect();
     values.sort_by(f32::total_cmp);
@@ -110,30 +116,33 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
     let mut parts = BTreeMap::new();
     for sets in found {
         let Some(best) = sets.first() else { continue };
-        let weight = |set: &SetFit| Scores::weight(set.score - best.score);
-        let total: f64 = sets.iter().map(weight).sum();
-        for set in sets {
-            *parts.entry(set.key()).or_insert(0.0) += weight(set) / total / found.len() as f64;
+        let weights = sets.iter().map(|set| Scores::weight(set.score - best.score));
+        let total: f64 = weights.clone().sum();
+        for (set, weight) in sets.iter().zip(weights) {
+            *parts.entry(set.key()).or_insert(0.0) += weight / total / found.len() as f64;
         }
     }
     parts
 }
 
-/// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
-/// not in the palette. Chosen of 4 to 18 on simulated paintings.
+/// A pigment is more likely than not in the palette if the score rises by this mean without it, in
+/// the paints that need it most. We chose it of 4 to 18 on simulated paintings.
 const NEEDED: f32 = 14.0;
-/// Number of paints in the mean that shows how much a pigment is needed, where a scan has many: one of
-/// many may be off by chance.
+/// If a scan has many paints, we take the mean over this many to see how much they need a pigment,
+/// because one of many may be off by chance.
 const PAINTS: usize = 2;
-/// Number of paints from which a scan has many.
+/// From this number of paints on, a scan has many.
 const MANY: usize = 16;
 
-/// Probability of each pigment to be in the palette. `found` holds the sets of each surveyed pixel, the
-/// best first, and `paints` a number for each pixel: pixels of one number are one paint, because they
-/// share the errors of the library. `entries` are the pigments by place, pigments that look alike
-/// together: they are one entry of the palette and share its probability as far as the paints do not tell
-/// them apart. `excess` is the factor, 1 or more, by which the errors of the survey exceed those that
-/// scores reckon with; where it is so great that no pigment could be needed, each is as likely as not.
+/// Probability of each pigment to be in the palette.
+///
+/// Pass the sets of each surveyed pixel as `found`, the best first. `paints` holds a number for
+/// each pixel. Pixels with the same number are one paint, because they share the errors of the
+/// library. `entries` are the pigments by place, with pigments that look alike together. Such
+/// pigments are one entry of the palette and share its probability, as far as the paints do not
+/// tell them apart. `excess` is the factor, 1 or more, by which the errors of the survey exceed the
+/// ones that scores expect. If it is so great that no paint can need a pigment, each pigment has
+/// the probability one half.
 pub(crate) fn palette(
     found: &[Vec<SetFit>],
     paints: &[usize],
@@ -185,11 +194,9 @@ fn likely(need: f32) -> f32 {
 /// Sets of all surveyed pixels as bits of their pigments, with their scores.
 struct Survey {
     sets: Vec<Vec<(u64, f32)>>,
-    /// Place of each pixel's paint.
     paints: Vec<usize>,
-    /// Pixels of each paint.
     sizes: Vec<f32>,
-    /// Part of a difference of scores that counts.
+    /// We count this part of a difference of scores.
     counted: f32,
 }
 
@@ -219,7 +226,8 @@ impl Survey {
         }
     }
 
-    /// Rise of the score if `palette` loses each of `parts`, in the paints that need it most.
+    /// How much the score rises if `palette` loses each of `parts`, in the paints that need it
+    /// most.
     fn needs(&self, palette: u64, parts: &[u64]) -> Vec<f32> {
         let mut rises = vec![vec![0.0; self.sizes.len()]; parts.len()];
         for (sets, &paint) in self.sets.iter().zip(&self.paints) {
@@ -263,7 +271,7 @@ mod tests {
             .collect()
     }
 
-    /// Entries of pigments none of which look alike.
+    /// Entries of pigments that do not look alike.
     fn apart(pigments: usize) -> Vec<Vec<usize>> {
         (0..pigments).map(|pigment| vec![pigment]).collect()
     }
@@ -293,17 +301,13 @@ mod tests {
             palette(&[needed.clone(), needed.clone(), not.clone()], &[1, 1, 2], &apart(3), 1.0);
         assert!(often[1] > 0.9, "one of two paints: {often:?}");
         // Of many paints two must need it.
-        let many = |needing: usize| {
-            palette(
-                &(0..MANY)
-                    .map(|paint| if paint < needing { needed.clone() } else { not.clone() })
-                    .collect::<Vec<_>>(),
-                &(0..MANY).collect::<Vec<_>>(),
-                &apart(3),
-                1.0,
-            )
-        };
-        assert!(many(1)[1] < 0.2 && many(2)[1] > 0.9, "{:?} {:?}", many(1), many(2));
+        let [one, two] = [1, 2].map(|needing| {
+            let found: Vec<_> = (0..MANY)
+                .map(|paint| if paint < needing { needed.clone() } else { not.clone() })
+                .collect();
+            palette(&found, &(0..MANY).collect::<Vec<_>>(), &apart(3), 1.0)
+        });
+        assert!(one[1] < 0.2 && two[1] > 0.9, "{one:?} {two:?}");
     }
 
     #[test]

@@ -1,7 +1,8 @@
-//! Full search of one pixel: all sets of pigments that explain it, best first, with their shares.
+//! Full search of one pixel. It finds all sets of pigments that explain the pixel, best first, with
+//! their shares.
 //!
-//! A table of films of every pigment and of every pair in thirteen ratios gives the first guesses. A k-d tree
-//! finds the nearest of them.
+//! We take first guesses from a table of films: every pigment, and every pair in thirteen ratios. A
+//! k-d tree finds the nearest film.
 
 pub(crate) mod set_fit;
 mod triples;
@@ -14,24 +15,25 @@ use crate::films::whitening::{Spectrum, WhiteningNoise};
 use set_fit::{Scores, SetFit};
 use triples::{Marks, Quadratic};
 
-/// Linearised sets that are kept, by their number of pigments.
+/// We keep this many linearised sets of one, two, three and four pigments.
 const KEPT: [usize; 4] = [6, 20, 24, 8];
-/// Sets of three that are extended by each other pigment.
+/// We extend this many sets of three by each other pigment.
 const BEAM: usize = 8;
-/// Sets that are refined in measured reflectance: about the nearest film of the table, then about the best
-/// set of these.
+/// We refine this many sets in measured reflectance, first about the nearest film of the table,
+/// then about the best of these sets.
 const REFINED: [usize; 2] = [32, 24];
-/// Gauss-Newton steps of each set, of one that may be among the best, and of the best one at the end.
+/// Gauss-Newton steps: of each set, of a set that may be among the best, and of the best one at the
+/// end.
 const STEPS: [usize; 3] = [1, 2, 3];
-/// Score above the best after the first step from which a set is not refined further.
+/// We stop refining a set if its score after the first step is above the best by this.
 const HOPELESS: f32 = 12.0;
-/// Penalty of a pigment among linearised sets, before what its share costs is known.
+/// Penalty of a pigment among linearised sets, when we do not yet know what its share costs.
 const SHORTLIST_PENALTY: f32 = 6.0;
-/// Score above the best from which a linearised set is not refined.
+/// We do not refine a linearised set if its score is above the best by this.
 const FAR: f32 = 30.0;
-/// Three pigments are passed over from this chi-square on, relative to the best pair.
+/// We skip sets of three from this chi-square on, relative to the best pair.
 const WORSE: f64 = 1.5;
-/// All that a search needs, but the pixel.
+/// Everything that a search needs, except the pixel.
 #[derive(Debug, Clone)]
 pub(crate) struct Engine {
     pub(crate) films: Films,
@@ -52,7 +54,7 @@ pub(crate) struct Scratch {
     pub(crate) found: Vec<SetFit>,
     by_size: [Vec<SetFit>; 4],
     shortlist: Vec<SetFit>,
-    /// Least score of a refined set.
+    /// The least score of a refined set so far.
     least: f32,
 }
 
@@ -71,13 +73,13 @@ impl Scratch {
 }
 
 impl Engine {
-    /// The engine for a scan with these probabilities of the pigments in its palette.
+    /// The engine for a scan if its palette holds the pigments with these probabilities.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         Self { scores: self.scores.with_palette(palette), ..self.clone() }
     }
 
-    /// Searches all sets, beginning at the film `place` of the table. The sets are left in `scratch.found`,
-    /// the best first.
+    /// Searches all sets, beginning at the film `place` of the table. You find the sets in
+    /// `scratch.found`, the best first.
     pub(crate) fn search(&self, pixel: &Pixel, place: usize, scratch: &mut Scratch) {
         scratch.found.clear();
         scratch.least = f32::INFINITY;
@@ -113,7 +115,7 @@ impl Engine {
         self.sort(pixel, &mut scratch.found);
     }
 
-    /// Sorts sets by their scores, after the best one is refined further.
+    /// Refines the best set further, then sorts all by score.
     pub(crate) fn sort(&self, pixel: &Pixel, found: &mut [SetFit]) {
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
@@ -122,7 +124,7 @@ impl Engine {
         found.sort_unstable_by(order);
     }
 
-    /// Refines a set in measured reflectance by `steps`, and tells its score.
+    /// Refines a set in measured reflectance by `steps` and computes its score.
     pub(crate) fn refined(&self, pixel: &Pixel, mut set: SetFit, steps: usize) -> SetFit {
         let difference = set.refine(&self.films, pixel, steps);
         set.score = self.scores.of_set(&set, &difference);
@@ -141,8 +143,9 @@ impl Engine {
         scratch.found.push(set);
     }
 
-    /// Best sets of the linearised problem, in `scratch.shortlist`, the best first. Those far from the best score
-    /// that was refined are left out, or in the beginning those far from the best of these.
+    /// Finds the best sets of the linearised problem and leaves them in `scratch.shortlist`, the
+    /// best first. This leaves out sets far above the best refined score, or in the beginning far
+    /// above the best of these sets.
     fn shortlist(&self, scratch: &mut Scratch) {
         let Scratch { work, quadratic, marks, by_size, shortlist, least, .. } = scratch;
         let count = self.films.pigments;
@@ -228,12 +231,12 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
 
 /// Ratios of a pair, evenly spaced in their logarithm.
 const RATIOS: i32 = 13;
-/// Greatest logarithm of a ratio, to each side of the middle.
+/// The logarithm of a ratio reaches this far to each side of the middle.
 const GREATEST: f64 = 5.0;
-/// Greatest shift of the middle towards the weaker pigment, as a logarithm.
+/// We shift the middle towards the weaker pigment by at most this logarithm.
 const SHIFT: f64 = 2.0;
 
-/// Films by which pixels are linearised and differences whitened.
+/// Films about which we linearise pixels and whiten differences.
 #[derive(Debug, Clone)]
 pub(crate) struct Table {
     /// Internal reflectance and 1/S of each film.
@@ -273,7 +276,6 @@ impl Table {
         place as usize
     }
 
-    /// Internal reflectance and 1/S of a film.
     pub(crate) fn film(&self, place: usize) -> (&Spectrum, &Spectrum) {
         let (internal, inverse) = &self.films[place];
         (internal, inverse)
@@ -296,25 +298,26 @@ fn recipes(paints: &Paints) -> Vec<Vec<(usize, f64)>> {
     recipes
 }
 
-/// Slope of the fourth root of reflectance by the logarithm of K/S, about, for films of middle lightness.
+/// Approximate slope of the fourth root of reflectance by the logarithm of K/S for films of middle
+/// lightness.
 const ROOT_SLOPE: f64 = 0.15;
 
-/// Few coordinates of a spectrum in which distances tell films apart: the main axes of all films of the
-/// table, in fourth roots of reflectance that are whitened by the library's error.
+/// Projects a spectrum to a few coordinates in which distances tell films apart. These are the main
+/// axes of all films of the table, in fourth roots of reflectance that we whiten by the library's
+/// error.
 #[derive(Debug, Clone)]
 pub(crate) struct Projection {
-    /// Weights by band, each for all coordinates.
+    /// For each band the weights of all coordinates.
     weights: Vec<Point>,
 }
 
 impl Projection {
     fn new(paints: &Paints, noise: &Noise, recipes: &[Vec<(usize, f64)>]) -> Self {
         let bands = paints.bands();
-        let root = |recipe: &Vec<(usize, f64)>| {
-            let reflectance = paints.reflectance(recipe);
-            DVector::from_iterator(bands, reflectance.into_iter().map(|r| r.max(0.0).sqrt().sqrt()))
-        };
-        let roots: Vec<DVector<f64>> = recipes.iter().map(root).collect();
+        let reflectances = recipes.iter().map(|recipe| paints.reflectance(recipe).into_iter());
+        let roots: Vec<DVector<f64>> = reflectances
+            .map(|values| DVector::from_iterator(bands, values.map(|r| r.max(0.0).sqrt().sqrt())))
+            .collect();
         let scale = match noise.scale {
             Scale::FourthRoot => 1.0,
             Scale::LogRatio => ROOT_SLOPE,
@@ -351,7 +354,6 @@ impl Projection {
         Self { weights }
     }
 
-    /// Coordinates of a reflectance on the bands.
     pub(crate) fn of(&self, reflectance: &[f32]) -> Point {
         let mut point = [0.0; DIMENSIONS];
         for (weights, &reflectance) in self.weights.iter().zip(reflectance) {
@@ -364,21 +366,20 @@ impl Projection {
     }
 }
 
-/// Coordinates of a point.
+/// A point has this many coordinates.
 pub(crate) const DIMENSIONS: usize = 8;
-/// Points of a leaf.
 const LEAF: usize = 16;
 
 /// A point in the space of the tree.
 pub(crate) type Point = [f32; DIMENSIONS];
 
-/// Points that are sorted for search.
+/// A k-d tree of points.
 #[derive(Debug, Clone)]
 pub(crate) struct Nearest {
     points: Vec<Point>,
-    /// Place of each sorted point in the list it came from.
+    /// Place of each sorted point in the original list.
     places: Vec<u32>,
-    /// Splits of the ranges, in the order in which they are visited from the root.
+    /// Splits of the ranges, in the order of a walk from the root.
     nodes: Vec<Node>,
 }
 
@@ -389,7 +390,7 @@ struct Node {
     /// Dimension of the split, or `DIMENSIONS` for a leaf.
     dimension: u32,
     value: f32,
-    /// Node of the points above the split. Those below follow the node itself.
+    /// Index of the node above the split. The node below the split comes right after this one.
     above: u32,
 }
 
@@ -402,8 +403,9 @@ impl Nearest {
         Self { points, places: order, nodes }
     }
 
-    /// Places and squared distances of the `K` nearest points, the nearest first. Ties are broken by
-    /// place. Fewer points leave places of `u32::MAX`.
+    /// Places and squared distances of the `K` nearest points, the nearest first. If two are
+    /// equally near, the smaller place comes first. If there are fewer points, the rest of the
+    /// places is `u32::MAX`.
     pub(crate) fn find<const K: usize>(&self, point: &Point) -> [(f32, u32); K] {
         let mut best = [(f32::INFINITY, u32::MAX); K];
         if !self.nodes.is_empty() {
@@ -459,7 +461,7 @@ fn distance(a: &Point, b: &Point) -> f32 {
     ((d[0] + d[4]) + (d[1] + d[5])) + ((d[2] + d[6]) + (d[3] + d[7]))
 }
 
-/// Sorts `order`, a part of the list that begins at `start`, into a tree along the widest dimensions.
+/// Sorts `order`, the part of the list from `start` on, into a tree along the widest dimensions.
 fn split(list: &[Point], order: &mut [u32], start: usize, nodes: &mut Vec<Node>) {
     let node = nodes.len();
     let range = (start as u32, (start + order.len()) as u32);
@@ -567,13 +569,13 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_search_of_all_points_finds() {
         let mut random = ChaCha8Rng::seed_from_u64(5);
-        let mut point =
-            || -> Point { std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32) };
-        let mut list: Vec<Point> = (0..3000).map(|_| point()).collect();
+        let mut points = std::iter::repeat_with(|| -> Point {
+            std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32)
+        });
+        let mut list: Vec<Point> = points.by_ref().take(3000).collect();
         list.extend_from_slice(&list.clone()[..50]);
         let tree = Nearest::new(&list);
-        for _ in 0..200 {
-            let wanted = point();
+        for wanted in points.take(200) {
             let mut all: Vec<(f32, u32)> =
                 list.iter().zip(0..).map(|(p, place)| (distance(&wanted, p), place)).collect();
             all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -1,6 +1,7 @@
 //! Shares of one set of pigments for one pixel, and the score of the set.
 //!
-//! The score combines how well a set explains the pixel with how likely the set is beforehand.
+//! The score combines how well a set explains the pixel with how likely we take the set to be
+//! beforehand.
 
 #![expect(
     clippy::needless_range_loop,
@@ -23,7 +24,7 @@ pub(crate) struct SetFit {
 }
 
 impl SetFit {
-    /// A set of pigments in any order, with their shares.
+    /// Makes a set of pigments with their shares. You may pass them in any order.
     pub(crate) fn new<const N: usize>(members: [usize; N], shares: [f32; N], chi2: f32) -> Self {
         let mut fit = Self {
             members: [u8::MAX; MOST_IN_SET],
@@ -40,7 +41,7 @@ impl SetFit {
         fit
     }
 
-    /// A set of one to four pigments with their shares, or `None` for any other number.
+    /// Makes a set of one to four pigments with their shares. Any other number gives `None`.
     pub(crate) fn of_parts(parts: &[(usize, f32)]) -> Option<Self> {
         let unknown = f32::INFINITY;
         Some(match *parts {
@@ -61,13 +62,17 @@ impl SetFit {
         usize::from(self.count)
     }
 
-    /// Pigments with their shares.
+    /// The columns of the members as bits.
+    pub(crate) fn columns(&self, column_of: &[usize]) -> u64 {
+        self.parts().fold(0, |bits, (member, _)| bits | 1 << column_of[member])
+    }
+
     pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let pairs = self.members.iter().zip(&self.shares).take(self.len());
         pairs.map(|(&member, &share)| (usize::from(member), share))
     }
 
-    /// Compares `pixel` with the film of these shares.
+    /// Compares `pixel` with the film of this set.
     pub(crate) fn difference(&self, films: &Films, pixel: &Pixel) -> Difference {
         match self.count {
             1 => self.difference_of::<1>(films, pixel),
@@ -82,14 +87,14 @@ impl SetFit {
         films.difference(pixel, members, std::array::from_fn(|i| self.shares[i]))
     }
 
-    /// Moves the shares towards the least chi-square in measured reflectance by `steps` Gauss-Newton steps,
-    /// and returns the difference at the best shares that were met.
+    /// Moves the shares towards the least chi-square in measured reflectance by `steps`
+    /// Gauss-Newton steps. Keeps the best shares on the way and returns their difference.
     pub(crate) fn refine(&mut self, films: &Films, pixel: &Pixel, steps: usize) -> Difference {
         let found = self.difference(films, pixel);
         self.refine_from(found, films, pixel, steps)
     }
 
-    /// Like [`SetFit::refine`], where `found` is the difference at these shares.
+    /// Like [`SetFit::refine`], but you pass the difference at these shares as `found`.
     pub(crate) fn refine_from(
         &mut self,
         mut found: Difference,
@@ -121,7 +126,8 @@ impl SetFit {
         found
     }
 
-    /// Copy after one full step. A share falls to a tenth at most, so that the step stays on the simplex.
+    /// Copy after one full step. We let a share fall to a tenth at most, so that the step stays on
+    /// the simplex.
     fn stepped(&self, difference: &Difference) -> Self {
         let mut next = *self;
         let step = match inverse(difference, self.len()) {
@@ -163,8 +169,9 @@ impl SetFit {
 const FREE_SHARE: f64 = 1.0 / 12.0;
 
 impl Difference {
-    /// -2 ln of the part of all shares of `count` pigments that agree with the pixel, where variances are
-    /// `excess` times the curvature's: the price that a set pays for shares that had to be found exactly.
+    /// -2 ln of the fraction of all shares of `count` pigments that agree with the pixel. This is
+    /// the price that a set pays if its shares must be exact. Variances are `excess` times the
+    /// curvature's.
     pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
         let last = count - 1;
         let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
@@ -204,8 +211,8 @@ fn product(matrix: &Square, vector: &[f32; MOST_IN_SET], count: usize) -> [f64; 
 
 /// Inverse of the normal equations with `weight` added to every entry, and this weight.
 ///
-/// The reflectance does not change if all shares grow alike, so that the equations are singular along the
-/// shares. The weight removes that, and a step by the inverse keeps the sum of the shares.
+/// The reflectance does not change if all shares grow alike, so the equations are singular along
+/// the shares. The weight removes this, and a step by the inverse keeps the sum of the shares.
 fn inverse(difference: &Difference, count: usize) -> Option<(Square, f64)> {
     match count {
         2 => inverse_of::<2>(difference),
@@ -265,35 +272,37 @@ fn inverted<const N: usize>(mut left: Square) -> Option<Square> {
     Some(right)
 }
 
-/// Scores above the best beyond which a set does not matter: its weight is below 2e-3.
+/// A set does not matter if its score is above the best by more than this, because its weight is
+/// then below 2e-3.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
-/// Factor by which differences of scores count less than exact likelihoods: the errors of a library are
-/// known roughly, so that probabilities would promise too much. Chosen of 1 to 3 on simulated paintings.
+/// We divide differences of scores by this, because we know the errors of a library only roughly,
+/// and exact likelihoods would give probabilities that promise too much. We chose it of 1 to 3 on
+/// simulated paintings.
 const TEMPERATURE: f64 = 1.5;
-/// Probability of a pigment that a survey needs nowhere.
+/// Probability of a pigment that no pixel of a survey needs.
 const LEAST_LIKELY: f32 = 0.05;
-/// Least addition to the score by a further pigment of a palette: -2 ln of one half.
+/// A further pigment of a palette adds at least this to the score: -2 ln of one half.
 const FURTHER: f32 = 2.0 * std::f32::consts::LN_2;
 
 /// How sets are scored: -2 ln of their probabilities, less a constant.
 #[derive(Debug, Clone)]
 pub(crate) struct Scores {
-    /// Bands of a pixel.
     bands: usize,
     /// Additions to the score by number of pigments.
     of_count: [f32; 4],
-    /// Additions to the score by pigment: none, or what a survey knows of the palette.
+    /// Additions to the score by pigment, from the palette of a survey. This is empty before a
+    /// survey.
     of_pigment: Vec<f32>,
-    /// Chi-square that a pigment must save of which no survey says that it is in the palette.
+    /// A pigment outside the palette of a survey must save this chi-square.
     penalty: f64,
     /// Degrees of freedom of the residuals' distribution, infinite for a normal one.
     tail: f64,
 }
 
 impl Scores {
-    /// Scores of pixels of `bands` before a survey, for sets of `pigments` each of which must save the
-    /// chi-square `penalty`. `tail` are the degrees of freedom of the residuals' distribution, infinite
-    /// for a normal one.
+    /// Scores before a survey, for pixels of `bands` and sets of `pigments`. Each pigment must save
+    /// the chi-square `penalty`. `tail` are the degrees of freedom of the residuals' distribution,
+    /// infinite for a normal one.
     pub(crate) fn new((pigments, bands): (usize, usize), penalty: f64, tail: f64) -> Self {
         Self {
             bands,
@@ -304,11 +313,13 @@ impl Scores {
         }
     }
 
-    /// -2 ln of the probability of a refined set, less a constant: its misfit, the part of all shares that
-    /// agree with the pixel, and the prior: a set of any number of pigments is as likely as one of another, and
-    /// so is any set of one number, but for what a survey tells of the palette. How often it found a set is no
-    /// part of it: pixels of one paint share the errors of the library, so that they are no independent
-    /// evidence. As a prior they made probabilities between 0.5 and 0.9 too high by 0.2.
+    /// -2 ln of the probability of a refined set, less a constant. This adds its misfit, the price
+    /// of exact shares, and the prior. The prior makes sets of any number of pigments equally
+    /// likely, and all sets of one number too, except for what a survey knows of the palette.
+    ///
+    /// We do not count how often a survey found a set: pixels of one paint share the errors of the
+    /// library, so they are not independent evidence. When we used this as a prior, probabilities
+    /// between 0.5 and 0.9 came out too high by 0.2.
     pub(crate) fn of_set(&self, set: &SetFit, difference: &Difference) -> f32 {
         let exactness = difference.exactness(set.len(), self.excess(set.chi2)) as f32;
         self.misfit(set.chi2) + exactness + self.prior(set)
@@ -329,9 +340,9 @@ impl Scores {
         (-0.5 / TEMPERATURE * f64::from(above)).exp()
     }
 
-    /// The scores of a scan with these probabilities of the pigments in its palette. Pigments outside it
-    /// pay for that and the penalty, and those inside it no penalty: it guards against pigments that are
-    /// not there.
+    /// The scores of a scan if its palette holds the pigments with these probabilities. A pigment
+    /// outside the palette pays for this and pays the penalty. A pigment inside does not pay the
+    /// penalty, which only guards against pigments that are not there.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
         Self {
@@ -347,8 +358,8 @@ impl Scores {
         }
     }
 
-    /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed, and each
-    /// of which must save `penalty`.
+    /// Additions to the score by number of pigments. We mix up to four of `pigments`, and each must
+    /// save `penalty`.
     fn of_count(pigments: f64, penalty: f64) -> [f32; 4] {
         let mut sets = 1.0;
         std::array::from_fn(|size| {
@@ -357,8 +368,9 @@ impl Scores {
         })
     }
 
-    /// The additions `of_count` raised so that each further pigment makes a set half as likely at most. A palette of
-    /// three has three pairs and one triple, which would cost less than a pair.
+    /// Raises the additions `of_count`, so that each further pigment makes a set at most half as
+    /// likely. For example, a palette of three has three pairs and one triple, and the triple would
+    /// otherwise cost less than a pair.
     fn never_likelier(mut of_count: [f32; 4]) -> [f32; 4] {
         let before = of_count;
         for size in 1..of_count.len() {
@@ -385,7 +397,7 @@ impl Scores {
         ((self.tail + self.bands as f64) / self.tail) as f32
     }
 
-    /// Factor by which the variance of a pixel's errors exceeds the usual one.
+    /// How many times the variance of a pixel's errors is the usual one.
     pub(crate) fn excess(&self, chi2: f32) -> f64 {
         if self.tail.is_infinite() {
             return 1.0;

@@ -1,6 +1,8 @@
-//! The linearised problem of one pixel: sums of squares of all small sets of pigments in closed form.
+//! The linearised problem of one pixel. We compute the sums of squares of all small sets of
+//! pigments in closed form.
 //!
-//! There are many sets of three, and most of them explain nothing, so bounds rule them out early.
+//! There are many sets of three, and most of them explain nothing, so we rule them out early by
+//! bounds.
 
 #![expect(
     clippy::needless_range_loop,
@@ -13,10 +15,10 @@ use super::set_fit::SetFit;
 use crate::films::film::{MOST_IN_SET, Work};
 use crate::films::whitening::{Eight, LANES, Task, Vectors, by_vectors};
 
-/// Differences of all pigments from one, `a`: they span the plane of shares of sum 1.
+/// Differences of all pigments from one pigment `a`. They span the plane of shares with sum 1.
 #[derive(Debug, Clone, Copy, Default)]
 struct Line {
-    /// Square of the difference of pigment `b`, and its inverse.
+    /// Square of the difference of pigment `b`, and the inverse of this square.
     square: f64,
     inverse: f64,
     /// Product of this difference with the pixel's.
@@ -34,7 +36,6 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    /// Memory for `count` pigments.
     pub(crate) fn new(count: usize) -> Self {
         let columns = count.div_ceil(LANES);
         Self { lines: vec![Line::default(); count], lanes: vec![0; count * columns] }
@@ -58,8 +59,9 @@ impl<F: FnMut([usize; 3], [f64; 3], f64) -> f64> Task for Triples<'_, F> {
 }
 
 impl Quadratic {
-    /// Calls `found` with the places, the shares and the sum of squares of three pigments with best
-    /// shares above 0, if the sum is below a limit: at first `limit`, then what `found` returned last.
+    /// Calls `found` for each set of three pigments with best shares above 0 and a sum of squares
+    /// below a limit. It gets the places, the shares and the sum. The limit is `limit` at first,
+    /// then whatever `found` returned last.
     pub(crate) fn triples(
         &self,
         limit: f64,
@@ -122,8 +124,8 @@ impl Quadratic {
         Line { square, to_b, inverse: 1.0 / square, of_pair: base - to_b * to_b / square }
     }
 
-    /// Marks the third pigments after `b` that may be in a set with `a` and `b` and a sum below `limit`.
-    /// A little slack makes up for rounding.
+    /// Marks each third pigment after `b` that may be in a set with `a` and `b` and a sum below
+    /// `limit`. We leave a little slack for rounding.
     #[inline(always)]
     fn mark<V: Vectors>(&self, v: V, (a, b): (usize, usize), limit: f64, marks: &mut Marks) {
         let columns = self.own.len();
@@ -168,12 +170,11 @@ pub(crate) struct Quadratic {
     pub(super) rows: Vec<f32x8>,
     /// Products of each pigment with itself, in lanes.
     pub(super) own: Vec<f32x8>,
-    /// Sizes by which the rows are divided. The shares of a set are divided by them too.
+    /// We divide the rows by these sizes, and the shares of a set too.
     sizes: Vec<f64>,
 }
 
 impl Quadratic {
-    /// Memory for the products of `count` pigments.
     pub(crate) fn new(count: usize) -> Self {
         let columns = count.div_ceil(LANES);
         Self {
@@ -186,7 +187,7 @@ impl Quadratic {
         }
     }
 
-    /// Takes over the products that were computed in `work`.
+    /// Takes over the products in `work`.
     pub(crate) fn read(&mut self, work: &Work) {
         self.rows.copy_from_slice(&work.products);
         for (block, own) in self.own.iter_mut().enumerate() {
@@ -205,13 +206,12 @@ impl Quadratic {
         }
     }
 
-    /// Product of the rows of two pigments.
     #[inline(always)]
     pub(super) fn at(&self, a: usize, b: usize) -> f64 {
         self.products[a * self.count + b]
     }
 
-    /// A set with the parts `parts` of the divided rows.
+    /// Makes a set from the parts `parts` of the divided rows.
     pub(crate) fn fit<const N: usize>(
         &self,
         members: [usize; N],
@@ -227,12 +227,11 @@ impl Quadratic {
         SetFit::new(members, shares.map(|share| (share / sum) as f32), chi2 as f32)
     }
 
-    /// A single pigment.
     pub(crate) fn single(&self, a: usize) -> SetFit {
         SetFit::new([a], [1.0], self.at(a, a) as f32)
     }
 
-    /// Shares of two pigments where the sum of squares is least, or `None` if one is 0 or less.
+    /// Shares of two pigments with the least sum of squares, or `None` if a share is 0 or less.
     #[inline(always)]
     pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
         let aa = self.at(a, a);
@@ -244,7 +243,7 @@ impl Quadratic {
         (to_a > 0.0 && to_b > 0.0).then_some((share, bb - share * to_a))
     }
 
-    /// Shares of a set where the sum of squares is least, or `None` if one is 0 or less.
+    /// Shares of a set with the least sum of squares, or `None` if a share is 0 or less.
     pub(crate) fn set<const N: usize>(&self, members: [usize; N]) -> Option<SetFit> {
         // The last share is 1 less the others.
         let last = members[N - 1];

@@ -1,4 +1,4 @@
-//! The arrays of stored maps: names, types, bytes, and their division into shards and chunks.
+//! The arrays of stored maps: names, types, bytes, and how we divide them into shards and chunks.
 
 use std::fmt;
 use std::ops::Range;
@@ -11,10 +11,9 @@ use serde_json::{Map, Value, json};
 
 use crate::pixel_maps::{BlockMaps, Mask, NO_PRESENCE, PRESENCE_ONE, code_of, half_of};
 
-/// Number of a pixel that no run has mapped yet.
+/// Mask of a pixel that no run has mapped yet.
 pub(crate) const NOT_YET: u8 = 255;
 
-/// An array of maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MapArray {
     Share,
@@ -27,8 +26,8 @@ pub(crate) enum MapArray {
 }
 
 impl MapArray {
-    /// All arrays in the order in which a shard writes them. The mask comes last: where it is, the
-    /// others are too.
+    /// All arrays in the order in which a shard writes them. The mask comes last, so if you find
+    /// it, the others are there too.
     pub(crate) const ALL: [Self; 7] = [
         Self::Share,
         Self::ShareSd,
@@ -65,7 +64,6 @@ impl MapArray {
         }
     }
 
-    /// Bytes of a number.
     pub(crate) const fn bytes(self) -> usize {
         match self {
             Self::Presence | Self::Mask => 1,
@@ -120,7 +118,6 @@ impl MapArray {
         }
     }
 
-    /// Bytes of one number of the fill value.
     pub(crate) fn fill_bytes(self) -> Vec<u8> {
         match self {
             Self::Presence => vec![NO_PRESENCE],
@@ -158,14 +155,14 @@ impl MapArray {
     }
 }
 
-/// Half-precision numbers. Every NaN has the same bits.
+/// Writes half-precision numbers. Every NaN has the same bits.
 fn halves(values: &[f32], stored: &mut [u8]) {
     for (bytes, value) in stored.chunks_exact_mut(2).zip(values) {
         bytes.copy_from_slice(&half_of(*value).to_le_bytes());
     }
 }
 
-/// Single-precision numbers. Every NaN has the same bits.
+/// Writes single-precision numbers. Every NaN has the same bits.
 fn singles(values: &[f32], stored: &mut [u8]) {
     for (bytes, value) in stored.chunks_exact_mut(4).zip(values) {
         let value = if value.is_nan() { f32::NAN } else { *value };
@@ -178,10 +175,10 @@ const CHUNK: usize = 256;
 /// Chunks of a shard along each side.
 const CHUNKS: usize = 8;
 
-/// A rectangle of pixels that is written at once.
+/// A rectangle of pixels that we write at once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shard {
-    /// Number of the shard: from left to right, then down.
+    /// Number of the shard. We count from left to right, then down.
     pub index: usize,
     /// Rows of the scan.
     pub rows: Range<usize>,
@@ -206,24 +203,20 @@ impl fmt::Display for Shard {
     }
 }
 
-/// Division of one axis.
+/// How we divide one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Axis {
     pub(crate) length: usize,
-    /// Pixels of a chunk.
     pub(crate) chunk: usize,
-    /// Chunks of a shard.
     pub(crate) chunks: usize,
 }
 
 impl Axis {
-    /// Divides `length` pixels.
     pub(crate) fn new(length: usize) -> Self {
         let chunk = CHUNK.min(length).max(1);
         Self { length, chunk, chunks: length.div_ceil(chunk).clamp(1, CHUNKS) }
     }
 
-    /// Pixels of a shard.
     pub(crate) fn shard(self) -> usize {
         self.chunk * self.chunks
     }
@@ -238,7 +231,7 @@ impl Axis {
     }
 }
 
-/// Division of the maps.
+/// How we divide the maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Tiles {
     pub(crate) down: Axis,
@@ -246,12 +239,11 @@ pub(crate) struct Tiles {
 }
 
 impl Tiles {
-    /// Divides maps of `rows` x `columns` pixels.
     pub(crate) fn new(rows: usize, columns: usize) -> Self {
         Self { down: Axis::new(rows), across: Axis::new(columns) }
     }
 
-    /// All shards, of maps that begin at this row and column of the scan.
+    /// All shards. Pass the row and column of the scan where the maps begin.
     pub(crate) fn shards(&self, (row, column): (usize, usize)) -> Vec<Shard> {
         let across = self.across.shards();
         (0..self.down.shards() * across)
@@ -264,30 +256,30 @@ impl Tiles {
     }
 }
 
-/// Maps that cannot be written or read.
+/// We cannot write or read maps.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The operating system cannot read or write a file of the description.
+    /// We cannot read or write a file of the description.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A shard cannot be written. Shards written before are whole.
+    /// We cannot write a shard. Shards written before are whole.
     #[error("{}: the shard of {shard} cannot be written", path.display())]
     Shard {
         /// Path of the store.
         path: PathBuf,
-        /// The shard that was to be written.
+        /// The shard that we wanted to write.
         shard: Shard,
         /// The file and the error of the operating system.
         source: FileError,
     },
-    /// The output exists and is not asked to be resumed.
+    /// The output exists, and you did not ask to resume it.
     #[error("{}: exists already and {holds}", path.display())]
     Exists {
         /// Path of the store.
         path: PathBuf,
         /// Content of the folder with its verb, such as `holds maps`.
         holds: String,
-        /// Whether it can be resumed.
+        /// Whether you can resume it.
         is_maps: bool,
     },
     /// The output belongs to a run of other settings.
@@ -320,12 +312,12 @@ pub enum StoreError {
         /// Number of all shards.
         shards: usize,
     },
-    /// The store is damaged or no store of maps.
+    /// The store is damaged or not a store of maps.
     #[error("{}: {problem}", path.display())]
     Damaged {
         /// Path of the file.
         path: PathBuf,
-        /// The fault that was found.
+        /// The fault that we found.
         problem: String,
     },
 }

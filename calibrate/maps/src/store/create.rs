@@ -14,16 +14,16 @@ use crate::pixel_maps::{BlockMaps, MapsAbout};
 use crate::zarr::{ArrayDocument, ShardBuilder, group_document, packed};
 use documents::file::{FileAction, FileError, write_whole};
 
-/// Whether a store is begun or resumed.
+/// Whether you begin or resume a store.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StoreMode {
-    /// The folder must not be there, or must be empty.
+    /// Begin. The folder must not exist, or must be empty.
     New,
-    /// A store of the same run may be there. What it holds stays.
+    /// Resume a store of the same run if there is one. Its content stays.
     Resume,
 }
 
-/// Maps on the disk that are being written.
+/// A store of maps during writing.
 #[derive(Debug, Clone)]
 pub struct MapStore {
     path: PathBuf,
@@ -32,14 +32,13 @@ pub struct MapStore {
     shards: Vec<Shard>,
 }
 
-/// Name of descriptions.
 pub(crate) const GROUP: &str = "zarr.json";
 
 impl MapStore {
-    /// Begins or resumes the store at `path`. The descriptions of its arrays are written at once.
+    /// Begins or resumes the store at `path`. This writes the descriptions of the arrays at once.
     ///
     /// # Errors
-    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
+    /// [`StoreError`] if the folder holds anything but maps of this run, or we cannot write it.
     pub fn create(
         path: impl AsRef<Path>,
         about: &MapsAbout,
@@ -70,7 +69,7 @@ impl MapStore {
         Ok(store)
     }
 
-    /// Whether the folder is a store of this run already. It is an error if it holds anything else.
+    /// Whether the folder is already a store of this run. This fails if it holds anything else.
     fn is_there(&self, group: &Value, mode: StoreMode) -> Result<bool, StoreError> {
         if !self.path.exists() {
             return Ok(false);
@@ -109,30 +108,23 @@ impl MapStore {
         }
     }
 
-    /// The first attribute or array in which two descriptions differ.
+    /// Finds the first attribute or array in which two descriptions differ.
     fn difference(&self, found: &Value, expected: &Value) -> Option<StoreError> {
         let nothing = Map::new();
         let parts = ["/attributes", "/consolidated_metadata/metadata"];
         for part in parts {
-            let map = |of: &Value| of.pointer(part).and_then(Value::as_object).cloned();
-            let found = map(found);
-            let expected = map(expected);
-            let found = found.as_ref().unwrap_or(&nothing);
-            let expected = expected.as_ref().unwrap_or(&nothing);
+            let [found, expected] = [found, expected]
+                .map(|of| of.pointer(part).and_then(Value::as_object).unwrap_or(&nothing));
             let keys: BTreeSet<&String> = found.keys().chain(expected.keys()).collect();
             for key in keys {
                 if found.get(key) != expected.get(key) {
-                    let words = |of: &Map<String, Value>| {
+                    let [found, expected] = [found, expected].map(|of| {
                         let text =
                             of.get(key).map_or_else(|| "missing".to_owned(), Value::to_string);
                         text.chars().take(200).collect()
-                    };
-                    return Some(StoreError::OtherRun {
-                        path: self.path.clone(),
-                        key: key.clone(),
-                        found: words(found),
-                        expected: words(expected),
                     });
+                    let path = self.path.clone();
+                    return Some(StoreError::OtherRun { path, key: key.clone(), found, expected });
                 }
             }
         }
@@ -151,7 +143,7 @@ impl MapStore {
         self.pigments
     }
 
-    /// All shards: from left to right, then down.
+    /// All shards, from left to right, then down.
     #[must_use]
     pub fn shards(&self) -> &[Shard] {
         &self.shards
@@ -167,7 +159,6 @@ impl MapStore {
         self.tiles
     }
 
-    /// File of a shard of an array.
     pub(crate) fn file(&self, array: MapArray, shard: &Shard) -> PathBuf {
         shard_file(&self.path, array, shard)
     }
@@ -191,19 +182,17 @@ pub(crate) fn shard_file(path: &Path, array: MapArray, shard: &Shard) -> PathBuf
 }
 
 fn check(path: &Path, about: &MapsAbout) -> Result<(), StoreError> {
-    let fault = |problem: String| StoreError::Maps { path: path.to_owned(), problem };
     let names: BTreeSet<&String> = about.pigments.iter().collect();
     let count = about.pigments.len();
-    if count == 0 || count > BlockMaps::MOST_PIGMENTS || names.len() < count {
-        let most = BlockMaps::MOST_PIGMENTS;
-        return Err(fault(format!(
-            "maps need 1 to {most} pigments of different names, found {count}"
-        )));
-    }
-    if about.rows.is_empty() || about.columns.is_empty() {
-        return Err(fault("maps need at least one row and one column".to_owned()));
-    }
-    Ok(())
+    let most = BlockMaps::MOST_PIGMENTS;
+    let problem = if count == 0 || count > most || names.len() < count {
+        format!("maps need 1 to {most} pigments of different names, found {count}")
+    } else if about.rows.is_empty() || about.columns.is_empty() {
+        "maps need at least one row and one column".to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(StoreError::Maps { path: path.to_owned(), problem })
 }
 
 fn own_names() -> BTreeSet<String> {
@@ -211,7 +200,6 @@ fn own_names() -> BTreeSet<String> {
     arrays.chain([GROUP, "y", "x", "pigment"]).map(str::to_owned).collect()
 }
 
-/// Names of everything in a folder.
 pub(crate) fn entries(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
     let reading = |reason| FileError::reading(folder, reason);
     let mut names = BTreeSet::new();
@@ -221,7 +209,7 @@ pub(crate) fn entries(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
     Ok(names)
 }
 
-/// Writes a file, and the folders to it.
+/// Writes a file, and makes the folders that it needs.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|reason| FileError {
@@ -237,7 +225,7 @@ pub(crate) fn text(document: &Value) -> Vec<u8> {
     format!("{document:#}\n").into_bytes()
 }
 
-/// Texts as the codec `vlen-utf8` stores them.
+/// Encodes texts with the codec `vlen-utf8`.
 pub(crate) fn names(names: &[String]) -> Vec<u8> {
     let mut bytes = length(names.len()).to_vec();
     for name in names {
@@ -251,7 +239,6 @@ fn length(length: usize) -> [u8; 4] {
     u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes()
 }
 
-/// Descriptions of all arrays, with their names.
 fn documents(about: &MapsAbout, tiles: Tiles) -> Vec<(String, Value)> {
     let count = about.pigments.len();
     let mut documents = Vec::new();
@@ -284,16 +271,15 @@ fn documents(about: &MapsAbout, tiles: Tiles) -> Vec<(String, Value)> {
     documents
 }
 
-/// Chunks of one array that stand beside each other and are being filled.
+/// Neighbouring chunks of one array that we are filling.
 #[derive(Debug)]
 struct Row {
     array: MapArray,
-    /// Bytes of each chunk.
     chunks: Vec<Vec<u8>>,
     shard: ShardBuilder,
 }
 
-/// A shard during its creation. You need memory for one row of chunks and for the packed chunks.
+/// Writes a shard. You need memory for one row of chunks and for the packed chunks.
 #[derive(Debug)]
 pub struct ShardWriter<'s> {
     store: &'s MapStore,
@@ -304,7 +290,7 @@ pub struct ShardWriter<'s> {
 }
 
 impl MapStore {
-    /// Begins a shard, which is written when it is finished.
+    /// Begins a shard. Nothing is on the disk until you finish it.
     #[must_use]
     pub fn writer(&self, shard: &Shard) -> ShardWriter<'_> {
         let tiles = self.tiles();
@@ -321,7 +307,7 @@ impl ShardWriter<'_> {
     /// Adds the maps of the next rows, over all columns of the shard.
     ///
     /// # Errors
-    /// [`StoreError::Maps`] if the rows do not follow the rows before, or sizes do not fit.
+    /// [`StoreError::Maps`] if the rows do not follow the last ones, or sizes do not fit.
     pub fn add(&mut self, rows: Range<usize>, maps: &BlockMaps) -> Result<(), StoreError> {
         let width = self.shard.columns.len();
         let fits = maps.is_consistent()
@@ -354,7 +340,7 @@ impl ShardWriter<'_> {
         Ok(())
     }
 
-    /// Puts rows of `maps` into the chunks, from their row `top` on.
+    /// Puts rows of `maps` into the chunks, from row `top` of the chunks on.
     fn fill(&mut self, top: usize, maps: &BlockMaps, rows: Range<usize>) {
         let across = self.store.tiles().across;
         let down = self.store.tiles().down;
@@ -381,7 +367,7 @@ impl ShardWriter<'_> {
         });
     }
 
-    /// Packs the chunks of the row `down` of chunks.
+    /// Packs the row `down` of chunks.
     fn pack(&mut self, down: usize) -> Result<(), StoreError> {
         let across = self.store.tiles().across.chunks;
         let results: Vec<std::io::Result<()>> = self
@@ -403,7 +389,7 @@ impl ShardWriter<'_> {
     /// Writes the shard, the mask last.
     ///
     /// # Errors
-    /// [`StoreError::Shard`] if a file cannot be written, [`StoreError::Maps`] if rows are missing.
+    /// [`StoreError::Shard`] if we cannot write a file, [`StoreError::Maps`] if rows are missing.
     pub fn finish(self) -> Result<(), StoreError> {
         if self.next != self.shard.rows.end {
             return Err(

@@ -1,7 +1,8 @@
-//! Maps on the disk: a Zarr group that xarray opens, written shard by shard and read back.
+//! Maps on the disk. They are a Zarr group that you can open with xarray. We write it shard by
+//! shard.
 //!
-//! A shard is written in one piece. Its mask is written last, so a shard with a mask is finished. A run that
-//! was ended at any moment can therefore be resumed, and several processes can write one store.
+//! We write a shard in one piece and its mask last, so a shard with a mask is finished. So you can
+//! end a run at any moment and resume it, and several processes can write one store.
 
 mod arrays;
 mod create;
@@ -24,7 +25,8 @@ pub use arrays::{Shard, StoreError};
 pub(crate) use create::{GROUP, entries, names, text, write};
 pub use create::{MapStore, ShardWriter, StoreMode};
 
-/// Most shards of maps, 4 Tpixel: a description takes no memory that no file backs.
+/// We accept at most this many shards, 4 Tpixel, so that a description alone cannot take much
+/// memory.
 const MOST_SHARDS: usize = 1 << 20;
 /// Pixels along each side of a shard.
 const SIDE: usize = 2048;
@@ -44,7 +46,7 @@ impl StoredMaps {
     /// Opens the finished maps at `path`.
     ///
     /// # Errors
-    /// [`StoreError`] if the folder holds no maps, or shards are missing.
+    /// [`StoreError`] if the folder does not hold maps, or shards are missing.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let file = path.join(GROUP);
@@ -55,8 +57,8 @@ impl StoredMaps {
         let attributes = group["attributes"].as_object().cloned().unwrap_or_default();
         let range = |key: &str| -> Option<Range<usize>> {
             let ends = attributes.get(key)?.as_array()?;
-            let end = |at: usize| usize::try_from(ends.get(at)?.as_u64()?).ok();
-            Some(end(0)?..end(1)?)
+            let [start, end] = [0, 1].map(|at| usize::try_from(ends.get(at)?.as_u64()?).ok());
+            Some(start?..end?)
         };
         let names = attributes.get("pigments").and_then(Value::as_array).map(|names| {
             names.iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()
@@ -138,10 +140,10 @@ impl StoredMaps {
         &self.attributes
     }
 
-    /// Reads the maps of a rectangle of pixels, by rows and columns of the scan.
+    /// Reads the maps of a rectangle of pixels. Pass rows and columns of the scan.
     ///
     /// # Errors
-    /// [`StoreError`] if the rectangle is not mapped, or a shard cannot be read.
+    /// [`StoreError`] if the rectangle is not mapped, or we cannot read a shard.
     pub fn read(&self, rows: Range<usize>, columns: Range<usize>) -> Result<BlockMaps, StoreError> {
         if !inside(&rows, &self.rows) || !inside(&columns, &self.columns) {
             let problem = format!(
@@ -199,7 +201,7 @@ fn inside(part: &Range<usize>, whole: &Range<usize>) -> bool {
     part.start <= part.end && part.start >= whole.start && part.end <= whole.end
 }
 
-/// Bytes of the numbers of a rectangle of an array.
+/// Reads the bytes of a rectangle of an array.
 fn stored(
     array: &ZarrArray,
     rows: &Range<usize>,

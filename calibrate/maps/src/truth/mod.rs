@@ -1,5 +1,5 @@
-//! Truth of a simulated scan: which paint really is at each pixel. It is stored as a Zarr group and compared
-//! with maps.
+//! Truth of a simulated scan: which paint really is at each pixel. We store it as a Zarr group and
+//! compare maps with it.
 
 mod seen;
 
@@ -18,13 +18,13 @@ use seen::{TITLE, TruthArray};
 
 pub use seen::{PaintClass, TruthError, TruthParts, TruthRows, truth_rows};
 
-/// Chi-square per degree of freedom from which a pixel counts as not explained.
+/// From this chi-square per degree of freedom on, we call a pixel not explained.
 pub const CHI2_RISEN: f64 = 2.0;
 
 /// Figures of pixels of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparisonRow {
-    /// Kind of the pixels, such as `hiding, dark`.
+    /// Kind of the pixels, e.g. `hiding, dark`.
     pub kind: String,
     /// Number of pixels.
     pub pixels: u64,
@@ -32,36 +32,36 @@ pub struct ComparisonRow {
     pub mapped: f64,
     /// Presence and shares of the mapped pixels.
     pub scores: Scores,
-    /// Part of the shares told to be present that lie within one standard deviation of the truth. Pixels of one
-    /// pigment alone are left out.
+    /// Part of the shares, of pigments that the map finds, within one standard deviation of the
+    /// truth. We leave out pixels of one pigment alone.
     pub within_sd: f64,
     /// Share of the mapped pixels with a chi-square of [`CHI2_RISEN`] or more.
     pub chi2_risen: f64,
 }
 
-/// Figures of one pigment or group over all pixels but bare ones.
+/// Figures of one pigment or group over all pixels except bare ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PigmentFigures {
-    /// Name of the pigment or group. The last row holds those that the maps do not know.
+    /// Name of the pigment or group. The last row holds pigments that the maps do not know.
     pub name: String,
     /// Share of the pixels where it is present.
     pub there: f64,
-    /// Share of the pixels where it is told, traces left out.
+    /// Share of the pixels where the map finds it, without traces.
     pub told: f64,
-    /// Share of the pixels where it is present and told.
+    /// Share of the pixels where it is present and the map finds it.
     pub right: f64,
 }
 
-/// Maps beside the truth.
+/// How maps compare with the truth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// Pixels by what is seen: all that show paint, then hiding paint by its tone, then other kinds.
+    /// Figures by kind of pixel: all pixels that show paint, then hiding paint by its tone, then
+    /// other kinds.
     pub rows: Vec<ComparisonRow>,
-    /// Each pigment or group of the maps, then those that the maps lack.
+    /// Each pigment or group of the maps, then pigments that the maps lack.
     pub pigments: Vec<PigmentFigures>,
 }
 
-/// Sums over pixels of one kind.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     pixels: u64,
@@ -88,7 +88,7 @@ fn part(value: f64, of: f64) -> f64 {
     if of > 0.0 { value / of } else { 0.0 }
 }
 
-/// Rows of the table: names, and which pixels they hold.
+/// Rows of the table: name, and the pixels that belong to it.
 const KINDS: [(&str, &[PaintClass], Option<usize>); 8] = [
     (
         "all paint",
@@ -104,11 +104,11 @@ const KINDS: [(&str, &[PaintClass], Option<usize>); 8] = [
     ("bare", &[PaintClass::Bare], None),
 ];
 
-/// Compares `maps` with `truth`, block by block. A pigment is present where its share of the paint that
-/// is seen is `least` or more. Smaller shares are traces, which count as neither right nor wrong.
+/// Compares `maps` with `truth`, block by block. A pigment is present if its share of the visible
+/// paint is `least` or more. Smaller shares are traces, which count as neither right nor wrong.
 ///
 /// # Errors
-/// [`TruthError`] if one of both cannot be read, or they are of different scans.
+/// [`TruthError`] if we cannot read one of them, or they belong to different scans.
 pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Comparison, TruthError> {
     let rows = maps.rows();
     let columns = maps.columns();
@@ -174,15 +174,20 @@ pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Compariso
     })
 }
 
-/// Column of the maps of each pigment of the truth, or the number of columns where the maps have none.
+/// For each pigment of the truth its column in the maps, or the number of columns if the maps lack
+/// it.
 fn columns_of(maps: &StoredMaps, truth: &Truth) -> Vec<usize> {
     let groups = &maps.attributes().get("settings").unwrap_or(&Value::Null)["groups"];
-    let holds = |column: &String, pigment: &String| match groups[column.as_str()].as_array() {
-        Some(group) => group.iter().any(|name| name.as_str() == Some(pigment)),
-        None => column == pigment,
-    };
-    let column = |pigment| maps.pigments().iter().position(|column| holds(column, pigment));
-    truth.pigments().iter().map(|p| column(p).unwrap_or(maps.pigments().len())).collect()
+    let columns = truth.pigments().iter().map(|pigment: &String| {
+        let column = maps.pigments().iter().position(|column: &String| {
+            match groups[column.as_str()].as_array() {
+                Some(group) => group.iter().any(|name| name.as_str() == Some(pigment)),
+                None => column == pigment,
+            }
+        });
+        column.unwrap_or(maps.pigments().len())
+    });
+    columns.collect()
 }
 
 /// The trial of a pixel, with a last column for pigments that the maps do not know.
@@ -219,11 +224,11 @@ pub struct Truth {
     pigments: Vec<String>,
     settings: Map<String, Value>,
     arrays: Vec<(TruthArray, ZarrArray)>,
-    /// Rows of a chunk.
+    /// Number of rows in a chunk.
     rows: usize,
 }
 
-/// Whether the folder holds truth.
+/// Whether the folder holds the truth of a scan.
 fn is_truth(path: &Path) -> bool {
     let bytes = std::fs::read(path.join(GROUP)).unwrap_or_default();
     let group: Value = serde_json::from_slice(&bytes).unwrap_or_default();
@@ -234,7 +239,7 @@ impl Truth {
     /// Opens the truth in the folder `path`.
     ///
     /// # Errors
-    /// [`TruthError`] if it holds none, or damaged truth.
+    /// [`TruthError`] if it holds something else, or damaged truth.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, TruthError> {
         let path = path.as_ref();
         let file = path.join(GROUP);
@@ -257,9 +262,7 @@ impl Truth {
             let shape = &opened.about.shape;
             let chunk = &opened.about.chunk;
             let first = arrays.first().map_or(&opened, |(_, first)| first);
-            let (Some(&lines), Some(&samples)) =
-                (first.about.shape.first(), first.about.shape.get(1))
-            else {
+            let [lines, samples, ..] = first.about.shape[..] else {
                 return Err(damaged(format!("`{}` has the shape {shape:?}", array.name())));
             };
             let expected = array.sizes(lines, samples, pigments.len());
@@ -320,7 +323,7 @@ impl Truth {
         &self.settings
     }
 
-    /// Blocks of rows that are stored together, which are best read one after another.
+    /// Blocks of rows that we store together. Read them one after another.
     pub fn blocks(&self) -> impl Iterator<Item = Range<usize>> {
         let lines = self.lines;
         let rows = self.rows;
@@ -328,21 +331,20 @@ impl Truth {
     }
 
     /// Reads the block of rows at `place` in the order of [`Truth::blocks`].
-    ///
-    /// # Errors
-    /// [`TruthError`] if the block is missing or damaged.
     pub fn block(&self, place: usize) -> Result<TruthRows, TruthError> {
         let rows = self.rows.min(self.lines.saturating_sub(place * self.rows));
         let pixels = rows * self.samples;
         let mut truth = TruthRows { pigments: self.pigments.len(), ..TruthRows::default() };
         for (array, opened) in &self.arrays {
-            let damaged =
-                |problem: String| TruthError::Damaged { path: opened.folder.clone(), problem };
+            let folder = &opened.folder;
             let at: &[usize] =
                 if *array == TruthArray::Share { &[place, 0, 0] } else { &[place, 0] };
             let bytes = match opened.chunk(at) {
                 Ok(Some(bytes)) => bytes,
-                Ok(None) => return Err(damaged(format!("the chunk {place}, 0 is missing"))),
+                Ok(None) => {
+                    let problem = format!("the chunk {place}, 0 is missing");
+                    return Err(TruthError::Damaged { path: folder.clone(), problem });
+                }
                 Err(ChunkError::Io(path, reason)) => {
                     return Err(FileError::reading(&path, reason).into());
                 }
@@ -350,26 +352,24 @@ impl Truth {
                     return Err(TruthError::Damaged { path, problem: fault.problem });
                 }
             };
-            let singles = |count: usize| -> Vec<f32> {
-                bytes
-                    .as_chunks::<4>()
-                    .0
-                    .iter()
-                    .take(count)
-                    .map(|&v| f32::from_le_bytes(v))
-                    .collect()
-            };
+            let singles = bytes.as_chunks().0.iter().map(|&v| f32::from_le_bytes(v));
             match array {
-                TruthArray::Share => truth.share = singles(pixels * self.pigments.len()),
-                TruthArray::Ground => truth.ground = singles(pixels),
-                TruthArray::MeanReflectance => truth.mean_reflectance = singles(pixels),
+                TruthArray::Share => {
+                    truth.share = singles.take(pixels * self.pigments.len()).collect();
+                }
+                TruthArray::Ground => truth.ground = singles.take(pixels).collect(),
+                TruthArray::MeanReflectance => {
+                    truth.mean_reflectance = singles.take(pixels).collect();
+                }
                 TruthArray::Class => {
                     truth.class = bytes
                         .iter()
                         .take(pixels)
                         .map(|code: &u8| {
                             PaintClass::from_code(*code).ok_or_else(|| {
-                                damaged(format!("holds the class `{code}`, which has no meaning"))
+                                let problem =
+                                    format!("holds the class `{code}`, which has no meaning");
+                                TruthError::Damaged { path: folder.clone(), problem }
                             })
                         })
                         .collect::<Result<_, _>>()?;
@@ -380,12 +380,12 @@ impl Truth {
     }
 }
 
-/// Numbers of a chunk that should not be exceeded.
+/// A chunk should not hold more numbers than this.
 const CHUNK_NUMBERS: usize = 1 << 20;
 /// Most rows of a chunk.
 const MOST_ROWS: usize = 64;
 
-/// Truth to be written.
+/// Sizes and settings of the truth that you want to write.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TruthAbout {
     /// Number of rows.
@@ -394,11 +394,11 @@ pub struct TruthAbout {
     pub samples: usize,
     /// Names of the pigments.
     pub pigments: Vec<String>,
-    /// Settings of the simulation, which are stored.
+    /// Settings of the simulation. We store them too.
     pub settings: Map<String, Value>,
 }
 
-/// Truth that is being written. The description of the group comes last: a folder with one is whole.
+/// Writes truth. The description of the group comes last, so a folder with a description is whole.
 #[derive(Debug)]
 pub struct TruthWriter {
     path: PathBuf,
@@ -408,10 +408,10 @@ pub struct TruthWriter {
 }
 
 impl TruthWriter {
-    /// Begins truth in the folder `path`. Truth that is there already is replaced.
+    /// Begins truth in the folder `path`. This replaces truth that is already there.
     ///
     /// # Errors
-    /// [`TruthError`] if the folder holds anything else, or cannot be written.
+    /// [`TruthError`] if the folder holds anything else, or we cannot write it.
     pub fn create(path: &Path, about: TruthAbout) -> Result<Self, TruthError> {
         check(path)?;
         if about.lines == 0 || about.samples == 0 || about.pigments.is_empty() {
@@ -434,7 +434,7 @@ impl TruthWriter {
         Ok(Self { path: path.to_owned(), about, rows, next: 0 })
     }
 
-    /// Rows of a block, which is written as one chunk. The last block may be shorter.
+    /// Number of rows in a block, which we write as one chunk. The last block may be shorter.
     #[must_use]
     pub fn block_rows(&self) -> usize {
         self.rows
@@ -443,7 +443,7 @@ impl TruthWriter {
     /// Writes the next block of rows.
     ///
     /// # Errors
-    /// [`TruthError`] if the rows are no block of this truth, or cannot be written.
+    /// [`TruthError`] if the rows are not a block of this truth, or we cannot write them.
     pub fn add(&mut self, rows: &TruthRows) -> Result<(), TruthError> {
         let TruthAbout { lines, samples, pigments, .. } = &self.about;
         let expected = self.rows.min(lines - self.next);
@@ -496,7 +496,7 @@ impl TruthWriter {
     /// Ends the truth.
     ///
     /// # Errors
-    /// [`TruthError`] if rows are missing, or a file cannot be written.
+    /// [`TruthError`] if rows are missing, or we cannot write a file.
     pub fn finish(self) -> Result<(), TruthError> {
         let TruthAbout { lines, samples, pigments, settings } = &self.about;
         if self.next != *lines {
@@ -507,10 +507,10 @@ impl TruthWriter {
         for (name, document) in &documents {
             write(&self.path.join(name).join(GROUP), &text(document))?;
         }
-        let numbers =
-            |count: usize| -> Vec<u8> { (0..count as i64).flat_map(i64::to_le_bytes).collect() };
-        write(&self.path.join("y/c/0"), &numbers(*lines))?;
-        write(&self.path.join("x/c/0"), &numbers(*samples))?;
+        for (axis, count) in [("y/c/0", *lines), ("x/c/0", *samples)] {
+            let numbers: Vec<u8> = (0..count as i64).flat_map(i64::to_le_bytes).collect();
+            write(&self.path.join(axis), &numbers)?;
+        }
         write(&self.path.join("pigment/c/0"), &names(pigments))?;
         let about = json!({
             "title": TITLE,
@@ -526,7 +526,6 @@ impl TruthWriter {
         Ok(())
     }
 
-    /// Descriptions of all arrays, with their names.
     fn documents(&self) -> Vec<(String, Value)> {
         let TruthAbout { lines, samples, pigments, .. } = &self.about;
         let count = pigments.len();
@@ -558,7 +557,7 @@ fn singles(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|v| v.to_le_bytes()).collect()
 }
 
-/// Refuses a folder that holds anything else than truth.
+/// Refuses a folder that holds anything but truth.
 fn check(path: &Path) -> Result<(), TruthError> {
     if !path.exists() {
         return Ok(());

@@ -12,8 +12,8 @@ use serde_json::{Map, Value, json};
 use crate::camera::Camera;
 use crate::store::StoreError;
 
-/// Numbers of parts in the truth of a pixel: pigments, then layers, then the ground. Pigments and ground
-/// sum to 1, and so do layers and ground.
+/// How many parts the truth of a pixel has. First come pigments, then layers, then the ground.
+/// Pigments and ground sum to 1, and so do layers and ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TruthParts {
     /// Number of pigments.
@@ -35,9 +35,9 @@ impl TruthParts {
 pub struct TruthRows {
     /// Number of pigments.
     pub pigments: usize,
-    /// Share of each pigment in the paint that is seen, with sum 1. All are 0 where there is no paint.
+    /// Share of each pigment in the visible paint, with sum 1. If there is no paint, all are 0.
     pub share: Vec<f32>,
-    /// Part of the ground in what is seen, 0 to 1.
+    /// Part of the pixel that shows the ground, 0 to 1.
     pub ground: Vec<f32>,
     /// Mean reflectance over the bands, before drift and noise.
     pub mean_reflectance: Vec<f32>,
@@ -45,8 +45,8 @@ pub struct TruthRows {
     pub class: Vec<PaintClass>,
 }
 
-/// Truth of `rows`, of which the camera reported `mean_reflectance`. `of(line)` gives the parts of a row,
-/// pixel by pixel in the order of [`TruthParts`].
+/// Truth of `rows`. Pass the `mean_reflectance` that the camera reported. `of(line)` must give the
+/// parts of a row, pixel by pixel in the order of [`TruthParts`].
 #[must_use]
 pub fn truth_rows(
     camera: &Camera,
@@ -92,22 +92,22 @@ fn shares(parts: &[f64], TruthParts { pigments, .. }: TruthParts) -> Vec<f64> {
     parts[..pigments].iter().map(|part| part * factor).collect()
 }
 
-/// Part of the ground from which a film is thin.
+/// A film is thin if this part of the pixel shows the ground.
 const THIN: f64 = 0.05;
-/// Part of the ground from which no paint is seen.
+/// If this part of the pixel shows the ground, we see no paint.
 const BARE: f64 = 0.95;
-/// Part of all paint that one layer must have to be seen alone.
+/// A layer counts as seen alone if it has this part of all paint.
 const ALONE: f64 = 0.95;
-/// Share error between a pixel and its blurred neighbourhood from which it lies at an edge.
+/// A pixel lies at an edge from this share error between it and its blurred neighbourhood on.
 const EDGE: f64 = 0.1;
 
-/// Kind of a pixel by the paint that is seen.
+/// Kind of a pixel by the paint that you see there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum PaintClass {
-    /// One layer of one mixture hides all below it: what maps take for granted.
+    /// One layer of one mixture hides all below it. Maps assume this of every pixel.
     Hiding = 0,
-    /// Two layers or more are seen through each other, such as a glaze on white.
+    /// You see two layers or more through each other, e.g. a glaze on white.
     Glaze = 1,
     /// The ground shows through by 5 % or more.
     Thin = 2,
@@ -145,9 +145,9 @@ impl PaintClass {
         }
     }
 
-    /// Class of a pixel. `ground` is the part of it that shows the ground, `greatest` the part of the paint
-    /// seen that belongs to one layer, the one seen most. `apart` is half the sum of the absolute
-    /// differences between its own shares and the blurred ones.
+    /// Class of a pixel. `ground` is the part of it that shows the ground. `greatest` is the part
+    /// of the visible paint that belongs to the most visible layer. `apart` is half the sum of the
+    /// absolute differences between the pixel's own shares and the blurred ones.
     #[must_use]
     pub fn of(ground: f64, greatest: f64, apart: f64) -> Self {
         match (ground, greatest, apart) {
@@ -160,10 +160,9 @@ impl PaintClass {
     }
 }
 
-/// Title by which the group is known.
+/// Title of the group, by which we recognise it.
 pub(super) const TITLE: &str = "truth of a simulated scan";
 
-/// An array of truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TruthArray {
     Share,
@@ -192,7 +191,6 @@ impl TruthArray {
         }
     }
 
-    /// Bytes of a number.
     pub(super) const fn bytes(self) -> usize {
         match self {
             Self::Class => 1,
@@ -239,13 +237,13 @@ impl TruthArray {
     }
 }
 
-/// Truth that cannot be written, read or compared.
+/// We cannot write, read or compare truth.
 #[derive(Debug, thiserror::Error)]
 pub enum TruthError {
-    /// A file cannot be read or written.
+    /// We cannot read or write a file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The maps cannot be read.
+    /// We cannot read the maps.
     #[error(transparent)]
     Maps(#[from] StoreError),
     /// The folder holds something else.
@@ -254,15 +252,15 @@ pub enum TruthError {
         /// Path of the folder.
         path: PathBuf,
     },
-    /// The folder holds no truth, or damaged one.
+    /// The folder does not hold truth, or it is damaged.
     #[error("{}: {problem}", path.display())]
     Damaged {
         /// Path of the file or folder.
         path: PathBuf,
-        /// The fault that was found.
+        /// The fault that we found.
         problem: String,
     },
-    /// Rows do not fit the truth that is written.
+    /// Rows do not fit the truth that you write.
     #[error("{}: {problem}", path.display())]
     Rows {
         /// Path of the folder.
@@ -270,7 +268,7 @@ pub enum TruthError {
         /// The numbers that disagree.
         problem: String,
     },
-    /// Maps and truth are of different scans.
+    /// Maps and truth belong to different scans.
     #[error(
         "{}: the maps end at row {} and column {}, the truth has {lines} x {samples} pixels",
         path.display(), ends.0, ends.1

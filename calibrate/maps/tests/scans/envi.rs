@@ -1,5 +1,5 @@
-//! ENVI scans of every order and number type, and scans that are refused with the key, the numbers and a way
-//! out.
+//! ENVI scans of every order and number type, and scans that we refuse with the key, the numbers
+//! and a remedy.
 //!
 //! Headers of any content give an error or a header, never a panic.
 
@@ -43,7 +43,6 @@ fn every_order_number_type_and_byte_order_is_read() {
     }
 }
 
-/// Writes the scan as f32 fractions.
 fn fractions(folder: &Path, more: &str) -> std::path::PathBuf {
     let values = in_order("bil").into_iter().map(|value| f32::from(value) / 200.0);
     let data: Vec<u8> = values.flat_map(f32::to_le_bytes).collect();
@@ -251,7 +250,7 @@ fn pixels_are_spread_over_the_scan_and_sign_it() {
     assert_ne!(damaged.sign().unwrap(), sign, "another pixel");
 }
 
-/// Headers that the suite tries. IMPASTO_FUZZ_HEADERS names another number.
+/// Number of headers that we try. Set IMPASTO_FUZZ_HEADERS to try another number.
 fn cases() -> u32 {
     let asked = std::env::var("IMPASTO_FUZZ_HEADERS").ok();
     asked.and_then(|number| number.parse().ok()).unwrap_or(4000)

@@ -232,23 +232,19 @@ fn tiled(is_planar: bool) -> Vec<u8> {
             at
         })
         .collect();
-    let place = |bytes: &mut Vec<u8>, values: &[u32]| match values {
-        [one] => *one,
-        several => {
+    let [offsets_at, sizes_at] = [offsets, sizes].map(|values| match values[..] {
+        [one] => one,
+        _ => {
             let at = bytes.len() as u32;
-            bytes.extend(several.iter().flat_map(|value| value.to_le_bytes()));
+            bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
             at
         }
-    };
-    let offsets_at = place(&mut bytes, &offsets);
-    let sizes_at = place(&mut bytes, &sizes);
-    let shorts = |bytes: &mut Vec<u8>, value: u16, count: usize| {
+    });
+    let [bits_at, extra_at] = [16_u16, 0].map(|value| {
         let at = bytes.len() as u32;
-        bytes.extend((0..count).flat_map(|_| value.to_le_bytes()));
+        bytes.extend([value; BANDS].into_iter().flat_map(u16::to_le_bytes));
         at
-    };
-    let bits_at = shorts(&mut bytes, 16, BANDS);
-    let extra_at = shorts(&mut bytes, 0, BANDS);
+    });
     let count = tiles.len() as u32;
     let short = 3_u16;
     let long = 4_u16;

@@ -1,5 +1,5 @@
-//! Folders of Specim cameras, counts with white and dark readings, files that the caller reads, and Zarr
-//! arrays.
+//! Folders of Specim cameras, counts with white and dark readings, files that you read yourself,
+//! and Zarr arrays.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,6 @@ use crate::written::{
     value, write_envi,
 };
 
-/// Dark of a column and band.
 fn dark(sample: usize, band: usize) -> f64 {
     100.0 + 3.0 * sample as f64 + 7.0 * band as f64
 }
@@ -24,7 +23,6 @@ fn light(sample: usize, band: usize) -> f64 {
     2000.0 + 100.0 * sample as f64 - 200.0 * band as f64
 }
 
-/// Writes a BIL scan of u16 counts.
 fn write_counts(
     folder: &Path,
     name: &str,
@@ -136,18 +134,18 @@ fn the_cameras_own_reflectance_comes_first() {
 #[test]
 fn one_column_of_readings_serves_all_columns() {
     let folder = tempfile::tempdir().unwrap();
-    let narrow = |name: &str, count: u16| {
+    let [white, dark] = [("white", 2100_u16), ("dark", 100)].map(|(name, count)| {
         let text = header("bil", 12, "").replace("samples = 7", "samples = 1");
         let text = text.replace("lines = 5", "lines = 1");
         let data: Vec<u8> = [count; BANDS].into_iter().flat_map(u16::to_le_bytes).collect();
         write_envi(folder.path(), name, &text, &data)
-    };
+    });
     let scan = write_counts(folder.path(), "scan", LINES, "", |line, sample, band| {
         100.0 + 10.0 * f64::from(value(line, sample, band))
     });
     let options = CubeOptions {
-        white_reading: Some(narrow("white", 2100)),
-        dark_reading: DarkReading::File(narrow("dark", 100)),
+        white_reading: Some(white),
+        dark_reading: DarkReading::File(dark),
         ..CubeOptions::default()
     };
     let cube = Cube::open_with(&scan, &options).unwrap();
@@ -259,7 +257,6 @@ fn columns_without_light_are_not_mapped_and_told() {
     }
 }
 
-/// Bytes in memory.
 #[derive(Debug)]
 struct Memory(Vec<u8>);
 
@@ -366,8 +363,8 @@ fn zarr_reflectance(line: usize, sample: usize, band: usize) -> f32 {
     f32::from(value(line, sample, band)) / 200.0
 }
 
-/// Writes the group of a cube with chunks of 2 rows, 3 columns and 3 bands, without packing, in the
-/// order of axes `axes`: 0 is the row, 1 the column, 2 the band.
+/// Writes the group of a cube with chunks of 2 rows, 3 columns and 3 bands, without packing. `axes`
+/// is the order of axes, where 0 is the row, 1 the column and 2 the band.
 fn write_group(folder: &Path, axes: [usize; 3], transpose: Option<[usize; 3]>) {
     let names = ["y", "x", "wavelength"];
     let sizes = [LINES, SAMPLES, BANDS];

@@ -1,7 +1,7 @@
 //! A file system in memory, with the calls of [`std::fs`] that impasto uses.
 //!
-//! A page has no disk. Its files lie here. The page itself copies the files that should outlive it
-//! to the browser's storage: [`take_changes`] lists what has changed.
+//! A page has no disk, so its files lie here. The page copies files that should outlive it to the
+//! browser's storage. Call [`take_changes`] to list what has changed.
 
 mod open_file;
 
@@ -20,7 +20,6 @@ pub use open_file::{File, OpenOptions, *};
 /// Size, kind and time of what lies at a path.
 #[derive(Debug, Clone)]
 pub struct Metadata {
-    /// Number of bytes. A folder has none.
     bytes: Option<u64>,
     modified: SystemTime,
 }
@@ -46,18 +45,12 @@ impl Metadata {
     }
 
     /// Time of the last change.
-    ///
-    /// # Errors
-    /// None.
     pub fn modified(&self) -> io::Result<SystemTime> {
         Ok(self.modified)
     }
 }
 
 /// Size, kind and time of the file or folder at `path`.
-///
-/// # Errors
-/// If nothing lies there.
 pub fn metadata(path: impl AsRef<Path>) -> io::Result<Metadata> {
     let tree = tree();
     let (node, modified) = tree.find(path.as_ref())?;
@@ -68,30 +61,25 @@ pub fn metadata(path: impl AsRef<Path>) -> io::Result<Metadata> {
     Ok(Metadata { bytes, modified })
 }
 
-/// A file that has changed: its path, and its content or `None` if it is gone.
+/// A file that has changed: its path, and its content, or `None` if it is gone.
 pub type Change = (PathBuf, Option<Arc<Vec<u8>>>);
 
 static TREE: Mutex<Tree> = Mutex::new(Tree::new());
 
-/// The tree of this process.
 fn tree() -> MutexGuard<'static, Tree> {
     TREE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file or a folder.
 #[derive(Debug, Clone)]
 enum Node {
-    /// A folder, which may be empty.
     Folder,
-    /// A file with its content.
     File(Arc<Vec<u8>>),
 }
 
-/// Folders and files by their paths from the root on. The root itself is always there.
+/// Folders and files by their paths from the root on. This always holds the root itself.
 #[derive(Debug)]
 struct Tree {
     nodes: BTreeMap<PathBuf, (Node, SystemTime)>,
-    /// Paths of files that have changed.
     changed: BTreeSet<PathBuf>,
 }
 
@@ -122,7 +110,6 @@ impl Tree {
         self.nodes.get(&path).cloned().ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
-    /// Content of a file.
     fn file(&self, path: &Path) -> io::Result<Arc<Vec<u8>>> {
         match self.find(path)?.0 {
             Node::File(bytes) => Ok(bytes),
@@ -137,7 +124,7 @@ impl Tree {
         }
     }
 
-    /// Writes a file to an existing folder.
+    /// Writes a file to a folder, which must exist.
     fn put(&mut self, path: &Path, bytes: Arc<Vec<u8>>) -> io::Result<()> {
         let path = from_root(path);
         let folder = path.parent().ok_or(io::ErrorKind::IsADirectory)?;
@@ -150,7 +137,7 @@ impl Tree {
         Ok(())
     }
 
-    /// Makes a folder in one that is there.
+    /// Makes a folder in one that exists.
     fn make_folder(&mut self, path: &Path) -> io::Result<()> {
         let path = from_root(path);
         if self.find(&path).is_ok() {
@@ -175,7 +162,6 @@ impl Tree {
         Ok(())
     }
 
-    /// Paths directly in a folder.
     fn entries(&self, path: &Path) -> io::Result<Vec<PathBuf>> {
         self.is_folder(path)?;
         let path = from_root(path);
@@ -191,7 +177,6 @@ impl Tree {
         Ok(())
     }
 
-    /// Removes a folder with all below it.
     fn remove_folder(&mut self, path: &Path) -> io::Result<()> {
         self.is_folder(path)?;
         for path in self.below(&from_root(path)) {
@@ -202,7 +187,7 @@ impl Tree {
         Ok(())
     }
 
-    /// A path that is there, with all below it.
+    /// The path and all paths below it.
     fn below(&self, path: &Path) -> Vec<PathBuf> {
         self.nodes.keys().filter(|found| found.starts_with(path)).cloned().collect()
     }

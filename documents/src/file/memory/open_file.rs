@@ -1,4 +1,5 @@
-//! Files that are open, and the calls of [`std::fs`] that open, list and move them.
+//! Files that are open, and the calls of [`std::fs`] that open, list and move them. A call fails
+//! whenever [`std::fs`] would.
 
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -13,10 +14,9 @@ use web_time::SystemTime;
 
 use super::{Change, Metadata, from_root, metadata, tree};
 
-/// Paths that are locked.
 static LOCKED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// An open file. What is written is in the file at once.
+/// An open file. What you write is in the file at once.
 #[derive(Debug)]
 pub struct File {
     path: PathBuf,
@@ -34,44 +34,41 @@ pub struct OpenOptions {
 }
 
 impl OpenOptions {
-    /// Opens a file that is there.
+    /// Options that open an existing file.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Whether we read it, which we always can.
+    /// Does nothing, because you can always read.
     pub fn read(&mut self, _: bool) -> &mut Self {
         self
     }
 
-    /// Whether we write it, which we always can.
+    /// Does nothing, because you can always write.
     pub fn write(&mut self, _: bool) -> &mut Self {
         self
     }
 
-    /// Whether it is made if it is missing.
+    /// Whether to make the file if it is missing.
     pub fn create(&mut self, create: bool) -> &mut Self {
         self.create = create;
         self
     }
 
-    /// Whether its content is removed.
+    /// Whether to remove the content.
     pub fn truncate(&mut self, truncate: bool) -> &mut Self {
         self.truncate = truncate;
         self
     }
 
-    /// Whether all is written at its end.
+    /// Whether to write everything at the end.
     pub fn append(&mut self, append: bool) -> &mut Self {
         self.append = append;
         self
     }
 
     /// Opens the file.
-    ///
-    /// # Errors
-    /// If it is missing and not to be made, or cannot be made.
     pub fn open(&self, path: impl AsRef<Path>) -> io::Result<File> {
         let path = from_root(path.as_ref());
         let mut tree = tree();
@@ -88,56 +85,38 @@ impl OpenOptions {
 }
 
 impl File {
-    /// Opens a file that is there.
-    ///
-    /// # Errors
-    /// If it is missing.
+    /// Opens an existing file.
     pub fn open(path: impl AsRef<Path>) -> io::Result<Self> {
         OpenOptions::new().open(path)
     }
 
     /// Makes an empty file.
-    ///
-    /// # Errors
-    /// If its folder is missing, or it is a folder.
     pub fn create(path: impl AsRef<Path>) -> io::Result<Self> {
         OpenOptions::new().create(true).truncate(true).open(path)
     }
 
-    /// How a file is opened.
+    /// Options for opening a file.
     #[must_use]
     pub fn options() -> OpenOptions {
         OpenOptions::new()
     }
 
-    /// Does nothing: what is written is in the file at once.
-    ///
-    /// # Errors
-    /// None.
+    /// Does nothing, because what you write is in the file at once.
     pub fn sync_all(&self) -> io::Result<()> {
         Ok(())
     }
 
     /// Size and time of the file.
-    ///
-    /// # Errors
-    /// If it was removed.
     pub fn metadata(&self) -> io::Result<Metadata> {
         metadata(&self.path)
     }
 
     /// Cuts the file off, or fills it up with zeros.
-    ///
-    /// # Errors
-    /// If it was removed.
     pub fn set_len(&self, bytes: u64) -> io::Result<()> {
         self.change(|content| content.resize(bytes as usize, 0))
     }
 
     /// Locks the file until [`File::unlock`] or its end.
-    ///
-    /// # Errors
-    /// If it is locked already.
     pub fn try_lock(&self) -> Result<(), TryLockError> {
         let mut locked = LOCKED.lock().unwrap_or_else(PoisonError::into_inner);
         if !locked.insert(self.path.clone()) {
@@ -148,9 +127,6 @@ impl File {
     }
 
     /// Gives the lock up.
-    ///
-    /// # Errors
-    /// None.
     pub fn unlock(&self) -> io::Result<()> {
         if self.locks.take() {
             LOCKED.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.path);
@@ -158,7 +134,7 @@ impl File {
         Ok(())
     }
 
-    /// Changes the content, which is copied only if another holds it too.
+    /// Changes the content. This copies it only if someone else holds it too.
     fn change(&self, change: impl FnOnce(&mut Vec<u8>)) -> io::Result<()> {
         let mut tree = tree();
         let mut bytes = tree.file(&self.path)?;
@@ -234,76 +210,49 @@ impl DirEntry {
     }
 
     /// Size, kind and time of the entry.
-    ///
-    /// # Errors
-    /// If it was removed since the folder was listed.
     pub fn metadata(&self) -> io::Result<Metadata> {
         metadata(&self.0)
     }
 }
 
 /// Content of a file.
-///
-/// # Errors
-/// If there is no file at `path`.
 pub fn read(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
     tree().file(path.as_ref()).map(|bytes| bytes.to_vec())
 }
 
 /// Content of a file of text.
-///
-/// # Errors
-/// If there is no file at `path`, or it is not UTF-8.
 pub fn read_to_string(path: impl AsRef<Path>) -> io::Result<String> {
     String::from_utf8(read(path)?)
         .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
 }
 
 /// Writes a file.
-///
-/// # Errors
-/// If its folder is missing, or it is a folder.
 pub fn write(path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     tree().put(path.as_ref(), Arc::new(bytes.as_ref().to_vec()))
 }
 
 /// Entries of a folder, by name.
-///
-/// # Errors
-/// If there is no folder at `path`.
 pub fn read_dir(path: impl AsRef<Path>) -> io::Result<std::vec::IntoIter<io::Result<DirEntry>>> {
     let entries = tree().entries(path.as_ref())?;
     Ok(entries.into_iter().map(|path| Ok(DirEntry(path))).collect::<Vec<_>>().into_iter())
 }
 
 /// Makes a folder.
-///
-/// # Errors
-/// If something lies there, or the folder above it is missing.
 pub fn create_dir(path: impl AsRef<Path>) -> io::Result<()> {
     tree().make_folder(path.as_ref())
 }
 
 /// Makes a folder and those above it.
-///
-/// # Errors
-/// If a file is in the way.
 pub fn create_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
     tree().make_folders(path.as_ref())
 }
 
 /// Removes a file.
-///
-/// # Errors
-/// If there is none at `path`.
 pub fn remove_file(path: impl AsRef<Path>) -> io::Result<()> {
     tree().remove_file(path.as_ref())
 }
 
 /// Removes an empty folder.
-///
-/// # Errors
-/// If there is none at `path`, or it is not empty.
 pub fn remove_dir(path: impl AsRef<Path>) -> io::Result<()> {
     let mut tree = tree();
     if !tree.entries(path.as_ref())?.is_empty() {
@@ -313,25 +262,16 @@ pub fn remove_dir(path: impl AsRef<Path>) -> io::Result<()> {
 }
 
 /// Removes a folder with all that lies in it.
-///
-/// # Errors
-/// If there is none at `path`.
 pub fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
     tree().remove_folder(path.as_ref())
 }
 
-/// Gives a file or folder another path. A file replaces what lay there.
-///
-/// # Errors
-/// If there is none at `from`, or `to` cannot be used.
+/// Gives a file or folder another path. A file replaces whatever lies there.
 pub fn rename(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<()> {
     tree().rename(from.as_ref(), to.as_ref())
 }
 
 /// Copies a file. Returns its number of bytes.
-///
-/// # Errors
-/// If there is none at `from`, or `to` cannot be used.
 pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<u64> {
     let mut tree = tree();
     let bytes = tree.file(from.as_ref())?;
@@ -340,10 +280,7 @@ pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<u64> {
     Ok(length)
 }
 
-/// Copies a file: the content is shared until one of both is written.
-///
-/// # Errors
-/// As [`copy`].
+/// Copies a file. Both share the content until you write one of them.
 pub fn hard_link(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<()> {
     copy(from, to).map(drop)
 }

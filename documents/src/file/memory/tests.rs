@@ -10,7 +10,7 @@ fn kind<T>(result: io::Result<T>) -> Option<io::ErrorKind> {
     result.err().map(|error| error.kind())
 }
 
-/// All calls that a session makes, once here and once on the disk of the machine: the same answers.
+/// We make all calls of a session once here and once on the disk, and expect the same answers.
 #[test]
 fn it_answers_like_the_disk() {
     macro_rules! answers {
@@ -71,10 +71,11 @@ fn changes_are_told_once_with_what_is_there_in_the_end() {
     create_dir_all("/told/partial").unwrap();
     let own = || {
         let changes = take_changes().into_iter().filter(|(path, _)| path.starts_with("/told"));
-        let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
-        changes
-            .map(|(path, bytes)| (path.display().to_string(), bytes.map(|bytes| text(&bytes))))
-            .collect::<Vec<_>>()
+        let texts = changes.map(|(path, bytes)| {
+            let text = bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+            (path.display().to_string(), text)
+        });
+        texts.collect::<Vec<_>>()
     };
     write("/told/partial/a", "1").unwrap();
     write("/told/partial/a", "2").unwrap();

@@ -1,4 +1,4 @@
-//! The text header of an ENVI cube: its fields, and what they say about the numbers.
+//! The text header of an ENVI cube: its fields, and what they mean for the numbers.
 
 use std::path::{Path, PathBuf};
 
@@ -10,39 +10,38 @@ use crate::numbers::{ByteOrder, NumberType};
 /// Keys that name the quantity of the values.
 const QUANTITY_KEYS: [&str; 2] = ["data units", "z plot titles"];
 
-/// Most bands of a scan, so that a wrong header takes no memory.
+/// We accept at most this many bands, so that a wrong header takes no memory.
 const MOST_BANDS: usize = 65_536;
 
-/// An ENVI header that was checked.
+/// The checked header of an ENVI file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnviHeader {
-    /// Sizes and order of the data.
     pub(crate) layout: Layout,
-    /// Wavelength of each band in nm, where the header has them.
+    /// Wavelength of each band in nm, if the header has them.
     pub wavelengths_nm: Option<Vec<f64>>,
-    /// Full width at half maximum of each band in nm, where the header has them.
+    /// Full width at half maximum of each band in nm, if the header has them.
     pub fwhm_nm: Option<Vec<f64>>,
     /// Whether each band is good (`bbl`).
     pub good: Vec<bool>,
     /// Value that marks pixels without data.
     pub ignore: Option<f64>,
-    /// Number by which values are divided to give reflectance.
+    /// Divide values by this number to get reflectance.
     pub scale_factor: Option<f64>,
-    /// Factor and summand of each band that give reflectance.
+    /// Factor and summand that turn the values of each band into reflectance.
     pub gains: Option<Vec<(f64, f64)>>,
     /// Whether the header says that the values are a radiance.
     pub is_radiance: bool,
     /// Integration time, in the unit of the camera.
     pub integration_time: Option<f64>,
-    /// Sentences about the header that a user should see.
+    /// Sentences about the header that you should show to the user.
     pub remarks: Vec<String>,
 }
 
 impl EnviHeader {
-    /// Reads the header in `bytes`. `path` is its name in messages.
+    /// Reads the header in `bytes`. Messages call it `path`.
     ///
     /// # Errors
-    /// [`CubeError`] with line and key, for anything that the data cannot be read with.
+    /// [`CubeError`] with line and key, if we cannot read the data with this header.
     pub fn parse(bytes: &[u8], path: &Path) -> Result<Self, CubeError> {
         let fields = Fields::parse(bytes, path)?;
         refuse_other_kinds(&fields)?;
@@ -126,7 +125,7 @@ fn refuse_other_kinds(fields: &Fields) -> Result<(), CubeError> {
     Ok(())
 }
 
-/// Whether a key about the quantity holds `word`.
+/// Whether one of the [`QUANTITY_KEYS`] holds `word`.
 fn says(fields: &Fields, word: &str) -> Result<bool, CubeError> {
     for key in QUANTITY_KEYS {
         if fields.text(key)?.is_some_and(|text| text.to_lowercase().contains(word)) {
@@ -242,17 +241,15 @@ fn gains(fields: &Fields, bands: usize) -> Result<Option<Vec<(f64, f64)>>, CubeE
     }
 }
 
-/// A key of the header.
 #[derive(Debug)]
 struct Field {
-    /// Lower case, words separated by one space.
+    /// Key in lower case, with one space between words.
     key: String,
-    /// Value without its braces.
     value: String,
     line: usize,
 }
 
-/// Keys and values of a header. Keys are found whatever their case.
+/// Keys and values of a header. You find a key whatever its case.
 #[derive(Debug)]
 pub(crate) struct Fields {
     path: PathBuf,
@@ -267,16 +264,13 @@ pub(crate) fn is_header(bytes: &[u8]) -> bool {
 
 /// Whether the text is the header of an Esri grid, which also ends in `.hdr`.
 fn is_esri(text: &str) -> bool {
-    let has = |word: &str| {
-        text.lines().any(|line| {
-            line.split_whitespace().next().is_some_and(|first| first.eq_ignore_ascii_case(word))
-        })
-    };
-    has("ncols") && has("nrows")
+    let mut first_words = text.lines().filter_map(|line| line.split_whitespace().next());
+    let mut again = first_words.clone();
+    first_words.any(|word| word.eq_ignore_ascii_case("ncols"))
+        && again.any(|word| word.eq_ignore_ascii_case("nrows"))
 }
 
 impl Fields {
-    /// Splits the header in `bytes` into fields.
     pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Self, CubeError> {
         let text = String::from_utf8_lossy(bytes);
         if !is_header(bytes) {
@@ -327,7 +321,8 @@ impl Fields {
         Ok(Self { path: path.to_owned(), fields })
     }
 
-    /// The value of a key and its line. It is an error if it is given twice with different values.
+    /// The value of a key and its line. This fails if the header has the key twice with different
+    /// values.
     fn find(&self, key: &str) -> Result<Option<&Field>, CubeError> {
         let mut found = self.fields.iter().filter(|field| field.key == key);
         let Some(first) = found.next() else { return Ok(None) };
@@ -360,13 +355,12 @@ impl Fields {
         }
     }
 
-    /// Text of a key, `None` if it is not there or empty.
+    /// Text of a key, or `None` if it is missing or empty.
     pub(crate) fn text(&self, key: &str) -> Result<Option<&str>, CubeError> {
         let found = self.find(key)?;
         Ok(found.map(|field| field.value.as_str()).filter(|value| !value.is_empty()))
     }
 
-    /// Whole number of a key.
     pub(crate) fn whole(&self, key: &str) -> Result<Option<u64>, CubeError> {
         let Some(text) = self.text(key)? else { return Ok(None) };
         let number = text.parse().map_err(|_| {
@@ -386,7 +380,7 @@ impl Fields {
         })
     }
 
-    /// Finite number of a key.
+    /// Number of a key, which must be finite.
     pub(crate) fn number(&self, key: &str) -> Result<Option<f64>, CubeError> {
         let Some(text) = self.text(key)? else { return Ok(None) };
         match text.parse::<f64>() {
@@ -421,7 +415,7 @@ impl Fields {
 }
 
 impl CubeError {
-    /// The error at another line.
+    /// Moves the error to another line.
     fn at(self, at: usize) -> Self {
         match self {
             Self::Key { path, key, problem, way_out, .. } => {
@@ -432,7 +426,7 @@ impl CubeError {
     }
 }
 
-/// A value of a file as messages show it.
+/// Shortens a value of a file for messages.
 pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
     match text.char_indices().nth(LONGEST) {

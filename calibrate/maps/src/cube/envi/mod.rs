@@ -20,10 +20,9 @@ pub(crate) use header::is_header;
 #[cfg(feature = "files")]
 pub use written::{EnviAbout, EnviWriter, WRITTEN_SCALE, written_data};
 
-/// Endings of data files beside `NAME.hdr`.
+/// Data files beside `NAME.hdr` may have these endings.
 const ENDINGS: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "cube", "bin", "sc"];
 
-/// `path` with `ending` added to its name.
 fn with_added(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".");
@@ -31,7 +30,7 @@ fn with_added(path: &Path, ending: &str) -> PathBuf {
     name.into()
 }
 
-/// Paths where the data of the header `path` may be, the likeliest first.
+/// Paths where the data of the header `path` may lie, the likeliest first.
 pub(crate) fn places(path: &Path) -> Vec<PathBuf> {
     // `scan.img.hdr` belongs to `scan.img`, `scan.hdr` to `scan` or `scan.img`.
     let stem = path.with_extension("");
@@ -73,7 +72,7 @@ fn bytes(place: &PathBuf) -> Option<u64> {
     std::fs::metadata(place).map(|about| about.len()).ok()
 }
 
-/// Checks that the file `data` of `found` bytes has the size that the header `path` describes.
+/// Checks that the file `data` has the size that the header `path` describes. It has `found` bytes.
 pub(crate) fn check_size(
     data: &Path,
     path: &Path,
@@ -118,7 +117,7 @@ pub(crate) fn header_of(path: &Path) -> Option<PathBuf> {
     added.into_iter().chain(replaced).find(|place| place.is_file())
 }
 
-/// Largest header that is read. A header of 65,536 bands has 2 MB.
+/// We read headers up to this size. A header of 65,536 bands has 2 MB.
 const LARGEST_HEADER: u64 = 16 << 20;
 
 /// Opens the header at `path` and its data.
@@ -135,7 +134,7 @@ pub(crate) fn open(path: &Path) -> Result<Opened, CubeError> {
     Ok(opened(path, header, file))
 }
 
-/// Refuses a header that is too large to be one of ENVI.
+/// Refuses a file that is too large to be a header of ENVI.
 pub(crate) fn check_length(path: &Path, bytes: u64) -> Result<(), CubeError> {
     if bytes <= LARGEST_HEADER {
         return Ok(());
@@ -144,7 +143,7 @@ pub(crate) fn check_length(path: &Path, bytes: u64) -> Result<(), CubeError> {
     Err(CubeError::format(path, problem, "name the header, which is a short text"))
 }
 
-/// The scan of a header and of data with the matching size.
+/// Makes a scan of a header and its data, if their sizes match.
 pub(crate) fn opened(path: &Path, header: EnviHeader, file: PositionalFile) -> Opened {
     let layout = header.layout;
     let values = match (header.gains, header.scale_factor) {

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use documents::file::{FileAction, FileError, FileInPieces, write_whole};
 
-/// Number by which stored values are divided to give reflectance.
+/// Divide stored values by this number to get reflectance.
 pub const WRITTEN_SCALE: f32 = 10_000.0;
 
-/// A scan to be written.
+/// Sizes and description of a scan that you want to write.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnviAbout {
     /// Number of rows.
@@ -18,12 +18,12 @@ pub struct EnviAbout {
     pub samples: usize,
     /// Wavelengths of the bands in nm.
     pub wavelengths_nm: Vec<f64>,
-    /// Description for readers. Braces and line breaks are left out.
+    /// Description for readers. We leave out braces and line breaks.
     pub description: String,
 }
 
-/// A scan that is being written: `NAME.bil` of 16-bit numbers, each line band after band, and the header
-/// `NAME.hdr`, which comes last: a scan with a header is whole.
+/// Writes a scan: first `NAME.bil` of 16-bit numbers, each line band after band, then the header
+/// `NAME.hdr`. The header comes last, so a scan with a header is whole.
 #[derive(Debug)]
 pub struct EnviWriter {
     header: PathBuf,
@@ -32,7 +32,7 @@ pub struct EnviWriter {
     lines: usize,
 }
 
-/// Path of the data of the header `path`.
+/// Path of the data that belong to the header `path`.
 #[must_use]
 pub fn written_data(path: &Path) -> PathBuf {
     path.with_extension("bil")
@@ -40,19 +40,16 @@ pub fn written_data(path: &Path) -> PathBuf {
 
 impl EnviWriter {
     /// Begins the scan with the header `path`.
-    ///
-    /// # Errors
-    /// [`FileError`] if its files cannot be written.
     pub fn create(path: &Path, about: EnviAbout) -> Result<Self, FileError> {
         let data = FileInPieces::create(&written_data(path))?;
         Ok(Self { header: path.to_owned(), about, data, lines: 0 })
     }
 
-    /// Adds whole rows of reflectances, pixel by pixel with all bands of each. Values are rounded to
-    /// 0.0001, and lie between 0 and 6.5535 in the file.
+    /// Adds whole rows of reflectances, pixel by pixel with all bands of each. This rounds values
+    /// to 0.0001 and limits them to 0 to 6.5535.
     ///
     /// # Errors
-    /// [`FileError`] if they cannot be written, or are no whole rows of the scan.
+    /// [`FileError`] if we cannot write them, or they are not whole rows of the scan.
     pub fn add(&mut self, values: &[f32]) -> Result<(), FileError> {
         let samples = self.about.samples;
         let bands = self.about.wavelengths_nm.len();
@@ -81,10 +78,10 @@ impl EnviWriter {
         Ok(())
     }
 
-    /// Ends the scan: its data get their name, then the header is written.
+    /// Ends the scan: the data get their name, then we write the header.
     ///
     /// # Errors
-    /// [`FileError`] if a file cannot be written, or rows are missing.
+    /// [`FileError`] if we cannot write a file, or rows are missing.
     pub fn finish(self) -> Result<(), FileError> {
         if self.lines != self.about.lines {
             let found = self.lines;
