@@ -1,5 +1,5 @@
-//! Frames of a still life of 60,000 triangles at 750 x 570 pixels: what is seen, light and
-//! hatching, and the picture.
+//! Frames of a still life of 60,000 triangles at 750 x 570 pixels. We measure what is seen, light
+//! and hatching, and the picture.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -100,7 +100,7 @@ fn revealed(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| scene.reveal(&visible, &shaded));
 }
 
-/// From the model to the picture in the processor's memory, but for counting.
+/// Goes from the model to the picture in the processor's memory, without counting.
 #[divan::bench(args = [BackendChoice::Cpu, BackendChoice::Gpu])]
 fn frame(bencher: Bencher<'_, '_>, choice: BackendChoice) {
     let Ok(compute) = Compute::choose(choice) else { return };

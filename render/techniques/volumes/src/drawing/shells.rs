@@ -87,14 +87,15 @@ impl Explain for ShellError {
     }
 }
 
-/// The share of colour at each count of volumes or shells that hold a point.
+/// The share of colour at each count of volumes or shells that hold a point. For example, [0, 0.5,
+/// 1] gives half the colour at the first shell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TintTable {
     tints: Vec<f32>,
 }
 
 impl TintTable {
-    /// A table of tints at counts of 0, 1, 2 and so on.
+    /// A table of tints. You give the tints at counts of 0, 1, 2 and so on.
     ///
     /// # Errors
     /// [`ShellError`] if there are fewer than 2 or more than 64, the first is not 0, one is not
@@ -123,8 +124,8 @@ impl TintTable {
         Self { tints: vec![0.0, 1.0] }
     }
 
-    /// The tint at a count; higher counts than the table has take the last tint, negative ones
-    /// the first.
+    /// The tint at a count. If the count is higher than the table, you get the last tint, and for
+    /// a negative count the first.
     #[must_use]
     #[inline(always)]
     pub fn tint(&self, count: i32) -> f32 {
@@ -139,7 +140,7 @@ impl TintTable {
     }
 }
 
-/// Concentric copies of a volume's mesh, scaled about its centre, whose counts add up to softer
+/// Concentric copies of a volume's mesh, scaled about its centre. Their counts add up to softer
 /// edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shells {
@@ -148,7 +149,7 @@ pub struct Shells {
 }
 
 impl Shells {
-    /// Shells of falling `scales` (above 0, at most 1) with one tint for outside and one for each
+    /// Shells of falling `scales` (above 0, at most 1). Pass one tint for outside and one for each
     /// count of shells.
     ///
     /// # Errors
@@ -171,13 +172,13 @@ impl Shells {
         Ok(Self { scales, table: TintTable::new(tints)? })
     }
 
-    /// One shell: a hard edge.
+    /// One shell. This gives a hard edge.
     #[must_use]
     pub fn hard() -> Self {
         Self { scales: vec![1.0], table: TintTable::hard() }
     }
 
-    /// Four shells, 7 % of the radius apart, that bring a quarter of the colour each.
+    /// Four shells, 7 % of the radius apart. Each brings a quarter of the colour.
     #[must_use]
     pub fn washed() -> Self {
         let tints = vec![0.0, 0.25, 0.5, 0.75, 1.0];

@@ -1,6 +1,5 @@
-//! Motion as a whole against theory: rest, energy, growth, microstructure, walls.
-//!
-//! Motion under extreme forces, pushes and times, and on any number of threads.
+//! Compares motion as a whole with theory: rest, energy, growth, microstructure, walls. Also tries
+//! extreme forces, pushes and times, and any number of threads.
 
 use std::sync::Arc;
 
@@ -16,7 +15,7 @@ use crate::volume::Volume;
 
 const STEP: f32 = 1.0 / 120.0;
 
-/// Moves volumes by single steps, looking at them after each.
+/// Moves volumes by single steps, and looks at them after each.
 fn run(
     volumes: &mut [Volume],
     settings: &MotionSettings,
@@ -30,13 +29,11 @@ fn run(
     }
 }
 
-/// Places of the particles from the centre.
 fn places(volume: &Volume) -> Vec<DVec3> {
     let [x, y, z] = &volume.particles.places;
     (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i]).as_dvec3()).collect()
 }
 
-/// Distances from the centre over that of a resting ball.
 fn distances(volume: &Volume) -> Vec<f64> {
     let rest = f64::from(volume.radius / volume.mesh().inradius);
     places(volume).iter().map(|place| place.length() / rest).collect()
@@ -70,8 +67,8 @@ fn a_kicked_ball_comes_to_rest_as_a_ball() {
     assert!(roughest > 1e-3, "the kick moved it by {roughest} only");
 }
 
-/// Kinetic energy and that of all springs. Particles weigh as much as they have neighbours, so that
-/// cohesion is the same from both sides.
+/// Kinetic energy plus the energy of all springs. A particle weighs as much as it has neighbours,
+/// so that cohesion is the same from both sides.
 fn energy(volume: &Volume, settings: &MotionSettings) -> f64 {
     let [kp, ke, ks] = [settings.pressure, settings.elastic, settings.cohesion].map(f64::from);
     let mesh = volume.mesh();
@@ -174,8 +171,8 @@ fn volumes_at_one_place_share_the_microstructure() {
     }
 }
 
-/// Energy of each degree of the spherical harmonics of values on a sphere, by their addition
-/// theorem: the sum over pairs of values times the Legendre polynomial of the angle between.
+/// Energy of each degree of the spherical harmonics of values on a sphere. We use their addition
+/// theorem: the sum over pairs of values times the Legendre polynomial of the angle between them.
 fn degrees(directions: &[[f32; 3]], values: &[f64], most: usize) -> Vec<f64> {
     let directions: Vec<DVec3> =
         directions.iter().map(|at| Vec3::from(*at).as_dvec3().normalize()).collect();
@@ -214,7 +211,7 @@ fn bumps_are_strongest_at_the_grain() {
                 *sum += energy;
             }
         }
-        // The middle of what is above half of the peak, which single degrees move less.
+        // We take the middle of what is above half of the peak, which single degrees move less.
         let peak = sums.iter().copied().fold(0.0, f64::max);
         let strong = sums.iter().enumerate().filter(|(_, sum)| **sum > 0.5 * peak);
         let (weighed, all) = strong.fold((0.0, 0.0), |(weighed, all), (degree, sum)| {
@@ -254,7 +251,6 @@ fn no_particle_leaves_a_region() {
     assert!(touching > 100, "volumes must reach the wall");
 }
 
-/// A plane of samples, a tenth of a cell apart.
 fn floor() -> Arc<SurfaceLattice> {
     let at = |i: i32| Vec3::new((i % 60 - 30) as f32, 0.0, (i / 60 - 30) as f32) * 0.1;
     let places: Vec<Vec3> = (0..3600).map(at).collect();
@@ -313,7 +309,8 @@ fn volumes_at_rest_sleep_until_something_changes() {
 
 const EXTREMES_STEP: f32 = 1.0 / 120.0;
 
-/// The least determinant over a face of a volume, in unit vectors to the places of its particles.
+/// The least determinant over a face of a volume. It takes unit vectors to the places of its
+/// particles.
 fn least_cone(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
     let units: Vec<DVec3> =
@@ -363,7 +360,7 @@ fn unit(random: &mut ChaCha8Rng) -> Vec3 {
     Vec3::new(along(), along(), along()).normalize_or(Vec3::X)
 }
 
-/// A number from 0 to `most`: 0, or even in its logarithm over seven decades.
+/// A number from 0 to `most`. It is 0, or even in its logarithm over seven decades.
 fn spread(random: &mut ChaCha8Rng, most: f32) -> f32 {
     if random.random::<f32>() < 0.1 {
         return 0.0;
@@ -371,8 +368,8 @@ fn spread(random: &mut ChaCha8Rng, most: f32) -> f32 {
     most * 10_f32.powf(-7.0 * random.random::<f32>())
 }
 
-/// Steps of volumes of some details under random settings, times and pushes: all stay finite and
-/// near the centre, or the step is refused as too stiff. Returns how many were refused.
+/// Moves volumes of some details under random settings, times and pushes. All stay finite and near
+/// the centre, or we refuse the step as too stiff. Returns how many steps were refused.
 fn survives(steps: usize, details: &[u8], seed: u64) -> usize {
     let mut random = random(9, seed);
     let random = &mut random;
@@ -443,8 +440,8 @@ fn extreme_settings_keep_volumes_whole_for_100_000_steps() {
     assert!((20..50_000).contains(&refused), "{refused} of 100000 steps refused");
 }
 
-/// Plain explicit Euler under the same forces of a smooth ball, the form that the step avoids.
-/// Returns the greatest deviation from rest, in radii.
+/// Plain explicit Euler under the same forces of a smooth ball. The step avoids this form. Returns
+/// the greatest deviation from rest, in radii.
 fn explicit_euler(settings: &MotionSettings, seconds: f32, steps: usize) -> f32 {
     let mut ball = Volume::ball(Vec3::ZERO, 1.0, 3, 1);
     kick(&mut ball, 0.3, 0);

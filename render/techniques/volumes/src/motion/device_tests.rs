@@ -1,4 +1,4 @@
-//! Motion on a device against that on the processor.
+//! Compares motion on a device with motion on the processor.
 
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ fn opened() -> Option<Device> {
     device()?.into_device()
 }
 
-/// Kicked volumes of these levels of detail that grow, side by side, the first at the origin. Every
-/// second one goes to another place.
+/// Kicked volumes of these levels of detail, which grow side by side. The first is at the origin.
+/// Every second one goes to another place.
 fn row(details: &[u8]) -> Vec<Volume> {
     let ball = |(i, &detail): (usize, &u8)| {
         let center = Vec3::new(i as f32, 0.1 * i as f32, 0.0);
@@ -30,7 +30,7 @@ fn row(details: &[u8]) -> Vec<Volume> {
     details.iter().enumerate().map(ball).collect()
 }
 
-/// Surroundings with gravity's way down a slope, three regions that cut into the row, and a push.
+/// Surroundings with gravity down a slope, three regions that cut into the row, and a push.
 fn busy() -> Surroundings {
     let low = Vec3::new(-0.35, -0.4, -0.5);
     Surroundings {
@@ -50,7 +50,6 @@ fn busy() -> Surroundings {
     }
 }
 
-/// Distances between the particles of two volumes, in radii.
 fn distances(one: &Volume, other: &Volume) -> Vec<f32> {
     let pairs = one.vertices().zip(other.vertices());
     pairs.map(|(a, b)| Vec3::from(a).distance(Vec3::from(b)) / one.radius).collect()
@@ -60,7 +59,8 @@ fn farthest(one: &Volume, other: &Volume) -> f32 {
     distances(one, other).into_iter().fold(0.0, f32::max)
 }
 
-/// Both crowds after these many steps; `at` sees them and may change the surroundings before each.
+/// Both crowds after this many steps. `at` sees them before each step and may change the
+/// surroundings.
 fn both(
     device: &mut Device,
     volumes: &[Volume],
@@ -182,7 +182,7 @@ fn the_guard_keeps_stars_on_a_device() {
     for (moment, volume) in volumes.iter_mut().enumerate() {
         kick(volume, 100.0, moment as u64);
     }
-    // No number and no direction go to their places of rest.
+    // What is not a number or has no direction goes to its place of rest.
     volumes[1].particles.places[0][5] = f32::NAN;
     volumes[1].particles.velocities[2][9] = f32::INFINITY;
     (0..3).for_each(|axis| volumes[2].particles.places[axis][7] = 0.0);

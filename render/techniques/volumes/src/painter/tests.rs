@@ -1,6 +1,4 @@
-//! Pictures and paintings of scenes with their volumes.
-//!
-//! Pictures of bodies that lie on one another.
+//! Pictures and paintings of scenes with their volumes, also of bodies that lie on one another.
 
 use std::sync::Arc;
 
@@ -33,7 +31,6 @@ mod acceptance;
 
 const SIZE: (usize, usize) = (150, 114);
 
-/// A scene, seen from one side, and how it is painted.
 struct Scene {
     mesh: Mesh,
     camera: Camera,
@@ -71,13 +68,12 @@ impl Scene {
         visible(&self.mesh, &self.camera, SIZE.0, SIZE.1)
     }
 
-    /// Places that are shown, if they are.
     fn place(&self, packed: &PackedMesh, seen: &VisibilityBuffer, pixel: usize) -> Option<Vec3> {
         let fragment = seen.values()[pixel];
         (fragment.triangle != NO_TRIANGLE).then(|| SurfacePoint::new(packed, fragment).position())
     }
 
-    /// The plain colour picture without paper, with its grey as the fourth value.
+    /// The plain colour picture without paper. Its fourth value is the grey.
     fn plain(&self) -> Field<[f32; 4]> {
         let mut compute = Compute::cpu();
         let packed = PackedMesh::new(&self.mesh);
@@ -89,7 +85,7 @@ impl Scene {
         shade(&mut compute, &model, &visible, &self.camera, &look, &hatching).unwrap().into_host()
     }
 
-    /// A world with paint on it in two places that are seen.
+    /// A world with paint in two places that you see.
     fn poured(&self) -> World {
         let seen = self.seen();
         let packed = PackedMesh::new(&self.mesh);
@@ -142,7 +138,7 @@ fn without_volumes_all_is_the_grey_of_the_colour_picture() {
             continue;
         }
         assert_eq!(*found, [grey, grey, grey, 1.0]);
-        // As light as the colour: its luminance, encoded again.
+        // The grey is as light as the colour: its luminance, encoded again.
         let y = 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
         assert!((linear(grey) - y).abs() < 1.0 / 255.0, "{grey} of {r} {g} {b}");
         colorful += usize::from((r - b).abs() > 0.1);
@@ -194,7 +190,7 @@ fn colour_is_shown_where_a_volume_holds_the_surface() {
         wrong += usize::from(*found != expected);
     }
     assert!(held > all / 10 && held < all / 2, "{held} of {all}");
-    // Vertices are rounded to the 256th of a pixel.
+    // We round vertices to the 256th of a pixel.
     assert!(wrong * 500 <= all, "{wrong} of {all}");
 }
 
@@ -414,10 +410,10 @@ fn a_painting_is_the_picture_also_after_its_file() {
     assert!(glazed > 300, "{glazed}");
 }
 
-/// Red and blue pixels after paint is poured beside a red ball on a blue sheet. The ball is sunk
-/// into the sheet by this much.
+/// Counts red and blue pixels after you pour paint beside a red ball on a blue sheet. The ball is
+/// sunk into the sheet by this much.
 fn red_and_blue(sunk: f32) -> [usize; 2] {
-    // Smaller than a cell, so that volumes on the sheet reach above its middle.
+    // The ball is smaller than a cell, so that volumes on the sheet reach above its middle.
     let mut ball = Mesh::sphere(2000);
     ball.positions.iter_mut().flatten().for_each(|along| *along *= 0.4);
     let floor = sheet(20, |u, v| [6.0 * (u - 0.5), sunk - 0.4, 6.0 * (v - 0.5)]);

@@ -1,8 +1,6 @@
-//! The grey drawing as a film of black and white paint, as painters lay it under colour.
-//!
-//! The colours of the scene as films of a palette's mixtures.
-//!
-//! Hatching as a film of black paint, thicker where there is more ink.
+//! The grey drawing as a film of black and white paint, as painters lay it under colour. Also the
+//! colours of the scene as films of a palette's mixtures, and hatching as a film of black paint,
+//! which is thicker where there is more ink.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -15,10 +13,10 @@ use rayon::prelude::*;
 
 use super::materials::{FilmMaterial, FilmPaintError, Tones, linear, within_one};
 
-/// Greys that differ; neighbours differ by a quarter of a step of an 8-bit picture.
+/// We distinguish this many greys. Neighbours differ by a quarter of a step of an 8-bit picture.
 const LEVELS: usize = 1024;
 
-/// Points along each side of the table of colours, of which only greys are used.
+/// Points along each side of the table of colours. We use only the greys in it.
 const LATTICE: usize = 13;
 
 /// Films of white and black paint for all greys.
@@ -26,14 +24,13 @@ const LATTICE: usize = 13;
 pub struct Grisaille {
     slots: Slots,
     film: PaintFilm,
-    /// Heights in mm by level of grey.
     heights_mm: Vec<[f32; SLOTS]>,
 }
 
 impl Grisaille {
-    /// Finds the films of `white` and `black` for all greys, with `toner` against their cast if there
-    /// is one, over the ground and under the light of `material`. `films` has the range of their
-    /// heights. Takes a good part of a second.
+    /// Finds the films of `white` and `black` for all greys, over the ground and under the light
+    /// of `material`. If you pass a `toner`, it removes their cast. `films` has the range of their
+    /// heights. This takes a good part of a second.
     ///
     /// # Errors
     /// [`FilmPaintError`] for heights out of range.
@@ -64,7 +61,8 @@ impl Grisaille {
         Ok(Self { slots, film, heights_mm })
     }
 
-    /// The white in the first slot, the black in the second, and the toner, if any, in the third.
+    /// The white in the first slot, the black in the second, and in the third the toner if you use
+    /// one.
     #[must_use]
     pub fn slots(&self) -> &Slots {
         &self.slots
@@ -82,7 +80,6 @@ impl Grisaille {
         self.heights_mm[level(grey)]
     }
 
-    /// Films of all levels in quanta, for cells `cell_mm` wide.
     pub(super) fn quanta(&self, cell_mm: f64) -> Vec<[u32; SLOTS]> {
         self.heights_mm
             .iter()
@@ -91,7 +88,7 @@ impl Grisaille {
     }
 }
 
-/// Index of the level nearest to an encoded grey; what is no number counts as 0.
+/// Index of the level nearest to an encoded grey. NaN counts as 0.
 #[inline]
 pub(super) fn level(grey: f32) -> usize {
     (within_one(grey) * (LEVELS - 1) as f32 + 0.5) as usize
@@ -107,7 +104,7 @@ pub struct OwnColors {
 
 impl OwnColors {
     /// Finds the mixtures of the pigments `slots` for all colours, over the ground and under the
-    /// light of `material`. Takes seconds.
+    /// light of `material`. This takes seconds.
     ///
     /// # Errors
     /// [`FilmPaintError`] for an empty palette or heights out of range.
@@ -124,8 +121,8 @@ impl OwnColors {
         Ok(Self { slots, separation, tones })
     }
 
-    /// Up to eight pigments that come nearest to the encoded colours of a picture, which are counted
-    /// where their fourth value is above 0. Takes seconds.
+    /// Up to eight pigments that come nearest to the encoded colours of a picture. We count the
+    /// pixels with a fourth value above 0. This takes seconds.
     ///
     /// # Errors
     /// [`FilmPaintError`] if the library has no pigment to use.
@@ -159,13 +156,10 @@ impl OwnColors {
     }
 }
 
-/// Steps of ink that differ.
 const STEPS: usize = 256;
 
-/// Highest film of ink in mm.
 const MOST_MM: f64 = 0.05;
 
-/// Halvings of the range in which the height of a film is sought.
 const HALVINGS: usize = 40;
 
 /// Films of black paint for all amounts of ink.
@@ -175,16 +169,16 @@ pub struct Pencil {
 }
 
 impl Pencil {
-    /// Finds the films that darken the bare ground as a pencil of the encoded `grey` would: full ink
-    /// to that grey, half of it half-way there. The black is that of `grisaille`. A film is at most
-    /// 0.05 mm high, which almost hides.
+    /// Finds the films that darken the bare ground like a pencil of the encoded `grey`. Full ink
+    /// gives this grey, half of it a tone half-way. The black is the black of `grisaille`. A film
+    /// is at most 0.05 mm high, which almost hides.
     #[must_use]
     pub fn new(grisaille: &Grisaille, grey: f32) -> Self {
         let luminance = |mm: f64| {
             let mut heights = [0.0; SLOTS];
             heights[1] = mm as f32;
             let [r, g, b] = grisaille.film().rgb(&heights);
-            // Weights of luminance of sRGB (IEC 61966-2-1).
+            // These are the weights of luminance of sRGB (IEC 61966-2-1).
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
         let bare = luminance(0.0);
@@ -207,13 +201,12 @@ impl Pencil {
         self.heights_mm[step(ink)]
     }
 
-    /// Films of all steps in quanta, for cells `cell_mm` wide.
     pub(super) fn quanta(&self, cell_mm: f64) -> Vec<u32> {
         self.heights_mm.iter().map(|&mm| quanta_from_mm(mm, cell_mm)).collect()
     }
 }
 
-/// Index of the step nearest to an amount of ink; what is no number counts as 0.
+/// Index of the step nearest to an amount of ink. NaN counts as 0.
 #[inline]
 pub(super) fn step(ink: f32) -> usize {
     (within_one(ink) * (STEPS - 1) as f32 + 0.5) as usize

@@ -1,8 +1,6 @@
-//! Checks of a whole script, and its settings and regions put together.
-//!
-//! Checks of what is done: pours, volumes, pushes, walls, lifts, splits and dryings.
-//!
-//! Regions of a script: names, and how their volumes show what they hold.
+//! Checks a whole script, and puts its settings and regions together. It checks every table that
+//! does something: pours, volumes, pushes, walls, lifts, splits and dryings. It also has the names
+//! of regions, and how their volumes show what they hold.
 
 use std::collections::BTreeMap;
 
@@ -26,7 +24,7 @@ use crate::volume::MOST_DETAIL;
 use crate::world::MOST_VOLUMES;
 
 impl Script {
-    /// Checks every value of the script. Pigments are looked up by [`Script::slots`].
+    /// Checks every value of the script. To look up pigments, use [`Script::slots`].
     ///
     /// # Errors
     /// [`Fault`] of the first wrong value, with its key and the way out.
@@ -53,8 +51,8 @@ impl Script {
         Ok(())
     }
 
-    /// The settings: those of the preset (without one [`Preset::Sketch`]), changed by the tables
-    /// `settings` and `grid` and by `unit_mm`.
+    /// The settings of the preset (by default [`Preset::Sketch`]), which the tables `settings` and
+    /// `grid` and `unit_mm` change.
     ///
     /// # Errors
     /// [`Fault`] of the first value that is out of its range, or given twice.
@@ -121,14 +119,13 @@ impl Script {
     }
 }
 
-/// Largest amount in mm3, and a second.
+/// You can pour at most this much in mm3, or in mm3 per second.
 const MOST_MM3: f64 = 1e9;
 
-/// Largest acceleration of a push in cells a square second.
+/// Largest acceleration of a push in cells per second squared.
 const MOST_STRENGTH: f64 = 1e6;
 
 impl Script {
-    /// Checks every table that does something, one by one.
     pub(super) fn check_tables(&self) -> Checked {
         let each = |name: &str, index: usize| KeyPath::of(name).index(index);
         for (index, keep) in self.keeps.iter().enumerate() {
@@ -279,7 +276,7 @@ fn check_keep(key: &KeyPath, keep: &KeepTable) -> Checked {
     }
 }
 
-/// The fault of a table that needs exactly one of `names`, and has `keys`.
+/// A table needs exactly one of `names`. This is its fault if it has `keys`.
 fn one_of(table: &KeyPath, names: &str, keys: &[Option<&str>]) -> Checked {
     let given: Vec<&str> = keys.iter().flatten().copied().collect();
     let (key, found, hint) = match given[..] {
@@ -350,21 +347,21 @@ fn check_quantity(key: &KeyPath, amount: Option<f64>, rate: Option<f64>, duratio
 /// How the volumes of a region show what they hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionStyle {
-    /// Its name; empty for the only region of a script that lists none.
+    /// Its name. If a script lists no regions, its only region has an empty name.
     pub name: String,
-    /// Appearance of the scene inside of its volumes.
+    /// How the scene looks inside of its volumes.
     pub inside: Inside,
     /// Sizes of the shells, falling from 1.
     pub shells: Vec<f32>,
-    /// Share of colour by the number of shells, one more than there are shells.
+    /// Share of colour by the number of shells. There is one more share than shells.
     pub tints: Vec<f32>,
-    /// Colour that the drawing is multiplied by inside, below the share of colour: `#rrggbb`, white
-    /// for a drawing that stays grey.
+    /// We multiply the drawing by this colour inside, below the share of colour: `#rrggbb`. Use
+    /// white for a drawing that stays grey.
     pub stain: String,
 }
 
 impl Script {
-    /// The regions in order, at least one. `settings` give what a region leaves out.
+    /// The regions in order, at least one. If a region leaves something out, `settings` give it.
     #[must_use]
     pub fn region_styles(&self, settings: &Settings) -> Vec<RegionStyle> {
         let unnamed = [RegionTable::default()];
@@ -387,7 +384,7 @@ impl Script {
         regions.iter().map(style).collect()
     }
 
-    /// Index of the region with this name; the first without a name.
+    /// Index of the region with this name. Without a name, this is the first.
     pub(super) fn region_index(&self, name: Option<&str>) -> Option<usize> {
         match name {
             None => Some(0),

@@ -1,10 +1,6 @@
-//! Scripts: reading, writing, events, recording, pigments, limits.
-//!
-//! Scripts for tests.
-//!
-//! Every fault of a script once, with its place and its way out.
-//!
-//! Random changes of scripts: nothing panics, and every fault has a place and a way out.
+//! Scripts: reading, writing, events, recording, pigments, limits. We raise every fault of a
+//! script once, and check its place and its hint. Random changes of scripts must not panic, and
+//! every fault must have a place and a hint.
 
 use std::path::Path;
 
@@ -401,11 +397,10 @@ at = [0.1, 0.6, 0.3]
 radius = 0.25
 "##;
 
-/// The shortest script.
 pub(super) const SHORT: &str =
     "format = \"paint-volumes\"\nversion = 1\nsubject = \"shape:sphere\"\nseconds = 1\n";
 
-/// The example of the format's description, to the letter.
+/// The example in the description of the format, to the letter.
 pub(super) const DESCRIBED: &str = r#"format = "paint-volumes"
 version = 1
 title = "A jug wakes up"
@@ -426,13 +421,12 @@ recipe = { B = 2, Y = 1 }
 path = [[0.0, 0.1, 0.6, 0.3], [2.0, 0.5, 0.6, 0.2]]   # seconds, then place: a moving source
 "#;
 
-/// The error of a text and its hint.
 fn fault(text: &str) -> [String; 2] {
     let error = Script::from_text("s.toml", text).unwrap_err();
     [error.to_string(), error.hint().unwrap().to_string()]
 }
 
-/// Asserts that `text` has an error that begins with `wanted`, and its hint with `hint`.
+/// Asserts that the error of `text` begins with `wanted`, and its hint with `hint`.
 fn assert_fault(text: &str, wanted: &str, hint: &str) {
     let [error, told] = fault(text);
     assert!(error.starts_with(wanted), "{text}\n{error}\nnot {wanted}");
@@ -582,8 +576,8 @@ fn faults_of_the_header() {
     }
 }
 
-/// Every case of `faults.txt`: lines after the shortest script, then the error after `! ` and the
-/// hint after `? `, as far as they are compared.
+/// Runs every case of `faults.txt`. A case has lines after the shortest script, then the error
+/// after `! ` and the hint after `? `, as far as we compare them.
 #[test]
 fn every_fault_names_its_place_and_the_way_out() {
     let cases: Vec<&str> = include_str!("faults.txt").split("\n\n").collect();
@@ -654,7 +648,7 @@ fn a_script_in_memory_is_checked_before_it_is_written() {
     assert_eq!(error.to_string(), "[[push]] 1, strength takes 0 to 1000000, found `inf`");
 }
 
-/// Pieces that are put into texts.
+/// We put these pieces into texts.
 const PIECES: [&str; 32] = [
     "=",
     "[",
@@ -727,7 +721,6 @@ fn changed(random: &mut ChaCha8Rng) -> String {
     letters.into_iter().collect()
 }
 
-/// Reads `count` changed scripts; returns how many were good.
 fn read(seed: u64, count: usize) -> usize {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let good = (0..count).filter(|_| {

@@ -1,4 +1,4 @@
-//! One step of spilling on a graphics device.
+//! Takes one step of spilling on a graphics device.
 
 use std::sync::Arc;
 
@@ -13,10 +13,8 @@ use crate::device_memory::DeviceMemory;
 /// Amounts of a cell: pigments by slot, then vehicle.
 const AMOUNTS: usize = SLOTS + 1;
 
-/// Cells of a workgroup.
 const GROUP: u32 = 64;
 
-/// In place of a giver, none.
 const NONE: u32 = u32::MAX;
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -58,8 +56,8 @@ static GATHER: Kernel = kernel("volumes_spill_gather");
 /// The kernels of a step of spilling, in their order.
 pub(crate) static SPILL: [&Kernel; 4] = [&MEASURE, &OFFER, &ACCEPT, &GATHER];
 
-/// Spilling on a graphics device, with the memory that it keeps there from step to step. Paint
-/// goes to the device and comes back in every step.
+/// Spilling on a graphics device. It keeps its memory there from step to step. Paint goes to the
+/// device and comes back in every step.
 #[derive(Debug, Default)]
 pub struct DeviceSpilling {
     graph: Option<(Arc<Grid>, Buffer)>,
@@ -72,8 +70,8 @@ pub struct DeviceSpilling {
 }
 
 impl DeviceSpilling {
-    /// One step like [`Spilling::step`], on a graphics device: the same quanta to the bit. The
-    /// device is the same in all calls.
+    /// Takes one step like [`Spilling::step`] on a graphics device. You get the same quanta to the
+    /// bit. Pass the same device in all calls.
     ///
     /// # Errors
     /// [`DeviceError`] for a device that has no room, or failed. No paint has moved then.
@@ -130,7 +128,7 @@ impl DeviceSpilling {
         Ok(born)
     }
 
-    /// The links of a grid, which are written once.
+    /// The links of a grid. We write them once.
     fn graph(&mut self, device: &mut Device, grid: &Arc<Grid>) -> Result<Buffer, DeviceError> {
         if let Some((own, buffer)) = &self.graph
             && Arc::ptr_eq(own, grid)
@@ -150,7 +148,7 @@ fn amounts_of(paint: &Cell) -> [u32; AMOUNTS] {
     amounts
 }
 
-/// The graph in the form of the kernels: starts, then two words a link.
+/// The graph in the form of the kernels: starts, then two words per link.
 fn words_of(graph: &Graph) -> Vec<u32> {
     let links = (0..graph.others.len()).flat_map(|link| {
         let axes = u32::from(graph.axes[link]);
@@ -172,7 +170,6 @@ mod tests {
         device()?.into_device()
     }
 
-    /// An amount up to `most`, of any magnitude.
     fn amount(random: &mut ChaCha8Rng, most: u32) -> u32 {
         let most = (most >> random.random_range(0..24)).max(1);
         random.random_range(0..=most)
