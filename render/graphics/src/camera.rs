@@ -98,11 +98,14 @@ impl Framing {
     /// from which the box always fits.
     #[must_use]
     pub fn turntable(&self, bounds: [Vec3; 2], frames: usize) -> Vec<Camera> {
-        let turned = |degrees| Self { azimuth_deg: self.azimuth_deg + degrees, ..*self };
-        let distances = (0..360).map(|degrees| turned(degrees as f32).distance(bounds));
+        let distances = (0..360).map(|degrees| self.rotated(degrees as f32).distance(bounds));
         let distance = distances.fold(0.0, f32::max);
         let step = 360.0 / frames.max(1) as f32;
-        (0..frames).map(|frame| turned(frame as f32 * step).at(bounds, distance)).collect()
+        (0..frames).map(|frame| self.rotated(frame as f32 * step).at(bounds, distance)).collect()
+    }
+
+    fn rotated(&self, degrees: f32) -> Self {
+        Self { azimuth_deg: self.azimuth_deg + degrees, ..*self }
     }
 
     /// Nearest camera that sees all `positions` with a margin and centres them. This camera comes
@@ -119,8 +122,7 @@ impl Framing {
     #[must_use]
     pub fn fit_turntable(&self, positions: &[[f32; 3]], frames: usize) -> Vec<Camera> {
         let bounds = bounds_of(positions);
-        let turned = |degrees| Self { azimuth_deg: self.azimuth_deg + degrees, ..*self };
-        let reaches = (0..120).map(|step| turned(step as f32 * 3.0).reach(positions, bounds));
+        let reaches = (0..120).map(|step| self.rotated(step as f32 * 3.0).reach(positions, bounds));
         let Reach { right, up } = reaches.fold(Reach::default(), Reach::or);
         // The axis of rotation stays in the centre.
         let reach = Reach { right: [right[0].max(right[1]); 2], up };
@@ -128,7 +130,7 @@ impl Framing {
         let shift = reach.shift();
         let step = 360.0 / frames.max(1) as f32;
         (0..frames)
-            .map(|frame| turned(frame as f32 * step).shifted(bounds, distance, shift))
+            .map(|frame| self.rotated(frame as f32 * step).shifted(bounds, distance, shift))
             .collect()
     }
 

@@ -136,8 +136,11 @@ impl Photograph {
         self.resampled(width, height, |[r, g, b, opacity]| {
             let opacity = opacity.clamp(0.0, 1.0);
             // Undo the blend with white.
-            let unblended = |value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0);
-            let color = if opacity > 0.0 { [r, g, b].map(unblended) } else { [1.0; 3] };
+            let color = if opacity > 0.0 {
+                [r, g, b].map(|value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0))
+            } else {
+                [1.0; 3]
+            };
             let [r, g, b] = Rgb(color).encoded().0.map(|value| value as f32);
             [r, g, b, opacity as f32]
         })

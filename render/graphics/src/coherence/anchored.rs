@@ -328,39 +328,43 @@ impl Particles {
     #[must_use]
     pub fn anchors(&self, projection: &Projection, noise: AnchoredNoise) -> Anchors {
         let octaves = noise.octaves.clamp(2, MOST_OCTAVES);
-        let anchor = |(number, &position): (usize, &Vec3)| {
-            let at = projection.project_clamped(position);
-            let zoom = (projection.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
-            let whole = zoom.floor();
-            let part = zoom - zoom.floor();
-            let near = projection.camera.near;
-            let presence = ((at.along - near) / near).clamp(1e-3, 1.0);
-            let mut anchor = Anchor {
-                position: position.into(),
-                presence,
-                x: at.x,
-                y: at.y,
-                // The middle octaves are the strongest.
-                texels: noise.wave_texels / noise.wave_px
-                    * 2.0f32.powf(octaves as f32 / 2.0 - part),
-                spare: 0.0,
-                weights: [0.0; MOST_OCTAVES],
-                right: [0.0; MOST_OCTAVES],
-                down: [0.0; MOST_OCTAVES],
-            };
-            for octave in 0..octaves {
-                let phase = (octave as f32 + part) / octaves as f32;
-                let weight = (std::f32::consts::PI * phase).sin();
-                anchor.weights[octave] = weight * (2.0 / octaves as f32).sqrt();
-                // As the model comes nearer, this octave becomes the next one and keeps its seed.
-                let level = (octave as i64 - whole as i64) as u64;
-                let seed = Seed(noise.seed).child(number as u64).child(level);
-                anchor.right[octave] = 4096.0 * seed.unit(0);
-                anchor.down[octave] = 4096.0 * seed.unit(1);
-            }
-            anchor
-        };
-        let each = self.positions.iter().enumerate().map(anchor).collect();
+        let each = self
+            .positions
+            .iter()
+            .enumerate()
+            .map(|(number, &position): (usize, &Vec3)| {
+                let at = projection.project_clamped(position);
+                let zoom = (projection.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
+                let whole = zoom.floor();
+                let part = zoom - zoom.floor();
+                let near = projection.camera.near;
+                let presence = ((at.along - near) / near).clamp(1e-3, 1.0);
+                let mut anchor = Anchor {
+                    position: position.into(),
+                    presence,
+                    x: at.x,
+                    y: at.y,
+                    // The middle octaves are the strongest.
+                    texels: noise.wave_texels / noise.wave_px
+                        * 2.0f32.powf(octaves as f32 / 2.0 - part),
+                    spare: 0.0,
+                    weights: [0.0; MOST_OCTAVES],
+                    right: [0.0; MOST_OCTAVES],
+                    down: [0.0; MOST_OCTAVES],
+                };
+                for octave in 0..octaves {
+                    let phase = (octave as f32 + part) / octaves as f32;
+                    let weight = (std::f32::consts::PI * phase).sin();
+                    anchor.weights[octave] = weight * (2.0 / octaves as f32).sqrt();
+                    // As the model comes nearer, this octave becomes the next one and keeps its seed.
+                    let level = (octave as i64 - whole as i64) as u64;
+                    let seed = Seed(noise.seed).child(number as u64).child(level);
+                    anchor.right[octave] = 4096.0 * seed.unit(0);
+                    anchor.down[octave] = 4096.0 * seed.unit(1);
+                }
+                anchor
+            })
+            .collect();
         let reach_squared = BLEND * self.spacing_squared;
         Anchors { each, octaves, reach_squared, projection: *projection }
     }

@@ -93,8 +93,9 @@ fn projected(
     fn near(at: f32, size: usize, r: f32) -> bool {
         at > -r && at < size as f32 + r
     }
-    let seen = move |radius: f32| near(at.x, size[0], radius) && near(at.y, size[1], radius);
-    let parts = octaves.parts(rank).filter(move |[radius, _]| seen(*radius));
+    let parts = octaves
+        .parts(rank)
+        .filter(move |[radius, _]| near(at.x, size[0], *radius) && near(at.y, size[1], *radius));
     let scale = projection.depth_scale();
     let away = projection.focal_px * at.distance;
     Some(parts.map(move |[radius, amplitude]| Splat {
@@ -113,6 +114,7 @@ fn projected(
 /// A feature as a camera sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeenFeature {
+    /// The feature.
     pub feature: Feature,
     /// Distance from the left edge in pixels.
     pub x: f32,

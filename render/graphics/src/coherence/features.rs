@@ -111,24 +111,26 @@ impl Features {
     pub fn new(hierarchy: Arc<Hierarchy>, seed: u64) -> Self {
         let seed = Seed(seed).child(0);
         let patches = &hierarchy.patches;
-        let of_patch = |patch: usize| {
-            let own = &patches[patch];
-            let seed = seed.child(patch as u64);
-            let Some(parts) = hierarchy.parts(patch) else {
-                let face = &hierarchy.faces[own.faces.start];
-                let half = Half::whole(face, seed);
-                return half.feature(&half.halves(), face, face.area);
-            };
-            // We choose a part with the other part's share of the area as probability. The smaller
-            // part then gets its next feature only at a higher density.
-            let chosen = usize::from(f64::from(seed.unit(5)) * own.area < patches[parts[0]].area);
-            let part = parts[chosen];
-            let (position, face) = hierarchy.point_on(part, seed);
-            let priority = uniform(1.0 / own.area, 1.0 / patches[part].area, seed);
-            Feature { seed: seed.0, face: face.number, position, normal: face.normal, priority }
-        };
-        let mut of_patches: Vec<Feature> =
-            (0..patches.len()).into_par_iter().map(of_patch).collect();
+        let mut of_patches: Vec<Feature> = (0..patches.len())
+            .into_par_iter()
+            .map(|patch: usize| {
+                let own = &patches[patch];
+                let seed = seed.child(patch as u64);
+                let Some(parts) = hierarchy.parts(patch) else {
+                    let face = &hierarchy.faces[own.faces.start];
+                    let half = Half::whole(face, seed);
+                    return half.feature(&half.halves(), face, face.area);
+                };
+                // We choose a part with the other part's share of the area as probability. The smaller
+                // part then gets its next feature only at a higher density.
+                let chosen =
+                    usize::from(f64::from(seed.unit(5)) * own.area < patches[parts[0]].area);
+                let part = parts[chosen];
+                let (position, face) = hierarchy.point_on(part, seed);
+                let priority = uniform(1.0 / own.area, 1.0 / patches[part].area, seed);
+                Feature { seed: seed.0, face: face.number, position, normal: face.normal, priority }
+            })
+            .collect();
         if let Some(whole) = patches.first() {
             let seed = seed.child(patches.len() as u64);
             let (position, face) = hierarchy.point_on(0, seed);

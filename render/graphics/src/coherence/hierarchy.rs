@@ -98,6 +98,7 @@ impl Hierarchy {
         hierarchy
     }
 
+    /// Number of faces with an area above 0.
     #[must_use]
     pub fn faces(&self) -> usize {
         self.faces.len()

@@ -214,15 +214,16 @@ mod tests {
             persistence: 0.5,
             coverage: 4.0,
         });
-        let drawn = |rank: f32| -> Vec<f32> {
-            let mut amplitudes = vec![0.0; 3];
-            for [radius, amplitude] in octaves.parts(rank) {
-                amplitudes[(32.0 / radius).log2().round() as usize] += amplitude;
-            }
-            amplitudes
-        };
         let ranks = (0..3000).map(|i| octaves.first * 2.0f32.powf(i as f32 / 300.0 - 3.0));
-        let all: Vec<Vec<f32>> = ranks.map(drawn).collect();
+        let all: Vec<Vec<f32>> = ranks
+            .map(|rank: f32| -> Vec<f32> {
+                let mut amplitudes = vec![0.0; 3];
+                for [radius, amplitude] in octaves.parts(rank) {
+                    amplitudes[(32.0 / radius).log2().round() as usize] += amplitude;
+                }
+                amplitudes
+            })
+            .collect();
         for octave in 0..3 {
             let most = all.iter().map(|drawn| drawn[octave]).fold(0.0, f32::max);
             assert!((most / octaves.each[octave][1] - 1.0).abs() < 1e-3, "{octave}: {most}");
@@ -263,9 +264,9 @@ mod tests {
         fn step(a: (usize, usize), b: (usize, usize), texture: &Field<f32>) -> f32 {
             (texture[a] - texture[b]).abs()
         }
-        let most = |inside: &dyn Fn(usize, usize) -> f32, at: usize| {
+        fn most(inside: &dyn Fn(usize, usize) -> f32, at: usize) -> f32 {
             (0..SIDE).map(|i| inside(at, i)).fold(0.0, f32::max)
-        };
+        }
         let across = |x: usize, y: usize| step((x, y), ((x + 1) % SIDE, y), &texture);
         let down = |y: usize, x: usize| step((x, y), (x, (y + 1) % SIDE), &texture);
         for steps in [&across as &dyn Fn(usize, usize) -> f32, &down] {

@@ -44,10 +44,9 @@ impl<'a, W: Write> Gif<'a, W> {
         check_size("GIF", usize::from(u16::MAX), width, height)?;
         let mut colors = table.colors().as_flattened().to_vec();
         colors.resize(3 * (COLORS + 1), 0);
-        let failed = |error| encoder_failed("GIF", &error);
-        let mut encoder =
-            gif::Encoder::new(to, width as u16, height as u16, &colors).map_err(failed)?;
-        encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
+        let mut encoder = gif::Encoder::new(to, width as u16, height as u16, &colors)
+            .map_err(|error| encoder_failed("GIF", &error))?;
+        encoder.set_repeat(gif::Repeat::Infinite).map_err(|error| encoder_failed("GIF", &error))?;
         let shown = Vec::new();
         let written = vec![0; width * height];
         Ok(Self { encoder, rate, table, size: [width, height], elapsed: 0, shown, written })

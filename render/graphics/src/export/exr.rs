@@ -138,12 +138,12 @@ pub fn rgb_channels(picture: &Field<[f32; 4]>) -> Result<Vec<(String, FlatSample
         let y = index / picture.width();
         return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
     }
-    let channel =
-        |index: usize| FlatSamples::F32(values.iter().map(move |rgb| rgb[index]).collect());
     Ok(["R", "G", "B"]
         .iter()
         .enumerate()
-        .map(|(i, name)| ((*name).to_owned(), channel(i)))
+        .map(|(i, name)| {
+            ((*name).to_owned(), FlatSamples::F32(values.iter().map(|rgb| rgb[i]).collect()))
+        })
         .collect())
 }
 

@@ -240,8 +240,8 @@ mod tests {
         assert_eq!(&bytes[30..54], b"mimetypeimage/openraster");
         assert_eq!(bytes, file(), "the same bytes every time");
         let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
-        let name = |index| archive.by_index(index).unwrap().name().to_owned();
-        let names: Vec<String> = (0..6).map(name).collect();
+        let names: Vec<String> =
+            (0..6).map(|index| archive.by_index(index).unwrap().name().to_owned()).collect();
         assert_eq!(archive.len(), 6);
         let wanted = [
             "mimetype",

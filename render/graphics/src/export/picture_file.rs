@@ -87,7 +87,9 @@ pub fn picture_file(
     cell_mm: f64,
     format: PictureFormat,
 ) -> Result<PictureFile, ExportError> {
-    let png = |Png { bytes, outside }| (bytes, outside);
+    fn png(Png { bytes, outside }: Png) -> (Vec<u8>, usize) {
+        (bytes, outside)
+    }
     let (bytes, outside) = match format {
         PictureFormat::Png8 => png(png8(picture, cell_mm)?),
         PictureFormat::Png16 => png(png16(picture, cell_mm)?),

@@ -320,12 +320,14 @@ impl StencilPipeline {
             std::iter::repeat_n(true, shader.buffers),
         );
         let module = shader_module(device, shader.name, shader.source);
-        let on_depth_fail = |operation| wgpu::StencilFaceState {
-            compare: wgpu::CompareFunction::Always,
-            fail_op: wgpu::StencilOperation::Keep,
-            depth_fail_op: operation,
-            pass_op: wgpu::StencilOperation::Keep,
-        };
+        fn on_depth_fail(operation: wgpu::StencilOperation) -> wgpu::StencilFaceState {
+            wgpu::StencilFaceState {
+                compare: wgpu::CompareFunction::Always,
+                fail_op: wgpu::StencilOperation::Keep,
+                depth_fail_op: operation,
+                pass_op: wgpu::StencilOperation::Keep,
+            }
+        }
         let counting = wgpu::StencilState {
             front: on_depth_fail(wgpu::StencilOperation::DecrementWrap),
             back: on_depth_fail(wgpu::StencilOperation::IncrementWrap),

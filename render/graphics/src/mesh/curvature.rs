@@ -143,15 +143,14 @@ pub(super) fn place_shapes(places: &Places, planes: &[TangentPlane]) -> Vec<Plac
 /// Lists the corners at every place in ascending order. Returns each place's first index into the
 /// list, and the list itself. Corner c of triangle t is 3 t + c there.
 fn corners_of_places(places: &Places) -> (Vec<u32>, Vec<u32>) {
-    let corners = || places.triangles.iter().flatten();
     let mut starts = vec![0_u32; places.positions.len() + 1];
-    corners().for_each(|&place| starts[place as usize + 1] += 1);
+    places.triangles.iter().flatten().for_each(|&place| starts[place as usize + 1] += 1);
     for place in 0..places.positions.len() {
         starts[place + 1] += starts[place];
     }
     let mut next = starts.clone();
     let mut list = vec![0; 3 * places.triangles.len()];
-    for (corner, &place) in corners().enumerate() {
+    for (corner, &place) in places.triangles.iter().flatten().enumerate() {
         list[next[place as usize] as usize] = corner as u32;
         next[place as usize] += 1;
     }

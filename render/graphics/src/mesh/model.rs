@@ -370,8 +370,11 @@ impl Mesh {
             let [a, b, c] = triangle.corners.map(|corner| place(corner) - first);
             volumes[part_of[places[0] as usize] as usize] += a.cross(b).dot(c);
         }
-        let part = |places: &[u32; 3]| part_of[places[0] as usize] as usize;
-        triangles.iter().map(part).map(|part| !open[part] && volumes[part] > 0.0).collect()
+        triangles
+            .iter()
+            .map(|places: &[u32; 3]| part_of[places[0] as usize] as usize)
+            .map(|part| !open[part] && volumes[part] > 0.0)
+            .collect()
     }
 }
 

@@ -71,8 +71,8 @@ impl StructuringElement {
     /// Whether the element contains the pixel at this offset (x, y) from its centre.
     #[must_use]
     pub fn covers(self, x: i32, y: i32) -> bool {
-        let beyond = |distance: i32| distance.unsigned_abs().saturating_sub(self.square);
-        beyond(x) + beyond(y) <= self.diamond
+        [x, y].map(|at| at.unsigned_abs().saturating_sub(self.square)).iter().sum::<u32>()
+            <= self.diamond
     }
 
     /// Number of crosses of 5 pixels among the parts of the element. The sum of two diagonals has
@@ -88,8 +88,9 @@ impl StructuringElement {
 
     /// The element as a Minkowski sum of crosses and segments, at least one.
     fn crossings(self) -> Vec<Crossing> {
-        let segment =
-            |along, reach_along| Crossing { along, across: [0, 0], reach_along, reach_across: 0 };
+        fn segment(along: [i32; 2], reach_along: u32) -> Crossing {
+            Crossing { along, across: [0, 0], reach_along, reach_across: 0 }
+        }
         let cross = Crossing { along: [1, 0], across: [0, 1], reach_along: 1, reach_across: 1 };
         let mut all = vec![cross; self.crosses() as usize];
         let diagonal = self.diagonal();
@@ -142,10 +143,10 @@ mod tests {
                 let reach = element.reach() as i32;
                 let mut points = std::collections::BTreeSet::from([(0, 0)]);
                 for crossing in element.crossings() {
-                    let segment = |step: [i32; 2], reach: u32| {
+                    fn segment(step: [i32; 2], reach: u32) -> impl Iterator<Item = (i32, i32)> {
                         let reach = reach as i32;
                         (-reach..=reach).map(move |i| (i * step[0], i * step[1]))
-                    };
+                    }
                     let own: Vec<_> = segment(crossing.along, crossing.reach_along)
                         .chain(segment(crossing.across, crossing.reach_across))
                         .collect();

@@ -243,8 +243,9 @@ pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
             continue;
         }
         let around = graph.around(region).to_vec();
-        let apart = |other: u32| graph.apart(region, other);
-        let nearest = around.into_iter().min_by(|&a, &b| apart(a).total_cmp(&apart(b)));
+        let nearest = around
+            .into_iter()
+            .min_by(|&a, &b| graph.apart(region, a).total_cmp(&graph.apart(region, b)));
         let Some(nearest) = nearest else { continue };
         let whole = graph.join(region, nearest);
         if graph.pixels(whole) < least_px {

@@ -36,8 +36,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     println!("tone      L*  (sample)  coherence  error  floor  contrast  length  border  use");
     let first = Texture::tiled(&map.keys[map.first].tile.color);
-    // Unevenness over more than a few strokes is not a stroke.
-    let level = |texture: &Texture| texture.levelled(4.0 * map.spacing);
+    // Unevenness over more than this is not a stroke.
+    let far = 4.0 * map.spacing;
     for key in &map.keys {
         let sample = samples.samples.iter().find(|sample| sample.name == key.name);
         let sample = sample.ok_or("a tile has no sample")?;
@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             co_occurrence_error(&whole, &tile),
             co_occurrence_error(&half(false), &half(true)),
             contrast(&tile) / contrast(&whole),
-            stroke_length(&level(&tile)) / stroke_length(&level(&whole)),
+            stroke_length(&tile.levelled(far)) / stroke_length(&whole.levelled(far)),
             wrap_ratio(&tile),
             most_used(&key.sources, &sample.mask, map.patch),
         );

@@ -70,9 +70,10 @@ impl Texture {
     }
 
     fn inside(&self) -> impl Iterator<Item = f32> + '_ {
-        let inside = |index: usize| self.mask.as_ref().is_none_or(|mask| mask.values()[index]);
         let values = self.lightness.values().iter().enumerate();
-        values.filter(move |(index, _)| inside(*index)).map(|(_, value)| *value)
+        values
+            .filter(move |(index, _)| self.mask.as_ref().is_none_or(|mask| mask.values()[*index]))
+            .map(|(_, value)| *value)
     }
 
     /// Calls `with` with L* of every texel and of the texel `step` away, if both belong to the

@@ -38,8 +38,9 @@ impl Scene {
         let framing = Framing { aspect: SIZE.0 as f32 / SIZE.1 as f32, ..Framing::default() };
         let camera = framing.fit(&mesh.positions);
         // Patches of every count, as many as volumes with four shells make.
-        let count = |i: usize| ((i % SIZE.0 / 40 + i / SIZE.0 / 30) % 5) as i32;
-        let counts = (0..SIZE.0 * SIZE.1).map(count).collect();
+        let counts = (0..SIZE.0 * SIZE.1)
+            .map(|i: usize| ((i % SIZE.0 / 40 + i / SIZE.0 / 30) % 5) as i32)
+            .collect();
         let counts = Field::from_values(SIZE.0, SIZE.1, counts);
         let counts = compute.upload(&counts).unwrap();
         Self { compute, model, hatching, camera, look: DrawingLook::default(), counts }

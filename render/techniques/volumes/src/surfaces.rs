@@ -86,9 +86,9 @@ impl VolumeSurfaces {
                     .map(|at: [f32; 3]| (center + (Vec3::from(at) - center) * scale).to_array()),
             ),
         }
-        let corners = |face: &[u32; 3]| face.map(|corner| first + corner);
         let faces = volume.mesh().faces.iter();
-        let faces = faces.map(|face| Triangle { corners: corners(face), material: surface });
+        let faces = faces
+            .map(|face| Triangle { corners: face.map(|corner| first + corner), material: surface });
         self.triangles.extend(faces);
     }
 }

@@ -282,8 +282,7 @@ impl DirectionField {
     }
 
     fn cosine(&self, arrows: &[DVec3], place: usize, other: usize) -> f64 {
-        let normal = |place: usize| self.planes[place].normal;
-        let there = carried(arrows[other], normal(other), normal(place));
+        let there = carried(arrows[other], self.planes[other].normal, self.planes[place].normal);
         there.map_or(0.0, |there| arrows[place].dot(there))
     }
 

@@ -183,8 +183,10 @@ pub(super) struct Evidence {
 
 impl Evidence {
     pub(super) fn of_curvature(shapes: &[PlaceShape], radius: f64, along: Along) -> Self {
-        let weight = |shape: &PlaceShape| shape.area * reliability(&shape.tensor, radius);
-        let weights: Vec<f64> = shapes.iter().map(weight).collect();
+        let weights: Vec<f64> = shapes
+            .iter()
+            .map(|shape: &PlaceShape| shape.area * reliability(&shape.tensor, radius))
+            .collect();
         let pairs = shapes.iter().zip(&weights);
         let squares =
             pairs.map(|(shape, weight)| principal_square(&shape.tensor, along) * *weight).collect();
@@ -399,10 +401,10 @@ mod tests {
 
     #[test]
     fn the_evidence_is_continuous_where_a_saddle_is_symmetric() {
-        let pull = |mean| {
+        fn pull(mean: f64) -> DVec2 {
             let tensor = tensor(mean, 1.0);
             reliability(&tensor, 1.0) * principal_square(&tensor, Along::Least)
-        };
+        }
         assert_eq!(pull(0.0), DVec2::ZERO);
         assert!((pull(1e-3) - pull(-1e-3)).length() < 1e-3, "{} {}", pull(1e-3), pull(-1e-3));
         assert!(pull(0.5).x < -0.3 && pull(-0.5).x > 0.3, "{} {}", pull(0.5), pull(-0.5));

@@ -101,13 +101,16 @@ fn triples(values: Vec<f32>) -> Vec<[f32; 3]> {
 /// First `usemtl` line that names an unknown material. A file without `mtllib` may name any
 /// material.
 fn unknown_material(text: &str, materials: &[tobj::Material]) -> Option<(usize, String)> {
-    let line = |(line, number): (&str, usize)| {
-        let name = line.trim().strip_prefix("usemtl ")?.trim();
-        let known = materials.iter().any(|material| material.name == name);
-        (!known).then(|| (number, format!("no material `{name}` in the libraries")))
-    };
     let has_library = text.lines().any(|line| line.trim().starts_with("mtllib "));
-    has_library.then(|| text.lines().zip(1..).find_map(line)).flatten()
+    has_library
+        .then(|| {
+            text.lines().zip(1..).find_map(|(line, number): (&str, usize)| {
+                let name = line.trim().strip_prefix("usemtl ")?.trim();
+                let known = materials.iter().any(|material| material.name == name);
+                (!known).then(|| (number, format!("no material `{name}` in the libraries")))
+            })
+        })
+        .flatten()
 }
 
 fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material, MeshError> {

@@ -75,7 +75,9 @@ impl GridSize {
     #[must_use]
     pub fn for_triangles(triangles: usize, aspect: f64) -> Self {
         let rows = (triangles as f64 / 2.0 / aspect).sqrt();
-        let at_least = |cells: f64, least| (cells.round() as usize).max(least);
+        fn at_least(cells: f64, least: usize) -> usize {
+            (cells.round() as usize).max(least)
+        }
         Self { columns: at_least(rows * aspect, 3), rows: at_least(rows, 2) }
     }
 }

@@ -618,13 +618,13 @@ mod tests {
 
     #[test]
     fn inconsistent_maps_are_not_written() {
-        let refused = |change: &dyn Fn(&mut ArtMap)| {
+        fn refused(change: &dyn Fn(&mut ArtMap)) -> String {
             let mut map = map();
             change(&mut map);
             let error = write(&map).unwrap_err();
             assert!(matches!(error, TexelFileError::Unwritable { .. }), "{error}");
             error.to_string()
-        };
+        }
         let none = refused(&|map| map.keys.clear());
         assert_eq!(none, "the art map cannot be saved: it has no texels");
         let other =

@@ -220,9 +220,11 @@ mod tests {
         let style = small("hatching", 90);
         assert_eq!(style.paint.tones, ToneSource::Density);
         let set = painted_samples(&style, &settings(3)).unwrap();
-        let drawn =
-            |sample: &Sample| heights(sample).iter().map(|h| *h > 0.005).collect::<Vec<_>>();
-        let covers: Vec<Vec<bool>> = set.samples.iter().map(drawn).collect();
+        let covers: Vec<Vec<bool>> = set
+            .samples
+            .iter()
+            .map(|sample: &Sample| heights(sample).iter().map(|h| *h > 0.005).collect::<Vec<_>>())
+            .collect();
         fn cells(cover: &[bool]) -> usize {
             cover.iter().filter(|drawn| **drawn).count()
         }

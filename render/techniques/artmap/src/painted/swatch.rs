@@ -339,25 +339,26 @@ fn samples(
     let points = (POINTS * length / size).ceil().clamp(4.0, 200.0);
     let taper = size.min(length / 2.0);
     let (sin, cos) = angle.sin_cos();
-    let pose = |at: usize| {
-        let share = at as f64 / points;
-        let along = length * (share - 0.5);
-        let across = sagitta * (1.0 - (2.0 * share - 1.0).powi(2));
-        let slope = -4.0 * sagitta * (2.0 * share - 1.0) / length;
-        let rise = ((share.min(1.0 - share) * length) / taper).clamp(0.0, 1.0);
-        let eased = rise * rise * (3.0 - 2.0 * rise);
-        BrushworkSample {
-            seconds: share * length / (size * SPEED),
-            x_mm: x + across * cos + along * sin,
-            y_mm: y + along * cos - across * sin,
-            pressure: pressure * (style.strokes.lift + (1.0 - style.strokes.lift) * eased),
-            tilt_x_deg: 0.0,
-            tilt_y_deg: 0.0,
-            // At 0 the broad side runs along x. The head turns with the heading.
-            twist_deg: -(angle + slope.atan()).to_degrees(),
-        }
-    };
-    (0..=points as usize).map(pose).collect()
+    (0..=points as usize)
+        .map(|at: usize| {
+            let share = at as f64 / points;
+            let along = length * (share - 0.5);
+            let across = sagitta * (1.0 - (2.0 * share - 1.0).powi(2));
+            let slope = -4.0 * sagitta * (2.0 * share - 1.0) / length;
+            let rise = ((share.min(1.0 - share) * length) / taper).clamp(0.0, 1.0);
+            let eased = rise * rise * (3.0 - 2.0 * rise);
+            BrushworkSample {
+                seconds: share * length / (size * SPEED),
+                x_mm: x + across * cos + along * sin,
+                y_mm: y + along * cos - across * sin,
+                pressure: pressure * (style.strokes.lift + (1.0 - style.strokes.lift) * eased),
+                tilt_x_deg: 0.0,
+                tilt_y_deg: 0.0,
+                // At 0 the broad side runs along x. The head turns with the heading.
+                twist_deg: -(angle + slope.atan()).to_degrees(),
+            }
+        })
+        .collect()
 }
 
 #[cfg(test)]

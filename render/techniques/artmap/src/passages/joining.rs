@@ -366,20 +366,18 @@ fn around(
         borders.iter().filter(|(other, _)| chosen(*other)).map(|(_, length)| length).sum()
     };
     let all = length(&|_| true);
-    let unlike = |passage: &usize| own.apart(&whole[*passage]);
     (0..whole.len())
         .filter(|passage: &usize| {
             let whole = &whole[*passage];
-            let inside = |other: u32| found[other as usize] == Some(*passage);
-            let taken = |other: u32| {
+            let enclosed = f64::from(length(&|other: u32| {
                 found[other as usize].is_some() || traits[other as usize].apart(whole) < reach
-            };
-            let enclosed = f64::from(length(&taken)) > LEAST_BORDER * f64::from(all);
+            })) > LEAST_BORDER * f64::from(all);
             let small = own.pixels < MOST_AREA * whole.pixels;
             let gap = enclosed && small && own.apart(whole) < MORE_UNLIKE * reach;
-            length(&inside) > 0 && (gap || own.apart(whole) < reach)
+            length(&|other: u32| found[other as usize] == Some(*passage)) > 0
+                && (gap || own.apart(whole) < reach)
         })
-        .min_by(|one, other| unlike(one).total_cmp(&unlike(other)))
+        .min_by(|one, other| own.apart(&whole[*one]).total_cmp(&own.apart(&whole[*other])))
 }
 
 /// The neighbours of each region by rising label, and the lengths of the common borders in pixels.

@@ -405,11 +405,11 @@ mod tests {
 
     #[test]
     fn inconsistent_sets_are_not_written() {
-        let refused = |change: &dyn Fn(&mut SampleSet)| {
+        fn refused(change: &dyn Fn(&mut SampleSet)) -> String {
             let mut set = set();
             change(&mut set);
             write(&set).unwrap_err().to_string()
-        };
+        }
         assert!(refused(&|set| set.samples.clear()).contains("there are none"));
         let sizes = refused(&|set| set.samples[0].mask = Field::filled(3, 3, true));
         assert!(sizes.contains("fields of sample `tone 1` differ in size"), "{sizes}");

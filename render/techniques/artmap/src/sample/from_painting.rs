@@ -142,11 +142,14 @@ fn table(
 fn masstones(library: &PigmentLibrary) -> Vec<Lab> {
     let viewing = Viewing::default();
     let palette = Palette::new(library, &viewing, Cards::standard(library.grid));
-    let color = |id| {
-        let palette = palette.as_ref().ok()?;
-        Some(palette.color(&Recipe::single(id)).lab)
-    };
-    library.ids().map(|id| color(id).unwrap_or_default()).collect()
+    library
+        .ids()
+        .map(|id| {
+            let palette = palette.as_ref().ok()?;
+            Some(palette.color(&Recipe::single(id)).lab)
+        })
+        .map(Option::unwrap_or_default)
+        .collect()
 }
 
 pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
@@ -184,24 +187,27 @@ pub(crate) fn summed_paint(
     let width = document.wet.width();
     let height = document.wet.height();
     let quantum_mm = mm_from_quanta(1, document.cell_mm);
-    let texel = |index: usize| {
-        let mut sums = [0.0; SLOTS];
-        let mut vehicle = 0_u64;
-        for (places, opacity, layer) in &layers {
-            let cell = layer.cell(index);
-            vehicle += u64::from(cell.vehicle);
-            for (place, amount) in places.iter().zip(cell.pigments) {
-                if let Some(place) = *place {
-                    sums[place] += opacity * f64::from(amount);
+    let texels = (0..width * height)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|index: usize| {
+            let mut sums = [0.0; SLOTS];
+            let mut vehicle = 0_u64;
+            for (places, opacity, layer) in &layers {
+                let cell = layer.cell(index);
+                vehicle += u64::from(cell.vehicle);
+                for (place, amount) in places.iter().zip(cell.pigments) {
+                    if let Some(place) = *place {
+                        sums[place] += opacity * f64::from(amount);
+                    }
                 }
             }
-        }
-        TexelPaint {
-            pigments_mm: sums.map(|sum| (sum * quantum_mm) as f32),
-            vehicle_mm: (vehicle as f64 * quantum_mm) as f32,
-        }
-    };
-    let texels = (0..width * height).into_par_iter().with_min_len(4096).map(texel).collect();
+            TexelPaint {
+                pigments_mm: sums.map(|sum| (sum * quantum_mm) as f32),
+                vehicle_mm: (vehicle as f64 * quantum_mm) as f32,
+            }
+        })
+        .collect();
     Field::from_values(width, height, texels)
 }
 

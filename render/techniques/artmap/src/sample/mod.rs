@@ -143,10 +143,9 @@ impl SampleSet {
                 }
             }
             for mut sample in set.samples {
-                let taken = |name: &str| joined.samples.iter().any(|other| other.name == name);
                 let plain = sample.name.clone();
                 let mut number = 2;
-                while taken(&sample.name) {
+                while joined.samples.iter().any(|other| other.name == sample.name) {
                     sample.name = format!("{plain} ({number})");
                     number += 1;
                 }
@@ -387,7 +386,9 @@ mod tests {
 
     #[test]
     fn sets_of_other_pigments_are_refused() {
-        let refused = |sets| SampleSet::joined(sets).unwrap_err().to_string();
+        fn refused(sets: Vec<SampleSet>) -> String {
+            SampleSet::joined(sets).unwrap_err().to_string()
+        }
         let [a, b] = [|| painted(set(&[0.1], "a"), 0), || painted(set(&[0.2], "b"), 1)];
         assert!(refused(vec![a(), b()]).contains("`a` and `b`"));
         assert!(refused(vec![a(), set(&[0.2], "c")]).contains("`c` has colours only"));

@@ -175,10 +175,9 @@ pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
                 candidates.push(place);
             }
         }
-        let misfit = |&place: &(isize, isize)| misfit(level, sources, texel, place);
         let mut best: Option<(f32, (isize, isize))> = None;
         for place in candidates {
-            let found = misfit(&place);
+            let found = misfit(level, sources, texel, place);
             if best.is_none_or(|(least, _)| found < least) {
                 best = Some((found, place));
             }

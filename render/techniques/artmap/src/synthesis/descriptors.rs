@@ -138,7 +138,9 @@ impl Descriptors {
         let mut all: Vec<(f32, u32)> = (0..self.places.len())
             .map(|index| (distance(wanted, self.of(index)), index as u32))
             .collect();
-        let order = |a: &(f32, u32), b: &(f32, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        fn order(a: &(f32, u32), b: &(f32, u32)) -> std::cmp::Ordering {
+            a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+        }
         if count < all.len() {
             all.select_nth_unstable_by(count, order);
             all.truncate(count);
@@ -255,11 +257,12 @@ impl Prepared {
             Some(name) => named(samples, name)?,
             None => strongest(&pyramids),
         };
-        let space = |index: usize| {
-            let levels: Vec<&Level> = pyramids.iter().map(|pyramid| &pyramid[index]).collect();
-            PatchSpace::of(&levels, grids[index].patch)
-        };
-        let spaces: Vec<PatchSpace> = (0..grids.len()).map(space).collect();
+        let spaces: Vec<PatchSpace> = (0..grids.len())
+            .map(|index: usize| {
+                let levels: Vec<&Level> = pyramids.iter().map(|pyramid| &pyramid[index]).collect();
+                PatchSpace::of(&levels, grids[index].patch)
+            })
+            .collect();
         let of_first =
             spaces.iter().zip(&pyramids[first]).map(|(space, level)| space.describe(level));
         let of_first = of_first.collect();

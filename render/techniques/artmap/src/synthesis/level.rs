@@ -155,10 +155,6 @@ impl Level {
             };
             (mean as f32, if used { (1.0 / deviation) as f32 } else { 0.0 })
         });
-        let scaled = |index: usize| {
-            let raw = raw(index);
-            std::array::from_fn(|feature| (raw[feature] - scales[feature].0) * scales[feature].1)
-        };
         let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
         let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
         fn per(deviation: f64) -> f32 {
@@ -166,17 +162,37 @@ impl Level {
         }
         let per_color = per(color);
         let per_height = HEIGHT * per(deviation(3));
-        let look = |&[l, a, b, height]: &[f32; LOOKS]| {
-            [l * per_color, a * per_color, b * per_color, height * per_height]
-        };
         let mean_edge = channels.moments(|index| edges[index]).0 as f32;
-        let weight = |edge: &f32| if mean_edge > 0.0 { 1.0 + 2.0 * edge / mean_edge } else { 1.0 };
-        let looks = values.values().iter().map(look).collect();
-        let scaled = (0..width * height).map(scaled).collect();
+        let looks = values
+            .values()
+            .iter()
+            .map(|&[l, a, b, height]: &[f32; LOOKS]| {
+                [l * per_color, a * per_color, b * per_color, height * per_height]
+            })
+            .collect();
+        let scaled = (0..width * height)
+            .map(|index: usize| {
+                let raw = raw(index);
+                std::array::from_fn(|feature| {
+                    (raw[feature] - scales[feature].0) * scales[feature].1
+                })
+            })
+            .collect();
         Self {
             look: Field::from_values(width, height, looks),
             features: Field::from_values(width, height, scaled),
-            weight: Field::from_values(width, height, edges.iter().map(weight).collect()),
+            weight: Field::from_values(
+                width,
+                height,
+                edges
+                    .iter()
+                    .map(
+                        |edge: &f32| {
+                            if mean_edge > 0.0 { 1.0 + 2.0 * edge / mean_edge } else { 1.0 }
+                        },
+                    )
+                    .collect(),
+            ),
             mask: channels.mask.clone(),
             contrast: channels.moments(|index| fine.values()[index][0]).1,
         }

@@ -108,13 +108,15 @@ pub(crate) fn first_level(
             candidates.clone_from(&described.places);
         }
         let overlap = canvas.overlap(cell);
-        let cost = |&place: &[u16; 2]| {
-            let coarse = coarser.map_or(0.0, |(level, map)| {
-                COARSER * coarse_difference(level, map, &canvas, cell, place)
-            });
-            (canvas.cost(&overlap, place) + coarse) * usage.penalty(place)
-        };
-        let costs: Vec<f32> = candidates.iter().map(cost).collect();
+        let costs: Vec<f32> = candidates
+            .iter()
+            .map(|&place: &[u16; 2]| {
+                let coarse = coarser.map_or(0.0, |(level, map)| {
+                    COARSER * coarse_difference(level, map, &canvas, cell, place)
+                });
+                (canvas.cost(&overlap, place) + coarse) * usage.penalty(place)
+            })
+            .collect();
         let least = costs.iter().copied().fold(f32::INFINITY, f32::min);
         let good = candidates.iter().zip(&costs).filter(|(_, cost)| **cost <= TOLERANCE * least);
         let good: Vec<[u16; 2]> = good.map(|(place, _)| *place).collect();

@@ -214,11 +214,11 @@ mod tests {
     #[test]
     fn numbers_that_are_none_are_refused_by_name() {
         assert_eq!(DrawingLook::default().check(), Ok(()));
-        let refused = |change: &dyn Fn(&mut DrawingLook)| {
+        fn refused(change: &dyn Fn(&mut DrawingLook)) -> String {
             let mut look = DrawingLook::default();
             change(&mut look);
             look.check().unwrap_err().to_string()
-        };
+        }
         let found = refused(&|look| look.hatching.pencil = f32::NAN);
         assert_eq!(found, "pencil is 0 to 1, found `NaN`");
         assert!(refused(&|look| look.shade = 1.5).starts_with("shade"));

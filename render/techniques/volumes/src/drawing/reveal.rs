@@ -299,12 +299,14 @@ mod tests {
 
     #[test]
     fn too_many_regions_and_colours_that_are_none_are_refused() {
-        let region = |stain| Region {
-            counts: Field::filled(1, 1, 0).into(),
-            table: TintTable::hard(),
-            inside: Inside::OwnColors,
-            stain,
-        };
+        fn region(stain: [f32; 3]) -> Region {
+            Region {
+                counts: Field::filled(1, 1, 0).into(),
+                table: TintTable::hard(),
+                inside: Inside::OwnColors,
+                stain,
+            }
+        }
         let own = region(Region::UNSTAINED);
         assert_eq!(checked_regions(&vec![own.clone(); 64]), Ok(()));
         let error = checked_regions(&vec![own; 65]).unwrap_err();
@@ -395,10 +397,10 @@ mod tests {
 
     #[test]
     fn later_regions_lie_over_earlier_ones() {
-        let everywhere = |tints: &[f32], color: [f32; 3]| {
+        fn everywhere(tints: &[f32], color: [f32; 3]) -> Region {
             let inside = field(5, 1, |_, _| [color[0], color[1], color[2], 0.0]).into();
             region(Field::filled(5, 1, 1), tints, Inside::Picture(inside))
-        };
+        }
         let red = [0.9, 0.1, 0.1];
         let blue = [0.1, 0.2, 0.8];
         let over = |first: Region, second: Region| picture((5, 1), &[first, second], None)[(0, 0)];
@@ -475,9 +477,9 @@ mod tests {
         for (samples, width, height) in
             [(1, 1, 1), (1, 8, 8), (1, 67, 33), (2, 34, 18), (3, 201, 99)]
         {
-            let inside = || shaded(height, width).values().to_vec();
             let regions = |compute: &mut Compute| {
-                let inside = Field::from_values(width, height, inside());
+                let inside =
+                    Field::from_values(width, height, shaded(height, width).values().to_vec());
                 let mut region = |step, tints: &[f32], inside| Region {
                     counts: compute.upload(&counts(width, height, step)).unwrap(),
                     table: TintTable::new(tints.to_vec()).unwrap(),

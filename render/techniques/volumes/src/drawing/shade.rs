@@ -516,9 +516,9 @@ mod tests {
                 Scene::new(Compute::cpu(), &mesh).grey(&camera, (75, 50), &DrawingLook::default())
             })
         });
-        let bits = |picture: &Field<[f32; 4]>| -> Vec<u32> {
+        fn bits(picture: &Field<[f32; 4]>) -> Vec<u32> {
             picture.values().iter().flatten().map(|value| value.to_bits()).collect()
-        };
+        }
         assert!(pictures.iter().all(|picture| bits(picture) == bits(&pictures[0])));
     }
 
@@ -537,9 +537,9 @@ mod tests {
             assert_eq!(plain[..3], pale[..3]);
             assert!((0.0..=1.0).contains(&pale[3]), "{pale:?}");
         }
-        let dark = |field: &Field<[f32; 4]>| -> f32 {
+        fn dark(field: &Field<[f32; 4]>) -> f32 {
             field.values().iter().map(|pixel| 1.0 - pixel[3]).sum()
-        };
+        }
         assert!(dark(&pale) < 0.8 * dark(&plain), "{} {}", dark(&pale), dark(&plain));
     }
 
@@ -635,7 +635,9 @@ mod tests {
             let visible = model.visible(&mut compute, &camera, width, height).unwrap();
             let mesh = model.host().mesh();
             let (_, ink) = shade_apart(mesh, visible.host(), &camera, &look, &hatching).unwrap();
-            let within = |at: i32, end: usize| usize::try_from(at).is_ok_and(|at| at < end);
+            fn within(at: i32, end: usize) -> bool {
+                usize::try_from(at).is_ok_and(|at| at < end)
+            }
             let found = width_of_strips((width as i32, height as i32), |x: i32, y: i32| {
                 within(x, width) && within(y, height) && ink[(x as usize, y as usize)] > 0.5
             });

@@ -214,14 +214,18 @@ mod tests {
 
     #[test]
     fn lists_out_of_order_are_refused_with_their_place() {
-        let scales = |scales: &[f32]| Shells::new(scales.to_vec(), vec![0.0, 0.5, 1.0]);
+        fn scales(scales: &[f32]) -> Result<Shells, ShellError> {
+            Shells::new(scales.to_vec(), vec![0.0, 0.5, 1.0])
+        }
         assert_eq!(scales(&[1.0, 0.9]).map(|shells| shells.scales().len()), Ok(2));
         assert_eq!(scales(&[0.9, 1.0]), Err(ShellError::NotFalling { index: 1, found: 1.0 }));
         assert_eq!(scales(&[1.0, 0.0]), Err(ShellError::Scale { index: 1, found: 0.0 }));
         assert!(matches!(scales(&[f32::NAN, 0.5]), Err(ShellError::Scale { index: 0, .. })));
         assert_eq!(scales(&[1.0]), Err(ShellError::Lengths { shells: 1, tints: 3 }));
         assert_eq!(scales(&[]), Err(ShellError::Count { found: 0 }));
-        let tints = |tints: &[f32]| TintTable::new(tints.to_vec());
+        fn tints(tints: &[f32]) -> Result<TintTable, ShellError> {
+            TintTable::new(tints.to_vec())
+        }
         assert_eq!(tints(&[0.0, 0.6, 0.5]), Err(ShellError::NotRising { index: 2, found: 0.5 }));
         assert_eq!(tints(&[0.2, 0.6]), Err(ShellError::Outside { found: 0.2 }));
         assert_eq!(tints(&[0.0, 1.5]), Err(ShellError::Tint { index: 1, found: 1.5 }));

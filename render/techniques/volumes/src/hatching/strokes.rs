@@ -65,10 +65,12 @@ impl Stroke {
     }
 
     pub(super) fn half_way(&self, other: &Self) -> Self {
-        let mean = |from: f32, to: f32| 0.5 * (from + to);
-        let knots = |from: &[f32; KNOTS], to: &[f32; KNOTS]| {
+        fn mean(from: f32, to: f32) -> f32 {
+            0.5 * (from + to)
+        }
+        fn knots(from: &[f32; KNOTS], to: &[f32; KNOTS]) -> [f32; KNOTS] {
             std::array::from_fn(|knot| mean(from[knot], to[knot]))
-        };
+        }
         Self {
             middle: [0, 1].map(|axis| mean(self.middle[axis], other.middle[axis])),
             length: mean(self.length, other.length),

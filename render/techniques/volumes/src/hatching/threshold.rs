@@ -260,16 +260,18 @@ fn second_slice(
 
 /// The strokes of four tiles of half the size side by side, in order of falling tone.
 fn four_copies(first: &[Drawn]) -> Vec<Drawn> {
-    let copies = |own: &Drawn| {
-        let stroke = own.stroke.clone();
-        let tone = own.tone;
-        [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|tile| {
-            let [x, y] = stroke.middle.map(|at| at - at.floor());
-            let middle = [0.5 * (x + tile[0]), 0.5 * (y + tile[1])];
-            Drawn { stroke: stroke.at(middle), tone }
+    first
+        .iter()
+        .flat_map(|own: &Drawn| {
+            let stroke = own.stroke.clone();
+            let tone = own.tone;
+            [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|tile| {
+                let [x, y] = stroke.middle.map(|at| at - at.floor());
+                let middle = [0.5 * (x + tile[0]), 0.5 * (y + tile[1])];
+                Drawn { stroke: stroke.at(middle), tone }
+            })
         })
-    };
-    first.iter().flat_map(copies).collect()
+        .collect()
 }
 
 /// For each stroke, the stroke of the copies that it becomes. This is the nearest of about its
@@ -277,24 +279,26 @@ fn four_copies(first: &[Drawn]) -> Vec<Drawn> {
 fn like_strokes(first: &[Drawn], four: &[Drawn]) -> Vec<Option<usize>> {
     let mut taken = vec![false; four.len()];
     let across = WIDTH_TEXELS / SIDE as f32;
-    let choose = |own: &Drawn| {
-        let from = four.partition_point(|other| other.tone > own.tone + LIKE);
-        let to = four.partition_point(|other| other.tone >= own.tone - LIKE);
-        let mut nearest = None;
-        let mut least = f32::INFINITY;
-        for index in (from..to).filter(|&index| !taken[index]) {
-            let [x, y] = [0, 1].map(|axis| {
-                let way = four[index].stroke.middle[axis] - own.stroke.middle[axis];
-                (way - way.round()) / across
-            });
-            let far = (x / ALONG).powi(2) + y * y;
-            if far < least {
-                (nearest, least) = (Some(index), far);
+    first
+        .iter()
+        .map(|own: &Drawn| {
+            let from = four.partition_point(|other| other.tone > own.tone + LIKE);
+            let to = four.partition_point(|other| other.tone >= own.tone - LIKE);
+            let mut nearest = None;
+            let mut least = f32::INFINITY;
+            for index in (from..to).filter(|&index| !taken[index]) {
+                let [x, y] = [0, 1].map(|axis| {
+                    let way = four[index].stroke.middle[axis] - own.stroke.middle[axis];
+                    (way - way.round()) / across
+                });
+                let far = (x / ALONG).powi(2) + y * y;
+                if far < least {
+                    (nearest, least) = (Some(index), far);
+                }
             }
-        }
-        nearest.inspect(|&index| taken[index] = true)
-    };
-    first.iter().map(choose).collect()
+            nearest.inspect(|&index| taken[index] = true)
+        })
+        .collect()
 }
 
 /// The stroke of `other`, moved to where the repeating tile brings its middle nearest to `own`.
@@ -320,13 +324,14 @@ mod tests {
         let texture = sample_texture();
         for slice in 0..SLICES {
             // Places between the texels. Each is nearest to another of their corners.
-            let between = |texel: usize| {
-                let quad = texture.quads()[slice * SIDE * SIDE + texel].to_le_bytes();
-                let [a, b, c, d] = quad.map(|at| f32::from(at) / 255.0 / 16.0);
-                [(a, b, c, d), (b, a, d, c), (c, a, d, b), (d, b, c, a)]
-                    .map(|(own, next, other, far)| 9.0 * own + 3.0 * (next + other) + far)
-            };
-            let mut all: Vec<f32> = (0..SIDE * SIDE).flat_map(between).collect();
+            let mut all: Vec<f32> = (0..SIDE * SIDE)
+                .flat_map(|texel: usize| {
+                    let quad = texture.quads()[slice * SIDE * SIDE + texel].to_le_bytes();
+                    let [a, b, c, d] = quad.map(|at| f32::from(at) / 255.0 / 16.0);
+                    [(a, b, c, d), (b, a, d, c), (c, a, d, b), (d, b, c, a)]
+                        .map(|(own, next, other, far)| 9.0 * own + 3.0 * (next + other) + far)
+                })
+                .collect();
             all.sort_unstable_by(f32::total_cmp);
             for tone in 0..=64 {
                 let tone = tone as f32 / 64.0;
@@ -389,7 +394,9 @@ mod tests {
             }
             runs
         };
-        let mean = |runs: &[usize]| runs.iter().sum::<usize>() as f32 / runs.len() as f32;
+        fn mean(runs: &[usize]) -> f32 {
+            runs.iter().sum::<usize>() as f32 / runs.len() as f32
+        }
         let wide = runs(true);
         let long = runs(false);
         assert!((1.2..3.5).contains(&mean(&wide)), "{}", mean(&wide));

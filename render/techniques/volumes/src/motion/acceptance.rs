@@ -143,12 +143,13 @@ fn growth_lags_by_friction_over_pressure() {
 fn the_microstructure_stays_and_is_as_rough_as_it_says() {
     let settings = MotionSettings::default();
     let surroundings = Surroundings::new(1.0, 7);
-    let ball = |i: usize| Volume::ball(Vec3::new(2.3 * i as f32, 0.4, -1.1), 0.7, 3, i as u64);
-    let mut volumes: Vec<Volume> = (0..8).map(ball).collect();
+    let mut volumes: Vec<Volume> = (0..8)
+        .map(|i: usize| Volume::ball(Vec3::new(2.3 * i as f32, 0.4, -1.1), 0.7, 3, i as u64))
+        .collect();
     volumes.iter_mut().for_each(|volume| kick(volume, 0.3, 0));
     advance(&mut volumes, &settings, &surroundings, 10.0).unwrap();
-    let share = |volume| mean_and_deviation(&distances(volume)).1 / 0.18;
-    let shares: Vec<f64> = volumes.iter().map(share).collect();
+    let shares: Vec<f64> =
+        volumes.iter().map(|volume| mean_and_deviation(&distances(volume)).1 / 0.18).collect();
     assert!(shares.iter().all(|share| (0.2..0.6).contains(share)), "{shares:?}");
 }
 
@@ -199,8 +200,9 @@ fn bumps_are_strongest_at_the_grain() {
     for grain in [0.5, 0.8] {
         let settings = MotionSettings { grain, ..MotionSettings::default() };
         let mut sums = vec![0.0; 25];
-        let ball = |i: u8| Volume::ball(Vec3::new(3.7 * f32::from(i), 0.4, -1.1), 1.0, 3, 1);
-        let mut volumes: Vec<Volume> = (0..16).map(ball).collect();
+        let mut volumes: Vec<Volume> = (0..16)
+            .map(|i: u8| Volume::ball(Vec3::new(3.7 * f32::from(i), 0.4, -1.1), 1.0, 3, 1))
+            .collect();
         advance(&mut volumes, &settings, &Surroundings::new(1.0, 3), 4.0).unwrap();
         for volume in &volumes {
             let distances = distances(volume);
@@ -252,14 +254,15 @@ fn no_particle_leaves_a_region() {
 }
 
 fn floor() -> Arc<SurfaceLattice> {
-    let at = |i: i32| Vec3::new((i % 60 - 30) as f32, 0.0, (i / 60 - 30) as f32) * 0.1;
-    let places: Vec<Vec3> = (0..3600).map(at).collect();
+    let places: Vec<Vec3> = (0..3600)
+        .map(|i: i32| Vec3::new((i % 60 - 30) as f32, 0.0, (i / 60 - 30) as f32) * 0.1)
+        .collect();
     Arc::new(SurfaceLattice::of(&places, 1.0).unwrap())
 }
 
 #[test]
 fn the_surface_gravity_and_pushes_draw_particles_their_way() {
-    let low = |settings: &MotionSettings, surroundings: &Surroundings| {
+    fn low(settings: &MotionSettings, surroundings: &Surroundings) -> (DVec3, f64) {
         let mut volumes = [Volume::ball(Vec3::ZERO, 0.6, 3, 1)];
         volumes[0].normal = Vec3::new(0.6, 0.8, 0.0);
         advance(&mut volumes, settings, surroundings, 2.0).unwrap();
@@ -267,7 +270,7 @@ fn the_surface_gravity_and_pushes_draw_particles_their_way() {
         let mean = places.iter().sum::<DVec3>() / places.len() as f64;
         let height = places.iter().map(|place| place.y.abs()).sum::<f64>() / places.len() as f64;
         (mean, height)
-    };
+    }
     let free = Surroundings::new(1.0, 1);
     let (still, height) = low(&smooth(), &free);
     assert!(still.length() < 1e-5, "{still}");
@@ -377,8 +380,10 @@ fn survives(steps: usize, details: &[u8], seed: u64) -> usize {
     let floor: Vec<Vec3> =
         (0..400).map(|_| 2.0 * unit(random) * Vec3::new(1.0, 0.0, 1.0)).collect();
     let floor = Arc::new(SurfaceLattice::of(&floor, 1.0).unwrap());
-    let ball = |&detail: &u8| Volume::ball(Vec3::splat(detail.into()), 0.5, detail, 1);
-    let mut volumes: Vec<Volume> = details.iter().map(ball).collect();
+    let mut volumes: Vec<Volume> = details
+        .iter()
+        .map(|&detail: &u8| Volume::ball(Vec3::splat(detail.into()), 0.5, detail, 1))
+        .collect();
     let mut settings = MotionSettings::default();
     let mut surroundings = Surroundings::new(1.0, 2);
     for step in 0..steps {
@@ -446,9 +451,9 @@ fn explicit_euler(settings: &MotionSettings, seconds: f32, steps: usize) -> f32 
     let mut ball = Volume::ball(Vec3::ZERO, 1.0, 3, 1);
     kick(&mut ball, 0.3, 0);
     let mesh = ball.mesh();
-    let vectors = |[x, y, z]: &[Vec<f32>; 3]| -> Vec<Vec3> {
+    fn vectors([x, y, z]: &[Vec<f32>; 3]) -> Vec<Vec3> {
         (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect()
-    };
+    }
     let rest: Vec<Vec3> = vectors(&mesh.axes).iter().map(|at| *at / mesh.inradius).collect();
     let mut places = vectors(&ball.particles.places);
     let mut velocities = vectors(&ball.particles.velocities);
@@ -511,10 +516,11 @@ fn explicit_euler_diverges_where_the_step_does_not() {
 
 #[test]
 fn the_number_of_threads_does_not_change_a_bit() {
-    let moved = |threads: usize| {
+    fn moved(threads: usize) -> Vec<Volume> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let ball = |i: u8| Volume::ball(Vec3::splat(0.4 * f32::from(i)), 0.5, i % 5, i.into());
-        let mut volumes: Vec<Volume> = (0..30).map(ball).collect();
+        let mut volumes: Vec<Volume> = (0..30)
+            .map(|i: u8| Volume::ball(Vec3::splat(0.4 * f32::from(i)), 0.5, i % 5, i.into()))
+            .collect();
         let push = Push { center: Vec3::ONE, direction: Vec3::X, radius: 3.0, strength: 50.0 };
         let surroundings = Surroundings { pushes: vec![push], ..Surroundings::new(1.0, 1) };
         for volume in &mut volumes {
@@ -528,7 +534,7 @@ fn the_number_of_threads_does_not_change_a_bit() {
             });
         }
         volumes
-    };
+    }
     let one = moved(1);
     assert_eq!(one, moved(2));
     assert_eq!(one, moved(8));

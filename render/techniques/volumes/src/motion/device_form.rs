@@ -200,10 +200,10 @@ pub(super) fn words_of_spheres() -> Vec<u32> {
 }
 
 fn places_of_sphere(detail: u8) -> (u32, u32) {
-    let sizes = |detail: u8| {
+    fn sizes(detail: u8) -> (u32, u32) {
         let fours = 4_u32.pow(detail.into());
         (6 * (10 * fours + 2), 60 * fours)
-    };
+    }
     let before = (0..detail).map(sizes).map(|(neighbours, faces)| neighbours + faces);
     let directions = sizes(MOST_DETAIL).0 / 2;
     let neighbours = directions + before.sum::<u32>();

@@ -335,7 +335,9 @@ mod tests {
 
     #[test]
     fn the_surface_pulls_within_a_cell_and_small_volumes_gently() {
-        let pull = |x: f32, radius: f32| surface_pull(Vec3::X * x, 50.0, radius, 1.0).x;
+        fn pull(x: f32, radius: f32) -> f32 {
+            surface_pull(Vec3::X * x, 50.0, radius, 1.0).x
+        }
         assert_eq!([pull(0.25, 0.5), pull(-0.5, 0.5)], [12.5, -25.0]);
         assert_eq!([pull(0.75, 0.5), pull(-0.5, 0.125)], [25.0, -6.25]);
         assert_eq!([pull(1.0, 0.5), pull(0.0, 0.5)], [0.0, 0.0]);
@@ -376,11 +378,11 @@ mod tests {
 
     #[test]
     fn kicks_of_one_volume_differ_by_moment_only() {
-        let kicked = |moment| {
+        fn kicked(moment: u64) -> Volume {
             let mut ball = Volume::ball(Vec3::ZERO, 2.0, 2, 5);
             kick(&mut ball, 0.3, moment);
             ball
-        };
+        }
         assert_eq!(kicked(1), kicked(1));
         assert_ne!(kicked(1), kicked(2));
         let squares = kicked(1).particles.velocities.concat().iter().map(|v| v * v).sum::<f32>();

@@ -355,8 +355,12 @@ impl Acting {
         let target = volume.target_radius.max(least);
         let way = volume.center.distance(volume.target_center);
         let reach = FARTHEST * volume.radius.max(target) / volume.mesh().inradius + way;
-        let reaches = |push: &&Push| push.reaches(volume.center, reach);
-        let pushes: Vec<Push> = surroundings.pushes.iter().filter(reaches).copied().collect();
+        let pushes: Vec<Push> = surroundings
+            .pushes
+            .iter()
+            .filter(|push: &&Push| push.reaches(volume.center, reach))
+            .copied()
+            .collect();
         let rests = volume.rests_under == conditions.fingerprint;
         if volume.dry || (rests && has_arrived(volume, target) && pushes.is_empty()) {
             return None;

@@ -130,12 +130,15 @@ impl SurfaceLattice {
 
     fn fill(&mut self) {
         let cells = self.counts.iter().product();
-        let cell_of = |place: Vec3| {
-            let at = ((place - self.low) / self.cell).to_array().map(|along| along as usize);
-            (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
-        };
         // Samples by cell, in each by index.
-        let of_samples: Vec<usize> = self.places.iter().map(|&place| cell_of(place)).collect();
+        let of_samples: Vec<usize> = self
+            .places
+            .iter()
+            .map(|&place: &Vec3| {
+                let at = ((place - self.low) / self.cell).to_array().map(|along| along as usize);
+                (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
+            })
+            .collect();
         let mut first = vec![0_u32; cells + 1];
         for &cell in &of_samples {
             first[cell + 1] += 1;
@@ -149,9 +152,11 @@ impl SurfaceLattice {
             sorted[next[cell] as usize] = sample as u32;
             next[cell] += 1;
         }
-        let is_near =
-            |cell: &usize| self.rows_around(*cell).any(|row| first[row.start] < first[row.end]);
-        let near: Vec<usize> = (0..cells).filter(is_near).collect();
+        let near: Vec<usize> = (0..cells)
+            .filter(|cell: &usize| {
+                self.rows_around(*cell).any(|row| first[row.start] < first[row.end])
+            })
+            .collect();
         self.tables = vec![NONE; cells];
         for (&cell, table) in near.iter().zip(0..) {
             self.tables[cell] = table;
@@ -170,7 +175,9 @@ impl SurfaceLattice {
     fn rows_around(&self, cell: usize) -> impl Iterator<Item = Range<usize>> + use<> {
         let [columns, rows, layers] = self.counts;
         let [x, y, z] = [cell % columns, cell / columns % rows, cell / columns / rows];
-        let side = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        fn side(at: usize, count: usize) -> Range<usize> {
+            at.saturating_sub(1)..(at + 2).min(count)
+        }
         let along = side(x, columns);
         let across = side(y, rows);
         side(z, layers).flat_map(move |layer| {

@@ -49,10 +49,10 @@ impl Surroundings {
     pub fn check(&self) -> Result<(), MotionError> {
         /// Places and radii must be finite and leave room for their squares.
         const FARTHEST: f32 = 1e15;
-        let place = |key, place: Vec3| {
+        fn place(key: &'static str, place: Vec3) -> Result<(), MotionError> {
             let mut along = place.to_array().into_iter();
             along.try_for_each(|along| in_range(key, along, -FARTHEST, FARTHEST))
-        };
+        }
         in_range("cell", self.cell, 1e-15, FARTHEST)?;
         place("down", self.down)?;
         for region in &self.regions {
@@ -118,7 +118,9 @@ mod tests {
     fn every_lasting_force_changes_the_fingerprint() {
         let settings = MotionSettings::default();
         let plain = Surroundings::new(1.0, 1);
-        let lattice = |x: f32| Some(Arc::new(SurfaceLattice::of(&[Vec3::X * x], 1.0).unwrap()));
+        fn lattice(x: f32) -> Option<Arc<SurfaceLattice>> {
+            Some(Arc::new(SurfaceLattice::of(&[Vec3::X * x], 1.0).unwrap()))
+        }
         let wall = KeepIn::Ball { center: Vec3::ZERO, radius: 1.0 };
         let others = [
             plain.clone(),

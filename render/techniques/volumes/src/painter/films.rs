@@ -103,8 +103,9 @@ impl Films {
         let volumes = world.volumes().iter().zip(world.facing());
         let volumes = volumes.filter(|(volume, _)| wanted(volume));
         // Films stay on what the cells of their volumes face, as colours do.
-        let facing = |(volume, normal): (&Volume, Vec3)| Volume { normal, ..volume.clone() };
-        let volumes: Vec<Volume> = volumes.map(facing).collect();
+        let volumes: Vec<Volume> = volumes
+            .map(|(volume, normal): (&Volume, Vec3)| Volume { normal, ..volume.clone() })
+            .collect();
         counter.heights((scene, &surface), &volumes, kind, camera, visible)
     }
 }

@@ -81,10 +81,10 @@ impl InSight {
             return false;
         }
         let Some(depths) = &self.depths else { return true };
-        let range = |[from, to]: [f32; 2], side: f32| {
+        fn range([from, to]: [f32; 2], side: f32) -> std::ops::RangeInclusive<usize> {
             let last = (side as usize).saturating_sub(1) / TILE;
             from as usize / TILE..=(to as usize / TILE).min(last)
-        };
+        }
         let across = range(columns, width);
         let depths_of_row = depths.chunks(self.columns);
         let rows = range(rows, height);
@@ -363,7 +363,9 @@ mod tests {
         let seen = visible(&plane(4), &camera, 97, 61);
         let whole = InSight::new(&camera, &Image::from(seen));
         let without = InSight { depths: None, ..whole };
-        let ball = |x: f32, z: f32| Volume::ball(Vec3::new(x, 2.0, z), 0.3, 1, 1);
+        fn ball(x: f32, z: f32) -> Volume {
+            Volume::ball(Vec3::new(x, 2.0, z), 0.3, 1, 1)
+        }
         assert!(without.may_hold(&ball(2.0, -1.0)) && !without.may_hold(&ball(12.0, 0.0)));
     }
 }

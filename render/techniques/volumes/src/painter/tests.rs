@@ -125,10 +125,12 @@ fn without_volumes_all_is_the_grey_of_the_colour_picture() {
     let painted = scene.painted(&scene.world());
     let plain = scene.plain();
     let seen = scene.seen();
-    let linear = |value: f32| match f64::from(value) {
-        value if value <= 0.040_45 => value / 12.92,
-        value => ((value + 0.055) / 1.055).powf(2.4),
-    };
+    fn linear(value: f32) -> f64 {
+        match f64::from(value) {
+            value if value <= 0.040_45 => value / 12.92,
+            value => ((value + 0.055) / 1.055).powf(2.4),
+        }
+    }
     let mut colorful = 0;
     for (pixel, found) in painted.values().iter().enumerate() {
         let [r, g, b, grey] = plain.values()[pixel];
@@ -212,7 +214,9 @@ fn regions_are_laid_one_over_the_other() {
             continue;
         }
         let [r, g, b, grey] = plain.values()[pixel];
-        let laid = |under: f32, color: f32, tint: f32| under * (1.0 - tint) + color * tint;
+        fn laid(under: f32, color: f32, tint: f32) -> f32 {
+            under * (1.0 - tint) + color * tint
+        }
         let [r, g, b] = [r, g, b].map(|color| laid(laid(grey, color, 0.3), color, 0.6));
         assert_eq!(*found, [r, g, b, 1.0]);
     }
@@ -223,11 +227,11 @@ fn regions_are_laid_one_over_the_other() {
 
 /// A wall nearly a cell thick: two plates of 12 by 12 cells, and the side between them.
 fn plates() -> Mesh {
-    let part = |normal: [f32; 3], at: fn(f32, f32) -> [f32; 3]| {
+    fn part(normal: [f32; 3], at: fn(f32, f32) -> [f32; 3]) -> Mesh {
         let mut mesh = sheet(12, |u, v| at(12.0 * u - 6.0, 12.0 * v - 6.0));
         mesh.normals.fill(normal);
         mesh
-    };
+    }
     let top = part([0.0, 1.0, 0.0], |x, z| [x, 0.0, z]);
     let below = part([0.0, -1.0, 0.0], |x, z| [x, -0.9, z]);
     joined(joined(top, &below), &part([-1.0, 0.0, 0.0], |x, z| [-6.0, (x + 6.0) / 12.0 * -0.9, z]))
@@ -235,7 +239,7 @@ fn plates() -> Mesh {
 
 #[test]
 fn paint_on_one_side_of_a_wall_does_not_show_on_the_other() {
-    let colored = |elevation_deg: f32, gate: f32| {
+    fn colored(elevation_deg: f32, gate: f32) -> usize {
         let framing = Framing { elevation_deg, ..Framing::default() };
         let mut scene = Scene::new(plates(), framing);
         scene.mesh.colors.fill([0.8, 0.2, 0.1]);
@@ -250,7 +254,7 @@ fn paint_on_one_side_of_a_wall_does_not_show_on_the_other() {
         let pixels = picture.values().iter().zip(seen.values());
         let shown = pixels.filter(|(_, seen)| seen.triangle != NO_TRIANGLE);
         shown.filter(|(pixel, _)| !is_grey(**pixel)).count()
-    };
+    }
     assert_eq!(colored(-40.0, -0.2), 0, "from below");
     assert!(colored(40.0, -0.2) > 200, "from above");
     assert!(colored(-40.0, -1.0) > 20, "from below without a gate");
@@ -339,10 +343,9 @@ fn a_device_paints_what_the_processor_paints() {
         let found = on_device.paint(&world, &scene.camera, SIZE).unwrap();
         let on_cpu = scene.painted(&world);
         let seen = scene.seen();
-        let shown = |pixel: usize| seen.values()[pixel].triangle != NO_TRIANGLE;
         let held = |picture: &Field<[f32; 4]>, pixel: usize| {
             let [r, _, b, _] = picture.values()[pixel];
-            shown(pixel) && r - b > 0.02
+            seen.values()[pixel].triangle != NO_TRIANGLE && r - b > 0.02
         };
         let mut wet = 0;
         let mut differ = 0;
@@ -400,10 +403,10 @@ fn a_painting_is_the_picture_also_after_its_file() {
     let bytes = paint::file::write(&document).unwrap();
     let read = paint::file::read("test.exr", &bytes).unwrap();
     assert_eq!((read.title.as_str(), read.dry.len()), ("A jug", 3));
-    let most = |a: &Field<[f32; 4]>, b: &Field<[f32; 4]>| {
+    fn most(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> f32 {
         let pairs = a.values().iter().flatten().zip(b.values().iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
-    };
+    }
     assert!(most(&painted, &shown(&read)) <= 0.0002);
     let bare = painter.paint(&scene.world(), &scene.camera, SIZE).unwrap();
     let glazed = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();

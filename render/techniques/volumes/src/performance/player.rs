@@ -129,7 +129,9 @@ impl Performance {
     /// the script, and it cannot pick its place. This lets you play a performance while you write
     /// its script.
     pub fn add(&mut self, event: Event) {
-        let place = |other: &Event| (other.start, other.action.rank());
+        fn place(other: &Event) -> (u32, usize) {
+            (other.start, other.action.rank())
+        }
         let at = self.events.partition_point(|other| place(other) <= place(&event));
         let at = at.max(self.next);
         self.events.insert(at, event);
@@ -213,15 +215,13 @@ impl Performance {
 
     /// Splits a single volume of the script. Without a `volume`, splits all that are there.
     fn split(&mut self, event: &Event, volume: Option<usize>) -> Result<(), PerformanceError> {
-        let table = || event.table.clone();
-        let place = || event.table.to_string();
         let wanted: Vec<u64> = match volume {
             None => self.singles.iter().flatten().copied().collect(),
             Some(index) => {
                 let seed = self.singles.get(index).copied().flatten();
                 vec![seed.ok_or_else(|| PerformanceError::NoVolume {
-                    place: place(),
-                    table: table(),
+                    place: event.table.to_string(),
+                    table: event.table.clone(),
                     number: index + 1,
                 })?]
             }
@@ -241,8 +241,8 @@ impl Performance {
                 None => {
                     let number = volume.map_or(0, |index| index + 1);
                     return Err(PerformanceError::NoVolume {
-                        place: place(),
-                        table: table(),
+                        place: event.table.to_string(),
+                        table: event.table.clone(),
                         number,
                     });
                 }
@@ -366,7 +366,9 @@ pub fn place_seen(scene: &Mesh, seen: &VisibilityBuffer, share: [f64; 2]) -> Opt
     if !share.iter().all(|share| (0.0..=1.0).contains(share)) || width * height == 0 {
         return None;
     }
-    let at = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+    fn at(share: f64, count: usize) -> usize {
+        ((share * count as f64) as usize).min(count - 1)
+    }
     let fragment = seen[(at(share[0], width), at(share[1], height))];
     (fragment.triangle != NO_TRIANGLE).then(|| position_at(scene, fragment))
 }

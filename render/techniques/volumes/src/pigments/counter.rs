@@ -167,8 +167,10 @@ mod tests {
                     volume
                 })
                 .collect();
-            let sight = |camera: &Camera| (*camera, visible(&mesh, camera, width, height));
-            let visible = cameras.iter().map(sight).collect();
+            let visible = cameras
+                .iter()
+                .map(|camera: &Camera| (*camera, visible(&mesh, camera, width, height)))
+                .collect();
             Self { mesh: PackedMesh::new(&mesh), samples, visible, volumes }
         }
 
@@ -235,8 +237,9 @@ mod tests {
         // These are other samples, 25 times as many.
         let fine = SurfaceSamples::of(&mesh, 0.2 * cell, SAMPLES_PER_CELL, 6).unwrap();
         let patch_mm2 = f64::from(fine.areas[0]) * SCALE.unit_mm * SCALE.unit_mm;
-        let height = |at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]);
-        let heights: f64 = (0..fine.len()).map(height).sum();
+        let heights: f64 = (0..fine.len())
+            .map(|at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]))
+            .sum();
         let laid = heights * mm_from_quanta(1, SCALE.cell_mm) * patch_mm2;
         let ratio = laid / (40.0 * 2e6 * SCALE.quantum_mm3);
         assert!((0.98..1.02).contains(&ratio), "{ratio}");

@@ -79,8 +79,7 @@ impl Film {
     #[inline]
     pub fn at(&self, place: Vec3, normal: Vec3) -> Option<FilmHeights> {
         let share = self.wetted.relative_height(&self.profile, place, normal);
-        let heights = || self.heights.map(|height| (height * share + 0.5) as i32);
-        (share > 0.0).then(|| FilmHeights(heights()))
+        (share > 0.0).then(|| FilmHeights(self.heights.map(|height| (height * share + 0.5) as i32)))
     }
 }
 
@@ -381,8 +380,10 @@ impl Wetted {
     ) -> f64 {
         let mut count = 0.0;
         let mut area = 0.0;
-        let own = |index: &usize| !self.is_foreign(surface.bodies[*index]);
-        for index in lattice.near(self.center, self.reach).filter(own) {
+        for index in lattice
+            .near(self.center, self.reach)
+            .filter(|index: &usize| !self.is_foreign(surface.bodies[*index]))
+        {
             let place = surface.places[index];
             let normal = surface.normals[index];
             let patch = surface.areas[index];
@@ -572,13 +573,15 @@ mod tests {
             laid.iter_mut().zip(heights.0).for_each(|(laid, height)| *laid += f64::from(height));
         }
         let pixel_mm = f64::from(side) / count as f64 * SCALE.unit_mm;
-        let mm3 = |quanta: f64| quanta * mm_from_quanta(1, SCALE.cell_mm) * pixel_mm * pixel_mm;
         let mut poured = [0.0; 9];
         for volume in volumes {
             let amounts = volume.paint.pigments.into_iter().chain([volume.paint.vehicle]);
             poured.iter_mut().zip(amounts).for_each(|(sum, quanta)| *sum += f64::from(quanta));
         }
-        [poured.map(|quanta| quanta * SCALE.quantum_mm3), laid.map(mm3)]
+        [
+            poured.map(|quanta| quanta * SCALE.quantum_mm3),
+            laid.map(|quanta: f64| quanta * mm_from_quanta(1, SCALE.cell_mm) * pixel_mm * pixel_mm),
+        ]
     }
 
     #[test]

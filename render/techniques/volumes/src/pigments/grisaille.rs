@@ -133,14 +133,20 @@ impl OwnColors {
     ) -> Result<Slots, FilmPaintError> {
         let tones = Tones::between(material.library.saunderson.floor() as f32, 1.0);
         let covered = color.values().iter().filter(|color| color[3] > 0.0);
-        let target = |[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|value| tones.target(value));
-        let colors: Vec<_> = covered.map(target).collect();
+        let colors: Vec<_> = covered
+            .map(|[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|value| tones.target(value)))
+            .collect();
         let colors = Picture::from_values(colors.len(), 1, colors);
-        let film = |materials: paint::separation::FilmMaterials<'_>| {
-            PaintFilm::at_nodes(materials, &material.light().quadrature)
-        };
         let none = Slots::default();
-        Ok(choose_palette(&colors, material.materials(&none), film, films)?.slots)
+        Ok(choose_palette(
+            &colors,
+            material.materials(&none),
+            |materials: paint::separation::FilmMaterials<'_>| {
+                PaintFilm::at_nodes(materials, &material.light().quadrature)
+            },
+            films,
+        )?
+        .slots)
     }
 
     /// Pigments of the mixtures by slot.
@@ -182,17 +188,20 @@ impl Pencil {
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
         let bare = luminance(0.0);
-        let height = |step: usize| {
-            let left = 1.0 - step as f32 / (STEPS - 1) as f32 * (1.0 - grey);
-            let wanted = bare * linear(left);
-            let mut range = [0.0, MOST_MM];
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (range[0] + range[1]);
-                range[usize::from(luminance(middle) < wanted)] = middle;
-            }
-            if step == 0 { 0.0 } else { range[1] }
-        };
-        Self { heights_mm: (0..STEPS).map(height).collect() }
+        Self {
+            heights_mm: (0..STEPS)
+                .map(|step: usize| {
+                    let left = 1.0 - step as f32 / (STEPS - 1) as f32 * (1.0 - grey);
+                    let wanted = bare * linear(left);
+                    let mut range = [0.0, MOST_MM];
+                    for _ in 0..HALVINGS {
+                        let middle = 0.5 * (range[0] + range[1]);
+                        range[usize::from(luminance(middle) < wanted)] = middle;
+                    }
+                    if step == 0 { 0.0 } else { range[1] }
+                })
+                .collect(),
+        }
     }
 
     /// Height in mm of the film for an amount of ink, 0..1.

@@ -187,8 +187,13 @@ pub(super) struct Tones {
 
 impl Tones {
     pub(super) fn between(black: f32, white: f32) -> Self {
-        let linear = |step: usize| linear(step.min(STEPS) as f32 / STEPS as f32);
-        Self { black, white, linear: (0..=STEPS + 1).map(linear).collect() }
+        Self {
+            black,
+            white,
+            linear: (0..=STEPS + 1)
+                .map(|step: usize| linear(step.min(STEPS) as f32 / STEPS as f32))
+                .collect(),
+        }
     }
 
     /// The linear value that we paint for an encoded one. NaN counts as 0.

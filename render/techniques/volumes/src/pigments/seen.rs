@@ -21,15 +21,17 @@ impl Facets {
     /// The normals of all triangles of `mesh`.
     #[must_use]
     pub fn of(mesh: &PackedMesh) -> Self {
-        let normal = |corners: [u32; 3]| {
-            let corners = corners.map(|corner| &mesh.vertices[corner as usize]);
-            let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
-            let facet = (b - a).cross(c - a).normalize_or_zero();
-            let side: Vec3 = corners.iter().map(|corner| Vec3::from(corner.normal)).sum();
-            if side.dot(facet) < 0.0 { -facet } else { facet }
-        };
         let triangles = mesh.triangles.par_iter().with_min_len(PIXELS);
-        let normals = triangles.map(|triangle| normal(triangle.corners)).collect();
+        let normals = triangles
+            .map(|triangle| triangle.corners)
+            .map(|corners: [u32; 3]| {
+                let corners = corners.map(|corner| &mesh.vertices[corner as usize]);
+                let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
+                let facet = (b - a).cross(c - a).normalize_or_zero();
+                let side: Vec3 = corners.iter().map(|corner| Vec3::from(corner.normal)).sum();
+                if side.dot(facet) < 0.0 { -facet } else { facet }
+            })
+            .collect();
         Self { normals, bodies: Vec::new() }
     }
 

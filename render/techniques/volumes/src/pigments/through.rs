@@ -43,13 +43,13 @@ impl Density {
 #[must_use]
 pub fn enclosed(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
-    let place = |i: u32| Vec3::new(x[i as usize], y[i as usize], z[i as usize]).as_dvec3();
     volume
         .mesh()
         .faces
         .iter()
         .map(|face: &[u32; 3]| {
-            let [a, b, c] = face.map(place);
+            let [a, b, c] = face
+                .map(|i: u32| Vec3::new(x[i as usize], y[i as usize], z[i as usize]).as_dvec3());
             a.cross(b).dot(c) / 6.0
         })
         .sum()
@@ -100,7 +100,9 @@ impl<'a> FilmThrough<'a> {
         let height = self.ends.height();
         let column = crossing.pixel % width;
         let row = crossing.pixel / width;
-        let share = |at: usize, count: usize| (2 * at + 1) as f32 / count as f32 - 1.0;
+        fn share(at: usize, count: usize) -> f32 {
+            (2 * at + 1) as f32 / count as f32 - 1.0
+        }
         let x = share(column, width) * self.tangents[0];
         let y = share(row, height) * self.tangents[1];
         crossing.view_depth() * (1.0 + x * x + y * y).sqrt()

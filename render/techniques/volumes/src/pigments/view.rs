@@ -393,7 +393,9 @@ mod tests {
         let settings = FilmPainterSettings { neutral: true, ..GLAZES.settings().clone() };
         let material = GLAZES.material().clone();
         let painter = FilmPainter::new(material, *GLAZES.slots(), None, settings).unwrap();
-        let mean = |labs: &[Lab]| labs.iter().map(|lab| lab.a.hypot(lab.b)).sum::<f64>() / 101.0;
+        fn mean(labs: &[Lab]) -> f64 {
+            labs.iter().map(|lab| lab.a.hypot(lab.b)).sum::<f64>() / 101.0
+        }
         let [two, three] = [&*GLAZES, &painter].map(|painter| mean(&greys(painter)));
         assert!(three < 1.5 && three < 0.5 * two, "{two} {three}");
         let slots = painter.document("", &Made::new().drawing()).unwrap().dry[0].slots;

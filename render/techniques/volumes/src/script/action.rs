@@ -185,7 +185,9 @@ mod tests {
 
     #[test]
     fn a_path_is_straight_between_its_points_and_rests_at_its_ends() {
-        let point = |seconds, x| PathPoint { seconds, at: [x, 0.0, 1.0] };
+        fn point(seconds: f64, x: f64) -> PathPoint {
+            PathPoint { seconds, at: [x, 0.0, 1.0] }
+        }
         let path = Place::Path(vec![point(1.0, 2.0), point(3.0, 6.0)]);
         for (seconds, x) in [(0.0, 2.0), (1.0, 2.0), (1.5, 3.0), (3.0, 6.0), (9.0, 6.0)] {
             assert_eq!(path.at(seconds), Some([x, 0.0, 1.0]), "{seconds}");

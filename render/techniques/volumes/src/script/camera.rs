@@ -74,7 +74,9 @@ impl CameraTable {
             return ScriptCamera::Path(CameraPath { frames, closed: self.closed, keyframes });
         }
         let usual = Framing::default();
-        let or = |given: Option<f64>, usual: f32| given.map_or(usual, |value| value as f32);
+        fn or(given: Option<f64>, usual: f32) -> f32 {
+            given.map_or(usual, |value| value as f32)
+        }
         ScriptCamera::Framing(Framing {
             azimuth_deg: or(self.azimuth_deg, usual.azimuth_deg),
             elevation_deg: or(self.elevation_deg, usual.elevation_deg),
@@ -129,7 +131,9 @@ impl CameraTable {
 
 impl KeyframeTable {
     fn keyframe(&self) -> Keyframe {
-        let of = |row: Row<3>| row.0.map(|value| value as f32);
+        fn of(row: Row<3>) -> [f32; 3] {
+            row.0.map(|value| value as f32)
+        }
         Keyframe {
             eye: of(self.eye),
             target: of(self.target),

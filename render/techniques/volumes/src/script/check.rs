@@ -57,9 +57,8 @@ impl Script {
     /// # Errors
     /// [`Fault`] of the first value that is out of its range, or given twice.
     pub fn settings(&self) -> Result<Settings, Box<Fault>> {
-        let own = |key: &str| self.settings.get(key).is_some();
         for (key, twice) in [("grid", !self.grid.is_empty()), ("unit_mm", self.unit_mm.is_some())] {
-            if twice && own(key) {
+            if twice && self.settings.get(key).is_some() {
                 let hint = format!("leave settings.{key} out");
                 let key = KeyPath::of("settings").key(key);
                 return Err(Fault::new(&key, "values given once", "a second place", hint));
@@ -127,7 +126,9 @@ const MOST_STRENGTH: f64 = 1e6;
 
 impl Script {
     pub(super) fn check_tables(&self) -> Checked {
-        let each = |name: &str, index: usize| KeyPath::of(name).index(index);
+        fn each(name: &str, index: usize) -> KeyPath {
+            KeyPath::of(name).index(index)
+        }
         for (index, keep) in self.keeps.iter().enumerate() {
             check_keep(&each("keep", index), keep)?;
         }
@@ -199,9 +200,8 @@ impl Script {
     fn check_split(&self, key: &KeyPath, split: &SplitTable) -> Checked {
         check_time(&key.key("at_s"), split.at_s)?;
         let count = self.volumes.len();
-        let fits = |number: u32| (1..=count).contains(&(number as usize));
         match split.volume {
-            Some(number) if !fits(number) => {
+            Some(number) if !(1..=count).contains(&(number as usize)) => {
                 let hint = match count {
                     0 => "add a [[volume]]".to_owned(),
                     _ => "volumes count from 1 in the order of the script".to_owned(),
@@ -366,22 +366,26 @@ impl Script {
     pub fn region_styles(&self, settings: &Settings) -> Vec<RegionStyle> {
         let unnamed = [RegionTable::default()];
         let regions = if self.regions.is_empty() { &unnamed } else { &self.regions[..] };
-        let narrow = |list: &[f64]| list.iter().map(|&value| value as f32).collect::<Vec<_>>();
-        let style = |region: &RegionTable| {
-            let drawing = &settings.drawing;
-            let shells = region.shells.as_deref().map_or(drawing.shells.clone(), narrow);
-            let tints = match (&region.tint, &region.shells) {
-                (Some(tint), _) => narrow(tint),
-                (None, Some(_)) => Vec::new(),
-                (None, None) => drawing.tint.clone(),
-            };
-            let even = || narrow(&even_tints(shells.len()));
-            let tints = if tints.is_empty() { even() } else { tints };
-            let inside = region.inside.unwrap_or(drawing.inside);
-            let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
-            RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
-        };
-        regions.iter().map(style).collect()
+        fn narrow(list: &[f64]) -> Vec<f32> {
+            list.iter().map(|&value| value as f32).collect::<Vec<_>>()
+        }
+        regions
+            .iter()
+            .map(|region: &RegionTable| {
+                let drawing = &settings.drawing;
+                let shells = region.shells.as_deref().map_or(drawing.shells.clone(), narrow);
+                let tints = match (&region.tint, &region.shells) {
+                    (Some(tint), _) => narrow(tint),
+                    (None, Some(_)) => Vec::new(),
+                    (None, None) => drawing.tint.clone(),
+                };
+                let tints =
+                    if tints.is_empty() { narrow(&even_tints(shells.len())) } else { tints };
+                let inside = region.inside.unwrap_or(drawing.inside);
+                let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
+                RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
+            })
+            .collect()
     }
 
     /// Index of the region with this name. Without a name, this is the first.
@@ -408,7 +412,9 @@ impl Script {
     }
 
     pub(super) fn check_regions(&self, settings: &Settings) -> Checked {
-        let plain = |list: &[f32]| list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>();
+        fn plain(list: &[f32]) -> Vec<f64> {
+            list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>()
+        }
         let shells = plain(&settings.drawing.shells);
         let tints = plain(&settings.drawing.tint);
         for (index, region) in self.regions.iter().enumerate() {

@@ -362,9 +362,9 @@ impl Script {
 
     pub(super) fn check_materials(&self) -> Checked {
         let light = self.illuminant.as_deref();
-        let fits = |path: &str| {
+        fn fits(path: &str) -> bool {
             (1..=MATERIALS_LONGEST).contains(&path.len()) && !path.contains(char::is_control)
-        };
+        }
         for (key, path, hint) in [
             ("library", &self.library, "name the file of a pigment library, or leave it out"),
             ("lamp", &self.lamp, "name the file of a lamp's spectrum, or leave it out"),

@@ -31,7 +31,9 @@ impl Action {
     /// Then its recording plays the same bits.
     #[must_use]
     pub fn rounded(&self) -> Self {
-        let row = |row: [f64; 3]| row.map(six);
+        fn row(row: [f64; 3]) -> [f64; 3] {
+            row.map(six)
+        }
         match self {
             Self::Volume(own) => Self::Volume(NewVolume {
                 center: row(own.center),
@@ -106,10 +108,10 @@ impl Recorder {
         let at_s = from_s;
         let for_s = time(seconds_of(end.saturating_sub(start).max(1)));
         let script = &mut self.script;
-        let named = |regions: &[RegionTable], index: usize| {
+        fn named(regions: &[RegionTable], index: usize) -> Option<String> {
             let region = regions.get(index).filter(|_| index > 0);
             region.map(|region| region.name.clone())
-        };
+        }
         match action.rounded() {
             Action::Volume(own) => script.volumes.push(VolumeTable {
                 center: Row(own.center),
@@ -306,7 +308,9 @@ fn region(region: &RegionTable) -> RegionTable {
 }
 
 fn keep(keep: &KeepTable) -> KeepTable {
-    let pair = |Pair(rows): Pair| Pair(rows.map(|row| row.map(six)));
+    fn pair(Pair(rows): Pair) -> Pair {
+        Pair(rows.map(|row| row.map(six)))
+    }
     KeepTable {
         cuboid: keep.cuboid.map(pair),
         sphere: keep.sphere.map(ball),

@@ -175,7 +175,9 @@ pub(super) fn check_count(key: &str, count: usize, most: usize) -> Checked {
 }
 
 pub(super) fn check_particles(details: &[u8]) -> Checked {
-    let of = |detail: u8| 10 * 4_usize.pow(detail.into()) + 2;
+    fn of(detail: u8) -> usize {
+        10 * 4_usize.pow(detail.into()) + 2
+    }
     let mut total = 0;
     for (index, &detail) in details.iter().enumerate() {
         total += of(detail);

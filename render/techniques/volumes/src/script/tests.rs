@@ -188,7 +188,9 @@ fn every_step_of_an_hour_is_recorded_and_an_action_is_rounded_before_it_is_done(
 #[test]
 fn pigments_are_found_by_their_letters() {
     let library = PigmentLibrary::van_gogh_oils();
-    let text = |y: &str| format!("{SHORT}[palette]\nB = \"Cobalt Blue\"\nY = \"{y}\"\n");
+    fn text(y: &str) -> String {
+        format!("{SHORT}[palette]\nB = \"Cobalt Blue\"\nY = \"{y}\"\n")
+    }
     let own = script(&text("Zinc White"));
     let slots = own.slots(&library).unwrap();
     assert_eq!(slots[0], library.find("Cobalt Blue").ok());
@@ -230,7 +232,9 @@ fn a_library_is_that_of_the_program_or_a_file() {
 fn ground_and_lamp_are_those_of_the_script() {
     let library = PigmentLibrary::van_gogh_oils();
     assert_eq!(script(SHORT).ground_under(&library), Ok(GroundKind::Panel.spec(1)));
-    let text = |primer: &str| format!("{SHORT}[ground]\nkind = \"paper\"\n{primer}");
+    fn text(primer: &str) -> String {
+        format!("{SHORT}[ground]\nkind = \"paper\"\n{primer}")
+    }
     let own = script(&text("reflectance = 0.123456789")).rounded();
     let wanted =
         GroundSpec { reflectance: Some(Primer::Grey(0.123457)), ..GroundKind::Paper.spec(1) };
@@ -591,7 +595,9 @@ fn every_fault_names_its_place_and_the_way_out() {
 
 #[test]
 fn limits_say_what_fits() {
-    let many = |text: &str, count: usize| format!("{SHORT}{}", text.repeat(count));
+    fn many(text: &str, count: usize) -> String {
+        format!("{SHORT}{}", text.repeat(count))
+    }
     let volume = "[[volume]]\ncentre = [0, 0, 0]\nradius = 1\ndetail = 1\n";
     let regions: String =
         (0..=MOST_REGIONS).map(|index| format!("[[region]]\nname = \"r{index}\"\n")).collect();

@@ -30,29 +30,33 @@ impl Graph {
     /// same for any cut into triangles.
     pub(super) fn of(pieces: &Pieces, of_cells: &[u32]) -> Self {
         let surface = Surface { keys: &pieces.keys, pairs: &pieces.pairs };
-        let onwards = |cell: usize| {
-            let piece = of_cells[cell];
-            let at = Lattice::coordinates_of(pieces.keys[piece as usize]);
-            let joined = forward_steps().flat_map(|step| {
-                let key = Lattice::key(plus(at, step));
-                let first = pieces.keys.partition_point(|other| *other < key) as u32;
-                let last = pieces.keys.partition_point(|other| *other <= key) as u32;
-                let taken = of_cells.partition_point(|other| *other < first)
-                    ..of_cells.partition_point(|other| *other < last);
-                let surface = &surface;
-                let joined =
-                    taken.filter(move |&other| surface.leads(piece, of_cells[other], step));
-                joined.map(move |other| (cell as u32, other as u32, axes_of(step)))
-            });
-            joined.collect::<Vec<_>>()
-        };
-        let onwards: Vec<_> = (0..of_cells.len()).into_par_iter().flat_map_iter(onwards).collect();
+        let onwards: Vec<_> = (0..of_cells.len())
+            .into_par_iter()
+            .flat_map_iter(|cell: usize| {
+                let piece = of_cells[cell];
+                let at = Lattice::coordinates_of(pieces.keys[piece as usize]);
+                let joined = forward_steps().flat_map(|step| {
+                    let key = Lattice::key(plus(at, step));
+                    let first = pieces.keys.partition_point(|other| *other < key) as u32;
+                    let last = pieces.keys.partition_point(|other| *other <= key) as u32;
+                    let taken = of_cells.partition_point(|other| *other < first)
+                        ..of_cells.partition_point(|other| *other < last);
+                    let surface = &surface;
+                    let joined =
+                        taken.filter(move |&other| surface.leads(piece, of_cells[other], step));
+                    joined.map(move |other| (cell as u32, other as u32, axes_of(step)))
+                });
+                joined.collect::<Vec<_>>()
+            })
+            .collect();
         Self::of_links(&onwards, of_cells.len())
     }
 
     fn of_links(onwards: &[(u32, u32, u8)], count: usize) -> Self {
-        let both = |&(from, to, axes): &(u32, u32, u8)| [(from, to, axes), (to, from, axes)];
-        let mut links: Vec<(u32, u32, u8)> = onwards.iter().flat_map(both).collect();
+        let mut links: Vec<(u32, u32, u8)> = onwards
+            .iter()
+            .flat_map(|&(from, to, axes): &(u32, u32, u8)| [(from, to, axes), (to, from, axes)])
+            .collect();
         links.par_sort_unstable();
         let mut starts = vec![0; count + 1];
         links.iter().for_each(|&(from, ..)| starts[from as usize + 1] += 1);

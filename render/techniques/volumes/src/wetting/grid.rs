@@ -39,8 +39,8 @@ impl Grid {
         let cells = Cells::of(&samples);
         let graph = Graph::of(&pieces, &of_cells);
         let bodies = Bodies::of(&pieces, &of_cells);
-        let body = |&cell: &u32| bodies.of_cells[cell as usize];
-        samples.bodies = samples.cells.iter().map(body).collect();
+        samples.bodies =
+            samples.cells.iter().map(|&cell: &u32| bodies.of_cells[cell as usize]).collect();
         let reach = Reach::of(&samples, &cells);
         Ok(Self { samples, cells, graph, reach, bodies })
     }

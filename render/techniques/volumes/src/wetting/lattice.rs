@@ -58,7 +58,9 @@ impl Lattice {
     /// A number of the cell with these coordinates. It is unique within the reach of the lattice.
     #[must_use]
     pub fn key([x, y, z]: [i32; 3]) -> u64 {
-        let bits = |value: i32| u64::from(value.wrapping_add(1 << (BITS - 1)) as u32);
+        fn bits(value: i32) -> u64 {
+            u64::from(value.wrapping_add(1 << (BITS - 1)) as u32)
+        }
         (bits(z) << (2 * BITS)) | (bits(y) << BITS) | bits(x)
     }
 
@@ -160,7 +162,9 @@ const TOUCH: f64 = 1e-4;
 /// cell above.
 pub(super) fn entered(corners: [DVec3; 3], found: &mut Vec<[i32; 3]>) {
     let [a, b, c] = corners;
-    let cell = |at: DVec3| at.floor().to_array().map(|value| value as i32);
+    fn cell(at: DVec3) -> [i32; 3] {
+        at.floor().to_array().map(|value| value as i32)
+    }
     let low = cell(a.min(b).min(c));
     let high = cell(a.max(b).max(c));
     if low == high {

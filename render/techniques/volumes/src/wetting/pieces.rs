@@ -60,13 +60,14 @@ impl Pieces {
 
     pub(super) fn of_samples(&self, samples: &SurfaceSamples) -> Vec<u32> {
         let mut last = 0;
-        let piece = |sample: usize| {
-            let entry = self.entry_of(samples, sample);
-            // Rounding may put a sample outside of all cells that its triangle enters.
-            last = entry.map_or(last, |entry| self.of_entries[entry]);
-            last
-        };
-        (0..samples.len()).map(piece).collect()
+        (0..samples.len())
+            .map(|sample: usize| {
+                let entry = self.entry_of(samples, sample);
+                // Rounding may put a sample outside of all cells that its triangle enters.
+                last = entry.map_or(last, |entry| self.of_entries[entry]);
+                last
+            })
+            .collect()
     }
 
     pub(super) fn triangles(&self) -> usize {
@@ -218,13 +219,17 @@ fn entries(
 ) -> Result<(Vec<u32>, Vec<[i32; 3]>), WettingError> {
     let at =
         |triangle: usize| mesh.triangles[triangle].corners.map(|corner| places[corner as usize]);
-    let length = |[a, b, c]: [DVec3; 3]| a.distance(b).max(b.distance(c)).max(c.distance(a));
+    fn length([a, b, c]: [DVec3; 3]) -> f64 {
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
     let most = (0..mesh.triangles.len()).map(|triangle| 1.0 + length(at(triangle))).sum::<f64>();
     if most > MOST_ENTERED {
         let fits = rounded_up(cell * (most / MOST_ENTERED) as f32);
         return Err(WettingError::TooManyCells { cell, fits });
     }
-    let flat = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length_squared() == 0.0;
+    fn flat([a, b, c]: [DVec3; 3]) -> bool {
+        (b - a).cross(c - a).length_squared() == 0.0
+    }
     let lists = (0..mesh.triangles.len()).into_par_iter().map(|triangle| {
         let mut found = Vec::new();
         if !flat(at(triangle)) {
@@ -257,9 +262,11 @@ impl SharedEdge {
 /// The common edges of all pairs of triangles with area. Vertices at one place are the same.
 fn shared_edges(mesh: &Mesh, pieces: &Pieces) -> Vec<SharedEdge> {
     // Adding 0 turns -0 into 0.
-    let bits = |at: u32| mesh.positions[at as usize].map(|value| (value + 0.0).to_bits());
-    let mut order: Vec<([u32; 3], u32)> =
-        (0..mesh.positions.len() as u32).map(|vertex| (bits(vertex), vertex)).collect();
+    let mut order: Vec<([u32; 3], u32)> = (0..mesh.positions.len() as u32)
+        .map(|vertex| {
+            (mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits()), vertex)
+        })
+        .collect();
     order.par_sort_unstable();
     let mut first = vec![0; order.len()];
     for same in order.chunk_by(|a, b| a.0 == b.0) {
@@ -354,11 +361,13 @@ impl Bodies {
             }
         }
         let body = |piece: u32| numbers[root_of(&roots, piece) as usize];
-        let of_triangle =
-            |triangle| pieces.of_triangle(triangle).first().map_or(0, |&piece| body(piece));
         Self {
             of_cells: of_cells.iter().map(|&piece| body(piece)).collect(),
-            of_triangles: (0..pieces.triangles()).map(of_triangle).collect(),
+            of_triangles: (0..pieces.triangles())
+                .map(|triangle| {
+                    pieces.of_triangle(triangle).first().map_or(0, |&piece| body(piece))
+                })
+                .collect(),
         }
     }
 }

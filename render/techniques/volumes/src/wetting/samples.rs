@@ -117,7 +117,9 @@ impl SurfaceSamples {
             starts.push(cells.len() as u32);
             of_cells.push(members[0].0);
         }
-        let from = |at: &(u32, u32)| at.1 as usize;
+        fn from(at: &(u32, u32)) -> usize {
+            at.1 as usize
+        }
         let samples = Self {
             lattice: self.lattice,
             places: order.iter().map(|at| self.places[from(at)]).collect(),
@@ -135,7 +137,6 @@ impl SurfaceSamples {
     #[must_use]
     pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
         let all: Vec<usize> = (0..self.len()).filter(|&sample| kept(self.places[sample])).collect();
-        let before = |&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32;
         Self {
             lattice: self.lattice,
             places: all.iter().map(|&sample| self.places[sample]).collect(),
@@ -144,7 +145,11 @@ impl SurfaceSamples {
             triangles: all.iter().map(|&sample| self.triangles[sample]).collect(),
             cells: all.iter().map(|&sample| self.cells[sample]).collect(),
             bodies: all.iter().map(|&sample| self.bodies[sample]).collect(),
-            starts: self.starts.iter().map(before).collect(),
+            starts: self
+                .starts
+                .iter()
+                .map(|&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32)
+                .collect(),
         }
     }
 

@@ -61,15 +61,17 @@ impl Spilling {
                 return Err(WettingError::Spilling { what, found });
             }
         }
-        let wet = |i: &usize| cells.capacities[*i] > 0;
-        let heights = (0..cells.len()).filter(wet).map(|i| cells.centers[i].y);
+        let heights =
+            (0..cells.len()).filter(|i| cells.capacities[*i] > 0).map(|i| cells.centers[i].y);
         let lowest = heights.fold(f32::INFINITY, f32::min);
-        let lift = |i: usize| {
-            let height = if wet(&i) { cells.centers[i].y - lowest } else { 0.0 };
-            (slope * height / cell * ONE as f32).clamp(0.0, (1 << 30) as f32) as u32
-        };
         let rate = |axes: f32| (rate * ONE as f32 / axes) as u64;
-        let lifts: Vec<u32> = (0..cells.len()).map(lift).collect();
+        let lifts: Vec<u32> = (0..cells.len())
+            .map(|i: usize| {
+                let height =
+                    if cells.capacities[i] > 0 { cells.centers[i].y - lowest } else { 0.0 };
+                (slope * height / cell * ONE as f32).clamp(0.0, (1 << 30) as f32) as u32
+            })
+            .collect();
         Ok(Self {
             rates: [rate(1.0), rate(2.0), rate(3.0)],
             uneven: lifts.iter().any(|lift| *lift > 0)

@@ -95,7 +95,9 @@ impl DeviceSpilling {
         let capacities = grid.cells.capacities.iter().zip(&spilling.lifts);
         let cells: Vec<[u32; 2]> = capacities.map(|(&capacity, &lift)| [capacity, lift]).collect();
         let amounts: Vec<[u32; AMOUNTS]> = paint.iter().map(amounts_of).collect();
-        let words = |count: usize| count * size_of::<u32>();
+        fn words(count: usize) -> usize {
+            count * size_of::<u32>()
+        }
         let next = self.next.of_bytes(device, "paint", words((AMOUNTS + 1) * count))?;
         let buffers = [
             &graph,
@@ -186,12 +188,16 @@ mod tests {
     }
 
     fn grids() -> Vec<Grid> {
-        let level = |side: f32, y: f32| sheet(3, move |u, v| [side * u, y, side * v]);
+        fn level(side: f32, y: f32) -> Mesh {
+            sheet(3, move |u, v| [side * u, y, side * v])
+        }
         let plates = joined(level(5.0, 0.0), &level(4.0, 3.0));
         let slope = sheet(4, |u, v| [7.0 * u, 3.0 * u + v, 6.0 * v]);
         let small = sheet(1, |u, v| [0.1 * u + 0.3, 0.4, 0.1 * v + 0.3]);
         let village = SampleModel::Village.mesh(2000);
-        let grid = |mesh: &Mesh, cell: f32| Grid::of(mesh, cell, 16, 1).unwrap();
+        fn grid(mesh: &Mesh, cell: f32) -> Grid {
+            Grid::of(mesh, cell, 16, 1).unwrap()
+        }
         vec![grid(&small, 1.0), grid(&plates, 1.0), grid(&slope, 1.0), grid(&village, 0.15)]
     }
 

@@ -128,7 +128,7 @@ fn with_a_slope_paint_runs_down() {
     let tilted = sheet(1, |u, v| [16.0 * u, 8.0 * v, 16.0 * v]);
     let grid = Grid::of(&tilted, 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let source = cell_at(&grid, [8.0, 4.0, 8.0]);
-    let mean_height = |slope: f32| {
+    let [level, steep] = [0.0, 20.0].map(|slope: f32| {
         let mut paint = vec![Cell::default(); grid.cells.len()];
         paint[source] = of_slot(0, grid.cells.room(source));
         let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, slope).unwrap();
@@ -138,8 +138,7 @@ fn with_a_slope_paint_runs_down() {
         let all: f64 = paint.iter().map(|own| f64::from(own.volume())).sum();
         let heights = paint.iter().zip(&grid.cells.centers);
         heights.map(|(own, at)| f64::from(own.volume()) * f64::from(at.y)).sum::<f64>() / all
-    };
-    let [level, steep] = [0.0, 20.0].map(mean_height);
+    });
     assert!((level - 4.0).abs() < 0.4, "{level}");
     assert!(steep < level - 0.6, "{steep} {level}");
 }
@@ -206,11 +205,14 @@ fn full_cells_cover_all_surface() {
         let radii: Vec<f32> = (0..grid.cells.len())
             .map(|cell| grid.reach.radius(cell, grid.cells.capacities[cell], 0.0))
             .collect();
-        let balls = || grid.cells.centers.iter().zip(&radii);
-        let bare = others
-            .places
-            .iter()
-            .filter(|at| !balls().any(|(center, radius)| at.distance(*center) < *radius));
+        let bare = others.places.iter().filter(|at| {
+            !grid
+                .cells
+                .centers
+                .iter()
+                .zip(&radii)
+                .any(|(center, radius)| at.distance(*center) < *radius)
+        });
         assert_eq!(bare.count(), 0, "{}", shape.name());
     }
 }
@@ -266,15 +268,17 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
     for turn in [Vec3::X, Vec3::new(0.8, 0.36, 0.48)] {
         let across = turn.cross(Vec3::new(0.1, -0.2, 0.97)).normalize();
         let plane = |squares| sheet(squares, |u, v| (turn * u * 9.0 + across * v * 9.0).to_array());
-        let keys = |grid: &Grid| {
-            let first = |cell| grid.samples.places[grid.samples.of_cell(cell).start];
-            (0..grid.cells.len())
-                .map(|cell| grid.samples.lattice.coordinates(first(cell)))
-                .collect::<Vec<_>>()
-        };
         let grids =
             [1, 100].map(|squares| Grid::of(&plane(squares), 1.0, SAMPLES_PER_CELL, 1).unwrap());
-        let cells = grids.each_ref().map(keys);
+        let cells = grids.each_ref().map(|grid: &Grid| {
+            (0..grid.cells.len())
+                .map(|cell| {
+                    grid.samples
+                        .lattice
+                        .coordinates(grid.samples.places[grid.samples.of_cell(cell).start])
+                })
+                .collect::<Vec<_>>()
+        });
         // A cell with a sliver of surface may have a sample of one cut and none of the other.
         let both: Vec<_> = cells[0].iter().filter(|at| cells[1].contains(at)).collect();
         assert!(both.len() * 20 > cells[0].len() * 19, "{} of {}", both.len(), cells[0].len());
@@ -363,11 +367,11 @@ fn surfaces_touch_where_an_open_corner_is_between_them() {
     for (sunk, bodies) in [(0.0, 2), (0.1, 2), (0.9, 1), (1.4, 1)] {
         let floor = level(6.0, sunk - 1.0, 12);
         let ball = Mesh::sphere(3000);
-        let moved = |mesh: &Mesh, by: Vec3| {
+        fn moved(mesh: &Mesh, by: Vec3) -> Mesh {
             let mut mesh = mesh.clone();
             mesh.positions.iter_mut().for_each(|at| *at = (Vec3::from(*at) + by).to_array());
             mesh
-        };
+        }
         let both = joined(moved(&floor, Vec3::new(-3.0, 0.0, -3.0)), &ball);
         let grid = Grid::of(&both, 0.5, SAMPLES_PER_CELL, 1).unwrap();
         let most = grid.bodies.of_triangles.iter().max();

@@ -253,7 +253,9 @@ impl Played {
     fn add(&mut self) -> usize {
         let place = self.place();
         let radius = self.random.random_range(0.05..0.6);
-        let poured = |world: &World| world.tally().poured.iter().sum::<u64>();
+        fn poured(world: &World) -> u64 {
+            world.tally().poured.iter().sum::<u64>()
+        }
         let before = poured(&self.world);
         let own = Single { detail: 1, ..single(place, radius) };
         let index = self.world.add_volume(&own).unwrap();
@@ -275,8 +277,9 @@ impl Played {
         let world = &self.world;
         assert!(is_exact(world), "{action}");
         for volume in world.volumes() {
-            let capacity = |cell| u64::from(world.grid.cells.capacities[cell as usize]);
-            let most = volume.cell.map_or(1 << 30, |cell| (16 * capacity(cell)).min(1 << 30));
+            let most = volume.cell.map_or(1 << 30, |cell| {
+                (16 * u64::from(world.grid.cells.capacities[cell as usize])).min(1 << 30)
+            });
             assert!(u64::from(volume.paint.volume()) <= most, "{action}: {volume:?}");
         }
     }

@@ -232,10 +232,12 @@ impl World {
             Some(cell) => samples.of_cell(cell as usize),
             None => 0..samples.len(),
         };
-        let held = |at: &Vec3| at.distance_squared(volume.center) <= volume.radius * volume.radius;
         let mut all = 0_u32;
         let mut found = 0_u32;
-        for place in samples.places[own].iter().filter(|place| held(place)) {
+        for place in samples.places[own]
+            .iter()
+            .filter(|at| at.distance_squared(volume.center) <= volume.radius * volume.radius)
+        {
             all += 1;
             found += u32::from(below(*place));
         }
@@ -354,8 +356,8 @@ impl World {
             return refused("holds no surface");
         }
         let whole = amounts_of(&paint);
-        let share = |samples: u64| whole.map(|amount| amount * samples / all);
-        let mut dealt: Vec<[u64; SLOTS + 1]> = parts.iter().map(|part| share(part.1)).collect();
+        let mut dealt: Vec<[u64; SLOTS + 1]> =
+            parts.iter().map(|part| whole.map(|amount| amount * part.1 / all)).collect();
         for slot in 0..=SLOTS {
             dealt[0][slot] += whole[slot] - dealt.iter().map(|amounts| amounts[slot]).sum::<u64>();
         }

@@ -78,7 +78,9 @@ stored!(Measured { given });
 
 /// These amounts as a cell. It holds no more than a column of paint.
 pub(super) fn as_cell(amounts: [u64; SLOTS + 1]) -> Cell {
-    let amount = |value: u64| value.min(u64::from(MAX_COLUMN)) as u32;
+    fn amount(value: u64) -> u32 {
+        value.min(u64::from(MAX_COLUMN)) as u32
+    }
     let mut cell = Cell { vehicle: amount(amounts[SLOTS]), ..Cell::default() };
     for (own, value) in cell.pigments.iter_mut().zip(amounts) {
         *own = amount(value);
@@ -119,8 +121,9 @@ impl Track {
     /// # Errors
     /// If there is no place, a number is not finite, or the times do not rise.
     pub fn along(knots: Vec<(f64, Vec3)>) -> Result<Self, WorldError> {
-        let number =
-            |key, found| Err(WorldError::Number { key, range: "finite and rising", found });
+        fn number(key: &'static str, found: f64) -> Result<Track, WorldError> {
+            Err(WorldError::Number { key, range: "finite and rising", found })
+        }
         let mut last = f64::NEG_INFINITY;
         for (seconds, place) in &knots {
             if !(seconds.is_finite() && *seconds > last) {

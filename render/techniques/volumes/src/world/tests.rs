@@ -68,7 +68,7 @@ fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
 
 #[test]
 fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
-    let across = |world: &World| {
+    fn across(world: &World) -> f32 {
         let Volume { particles, radius, .. } = &world.volumes()[0];
         let [places, speeds] = [&particles.places, &particles.velocities]
             .map(|[x, y, z]| (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect::<Vec<_>>());
@@ -76,8 +76,8 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
         // Growth moves particles along their rays.
         pairs.map(|(place, speed)| place.normalize().cross(*speed).length()).fold(0.0, f32::max)
             / radius
-    };
-    let kicked = |kick: f32| {
+    }
+    fn kicked(kick: f32) -> [[f32; 3]; 2] {
         let motion = MotionSettings {
             kick,
             microstructure: 0.0,
@@ -97,7 +97,7 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
             run(&mut world, rest);
             [moving, flowing, across(&world)]
         })
-    };
+    }
     for [moving, flowing, resting] in kicked(0.3) {
         assert!(moving > 0.1 && resting < 0.01, "{moving} {resting}");
         assert!(flowing < 0.25 * moving, "{moving} {flowing}");
@@ -109,7 +109,7 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
 
 #[test]
 fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
-    let whole = |threads: usize, from: Option<&World>| {
+    fn whole(threads: usize, from: Option<&World>) -> (World, World) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut world = match from {
@@ -135,7 +135,7 @@ fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
             run(&mut world, 50);
             (snapshot, world)
         })
-    };
+    }
     let (snapshot, end) = whole(1, None);
     assert!(end.volumes().len() > 3 && end.volumes() != snapshot.volumes());
     for threads in [1, 2, 8] {
@@ -149,7 +149,9 @@ fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
 #[test]
 fn sources_off_the_surface_are_refused_with_their_distance() {
     let mut world = flat();
-    let pour = |y: f32| Pour::at(Vec3::new(0.0, y, 0.0), 1.0, 1.0, Recipe::of_slot(0));
+    fn pour(y: f32) -> Pour {
+        Pour::at(Vec3::new(0.0, y, 0.0), 1.0, 1.0, Recipe::of_slot(0))
+    }
     assert!(world.pour(pour(0.9)).is_ok());
     let Err(WorldError::OffSurface { distance, most, .. }) = world.pour(pour(2.0)) else {
         panic!("poured in the air");
@@ -192,7 +194,9 @@ fn what_a_full_cell_has_no_room_for_stays_in_the_tube() {
 #[test]
 fn dry_paint_stays_as_it_is_under_new_paint() {
     let mut world = flat();
-    let pour = |slot| Pour::at(Vec3::ZERO, 0.1, 0.5, Recipe::of_slot(slot));
+    fn pour(slot: usize) -> Pour {
+        Pour::at(Vec3::ZERO, 0.1, 0.5, Recipe::of_slot(slot))
+    }
     world.pour(pour(0)).unwrap();
     run(&mut world, 60);
     world.dry();
@@ -362,9 +366,9 @@ fn a_sponge_takes_the_paint_below_it() {
     let mut world = flat();
     world.pour(Pour::at(Vec3::ZERO, 0.6, 1.0, Recipe::of_slot(0))).unwrap();
     run(&mut world, 400);
-    let amounts = |world: &World| -> Vec<u32> {
+    fn amounts(world: &World) -> Vec<u32> {
         world.volumes().iter().map(|volume| volume.paint.volume()).collect()
-    };
+    }
     let before = amounts(&world);
     // The sponge takes all that lies below in one step.
     let middle = Vec3::new(0.2, 0.0, 0.1);

@@ -260,8 +260,8 @@ impl Solid {
 
     /// Whether the outline seen from `eye` passes within `near` pixels of `at`.
     pub(super) fn has_outline_at(&self, at: DVec2, near: f64, view: &View) -> bool {
-        let faces_eye = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(view.eye - a) > 0.0;
-        let fronts = self.faces.iter().filter(|&&face| faces_eye(face));
+        let fronts =
+            self.faces.iter().filter(|[a, b, c]| (*b - *a).cross(*c - *a).dot(view.eye - *a) > 0.0);
         // An edge is of the outline if only one of its two faces faces the eye.
         let mut edges: Vec<[[u64; 3]; 2]> = Vec::new();
         fn bits(corner: DVec3) -> [u64; 3] {

@@ -287,7 +287,9 @@ impl Marks {
 }
 
 fn inside(x: f64, y: f64, width: usize, height: usize) -> Result<(), MarkFault> {
-    let within = |place: f64, size: usize| (0.0..size as f64).contains(&place);
+    fn within(place: f64, size: usize) -> bool {
+        (0.0..size as f64).contains(&place)
+    }
     if within(x, width) && within(y, height) {
         return Ok(());
     }
@@ -377,7 +379,9 @@ mod tests {
 
     #[test]
     fn faults_name_file_line_sample_and_key() {
-        let sample = |rest: &str| format!("[[sample]]\nname = \"a\"\n{rest}\n");
+        fn sample(rest: &str) -> String {
+            format!("[[sample]]\nname = \"a\"\n{rest}\n")
+        }
         let cases = [
             (
                 TEXT.replace("spacing", "spaceing"),
@@ -460,7 +464,9 @@ mod tests {
     }
 
     fn marks(areas: Vec<MarkedArea>) -> Marks {
-        let name = |number: usize| ["one", "two", "three"][number].to_owned();
+        fn name(number: usize) -> String {
+            ["one", "two", "three"][number].to_owned()
+        }
         let samples = areas.into_iter().enumerate();
         let samples =
             samples.map(|(number, area)| Mark { name: name(number), area, spacing: None });
@@ -487,7 +493,9 @@ mod tests {
 
     #[test]
     fn faults_name_file_sample_and_place() {
-        let line = |from, to| MarkedArea::Scribble(vec![from, to]);
+        fn line(from: [f64; 2], to: [f64; 2]) -> MarkedArea {
+            MarkedArea::Scribble(vec![from, to])
+        }
         let rectangle = MarkedArea::Rectangle { x: 5, y: 0, width: u32::MAX, height: 1 };
         let cases = [
             (

@@ -79,8 +79,7 @@ fn a_full_grid_colours_all_that_is_seen() {
                 let painted = scene.painted(&world);
                 let pixels = painted.values().iter().zip(plain.values()).zip(seen.values());
                 let shown = pixels.filter(|(_, seen)| seen.triangle != NO_TRIANGLE);
-                let wrong = |found: [f32; 4], plain: [f32; 4]| found[..3] != plain[..3];
-                shown.filter(|((found, plain), _)| wrong(**found, **plain)).count()
+                shown.filter(|((found, plain), _)| found[..3] != plain[..3]).count()
             };
             let found = [bare(-1.0), bare(-0.2)];
             assert_eq!(found, [0, 0], "{} from {azimuth_deg}", shape.name());
@@ -212,7 +211,7 @@ fn where_a_device_knows_no_gates_the_processor_counts() {
 
 #[test]
 fn a_scene_turned_inside_out_is_painted_alike() {
-    let inside_out = |faces: bool, normals: bool| {
+    fn inside_out(faces: bool, normals: bool) -> usize {
         let mut scene = Scene::still_life();
         let mesh = &mut scene.mesh;
         if faces {
@@ -225,7 +224,7 @@ fn a_scene_turned_inside_out_is_painted_alike() {
         let world = scene.poured();
         let mask = scene.painter().shown(&world, &scene.camera, SIZE, Show::Mask).unwrap();
         mask.values().iter().filter(|mask| mask[0] > 0.5).count()
-    };
+    }
     let own = inside_out(false, false);
     assert!(own > 300, "{own}");
     for (faces, normals) in [(true, true), (true, false), (false, true)] {
