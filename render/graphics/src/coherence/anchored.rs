@@ -324,7 +324,7 @@ impl Particles {
     }
 
     /// The copies of a texture to draw in a projection. Pass this to
-    /// [`draw_anchored`](super::draw_anchored).
+    /// [`draw_anchored`].
     #[must_use]
     pub fn anchors(&self, projection: &Projection, noise: AnchoredNoise) -> Anchors {
         let octaves = noise.octaves.clamp(2, MOST_OCTAVES);

@@ -96,7 +96,7 @@ pub struct Triangles {
 }
 
 /// Commands for one submission, with the parameters and batch data that they read. You fill this,
-/// then pass it to [`Device::submit`](super::Device::submit).
+/// then pass it to [`Device::submit`].
 #[derive(Debug, Default)]
 pub struct Recording {
     pub(super) commands: Vec<Command>,
