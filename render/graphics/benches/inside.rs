@@ -1,4 +1,4 @@
-//! Counting of the closed surfaces that hold each visible point, at 750 x 570 pixels.
+//! Counts the closed surfaces that hold each visible point, at 750 x 570 pixels.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -71,7 +71,7 @@ fn weighed_on_the_processor(bencher: Bencher<'_, '_>, count: usize) {
     bencher.bench_local(|| -> Field<i32> { crossings.sum(&weighed, surfaces, &camera, &visible) });
 }
 
-/// A device, the scene in its memory, and the picture that it sees, none without an adapter.
+/// Opens a device and draws the scene on it. `None` without an adapter.
 fn on_a_device(scene: &Scene) -> Option<(Compute, Model, Image<Fragment>)> {
     let mut compute = Compute::choose(BackendChoice::Gpu).ok()?;
     let mut model = Model::new(&mut compute, PackedMesh::new(&scene.mesh)).unwrap();

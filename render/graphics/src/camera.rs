@@ -1,5 +1,5 @@
-//! Perspective cameras: single ones, those that frame a model or a picture, and paths through
-//! keyframes of a TOML file.
+//! Perspective cameras. You can place one yourself, let it frame a model or a picture, or move it
+//! through the keyframes of a TOML file.
 
 use std::path::Path;
 
@@ -46,8 +46,8 @@ impl Camera {
         perspective(field, aspect, self.near, self.far) * view
     }
 
-    /// Matrix as [`Self::clip_from_model`], but of a camera without a far plane: its depth
-    /// times [`Self::depth_scale`] is the depth of this camera, above 1 beyond the far plane.
+    /// Like [`Self::clip_from_model`], but without a far plane. Multiply this depth by
+    /// [`Self::depth_scale`] to get the depth of this camera. It is above 1 beyond the far plane.
     #[must_use]
     pub fn endless_clip_from_model(&self, aspect: f32) -> Mat4 {
         let view = look_at_mat4(self.eye, self.target, self.up);
@@ -55,7 +55,7 @@ impl Camera {
         perspective_infinite(field, aspect, self.near) * view
     }
 
-    /// Ratio of this camera's depth to the depth of a camera without a far plane, above 1.
+    /// This camera's depth divided by the depth of the same camera without a far plane, above 1.
     #[must_use]
     pub fn depth_scale(&self) -> f32 {
         self.far / (self.far - self.near)
@@ -66,7 +66,7 @@ impl Camera {
 /// (chosen by eye).
 const FILLED: f32 = 0.92;
 
-/// Viewing direction and picture shape, from which a camera is placed around a model.
+/// Viewing direction and picture shape. Use this to place a camera around a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Framing {
     /// Azimuth of the camera about the y axis, in degrees: 0 looks along -z, 90 along -x.
@@ -80,7 +80,7 @@ pub struct Framing {
 }
 
 impl Default for Framing {
-    /// From the front and slightly above, with a portrait lens, in a square picture.
+    /// A portrait lens looks from the front and slightly above, in a square picture.
     fn default() -> Self {
         Self { azimuth_deg: 30.0, elevation_deg: 20.0, field_of_view_deg: 30.0, aspect: 1.0 }
     }
@@ -94,18 +94,21 @@ impl Framing {
         self.at(bounds, self.distance(bounds))
     }
 
-    /// Cameras of one full turn around a bounding box in `frames` equal steps, all at the
-    /// distance from which the box always fits.
+    /// Cameras of one full turn around a bounding box in `frames` equal steps, all at a distance
+    /// from which the box always fits.
     #[must_use]
     pub fn turntable(&self, bounds: [Vec3; 2], frames: usize) -> Vec<Camera> {
-        let turned = |degrees| Self { azimuth_deg: self.azimuth_deg + degrees, ..*self };
-        let distances = (0..360).map(|degrees| turned(degrees as f32).distance(bounds));
+        let distances = (0..360).map(|degrees| self.rotated(degrees as f32).distance(bounds));
         let distance = distances.fold(0.0, f32::max);
         let step = 360.0 / frames.max(1) as f32;
-        (0..frames).map(|frame| turned(frame as f32 * step).at(bounds, distance)).collect()
+        (0..frames).map(|frame| self.rotated(frame as f32 * step).at(bounds, distance)).collect()
     }
 
-    /// Nearest camera that sees all `positions` with a margin and centres them. It comes
+    fn rotated(&self, degrees: f32) -> Self {
+        Self { azimuth_deg: self.azimuth_deg + degrees, ..*self }
+    }
+
+    /// Nearest camera that sees all `positions` with a margin and centres them. This camera comes
     /// closer than [`Framing::camera`], which fits their bounding box.
     #[must_use]
     pub fn fit(&self, positions: &[[f32; 3]]) -> Camera {
@@ -119,8 +122,7 @@ impl Framing {
     #[must_use]
     pub fn fit_turntable(&self, positions: &[[f32; 3]], frames: usize) -> Vec<Camera> {
         let bounds = bounds_of(positions);
-        let turned = |degrees| Self { azimuth_deg: self.azimuth_deg + degrees, ..*self };
-        let reaches = (0..120).map(|step| turned(step as f32 * 3.0).reach(positions, bounds));
+        let reaches = (0..120).map(|step| self.rotated(step as f32 * 3.0).reach(positions, bounds));
         let Reach { right, up } = reaches.fold(Reach::default(), Reach::or);
         // The axis of rotation stays in the centre.
         let reach = Reach { right: [right[0].max(right[1]); 2], up };
@@ -128,11 +130,10 @@ impl Framing {
         let shift = reach.shift();
         let step = 360.0 / frames.max(1) as f32;
         (0..frames)
-            .map(|frame| turned(frame as f32 * step).shifted(bounds, distance, shift))
+            .map(|frame| self.rotated(frame as f32 * step).shifted(bounds, distance, shift))
             .collect()
     }
 
-    /// Half the width and height that fit into the picture at distance 1.
     fn tangents(&self) -> [f32; 2] {
         let high = (self.field_of_view_deg / 2.0).to_radians().tan() * FILLED;
         [high * self.aspect, high]
@@ -151,7 +152,6 @@ impl Framing {
         reaches.reduce(Reach::default, Reach::or)
     }
 
-    /// Camera at `distance`, moved by `x` to the right and `y` upwards.
     fn shifted(&self, bounds: [Vec3; 2], distance: f32, [x, y]: [f32; 2]) -> Camera {
         let [_, up, right] = self.axes();
         let shift = right * x + up * y;
@@ -164,7 +164,6 @@ impl Framing {
         }
     }
 
-    /// The camera's backward, up and right axes as unit vectors.
     fn axes(&self) -> [Vec3; 3] {
         let (sin_a, cos_a) = self.azimuth_deg.to_radians().sin_cos();
         let (sin_e, cos_e) = self.elevation_deg.to_radians().sin_cos();
@@ -175,7 +174,6 @@ impl Framing {
         ]
     }
 
-    /// Distance from the centre of the box to the eye.
     fn distance(&self, bounds: [Vec3; 2]) -> f32 {
         let [back, up, right] = self.axes();
         let half = half_size(bounds);
@@ -184,8 +182,6 @@ impl Framing {
             let sign = |bit: i32| if corner & bit == 0 { 1.0 } else { -1.0 };
             half * Vec3::new(sign(1), sign(2), sign(4))
         });
-        // A corner is visible if its height is at most `high` times its distance along the
-        // viewing direction.
         let distances = corners.map(|corner| {
             let least = (corner.dot(up).abs() / high).max(corner.dot(right).abs() / wide);
             least + corner.dot(back)
@@ -208,8 +204,8 @@ impl Framing {
     }
 }
 
-/// Extent of points in a picture. For each picture axis: the maximum of coordinate plus
-/// edge tangent times depth towards the viewer, then the same for the negated coordinate.
+/// Extent of points in a picture. Each axis has two numbers: the maximum of coordinate plus edge
+/// tangent times depth towards the viewer, and the same for the negated coordinate.
 #[derive(Debug, Clone, Copy)]
 struct Reach {
     right: [f32; 2],
@@ -230,13 +226,11 @@ impl Reach {
         Self { right: greater(self.right, other.right), up: greater(self.up, other.up) }
     }
 
-    /// Smallest distance at which both axes fit.
     fn distance(self, [wide, high]: [f32; 2]) -> f32 {
         let [right, up] = [self.right, self.up].map(|[a, b]| (a + b) / 2.0);
         (right / wide).max(up / high)
     }
 
-    /// Shift that centres both axes.
     fn shift(self) -> [f32; 2] {
         [self.right, self.up].map(|[a, b]| if a.is_finite() { (a - b) / 2.0 } else { 0.0 })
     }
@@ -255,8 +249,8 @@ fn half_size(bounds: [Vec3; 2]) -> Vec3 {
 }
 
 impl Camera {
-    /// Nearest camera that sees a whole bounding box in a picture at least as wide as high.
-    /// See [`Framing`] for the angles and other picture shapes.
+    /// Nearest camera that sees a whole bounding box in a picture at least as wide as high. Use
+    /// [`Framing`] for other picture shapes.
     #[must_use]
     pub fn framing(
         bounds: [Vec3; 2],
@@ -269,32 +263,31 @@ impl Camera {
     }
 }
 
-/// Vertical angle of view of the camera that sees exactly the picture.
 const VIEW_DEG: f32 = 25.0;
 
-/// The cameras of a picture. Its longer side is 1 unit. It lies in the plane z = 0 around the
-/// origin, and its relief on both sides of that plane.
+/// The cameras of a picture. The longer side of the picture is 1 unit. It lies in the plane z = 0
+/// around the origin, and its relief extends to both sides of this plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PictureView {
     sides: Vec2,
 }
 
 impl PictureView {
-    /// Of a picture of `width` x `height` pixels, at least one each.
+    /// Takes the width and height of the picture in pixels, at least one each.
     #[must_use]
     pub fn of((width, height): (usize, usize)) -> Self {
         let longer = width.max(height).max(1) as f32;
         Self { sides: Vec2::new(width.max(1) as f32, height.max(1) as f32) / longer }
     }
 
-    /// The camera that sees exactly the picture, in pictures of its shape.
+    /// The camera that sees exactly this picture, when you render in the picture's shape.
     #[must_use]
     pub fn camera(&self) -> Camera {
         self.turned(0.0, 0.0)
     }
 
-    /// That camera moved around the middle of the picture, in degrees to the right and upwards (-80
-    /// to 80): a picture with depth shows its relief.
+    /// Moves this camera around the middle of the picture: in degrees to the right and upwards,
+    /// -80 to 80. Use this to show the relief of a picture with depth.
     #[must_use]
     pub fn turned(&self, right_deg: f32, up_deg: f32) -> Camera {
         let distance = self.distance();
@@ -323,19 +316,19 @@ impl PictureView {
     }
 }
 
-/// Most frames, and most keyframes, that a file may ask for.
+/// A file may ask for at most this many frames, and this many keyframes.
 const MOST_FRAMES: usize = 100_000;
 
-/// Smallest sine of the angle between up and the viewing direction: below it, up does
-/// not fix the camera's roll in f32.
+/// Smallest sine of the angle between up and the viewing direction. Below this, up does not fix
+/// the camera's roll in f32.
 const LEAST_SINE: f32 = 1e-3;
 
-/// The way out where the parser knows none.
+/// The hint for a fault that the parser has no hint for.
 const KEYS: &str = "a path has `frames` and [[keyframe]] tables with `eye`, `target` and, if wanted, `up` \
     and `field_of_view_deg`";
 
-/// A camera path through keyframes that are evenly spaced in time, read from a TOML file,
-/// for example
+/// A camera path through keyframes that are evenly spaced in time, read from a TOML file. For
+/// example:
 ///
 /// ```toml
 /// frames = 120
@@ -389,7 +382,7 @@ fn normal_lens() -> f32 {
 }
 
 impl Keyframe {
-    /// First value from which no camera can be made: its key and the reason.
+    /// First value that makes a camera impossible, if there is one: its key and the reason.
     #[must_use]
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let Self { eye, target, up, field_of_view_deg } = *self;
@@ -455,7 +448,6 @@ impl CameraPath {
         }
     }
 
-    /// First value that is out of range: its key and the reason.
     fn fault(&self) -> Option<(String, String)> {
         for (key, count) in [("frames", self.frames), ("keyframe", self.keyframes.len())] {
             if !(1..=MOST_FRAMES).contains(&count) {
@@ -487,7 +479,6 @@ impl CameraPath {
             .collect()
     }
 
-    /// Camera at `time`, counted in spans from the first keyframe.
     fn camera_at(&self, time: f32, bounds: [Vec3; 2]) -> Camera {
         let count = self.keyframes.len() as i64;
         let first = (time.floor() as i64).min(if self.closed { count } else { (count - 2).max(0) });
@@ -504,7 +495,7 @@ impl CameraPath {
         ]
         .map(|values| spline(values, share));
         // Interpolated eye and target may coincide, and up may become parallel to the viewing
-        // direction: then the last keyframe decides.
+        // direction. This falls back to the last keyframe.
         fn last(of: fn(&Keyframe) -> [f32; 3], around: [&Keyframe; 4]) -> Vec3 {
             Vec3::from(of(around[1]))
         }
@@ -534,7 +525,6 @@ impl CameraPath {
     }
 }
 
-/// Catmull-Rom segment from the second point (share 0) to the third (share 1).
 fn spline([a, b, c, d]: [Vec3; 4], share: f32) -> Vec3 {
     let square = share * share;
     let cube = share * share * share;

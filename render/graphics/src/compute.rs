@@ -1,9 +1,10 @@
 //! Computation of images on the processor or on a graphics device.
 //!
-//! [`Compute`] is a value, chosen once when a program starts. An operation on images is a plain
+//! You choose a [`Compute`] once, when your program starts. An operation on images is a plain
 //! function over `&mut Compute` with two forms: one for the processor and one that records a
-//! kernel. Both take the same steps in the same order and stand in one file, with the WGSL source
-//! of the kernel beside it. [`Image`]s lie in the memory of the processor or of the device.
+//! kernel. Both take the same steps in the same order and stand in one file. The WGSL source of
+//! the kernel lies beside this file. [`Image`]s lie in the memory of the processor or of the
+//! device.
 //!
 //! ```
 //! use graphics::compute::Compute;
@@ -24,10 +25,10 @@ use crate::gpu::{
     BackendChoice, Buffer, Device, DeviceError, Kernel, Recording, Rows, choose, groups,
 };
 
-/// The processor or a graphics device, which computes images and holds them in its memory.
+/// Computes images and holds them in memory: the processor's, or a graphics device's.
 #[derive(Debug)]
 pub enum Compute {
-    /// The processor: rows of pixels on all cores.
+    /// The processor computes rows of pixels on all cores.
     Cpu,
     /// A graphics device.
     Gpu(Box<GpuCompute>),
@@ -46,17 +47,17 @@ impl Compute {
         Self::Gpu(Box::new(GpuCompute::new(device)))
     }
 
-    /// Computes on the processor or the device that `choice` selects: `Auto` selects the
-    /// processor if no hardware adapter can be opened.
+    /// Uses the processor or the device that `choice` selects. `Auto` selects the processor if no
+    /// hardware adapter can be opened.
     ///
     /// # Errors
-    /// Only for [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] if there is no usable
-    /// adapter, or the driver's error if it cannot be opened.
+    /// Only for [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] if there is no usable adapter,
+    /// or the driver's error if it cannot be opened.
     pub fn choose(choice: BackendChoice) -> Result<Self, DeviceError> {
         Ok(choose(choice)?.map_or(Self::Cpu, Self::gpu))
     }
 
-    /// Name to show to people: `cpu`, or the name of the graphics adapter.
+    /// Name to show to people, for example `cpu` or the name of the graphics adapter.
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
@@ -74,8 +75,8 @@ impl Compute {
         }
     }
 
-    /// Returns the graphics device for another use, `None` on the processor. Images made on it are
-    /// lost.
+    /// Returns the graphics device, so that you can use it for something else. `None` on the
+    /// processor. Images made on it are lost.
     #[must_use]
     pub fn into_device(self) -> Option<Device> {
         match self {
@@ -123,8 +124,8 @@ impl Compute {
         }
     }
 
-    /// The values of an image. They are copied only from a device, or if another clone of the image
-    /// is alive.
+    /// The values of an image. This copies them only from a device, or if another clone of the
+    /// image is alive.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost, never on the processor.
@@ -141,7 +142,7 @@ impl Compute {
 
 /// A graphics device with the commands recorded for it and a pool of planes.
 ///
-/// Operations only record. Recorded commands are submitted together when values are written or read
+/// Operations only record. We submit recorded commands together when you write values or read them
 /// back.
 #[derive(Debug)]
 pub struct GpuCompute {
@@ -165,7 +166,7 @@ impl GpuCompute {
         &self.device
     }
 
-    /// Gives up the pool and the commands not submitted yet, and returns the device.
+    /// Returns the device. This drops the pool and the commands that were not submitted yet.
     #[must_use]
     pub fn into_device(self) -> Device {
         self.device
@@ -216,8 +217,8 @@ impl GpuCompute {
         self.device.submit(&mut self.recording)
     }
 
-    /// Writes `values` to the start of `plane`. Commands recorded so far are submitted first, since
-    /// they may still read the plane that had this memory before.
+    /// Writes `values` to the start of `plane`. This submits the commands recorded so far first,
+    /// since they may still read the plane that had this memory before.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost or refuses a command.
@@ -257,9 +258,8 @@ impl GpuCompute {
 
 /// One value of type `T` per pixel, in the memory of the [`Compute`] that made it.
 ///
-/// An image is only of use to that `Compute`: operations panic if they are handed an image
-/// of the other form, and a graphics device refuses the memory of another device. Clones
-/// share memory.
+/// You can use an image only with this `Compute`. Operations panic if you pass an image of the
+/// other form, and a graphics device refuses the memory of another device. Clones share memory.
 #[derive(Debug, Clone)]
 pub enum Image<T> {
     /// In the processor's memory.
@@ -296,7 +296,7 @@ impl<T> Image<T> {
         self.size().1
     }
 
-    /// The values in the processor's memory, for an operation on the processor.
+    /// The values in the processor's memory. Use this in an operation on the processor.
     ///
     /// # Panics
     /// If the image lives on a graphics device.
@@ -308,7 +308,7 @@ impl<T> Image<T> {
         }
     }
 
-    /// The plane in device memory, for an operation on a graphics device.
+    /// The plane in device memory. Use this in an operation on a graphics device.
     ///
     /// # Panics
     /// If the image lives in the processor's memory.
@@ -322,8 +322,8 @@ impl<T> Image<T> {
 }
 
 impl<T: Clone> Image<T> {
-    /// The values in the processor's memory, to be changed in place. They are copied only
-    /// if another clone of the image is alive.
+    /// The values in the processor's memory, for you to change in place. This copies them only if
+    /// another clone of the image is alive.
     ///
     /// # Panics
     /// If the image lives on a graphics device.
@@ -337,14 +337,12 @@ impl<T: Clone> Image<T> {
 }
 
 impl<T> From<Field<T>> for Image<T> {
-    /// An image in the processor's memory.
     fn from(field: Field<T>) -> Self {
         Self::Host(Arc::new(field))
     }
 }
 
 impl<T> From<Plane<T>> for Image<T> {
-    /// An image in device memory.
     fn from(plane: Plane<T>) -> Self {
         Self::Device(plane)
     }
@@ -363,7 +361,7 @@ pub fn assert_size(what: &str, found: (usize, usize), wanted: (usize, usize)) {
 }
 
 /// One value of type `T` per pixel in a graphics device's memory, row by row from the top. Clones
-/// share the memory. It is reused for another plane once all are dropped.
+/// share the memory. We reuse it for another plane once all of them are dropped.
 #[derive(Debug, Clone)]
 pub struct Plane<T> {
     buffer: Arc<Buffer>,
@@ -373,7 +371,6 @@ pub struct Plane<T> {
 }
 
 impl<T> Plane<T> {
-    /// A plane over `buffer`, which has at least `width` x `height` values.
     fn new(buffer: Arc<Buffer>, width: usize, height: usize) -> Self {
         Self { buffer, width, height, pixel: PhantomData }
     }
@@ -384,7 +381,7 @@ impl<T> Plane<T> {
         (self.width, self.height)
     }
 
-    /// The device memory that holds the values, for binding it to a kernel.
+    /// The device memory that holds the values. Use this to bind it to a kernel.
     #[must_use]
     pub fn buffer(&self) -> &Buffer {
         &self.buffer

@@ -4,18 +4,19 @@ use glam::Vec3;
 
 use crate::camera::Camera;
 
-/// A distant light.
+/// A light with the same direction everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DistantLight {
-    /// Moves with the camera. The vector points towards the light: x to the right in the
-    /// picture, y upwards, z towards the viewer.
+    /// Moves with the camera, e.g. a lamp beside it. The vector points towards the light: x to the
+    /// right in the picture, y upwards, z towards the viewer.
     WithCamera(Vec3),
-    /// Fixed to the model. The vector points towards the light, in model coordinates.
+    /// Fixed to the model, e.g. the sun. The vector points towards the light, in model
+    /// coordinates.
     WithModel(Vec3),
 }
 
 impl DistantLight {
-    /// A light that moves with the camera: `azimuth_deg` clockwise from the top of the
+    /// A light that moves with the camera. `azimuth_deg` counts clockwise from the top of the
     /// picture, `elevation_deg` from the plane of the picture (0) towards the viewer (90).
     #[must_use]
     pub fn with_camera(azimuth_deg: f32, elevation_deg: f32) -> Self {
@@ -24,8 +25,8 @@ impl DistantLight {
         Self::WithCamera(Vec3::new(sin_a * cos_e, cos_a * cos_e, sin_e))
     }
 
-    /// The direction towards the light in model coordinates, of length 1, zero if the light's own
-    /// vector is zero.
+    /// The direction towards the light in model coordinates, of length 1. If you set the light's
+    /// own vector to zero, this is zero too.
     #[must_use]
     pub fn direction(self, camera: &Camera) -> Vec3 {
         let direction = match self {

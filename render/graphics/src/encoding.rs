@@ -5,7 +5,7 @@ use spectra::color::{Lab, Rgb, RgbSpace};
 
 use crate::field::Field;
 
-/// Linear sRGB of a picture of encoded sRGB. The fourth value stays.
+/// Linear sRGB of a picture of encoded sRGB. This keeps the fourth value.
 #[must_use]
 pub fn linear_from_encoded(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     map_pixels(picture, |[r, g, b, a]| {
@@ -14,13 +14,14 @@ pub fn linear_from_encoded(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     })
 }
 
-/// Encoded sRGB of a picture of linear sRGB, which is clipped to 0..1. The fourth value stays.
+/// Encoded sRGB of a picture of linear sRGB, which is clipped to 0..1. This keeps the fourth
+/// value.
 #[must_use]
 pub fn encoded_from_linear(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     map_pixels(picture, encoded)
 }
 
-/// Encodes a picture of linear sRGB like [`encoded_from_linear`], in its own memory.
+/// Encodes a picture of linear sRGB like [`encoded_from_linear`], but in place.
 pub fn encode(picture: &mut Field<[f32; 4]>) {
     picture.values_mut().par_iter_mut().for_each(|pixel| *pixel = encoded(*pixel));
 }
@@ -31,7 +32,7 @@ fn encoded([r, g, b, a]: [f32; 4]) -> [f32; 4] {
     [r, g, b, a]
 }
 
-/// CIELAB, under the white of sRGB, of a picture of linear sRGB.
+/// Converts a picture of linear sRGB to CIELAB under the white of sRGB.
 #[must_use]
 pub fn lab_from_linear(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     let white = RgbSpace::Srgb.white();
@@ -48,8 +49,8 @@ pub fn lab_from_linear(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     Field::from_values(picture.width(), picture.height(), values)
 }
 
-/// Linear sRGB of a picture of CIELAB under the white of sRGB. Colours outside the gamut have
-/// values below 0 or above 1.
+/// Converts a picture of CIELAB under the white of sRGB to linear sRGB. Colours outside the gamut
+/// have values below 0 or above 1.
 #[must_use]
 pub fn linear_from_lab(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     let white = RgbSpace::Srgb.white();
@@ -66,8 +67,8 @@ pub fn linear_from_lab(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     Field::from_values(picture.width(), picture.height(), values)
 }
 
-/// Composites a picture with coverage on white, without linearising it. The coverage of the
-/// result is 1 everywhere.
+/// Composites a picture with coverage on white, without linearising it. The coverage of the result
+/// is 1 everywhere. Use this for pictures in encoded sRGB.
 #[must_use]
 pub fn over_white(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
     map_pixels(picture, |[r, g, b, covered]| {

@@ -1,4 +1,5 @@
-//! Pictures in linear light from OpenEXR files of any program, and smaller pictures of them.
+//! Reads pictures in linear light from OpenEXR files of any program, and makes smaller pictures of
+//! them.
 
 use std::io::Cursor;
 
@@ -12,10 +13,9 @@ use spectra::color::{Adaptation, Matrix3, RgbSpace, Xyz};
 use crate::field::Field;
 use crate::picture::{MOST_PIXELS, Picture};
 
-/// First bytes of every OpenEXR file.
 const MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 
-/// Largest difference of a chromaticity from sRGB that counts as rounding.
+/// A chromaticity may differ from sRGB by this much, which counts as rounding.
 const ROUNDING: f32 = 1e-3;
 
 /// An OpenEXR file cannot be read as a picture.
@@ -50,8 +50,8 @@ pub fn is_exr(bytes: &[u8]) -> bool {
 }
 
 /// Decodes the first part of an OpenEXR file with channels R, G and B to linear sRGB. Values above
-/// 1 stay, those that are not finite become 0. The primaries and the white of attribute
-/// `chromaticities` are converted, without it they are sRGB's. Transparent parts are over black.
+/// 1 stay. Values that are not finite become 0. We convert from the primaries and white of
+/// attribute `chromaticities`, or assume sRGB without it. We composite transparent parts on black.
 /// `name` stands for the path in errors.
 ///
 /// # Errors
@@ -91,7 +91,7 @@ pub fn linear_picture(name: &str, bytes: &[u8]) -> Result<Picture, ExrPictureErr
     Ok(picture)
 }
 
-/// Matrix from linear light of other primaries to linear sRGB, `None` for the primaries of sRGB,
+/// Matrix from linear light of other primaries to linear sRGB. `None` for the primaries of sRGB,
 /// and for primaries that span no colours.
 fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
     let Chromaticities { red, green, blue, white } = chromaticities;
@@ -103,7 +103,6 @@ fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
     {
         return None;
     }
-    // XYZ at luminance 1.
     let xyz = own.map(|&Vec2(x, y)| {
         let x = f64::from(x);
         let y = f64::from(y);
@@ -120,8 +119,8 @@ fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
     matrix.0.iter().flatten().all(|value| value.is_finite()).then_some(matrix)
 }
 
-/// A picture of `width` x `height` cells at most as large as `picture`: the mean of the pixels that
-/// have their centre in each cell.
+/// Reduces a picture to `width` x `height` cells. A cell is the mean of the pixels with their
+/// centre in it.
 ///
 /// # Panics
 /// If a side is 0 or longer than the side of `picture`.

@@ -1,7 +1,7 @@
 //! A value for every cell of a rectangle, row by row, with Gaussian blur and a soft step.
 //!
 //! The blur makes three passes of a box filter (Gwosdek, Grewenig, Bruhn and Weickert 2011). The
-//! end cells of a box have a fractional weight, so that its width is continuous.
+//! end cells of a box have a fractional weight. This makes its width continuous.
 
 use std::ops::{Div, Mul, Sub};
 
@@ -61,7 +61,7 @@ impl<T> Field<T> {
         &self.values
     }
 
-    /// The values row by row, to be changed.
+    /// The values row by row. You can change them.
     pub fn values_mut(&mut self) -> &mut [T] {
         &mut self.values
     }
@@ -72,7 +72,7 @@ impl<T> Field<T> {
         &self.values[y * self.width + x..][..width]
     }
 
-    /// The cells `x..x + width` of row `y`, to be changed.
+    /// The cells `x..x + width` of row `y`. You can change them.
     pub fn row_mut(&mut self, y: usize, x: usize, width: usize) -> &mut [T] {
         &mut self.values[y * self.width + x..][..width]
     }
@@ -108,7 +108,6 @@ impl<T: Copy> Field<T> {
 impl<T> std::ops::Index<(usize, usize)> for Field<T> {
     type Output = T;
 
-    /// The value at `(x, y)`.
     fn index(&self, (x, y): (usize, usize)) -> &T {
         &self.values[y * self.width + x]
     }
@@ -121,6 +120,7 @@ impl<T> std::ops::IndexMut<(usize, usize)> for Field<T> {
 }
 
 /// Rises from 0 at the first limit and below to 1 at the second and above, with slope 0 at both.
+/// If you put the greater limit first, it falls.
 #[must_use]
 pub fn smoothstep<T>([low, high]: [T; 2], value: T) -> T
 where
@@ -135,8 +135,8 @@ where
     t * t * (T::from(3.0) - T::from(2.0) * t)
 }
 
-/// Blurs `field` by a Gaussian of standard deviation `sigma`, in cells, 0 or less gives a copy.
-/// Cells outside the field have the value of the nearest cell inside it.
+/// Blurs `field` by a Gaussian of standard deviation `sigma`, in cells. If you pass 0 or less, you
+/// get a copy. Cells outside the field count with the value of the nearest cell inside it.
 pub fn blurred<const N: usize>(field: &Field<[f32; N]>, sigma: f64) -> Field<[f32; N]> {
     if sigma <= 0.0 {
         return field.clone();
@@ -173,8 +173,8 @@ fn transposed<const N: usize>(field: &Field<[f32; N]>) -> Field<[f32; N]> {
 
 const PASSES: usize = 3;
 
-/// A box filter: the mean of `2 radius + 1` cells of weight 1 and of one more cell of weight
-/// `part` at each end.
+/// A box filter: the mean of `2 radius + 1` cells of weight 1 and one more cell of weight `part`
+/// at each end.
 struct RunningMean {
     radius: usize,
     part: f64,

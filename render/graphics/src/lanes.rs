@@ -1,7 +1,8 @@
 //! Arithmetic in f32 that the compiler vectorises.
 //!
-//! [`vectorized`] runs work with the widest vector instructions of the machine. The other functions
-//! are inlined into such work. The type parameter `S` stands for the instructions.
+//! [`vectorized`] runs work with the widest vector instructions of the machine. You call the other
+//! functions from such work, into which they are inlined. The type parameter `S` stands for the
+//! instructions.
 
 use pulp::{Simd, WithSimd};
 
@@ -12,11 +13,11 @@ pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
     pulp::Arch::new().dispatch(work)
 }
 
-/// Runs `work`, compiled with vectors of 128 bits if the module is.
+/// Runs `work`, compiled with vectors of 128 bits if you compile the module with them.
 ///
-/// [`pulp::Arch`] would add a version with relaxed instructions. Their results differ between
-/// machines, engines without them refuse the module, and one function with them lets the compiler
-/// use them in all of it.
+/// [`pulp::Arch`] would add a version with relaxed instructions. We do not want this: their
+/// results differ between machines, and engines without them refuse the module. One function with
+/// them also lets the compiler use them in the whole module.
 #[cfg(target_arch = "wasm32")]
 #[inline(always)]
 pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
@@ -26,7 +27,7 @@ pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
     }
 }
 
-/// Name of the vector instructions that [`vectorized`] uses, none on a machine without.
+/// Name of the vector instructions that [`vectorized`] uses. `None` on a machine without.
 #[must_use]
 pub fn vector_instructions() -> Option<&'static str> {
     if cfg!(target_arch = "wasm32") {
@@ -37,7 +38,7 @@ pub fn vector_instructions() -> Option<&'static str> {
 }
 
 /// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once. Otherwise, and
-/// in WebAssembly, it is two operations, because a fused one would be a slow library call.
+/// in WebAssembly, this takes two operations, because a fused one would be a slow library call.
 #[inline(always)]
 pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
     let has_fused =
@@ -45,7 +46,7 @@ pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
     if has_fused { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// The greater of two numbers, `b` if one is NaN. One instruction, unlike [`f32::max`].
+/// The greater of two numbers, `b` if one is NaN. This is one instruction, unlike [`f32::max`].
 #[inline(always)]
 pub fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
@@ -72,7 +73,7 @@ const EXP2_MINUS_1: [f32; 6] = [
 /// are below 5e-7 and 2e-7. Elsewhere the absolute errors are below 1e-7.
 #[inline(always)]
 pub fn decay<S: Simd>(x: f32) -> (f32, f32) {
-    // exp(-x) = 2^n 2^r. Results below 2^-126 are negligible, so the exponent ends there.
+    // exp(-x) = 2^n 2^r. Results below 2^-126 are negligible, so we end the exponent there.
     let exponent = greater(x * -std::f32::consts::LOG2_E, -126.0);
     // Adding 1.5 * 2^23 rounds to a whole number, which the low bits then hold.
     const ROUND: f32 = 12_582_912.0;
@@ -94,8 +95,8 @@ pub fn decay<S: Simd>(x: f32) -> (f32, f32) {
 mod tests {
     use super::*;
 
-    /// Largest errors of both results: relative where exp(-x) is above 1e-3, elsewhere twice
-    /// the absolute error.
+    /// Largest errors of both results. They are relative where exp(-x) is above 1e-3. Elsewhere
+    /// this gives twice the absolute error.
     fn errors<S: Simd>() -> [f64; 2] {
         let mut worst = [0.0f64; 2];
         for i in 0..=200_000 {

@@ -7,7 +7,8 @@
 //! export: PNG, OpenEXR, GIF, APNG, folders of frames <----------------+
 //! ```
 //!
-//! A [`Field`](field::Field) holds one value per pixel. Files of pictures are encoded in memory:
+//! A [`Field`](field::Field) holds one value per pixel. For example, you encode a picture in
+//! memory like this:
 //!
 //! ```
 //! use graphics::export::{PictureFormat, picture_file};
@@ -22,9 +23,9 @@
 //! # }
 //! ```
 //!
-//! In scope: values over pixels, the graphics device, meshes and cameras, what a camera sees, noise
-//! that stays on surfaces, and files of pictures and animations. Out of scope: pigments and paint
-//! (crate `paint`), and painting techniques (the crates below `render/techniques`).
+//! In scope: values over pixels, the graphics device, meshes and cameras, what a camera sees,
+//! noise that stays on surfaces, and files of pictures and animations. Out of scope: pigments and
+//! paint (crate `paint`), and painting techniques (the crates below `render/techniques`).
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 

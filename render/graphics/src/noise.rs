@@ -4,10 +4,9 @@ use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Period of the lattice along both axes, in cells.
 const PERIOD: usize = 1024;
 
-/// Slope of the surface at the corners of the lattice, in height per cell. It brings the
+/// Slope of the surface at the corners of the lattice, in height per cell. This brings the
 /// standard deviation of the heights to about 1/3.
 const STEEPNESS: f64 = 1.6;
 
@@ -26,7 +25,7 @@ impl Hills {
     /// multiplied by the squared distance, to 535/18018.
     pub const VARIANCE: f64 = 4.0 * STEEPNESS * STEEPNESS * (181.0 / 462.0) * (535.0 / 18018.0);
 
-    /// Creates a surface. The directions of its slopes are drawn from `random`.
+    /// Creates a surface. `random` gives the directions of its slopes.
     pub fn new(random: &mut ChaCha8Rng) -> Self {
         let mut order: Vec<u16> = (0..PERIOD as u16).collect();
         order.shuffle(random);
@@ -59,41 +58,42 @@ impl Hills {
     }
 }
 
-/// Random hills throughout space: gradient noise with a quintic blend (Perlin 2002), the gradients
-/// drawn from a cube by a hash of their corner of the lattice. Heights lie in -1..1, with mean 0
-/// and a standard deviation of about 1/3.
+/// Random hills throughout space: gradient noise with a quintic blend (Perlin 2002). A hash of the
+/// lattice corner picks the gradient from a cube. Heights lie in -1..1, with mean 0 and a standard
+/// deviation of about 1/3.
 ///
-/// Only floor, + - * and whole numbers are used, so that the heights are the same on every
-/// machine, and loops over it are vectorised.
+/// We use only floor, + - * and whole numbers. This gives the same heights on every machine, and
+/// compilers vectorise loops over it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SolidHills {
     seed: u32,
 }
 
-/// Greatest component of a gradient, which brings the standard deviation to 1/3: eight corners each
+/// Greatest component of a gradient. This brings the standard deviation to 1/3: eight corners each
 /// add three components of variance `STEEPEST^2 / 3`, times the blends as for [`Hills`].
 const STEEPEST: f32 = 1.746;
 
-/// Odd factors (from xxHash32, Collet 2012) that keep the axes of the lattice apart.
+/// Odd factors (from xxHash32, Collet 2012) that tell the axes of the lattice apart.
 const FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
 
 impl SolidHills {
-    /// Frequency at which a plane through the hills has most of its variance, in waves a unit
-    /// (the peak of frequency times spectral density, from the Fourier transform of the blend).
+    /// A plane through the hills has most of its variance at this frequency, in waves per unit. It
+    /// is the peak of frequency times spectral density, from the Fourier transform of the blend.
     pub const STRONGEST: f32 = 0.52;
 
-    /// Creates hills of which `random` decides.
+    /// Creates hills from a number that `random` draws.
     pub fn new(random: &mut ChaCha8Rng) -> Self {
         Self { seed: random.random() }
     }
 
-    /// The number that distinguishes these hills from others, for twins of this code in shaders.
+    /// The number that distinguishes these hills from others. Pass this to twins of this code in
+    /// shaders.
     #[must_use]
     pub fn seed(self) -> u32 {
         self.seed
     }
 
-    /// The height at a place.
+    /// The height at a place in space.
     #[inline(always)]
     #[must_use]
     pub fn at(self, place: [f32; 3]) -> f32 {
@@ -111,7 +111,7 @@ impl SolidHills {
         if height < -1.0 { -1.0 } else { height }
     }
 
-    /// The height between the four corners at the near or far side along z, by the slopes there.
+    /// The height between the four corners at the near or far side along z.
     #[inline(always)]
     fn side(self, back: u32, hashes: [u32; 3], from: [f32; 3], shares: [f32; 3]) -> f32 {
         let upper = mix(
@@ -127,7 +127,6 @@ impl SolidHills {
         mix(upper, lower, shares[1])
     }
 
-    /// The height by the slope at one of the eight corners.
     #[inline(always)]
     fn corner(self, corner: [u32; 3], hashes: [u32; 3], from: [f32; 3]) -> f32 {
         let x = hashes[0].wrapping_add(corner[0].wrapping_mul(FACTORS[0]));
@@ -140,7 +139,6 @@ impl SolidHills {
     }
 }
 
-/// The quintic blend between corners.
 #[inline(always)]
 fn blend(t: f32) -> f32 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
@@ -159,7 +157,8 @@ fn mixed(bits: u32) -> u32 {
     bits ^ (bits >> 16)
 }
 
-/// The scalar product of `from` and a gradient in the cube -1..1, three times ten bits.
+/// The scalar product of `from` and a gradient in the cube -1..1. `bits` holds three times ten
+/// bits.
 #[inline(always)]
 fn slope(bits: u32, [x, y, z]: [f32; 3]) -> f32 {
     let a = (bits >> 22) as i32 as f32;
@@ -168,7 +167,7 @@ fn slope(bits: u32, [x, y, z]: [f32; 3]) -> f32 {
     (a * x + b * y + c * z) * (2.0 / 1023.0) - (x + y + z)
 }
 
-/// Random numbers for `seed`. Each `kind` gives an independent stream.
+/// Random numbers for `seed`. If you pass another `kind`, you get an independent stream.
 pub fn random(seed: u64, kind: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(kind);
@@ -179,7 +178,6 @@ pub fn random(seed: u64, kind: u64) -> ChaCha8Rng {
 mod tests {
     use super::*;
 
-    /// Heights on a lattice of 20 x 20 x 20 places, 0.37 units apart.
     fn heights(seed: u64) -> Vec<f32> {
         let hills = SolidHills::new(&mut random(seed, 0));
         (0..8000)
@@ -217,7 +215,8 @@ mod tests {
 
     #[test]
     fn solid_hills_are_the_same_on_every_machine() {
-        // From a second implementation in numpy. Other bits would change every world made before.
+        // These numbers come from a second implementation in numpy. Other bits would change every
+        // world made before.
         let hills = SolidHills { seed: 0x1234_5678 };
         let found =
             [[0.5, 0.5, 0.5], [-7.3, 12.9, 0.1], [1000.2, -0.4, 33.3]].map(|at| hills.at(at));

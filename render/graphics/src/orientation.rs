@@ -1,28 +1,27 @@
 //! Orientation field of a picture: the direction along edges, extended into flat regions.
 //!
-//! The structure tensor of all three channels (Di Zenzo 1986) is smoothed. Its minor eigenvector is
+//! We smooth the structure tensor of all three channels (Di Zenzo 1986). Its minor eigenvector is
 //! the direction (Kyprianidis and Kang 2011). Litwinowicz 1997 interpolates directions from strong
-//! gradients into flat regions. Here the tensor itself is spread by Gaussians of doubling width and
-//! falling weight, which together decay like a power of the distance, so that stronger and nearer
-//! edges dominate.
+//! gradients into flat regions. Here we spread the tensor itself by Gaussians of doubling width
+//! and falling weight. Together they decay like a power of the distance, so that stronger and
+//! nearer edges dominate.
 
 use rayon::prelude::*;
 
 use crate::field::{Field, blurred};
 
-/// Weight of each Gaussian relative to the one half as wide (chosen by eye).
+/// Weight of each Gaussian relative to the one half as wide. We chose it by eye.
 const WIDER: f32 = 0.25;
 
 /// Orientation of edges at every cell, as a unit vector of arbitrary sign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationField {
     along: Field<[f32; 2]>,
-    /// How far gradients agree, 0 to 1.
     agreement: Field<f32>,
 }
 
 impl OrientationField {
-    /// Computes the field of a CIELAB picture. The tensor is smoothed by a Gaussian of standard
+    /// Computes the field of a CIELAB picture. This smooths the tensor by a Gaussian of standard
     /// deviation `sigma`, in cells.
     #[must_use]
     pub fn from_lab(lab: &Field<[f32; 3]>, sigma: f64) -> Self {
@@ -55,7 +54,7 @@ impl OrientationField {
         self.along[(x, y)].map(f64::from)
     }
 
-    /// How far the gradients around a cell agree in direction: 0 not at all, 1 fully.
+    /// How far the gradients around a cell agree in direction, from 0 (not at all) to 1 (fully).
     #[must_use]
     pub fn agreement(&self, x: usize, y: usize) -> f32 {
         self.agreement[(x, y)]
@@ -100,7 +99,7 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     tensor
 }
 
-/// Difference of the tensor's eigenvalues by their sum, 0 where there is no gradient.
+/// Difference of the tensor's eigenvalues over their sum. This is 0 where there is no gradient.
 fn agreement(tensor: &[f32; 3]) -> f32 {
     let [xx, xy, yy] = *tensor;
     if xx + yy < 1e-12 {
@@ -109,7 +108,7 @@ fn agreement(tensor: &[f32; 3]) -> f32 {
     ((xx - yy).powi(2) + 4.0 * xy * xy).sqrt() / (xx + yy)
 }
 
-/// Minor eigenvector of the tensor, along x where there is no gradient.
+/// Minor eigenvector of the tensor. Where there is no gradient, this points along x.
 fn weak_direction(tensor: &[f32; 3]) -> [f32; 2] {
     let [xx, xy, yy] = tensor.map(f64::from);
     if xx + yy < 1e-12 {

@@ -1,5 +1,5 @@
-//! Photographs: PNG, JPEG, TIFF and WebP files, converted from their embedded ICC profile to sRGB
-//! and resampled to a canvas in linear light.
+//! Photographs: reads PNG, JPEG, TIFF and WebP files, converts them from their embedded ICC
+//! profile to sRGB, and resamples them to a canvas in linear light.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -23,25 +23,25 @@ use crate::picture_formats::{NAMES, is_cut_off_jpeg, is_of_inks};
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
 
-/// Most pixels of a photograph that is read: 2^27, about 11,500 x 11,500.
+/// We read photographs of at most this many pixels: 2^27, about 11,500 x 11,500.
 pub const MOST_PIXELS: u64 = 1 << 27;
 
-/// Most bytes that the decoder may allocate: 1.5 GiB.
+/// The decoder may allocate at most this many bytes: 1.5 GiB.
 const MOST_BYTES: u64 = 3 << 29;
 
-/// A decoded photograph, turned upright.
+/// A decoded photograph. It stands upright.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Photograph {
     image: DynamicImage,
 }
 
-/// Longest side in pixels of a painting when nobody asks for a width.
+/// Longest side of a painting in pixels, if the user gives no width.
 const USUAL_LONGER_SIDE_PX: usize = 1600;
 
 impl Photograph {
-    /// Reads a PNG, JPEG, TIFF or WebP file, grey or colour, with 8 or 16 bits per channel. Its
-    /// colours are converted by the ICC profile that it holds, without one taken as sRGB. The
-    /// orientation in its EXIF data is applied.
+    /// Reads a PNG, JPEG, TIFF or WebP file, grey or colour, with 8 or 16 bits per channel. This
+    /// converts its colours by the ICC profile in the file. A file without one counts as sRGB. It
+    /// also applies the orientation in the EXIF data.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -100,8 +100,8 @@ impl Photograph {
         Ok(Self { image })
     }
 
-    /// Width in pixels of a painting of this photograph when nobody asks for one: the photograph's
-    /// own width, or less, so that the longer side has at most 1600 pixels.
+    /// Width in pixels of a painting of this photograph, if the user does not ask for one. This is
+    /// the photograph's own width, or less: the longer side has at most 1600 pixels.
     #[must_use]
     pub fn usual_width_px(&self) -> usize {
         let (width, height) = self.size();
@@ -115,9 +115,9 @@ impl Photograph {
         (self.image.width() as usize, self.image.height() as usize)
     }
 
-    /// Resamples the photograph to `width` x `height` cells, stretching it if the shapes
-    /// differ: the mean linear light over each cell, transparent parts over white. Cells
-    /// smaller than a pixel blend neighbouring pixels.
+    /// Resamples the photograph to `width` x `height` cells, and stretches it if the shapes
+    /// differ. A cell has the mean linear light over its area, with transparent parts over white.
+    /// If you ask for cells smaller than a pixel, they blend neighbouring pixels.
     ///
     /// # Panics
     /// If `width` or `height` is 0.
@@ -126,8 +126,8 @@ impl Photograph {
         self.resampled(width, height, |[r, g, b, _]| [r, g, b].map(|value| value as f32))
     }
 
-    /// Resamples the photograph like [`Photograph::on_canvas`], to encoded sRGB with opacity (both
-    /// 0..1). The colour belongs to the opaque part, white where there is none.
+    /// Resamples the photograph like [`Photograph::on_canvas`], but to encoded sRGB with opacity
+    /// (both 0..1). The colour belongs to the opaque part. It is white where there is none.
     ///
     /// # Panics
     /// If `width` or `height` is 0.
@@ -136,14 +136,17 @@ impl Photograph {
         self.resampled(width, height, |[r, g, b, opacity]| {
             let opacity = opacity.clamp(0.0, 1.0);
             // Undo the blend with white.
-            let unblended = |value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0);
-            let color = if opacity > 0.0 { [r, g, b].map(unblended) } else { [1.0; 3] };
+            let color = if opacity > 0.0 {
+                [r, g, b].map(|value: f64| ((value + opacity - 1.0) / opacity).clamp(0.0, 1.0))
+            } else {
+                [1.0; 3]
+            };
             let [r, g, b] = Rgb(color).encoded().0.map(|value| value as f32);
             [r, g, b, opacity as f32]
         })
     }
 
-    /// Applies `cell` to the mean linear light over white, and opacity, of every cell.
+    /// Applies `cell` to the mean linear light over white, and the opacity, of every cell.
     fn resampled<T: Clone + Default + Send>(
         &self,
         width: usize,
@@ -179,12 +182,11 @@ impl Photograph {
     }
 }
 
-/// Coverage of pixels by cells along one axis.
+/// How cells cover pixels along one axis.
 struct Coverage {
     pixels: usize,
     /// Pixel position of the first cell's edge: 0 up to rounding.
     first: f64,
-    /// Pixels per cell.
     scale: f64,
 }
 
@@ -210,12 +212,10 @@ impl Coverage {
     }
 }
 
-/// Decoder from the bytes of a pixel to linear light.
 struct LinearDecoder {
     channels: usize,
     sample_bytes: usize,
     pixel_bytes: usize,
-    /// Linear light of each possible sample value.
     decoded: Vec<f64>,
 }
 
@@ -233,7 +233,6 @@ impl LinearDecoder {
         }
     }
 
-    /// Decodes a row to linear light over white, and opacity.
     fn decode_row(&self, bytes: &[u8], row: &mut [[f64; 4]]) {
         let last = (self.decoded.len() - 1) as f64;
         for (pixel, bytes) in row.iter_mut().zip(bytes.chunks_exact(self.pixel_bytes)) {
@@ -273,7 +272,7 @@ pub enum PhotographError {
         /// Reason given by the system.
         error: std::io::Error,
     },
-    /// The file is not a PNG, JPEG, TIFF or WebP picture, or is damaged.
+    /// The file is not a PNG, JPEG, TIFF or WebP picture, or it is damaged.
     #[error("{name}: not a {NAMES} picture that can be read: {reason}")]
     #[hint("save it as {NAMES}")]
     NoPicture {
@@ -291,13 +290,13 @@ pub enum PhotographError {
         /// Length of the file.
         bytes: usize,
     },
-    /// The colours of the picture cannot be converted to sRGB.
+    /// We cannot convert the colours of the picture to sRGB.
     #[error("{name}: {reason}")]
     #[hint("convert it to sRGB in an image editor")]
     Profile {
         /// Path of the file.
         name: String,
-        /// Which part cannot be converted.
+        /// What we cannot convert.
         reason: ProfileError,
     },
     /// The picture has more than [`MOST_PIXELS`] pixels.
@@ -313,10 +312,10 @@ pub enum PhotographError {
     },
 }
 
-/// Why a picture cannot be converted.
+/// Why we cannot convert a picture.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ProfileError {
-    /// The file holds inks, and their colours depend on a press.
+    /// The file holds inks. Their colours depend on a press.
     #[error("its colours are inks ({0})")]
     Inks(String),
     /// The profile cannot be read, or does not suit the picture.
@@ -324,8 +323,9 @@ pub enum ProfileError {
     Unusable(String),
 }
 
-/// The ICC profile in a TIFF file. Read here, because the decoder of pictures leaves out a profile that is
-/// large beside its picture, without a word. It takes memory in proportion to the file at most.
+/// The ICC profile in a TIFF file. We read it here because the decoder of pictures silently leaves
+/// out a profile that is large compared to its picture. This takes memory in proportion to the
+/// file at most.
 pub(crate) fn tiff_profile(file: &[u8]) -> TiffResult<Option<Vec<u8>>> {
     let mut limits = ColorProfileLimits::default();
     limits.decoding_buffer_size = file.len().saturating_mul(size_of::<ifd::Value>());
@@ -333,9 +333,9 @@ pub(crate) fn tiff_profile(file: &[u8]) -> TiffResult<Option<Vec<u8>>> {
     decoder.find_tag(Tag::IccProfile)?.map(ifd::Value::into_u8_vec).transpose()
 }
 
-/// Converts a picture of encoded samples from `profile` (the content of an ICC file) to encoded sRGB
-/// with 16 bits per channel: relative to white, colours outside sRGB clipped channel by channel.
-/// Opacity stays.
+/// Converts a picture of encoded samples to encoded sRGB with 16 bits per channel. `profile` is
+/// the content of an ICC file. Colours are relative to white. This clips colours outside sRGB
+/// channel by channel, and keeps opacity.
 ///
 /// # Errors
 /// [`ProfileError`] for a damaged profile, one of inks, and one for another number of channels.
@@ -424,7 +424,6 @@ mod tests {
         assert!(far.fold(0.0, f64::max) < tolerance, "{found:?} for {wanted:?}");
     }
 
-    /// A TIFF of one colour with 16 bits, and a profile.
     fn deep_tiff(values: [u16; 3], profile: &ColorProfile) -> Vec<u8> {
         let mut bytes = Cursor::new(Vec::new());
         let mut encoder = TiffEncoder::new(&mut bytes);
@@ -483,8 +482,8 @@ mod tests {
         assert!(error.contains("Gray") && error.contains("the picture is RGB"), "{error}");
     }
 
-    /// A JPEG of 8 x 8 pixels of middle grey with this number of components: its tables hold one code
-    /// each, so that the coded data are zeros.
+    /// A JPEG of 8 x 8 pixels of middle grey with this number of components. Its tables hold one
+    /// code each, so that the coded data are zeros.
     fn small_jpeg(components: u8) -> Vec<u8> {
         let mut file = vec![0xff, 0xd8, 0xff, 0xdb, 0, 67, 0];
         file.extend([1; 64]);
@@ -497,7 +496,8 @@ mod tests {
         file.extend([0xff, 0xda, 0, 6 + 2 * components, components]);
         file.extend((1..=components).flat_map(|id| [id, 0]));
         file.extend([0, 63, 0]);
-        // One bit for the mean and one for the end of each block, then ones up to a whole byte.
+        // The data have one bit for the mean and one for the end of each block, then ones up to a
+        // whole byte.
         file.extend([if components == 4 { 0 } else { 0xff >> (2 * components) }, 0xff, 0xd9]);
         file
     }

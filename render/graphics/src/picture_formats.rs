@@ -1,17 +1,18 @@
-//! Formats of pictures that are read: their names in messages, endings of file names, first bytes,
-//! and a check for JPEG files that were cut off. Decoders paint the missing part grey.
+//! Formats of pictures that we read: their names in messages, endings of file names and first
+//! bytes. Also a check for JPEG files that were cut off, because decoders paint the missing part
+//! grey.
 
 use std::path::Path;
 
 use image::ImageFormat;
 
-/// Names of the formats, for messages and help.
+/// Names of the formats. Use this in messages and help.
 pub const NAMES: &str = "PNG, JPEG, TIFF or WebP";
 
-/// Endings of the names of such files, in lower case.
+/// Endings of the names of picture files, in lower case.
 pub const ENDINGS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "webp"];
 
-/// Whether a file name ends like the name of a picture, in letters of either case.
+/// Whether a file name ends like the name of a picture. This ignores case.
 #[must_use]
 pub fn has_picture_ending(path: &Path) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str());
@@ -25,24 +26,24 @@ pub fn begins_like_picture(bytes: &[u8]) -> bool {
     matches!(image::guess_format(bytes), Ok(Png | Jpeg | Tiff | WebP))
 }
 
-/// First bytes of every JPEG file: the marker that starts the picture.
+/// First bytes of every JPEG file, which start the picture.
 const START: [u8; 2] = [0xff, 0xd8];
 /// Second byte of the marker that ends the picture.
 const END: u8 = 0xd9;
 
-/// Reason given for a file that [`is_cut_off_jpeg`].
+/// The reason to give for a file that [`is_cut_off_jpeg`].
 pub const CUT_OFF: &str = "the JPEG file is cut off: its end marker is missing";
 
-/// Whether `bytes` are a JPEG file that stops before its end marker (ISO/IEC 10918-1, B.1.1). Other formats
-/// are not: their decoders refuse cut files.
+/// Whether `bytes` are a JPEG file that stops before its end marker (ISO/IEC 10918-1, B.1.1). You
+/// need this only for JPEG: decoders of other formats refuse cut files.
 #[must_use]
 pub fn is_cut_off_jpeg(bytes: &[u8]) -> bool {
     if !bytes.starts_with(&START) {
         return false;
     }
     let mut at = START.len();
-    // Between markers lie segments, which state their length and may hold a whole thumbnail, and the
-    // coded data of scans, in which 0xff is followed by 0.
+    // Between markers lie segments and the coded data of scans. A segment states its length and
+    // may hold a whole thumbnail. In coded data, 0xff is followed by 0.
     while let Some(found) = bytes[at..].windows(2).position(|pair| is_marker(pair[0], pair[1])) {
         let marker = at + found;
         if bytes[marker + 1] == END {
@@ -57,8 +58,8 @@ pub fn is_cut_off_jpeg(bytes: &[u8]) -> bool {
     true
 }
 
-/// Whether `bytes` are a JPEG file of four components: inks (CMYK or YCCK). Its frame header
-/// (ISO/IEC 10918-1, B.2.2) gives their number.
+/// Whether `bytes` are a JPEG file of four components: inks (CMYK or YCCK). The frame header gives
+/// this number (ISO/IEC 10918-1, B.2.2).
 #[must_use]
 pub fn is_of_inks(bytes: &[u8]) -> bool {
     let mut at = START.len();

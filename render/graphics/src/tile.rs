@@ -1,5 +1,4 @@
-//! Rectangles of cells, and the tiles of 64 x 64 cells in which a canvas is saved and
-//! relit.
+//! Rectangles of cells, and the tiles of 64 x 64 cells by which we save and relight a canvas.
 
 use std::collections::BTreeSet;
 
@@ -54,7 +53,7 @@ pub struct Tile {
 
 impl Tile {
     /// The cells of the tile on a canvas of `bounds`. Tiles at the right and lower edge may be
-    /// smaller.
+    /// smaller than the others.
     #[must_use]
     pub fn rect(&self, bounds: Rect) -> Rect {
         let whole = Rect { x: self.column * TILE, y: self.row * TILE, width: TILE, height: TILE };
@@ -77,8 +76,8 @@ impl TileSet {
         set
     }
 
-    /// The tiles of a canvas of `bounds` that contain a cell for which `has` is true. `has`
-    /// gets the index of a cell, counted row by row.
+    /// The tiles of a canvas of `bounds` that contain a cell for which `has` is true. You get the
+    /// index of a cell in `has`, counted row by row.
     #[must_use]
     pub fn with(bounds: Rect, has: impl Fn(usize) -> bool) -> Self {
         Self {
@@ -116,8 +115,8 @@ impl TileSet {
         self.tiles.iter().copied()
     }
 
-    /// The smallest rectangle that contains all tiles, clipped to a canvas of `bounds`. Empty
-    /// if there is no tile.
+    /// The smallest rectangle that contains all tiles, clipped to a canvas of `bounds`. This is
+    /// empty if there is no tile.
     #[must_use]
     pub fn extent(&self, bounds: Rect) -> Rect {
         let tiles = self.tiles.iter().map(|tile| tile.rect(bounds));

@@ -1,4 +1,4 @@
-//! Tone ramp of toon shading: the grey that each amount of light is drawn in.
+//! Tone ramp of toon shading: which grey each amount of light becomes.
 
 use std::path::Path;
 
@@ -9,19 +9,19 @@ use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
 
-/// One-dimensional texture that maps the cosine between light and surface normal to a
-/// grey (Lake, Marshall, Harris and Blackstein, "Stylized rendering techniques for
-/// scalable real-time 3D animation", 2000). Grey 0.5 leaves the surface colour, darker is
-/// denser paint, lighter is thinner.
+/// One-dimensional texture that maps the cosine between light and surface normal to a grey (Lake,
+/// Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable real-time 3D
+/// animation", 2000). Grey 0.5 keeps the surface colour. Darker means denser paint, lighter
+/// thinner paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneRamp {
     greys: Box<[f32; TONES]>,
 }
 
 impl ToneRamp {
-    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light). One level is 0.5
-    /// throughout. `softness` in 0..1 is the share of a step's width over which it blends into the
-    /// next.
+    /// A staircase of `levels` equal steps from grey 0 (shade) to 1 (light). If you ask for one
+    /// level, it is 0.5 throughout. Each step blends into the next over the share `softness`
+    /// (0..1) of its width.
     #[must_use]
     pub fn steps(levels: usize, softness: f32) -> Self {
         let levels = levels.max(1) as f32;
@@ -60,7 +60,7 @@ impl ToneRamp {
     }
 
     /// Reads a ramp from the middle row of a picture (PNG, JPEG, TIFF or WebP), shade at the left.
-    /// The grey is the mean of the encoded channels.
+    /// We take the mean of the encoded channels as the grey.
     ///
     /// # Errors
     /// [`ToneRampError::NoPicture`] with the path.

@@ -1,8 +1,8 @@
-//! Textures that follow a few points of an object: the particles, and the blending of their copies.
+//! Textures that follow a few points of an object, the particles.
 //!
-//! Method (a) of Bousseau, Kaplan, Thollot and Sillion 2006: each particle has a copy of the
-//! texture, flat in the picture, that moves with it. A pixel blends the copies by its distance from
-//! the particles on the object.
+//! This is method (a) of Bousseau, Kaplan, Thollot and Sillion 2006. Each particle has a copy of
+//! the texture, which is flat in the picture and moves with the particle. A pixel blends the
+//! copies by its distance from the particles on the object.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -13,20 +13,20 @@ use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// Draws a texture that follows particles: 0.5 plus the blended differences of its copies from 0.5,
-/// clamped to 0..1. Pixels of `depth` 1 show no surface and get 0.5.
+/// Draws a texture that follows particles. The result is 0.5 plus the blended differences of its
+/// copies from 0.5, clamped to 0..1. Pixels of `depth` 1 show no surface and get 0.5.
 ///
-/// The weight of a copy is `(1 - (s - s_min) / reach)^2`, where s is the squared distance of its
-/// particle from the position that the pixel shows and s_min the squared distance of the nearest
-/// one. Blending lowers contrast. The sum is divided by the root of the sum of squared weights,
-/// which restores it where copies are uncorrelated (Heeger and Bergen 1995).
+/// The weight of a copy is `(1 - (s - s_min) / reach)^2`. Here s is the squared distance of its
+/// particle from the position that the pixel shows, and s_min is the same for the nearest
+/// particle. Blending lowers contrast. We divide the sum by the root of the sum of squared
+/// weights, which restores it where copies are uncorrelated (Heeger and Bergen 1995).
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
 ///
 /// # Panics
-/// If the width or height of the texture, which repeats, is not a power of two, if `depth` does not
-/// have the size of the anchors' projection, or if another form of [`Compute`] made an image.
+/// If the width or height of the texture, which repeats, is not a power of two, if `depth` does
+/// not have the size of the anchors' projection, or if another form of [`Compute`] made an image.
 pub fn draw_anchored(
     compute: &mut Compute,
     depth: &GreyImage,
@@ -45,7 +45,6 @@ pub fn draw_anchored(
     }
 }
 
-/// The value of a repeating texture at (x, y), bilinear between its four nearest texels.
 fn bilinear(texture: &Field<f32>, x: f32, y: f32) -> f32 {
     let left = x.floor();
     let top = y.floor();
@@ -64,7 +63,6 @@ fn bilinear(texture: &Field<f32>, x: f32, y: f32) -> f32 {
     above + (below - above) * down
 }
 
-/// The difference of a copy from 0.5 at a pixel that is `right` and `down` of its anchor.
 fn copy(texture: &Field<f32>, anchor: &Anchor, octaves: usize, right: f32, down: f32) -> f32 {
     let mut texels = anchor.texels;
     let mut sum = 0.0;
@@ -99,8 +97,8 @@ fn draw_anchored_on_cpu(depth: &Field<f32>, texture: &Field<f32>, anchors: &Anch
     blended
 }
 
-/// The blend of all copies at a pixel that shows `position`. `distances` is scratch memory, one
-/// number for each anchor.
+/// Blends all copies at a pixel that shows `position`. `distances` is scratch memory, one number
+/// for each anchor.
 fn blend(
     texture: &Field<f32>,
     anchors: &Anchors,
@@ -136,7 +134,6 @@ struct AnchoredParams {
     height: u32,
     texture_width: u32,
     texture_height: u32,
-    /// Index of the first anchor in the batch.
     first: u32,
     count: u32,
     octaves: u32,
@@ -187,27 +184,26 @@ fn draw_anchored_on_gpu(
     Ok(blended)
 }
 
-/// Iterations of Lloyd's algorithm. On the tested models, particles stop moving after fewer.
+/// Iterations of Lloyd's algorithm. We chose more than needed: on the tested models, particles
+/// stop moving after fewer.
 const LLOYD_ROUNDS: usize = 20;
 
-/// Copies blend where the squared distances of two particles differ by less than this
-/// fraction of the squared distance between neighbouring particles. Chosen by eye.
+/// Copies blend where the squared distances of two particles differ by less than this fraction of
+/// the squared distance between neighbouring particles. We chose it by eye.
 const BLEND: f32 = 0.5;
 
-/// Largest number of octaves of an infinite zoom.
 pub(super) const MOST_OCTAVES: usize = 8;
 
 /// Particles spread evenly over a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
-    /// Positions in the unit of the model.
     pub(super) positions: Vec<Vec3>,
     /// Mean squared distance between neighbours.
     spacing_squared: f32,
 }
 
-/// How a texture that follows particles is drawn: an infinite zoom with waves that keep their
-/// length in the picture while the model comes nearer or moves away.
+/// How to draw a texture that follows particles: as an infinite zoom. Its waves keep their length
+/// in the picture while the model comes nearer or moves away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnchoredNoise {
     /// Length of the texture's waves in the picture, in pixels, above 0.
@@ -221,9 +217,9 @@ pub struct AnchoredNoise {
 }
 
 impl AnchoredNoise {
-    /// Slow changes, from a texture with waves of 32 texels.
+    /// Slow changes. Use this with a texture with waves of 32 texels.
     pub const FLOW: Self = Self { wave_px: 80.0, wave_texels: 32.0, octaves: 4, seed: 1 };
-    /// Fine grain, from a texture with waves of 8 texels.
+    /// Fine grain. Use this with a texture with waves of 8 texels.
     pub const DISPERSION: Self = Self { wave_px: 10.0, wave_texels: 8.0, octaves: 4, seed: 2 };
 }
 
@@ -255,7 +251,6 @@ pub struct Anchor {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anchors {
     pub(super) each: Vec<Anchor>,
-    /// Number of octaves of each copy.
     pub(super) octaves: usize,
     /// A copy fades to 0 where its squared distance exceeds the nearest copy's by this.
     pub(super) reach_squared: f32,
@@ -263,10 +258,10 @@ pub struct Anchors {
 }
 
 impl Particles {
-    /// Spreads `count` particles, at least one, over a mesh. They start at the centres of the faces
-    /// of the bounding box, further ones where the mesh is farthest from all others. Then all move
-    /// to the centroids of the parts of the mesh nearest to them (Lloyd 1982). This keeps distances
-    /// from the particles small, and with them the sliding of the texture over the mesh.
+    /// Spreads `count` particles, at least one, over a mesh. The first ones start at the centres
+    /// of the faces of the bounding box, further ones where the mesh is farthest from all others.
+    /// Then all move to the centroids of the parts of the mesh nearest to them (Lloyd 1982). This
+    /// keeps distances from the particles small, so the texture slides little over the mesh.
     #[must_use]
     pub fn new(hierarchy: &Hierarchy, count: usize) -> Self {
         let (low, high) = hierarchy
@@ -328,43 +323,48 @@ impl Particles {
         &self.positions
     }
 
-    /// The copies of a texture to draw in a projection.
+    /// The copies of a texture to draw in a projection. Pass this to
+    /// [`draw_anchored`].
     #[must_use]
     pub fn anchors(&self, projection: &Projection, noise: AnchoredNoise) -> Anchors {
         let octaves = noise.octaves.clamp(2, MOST_OCTAVES);
-        let anchor = |(number, &position): (usize, &Vec3)| {
-            let at = projection.project_clamped(position);
-            let zoom = (projection.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
-            let whole = zoom.floor();
-            let part = zoom - zoom.floor();
-            let near = projection.camera.near;
-            let presence = ((at.along - near) / near).clamp(1e-3, 1.0);
-            let mut anchor = Anchor {
-                position: position.into(),
-                presence,
-                x: at.x,
-                y: at.y,
-                // The middle octaves are the strongest.
-                texels: noise.wave_texels / noise.wave_px
-                    * 2.0f32.powf(octaves as f32 / 2.0 - part),
-                spare: 0.0,
-                weights: [0.0; MOST_OCTAVES],
-                right: [0.0; MOST_OCTAVES],
-                down: [0.0; MOST_OCTAVES],
-            };
-            for octave in 0..octaves {
-                let phase = (octave as f32 + part) / octaves as f32;
-                let weight = (std::f32::consts::PI * phase).sin();
-                anchor.weights[octave] = weight * (2.0 / octaves as f32).sqrt();
-                // As the model comes nearer, this octave becomes the next one and keeps its seed.
-                let level = (octave as i64 - whole as i64) as u64;
-                let seed = Seed(noise.seed).child(number as u64).child(level);
-                anchor.right[octave] = 4096.0 * seed.unit(0);
-                anchor.down[octave] = 4096.0 * seed.unit(1);
-            }
-            anchor
-        };
-        let each = self.positions.iter().enumerate().map(anchor).collect();
+        let each = self
+            .positions
+            .iter()
+            .enumerate()
+            .map(|(number, &position): (usize, &Vec3)| {
+                let at = projection.project_clamped(position);
+                let zoom = (projection.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
+                let whole = zoom.floor();
+                let part = zoom - zoom.floor();
+                let near = projection.camera.near;
+                let presence = ((at.along - near) / near).clamp(1e-3, 1.0);
+                let mut anchor = Anchor {
+                    position: position.into(),
+                    presence,
+                    x: at.x,
+                    y: at.y,
+                    // The middle octaves are the strongest.
+                    texels: noise.wave_texels / noise.wave_px
+                        * 2.0f32.powf(octaves as f32 / 2.0 - part),
+                    spare: 0.0,
+                    weights: [0.0; MOST_OCTAVES],
+                    right: [0.0; MOST_OCTAVES],
+                    down: [0.0; MOST_OCTAVES],
+                };
+                for octave in 0..octaves {
+                    let phase = (octave as f32 + part) / octaves as f32;
+                    let weight = (std::f32::consts::PI * phase).sin();
+                    anchor.weights[octave] = weight * (2.0 / octaves as f32).sqrt();
+                    // As the model comes nearer, this octave becomes the next one and keeps its seed.
+                    let level = (octave as i64 - whole as i64) as u64;
+                    let seed = Seed(noise.seed).child(number as u64).child(level);
+                    anchor.right[octave] = 4096.0 * seed.unit(0);
+                    anchor.down[octave] = 4096.0 * seed.unit(1);
+                }
+                anchor
+            })
+            .collect();
         let reach_squared = BLEND * self.spacing_squared;
         Anchors { each, octaves, reach_squared, projection: *projection }
     }
@@ -413,7 +413,7 @@ mod tests {
             };
             particles.anchors(&Projection::new(&camera, 100, 100), NOISE).each[0]
         }
-        // What the texture shows ten pixels to the right of the particle.
+        // The texture ten pixels to the right of the particle.
         fn shown(anchor: Anchor) -> Vec<(f32, f32, f32)> {
             let mut octaves: Vec<(f32, f32, f32)> = (0..4)
                 .map(|i| {

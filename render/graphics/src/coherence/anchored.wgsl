@@ -1,4 +1,4 @@
-// Blends the copies of a texture that follow particles; twin of anchored.rs.
+// Blends the copies of a texture that follow particles. This is the twin of anchored.rs.
 
 struct AnchoredParams {
     model_from_clip: mat4x4<f32>,

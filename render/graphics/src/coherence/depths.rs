@@ -1,5 +1,5 @@
-//! Depths of a visibility buffer: of each pixel, and the nearest and farthest surface in squares of
-//! pixels, which show what is hidden.
+//! Depths of a visibility buffer: of each pixel, and the nearest and farthest surface in squares
+//! of pixels. The squares tell you what is hidden.
 
 use rayon::prelude::*;
 
@@ -8,7 +8,7 @@ use crate::field::Field;
 use crate::gpu::{DeviceError, GROUP, Kernel, Storage, layout};
 use crate::surface::{Fragment, VisibilityBuffer};
 
-/// The depth of each pixel: 0 at the near plane to 1 where no triangle is seen.
+/// The depth of each pixel, from 0 at the near plane to 1 where no triangle is seen.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -22,7 +22,7 @@ pub fn depths(compute: &mut Compute, visible: &Image<Fragment>) -> Result<GreyIm
     }
 }
 
-/// The depth of each pixel, as [`depths`] computes it on the processor.
+/// Computes the depth of each pixel on the processor, as [`depths`] does.
 #[must_use]
 pub fn depth_field(visible: &VisibilityBuffer) -> Field<f32> {
     let depths = visible.values().iter().map(|fragment| fragment.depth);
@@ -36,7 +36,7 @@ struct DepthsParams {
     spare: [u32; 2],
 }
 
-/// The kernel that copies the depth out of each fragment.
+/// This kernel copies the depth out of each fragment.
 pub static DEPTHS: Kernel = Kernel {
     name: "depths",
     source: include_str!("depths.wgsl"),
@@ -56,10 +56,9 @@ fn depths_on_gpu(
     Ok(depths)
 }
 
-/// Width and height of a square of pixels.
 pub(super) const SIDE: usize = GROUP as usize;
 
-/// Farthest depth of a square that shows nothing: every surface would be behind it.
+/// Farthest depth of a square that shows nothing. This puts every surface behind it.
 const BARE: f32 = f32::NEG_INFINITY;
 
 /// Depths of the surfaces in squares of 8 x 8 pixels, and in squares of squares.
@@ -67,13 +66,11 @@ const BARE: f32 = f32::NEG_INFINITY;
 pub(super) struct DepthTiles {
     /// Least and greatest depth of the pixels of each square that show something, row by row.
     ranges: Vec<Option<[f32; 2]>>,
-    /// Number of squares in a row.
     across: usize,
     /// Greatest depths, first of each square, then of twice as wide and high ones and so on.
     levels: Vec<Level>,
 }
 
-/// Greatest depth of each square of one size.
 #[derive(Debug, Clone, PartialEq)]
 struct Level {
     across: usize,
@@ -82,7 +79,6 @@ struct Level {
 }
 
 impl Level {
-    /// Squares of twice the width and height.
     fn coarser(&self) -> Self {
         let across = self.across.div_ceil(2);
         let down = self.down.div_ceil(2);
@@ -130,8 +126,8 @@ impl DepthTiles {
         self.ranges[row * self.across + column]
     }
 
-    /// A depth that no surface between these pixels exceeds: what lies behind it is hidden.
-    /// Columns and rows are distances from the left and upper edge in pixels.
+    /// A depth that no surface between these pixels exceeds. You can skip what lies behind it: it
+    /// is hidden. Columns and rows are distances from the left and upper edge in pixels.
     pub(super) fn farthest(&self, columns: [f32; 2], rows: [f32; 2]) -> f32 {
         fn squares(limits: [f32; 2], count: usize) -> Option<[usize; 2]> {
             let [from, to] = limits.map(|at| at / SIDE as f32);

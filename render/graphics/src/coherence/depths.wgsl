@@ -1,4 +1,4 @@
-// The depth of each pixel of a visibility buffer; twin of depths.rs.
+// The depth of each pixel of a visibility buffer. This is the twin of depths.rs.
 
 struct DepthsParams {
     size: vec2<u32>,

@@ -9,8 +9,8 @@ use crate::compute::{Compute, GreyImage};
 use crate::gpu::DeviceError;
 
 impl Features {
-    /// The features of `noise` to draw in a projection, hidden ones included. Their order
-    /// does not depend on the projection.
+    /// The features of `noise` to draw in a projection, hidden ones included. Their order does not
+    /// depend on the projection. You pass them to [`draw_splats`].
     #[must_use]
     pub fn splats(&self, projection: &Projection, noise: FeatureNoise) -> Vec<Splat> {
         let octaves = Octaves::new(noise);
@@ -22,8 +22,8 @@ impl Features {
         })
     }
 
-    /// Draws `noise` on the surfaces that a projection shows at `depth`: [`draw_splats`] of
-    /// [`Self::splats`]. On the processor, features that those surfaces hide are left out early.
+    /// Draws `noise` on the surfaces that a projection shows at `depth`. This is [`draw_splats`]
+    /// of [`Self::splats`], but the processor leaves out features behind these surfaces early.
     ///
     /// # Errors
     /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -46,7 +46,8 @@ impl Features {
         Ok(draw_splats_on_tiles(depth, &surfaces, &splats).into())
     }
 
-    /// The features of `noise` to draw in a projection, most of those without that `surfaces` hide.
+    /// The features of `noise` to draw in a projection, without most of those that `surfaces`
+    /// hide.
     fn unhidden_splats(
         &self,
         projection: &Projection,
@@ -69,7 +70,7 @@ fn sign(feature: &Feature) -> f32 {
     if feature.unit(4) < 0.5 { 1.0 } else { -1.0 }
 }
 
-/// A feature as it is drawn: in one octave, or in two while it fades from one to the next.
+/// Draws a feature in one octave, or in two while it fades from one to the next.
 fn projected(
     projection: &Projection,
     octaves: &Octaves,
@@ -81,7 +82,8 @@ fn projected(
     let focal = projection.focal_px / at.distance;
     let pixels = focal * focal * towards.abs() / at.distance;
     let rank = feature.priority / pixels;
-    // The comparison is false for features seen edge-on, because their rank is NaN or infinite.
+    // The comparison is false for features that we see edge-on, because their rank is NaN or
+    // infinite.
     if !(rank < octaves.end() && at.depth <= 1.0) {
         return None;
     }
@@ -91,8 +93,9 @@ fn projected(
     fn near(at: f32, size: usize, r: f32) -> bool {
         at > -r && at < size as f32 + r
     }
-    let seen = move |radius: f32| near(at.x, size[0], radius) && near(at.y, size[1], radius);
-    let parts = octaves.parts(rank).filter(move |[radius, _]| seen(*radius));
+    let parts = octaves
+        .parts(rank)
+        .filter(move |[radius, _]| near(at.x, size[0], *radius) && near(at.y, size[1], *radius));
     let scale = projection.depth_scale();
     let away = projection.focal_px * at.distance;
     Some(parts.map(move |[radius, amplitude]| Splat {
@@ -103,7 +106,7 @@ fn projected(
         depth: at.depth,
         slope_x,
         slope_y,
-        // Allows for one pixel, and for the curvature of the surface within the radius.
+        // This allows for one pixel, and for the curvature of the surface within the radius.
         tightness: 1.0 / (scale * (1.0 + radius / 4.0) / away),
     }))
 }
@@ -124,14 +127,16 @@ pub struct SeenFeature {
     /// Cosine between the normal of its triangle and the direction to the eye, negative on
     /// triangles that face away.
     pub facing: f32,
-    /// Density at which it begins, in features per pixel of the [`Density`] asked for.
+    /// Density at which it begins to be drawn, in features per pixel of the [`Density`] you asked
+    /// for.
     pub rank: f32,
 }
 
 impl Features {
     /// The features of ranks below `end` that a projection shows, hidden ones included, up to
-    /// `margin_px` beyond the edges (with a density on the surface, in its pixels). Their order
-    /// does not depend on the projection. A rank changes continuously with the camera.
+    /// `margin_px` beyond the edges. With [`Density::Surface`] the margin counts in pixels of that
+    /// density. Their order does not depend on the projection. A rank changes continuously with
+    /// the camera.
     #[must_use]
     pub fn seen(
         &self,
@@ -143,7 +148,7 @@ impl Features {
         self.seen_where(projection, density, end, margin_px, |_| true)
     }
 
-    /// Features of [`Features::seen`] for which `keep` is true, in the same order.
+    /// Like [`Features::seen`], but only the features for which `keep` is true.
     #[must_use]
     pub fn seen_where(
         &self,
@@ -156,7 +161,7 @@ impl Features {
         let in_sight = InSight::new(projection, density, end, margin_px);
         self.selected(&in_sight, |feature, seen| {
             seen.extend(see(projection, density, feature).filter(|seen| {
-                // False for features seen edge-on, because their rank is NaN or infinite.
+                // This is false for features seen edge-on, because their rank is NaN or infinite.
                 seen.rank < end && seen.depth <= 1.0 && keep(seen)
             }));
         })
@@ -261,7 +266,6 @@ mod tests {
                 let all = features.splats(&projection, noise);
                 let some = features.unhidden_splats(&projection, noise, &surfaces);
                 assert!(some.len() < all.len() * 3 / 4, "{} of {}", some.len(), all.len());
-                // They are some of all, in their order.
                 let mut rest = all.iter();
                 assert!(some.iter().all(|splat| rest.any(|other| other == splat)));
                 let compute = &mut Compute::cpu();

@@ -1,11 +1,11 @@
 //! Features placed on a mesh at random, and the choice of those that a view or a density needs.
 //!
-//! Every patch has one feature at a uniformly distributed point. Its priority is the lowest density
-//! (features per unit of area) at which it is drawn. The priority lies between the density at which
-//! the patch has one feature and the density at which the part that it lies on has one. So
-//! everywhere on the mesh, however it is divided into triangles, the features up to a priority have
-//! exactly that density. Below single faces the tree continues with halves of triangles, made on
-//! demand.
+//! Every patch has one feature at a uniformly distributed point. You draw it from some density on
+//! (features per unit of area), which is its priority. The priority lies between the density at
+//! which the patch has one feature and the density at which the part that it lies on has one. So
+//! the features up to a priority have exactly this density everywhere on the mesh, however you
+//! divide it into triangles. Below single faces the tree continues with halves of triangles, made
+//! on demand.
 
 use std::sync::Arc;
 
@@ -17,7 +17,6 @@ use super::hierarchy::{Face, Hierarchy, Seed, point_in};
 use super::octaves::Octaves;
 use super::projection::Projection;
 
-/// Largest number of patches that one thread selects from at a time.
 const SUBTREE_PATCHES: usize = 4096;
 
 /// A point on the mesh that carries one bump of noise or one stroke.
@@ -40,7 +39,7 @@ pub struct Feature {
 pub struct Features {
     pub(super) hierarchy: Arc<Hierarchy>,
     pub(super) seed: Seed,
-    /// The feature of each patch, then one more of the whole mesh.
+    /// The feature of each patch, then one more for the whole mesh.
     pub(super) of_patches: Vec<Feature>,
     /// Roots of the largest subtrees of up to [`SUBTREE_PATCHES`] patches. One thread selects from
     /// each.
@@ -67,7 +66,6 @@ impl Half {
         Self { corners: face.corners, seed: seed.child(u64::from(face.number)), depth: 0 }
     }
 
-    /// Divides the triangle at the middle of its longest edge.
     pub(super) fn halves(self) -> [Self; 2] {
         let [a, b, c] = self.corners;
         let edges = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
@@ -85,7 +83,6 @@ impl Half {
         [half([a, middle, c], 0), half([middle, b, c], 1)]
     }
 
-    /// The feature of this part, of `area`, of a face.
     pub(super) fn feature(self, halves: &[Self; 2], face: &Face, area: f64) -> Feature {
         let seed = self.seed;
         let half = &halves[usize::from(seed.unit(0) < 0.5)];
@@ -100,8 +97,8 @@ impl Half {
 }
 
 impl Feature {
-    /// A uniform number in 0..1. Each `number` gives an independent one. Numbers below 16 place
-    /// features.
+    /// A uniform number in 0..1. Each `number` gives an independent one. Use 16 and above: the
+    /// others place features.
     #[must_use]
     pub fn unit(&self, number: u64) -> f32 {
         Seed(self.seed).unit(number)
@@ -114,24 +111,26 @@ impl Features {
     pub fn new(hierarchy: Arc<Hierarchy>, seed: u64) -> Self {
         let seed = Seed(seed).child(0);
         let patches = &hierarchy.patches;
-        let of_patch = |patch: usize| {
-            let own = &patches[patch];
-            let seed = seed.child(patch as u64);
-            let Some(parts) = hierarchy.parts(patch) else {
-                let face = &hierarchy.faces[own.faces.start];
-                let half = Half::whole(face, seed);
-                return half.feature(&half.halves(), face, face.area);
-            };
-            // A part is chosen with the other part's share of the area as probability: the
-            // smaller part gets its next feature only at a higher density.
-            let chosen = usize::from(f64::from(seed.unit(5)) * own.area < patches[parts[0]].area);
-            let part = parts[chosen];
-            let (position, face) = hierarchy.point_on(part, seed);
-            let priority = uniform(1.0 / own.area, 1.0 / patches[part].area, seed);
-            Feature { seed: seed.0, face: face.number, position, normal: face.normal, priority }
-        };
-        let mut of_patches: Vec<Feature> =
-            (0..patches.len()).into_par_iter().map(of_patch).collect();
+        let mut of_patches: Vec<Feature> = (0..patches.len())
+            .into_par_iter()
+            .map(|patch: usize| {
+                let own = &patches[patch];
+                let seed = seed.child(patch as u64);
+                let Some(parts) = hierarchy.parts(patch) else {
+                    let face = &hierarchy.faces[own.faces.start];
+                    let half = Half::whole(face, seed);
+                    return half.feature(&half.halves(), face, face.area);
+                };
+                // We choose a part with the other part's share of the area as probability. The smaller
+                // part then gets its next feature only at a higher density.
+                let chosen =
+                    usize::from(f64::from(seed.unit(5)) * own.area < patches[parts[0]].area);
+                let part = parts[chosen];
+                let (position, face) = hierarchy.point_on(part, seed);
+                let priority = uniform(1.0 / own.area, 1.0 / patches[part].area, seed);
+                Feature { seed: seed.0, face: face.number, position, normal: face.normal, priority }
+            })
+            .collect();
         if let Some(whole) = patches.first() {
             let seed = seed.child(patches.len() as u64);
             let (position, face) = hierarchy.point_on(0, seed);
@@ -163,12 +162,14 @@ const MAX_HALVINGS: u32 = 40;
 /// The quantity that the rank of a feature refers to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Density {
-    /// Features per pixel of the picture: their density there stays as the model moves away.
+    /// Features per pixel of the picture. Use this when the density in the picture must stay as
+    /// the model moves away.
     Screen,
-    /// Features per pixel that the surface would cover if it faced the eye: dense towards outlines.
+    /// Features per pixel that the surface would cover if it faced the eye. This is dense towards
+    /// outlines.
     Facing,
-    /// Features per square of this many pixels to a unit of the model: their density on the surface
-    /// stays.
+    /// Features per pixel, if a unit of the model has this many pixels. Use this when the density
+    /// on the surface must stay.
     Surface {
         /// Pixels to a unit of the model, above 0.
         px_per_unit: f32,
@@ -177,12 +178,13 @@ pub enum Density {
 
 /// Selects the features of a noise.
 pub(super) trait Select: Sync {
-    /// The highest priority that is needed within a sphere, `None` if nothing in it is. With a
-    /// `normal`, all of it lies on the plane through the centre with this normal.
+    /// The highest priority that is needed within a sphere, `None` if nothing in it is. If you
+    /// give a `normal`, everything in the sphere lies on the plane through the centre with this
+    /// normal.
     fn needed(&self, center: Vec3, radius: f32, normal: Option<Vec3>) -> Option<f32>;
 
-    /// Whether nothing in a sphere is needed, since surfaces before it hide it. `share` is the area
-    /// within the sphere times the highest priority that is needed there.
+    /// Whether surfaces in front of a sphere hide all of it, so that you can skip it. `share` is
+    /// the area within the sphere times the highest priority that is needed there.
     fn hidden(&self, _center: Vec3, _radius: f32, _share: f64) -> bool {
         false
     }
@@ -191,26 +193,21 @@ pub(super) trait Select: Sync {
 /// Selects the features that one projection needs.
 pub(super) struct InSight<'a> {
     pub(super) projection: &'a Projection,
-    /// The quantity that ranks refer to.
     pub(super) density: Density,
-    /// Features of this rank and above are not needed.
     pub(super) end: f32,
     /// Viewing direction, of length 1.
     forward: Vec3,
     /// Unit normals, inwards, of the planes through the eye that bound what reaches the picture.
     sides: [Vec3; 4],
-    /// How far beyond these planes features may lie, in the unit of the model.
     beyond: f32,
-    /// The surfaces that hide others, and the octaves of the features.
     surfaces: Option<(&'a DepthTiles, &'a Octaves)>,
 }
 
-/// Selects all features below a priority.
 struct Below(f32);
 
 impl<'a> InSight<'a> {
-    /// Features of at most this radius in pixels. With a density on the surface, where a unit of
-    /// the model has as many pixels as the density says.
+    /// Features of at most this radius in pixels. With [`Density::Surface`] the radius counts in
+    /// pixels of that density.
     pub(super) fn new(
         projection: &'a Projection,
         density: Density,
@@ -237,7 +234,7 @@ impl<'a> InSight<'a> {
         Self { projection, density, end, forward, sides, beyond, surfaces: None }
     }
 
-    /// Without most of the features that `surfaces` hide. `octaves` gives the ranks.
+    /// Leaves out most of the features that `surfaces` hide. `octaves` gives the ranks.
     pub(super) fn before(mut self, surfaces: &'a DepthTiles, octaves: &'a Octaves) -> Self {
         self.surfaces = Some((surfaces, octaves));
         self
@@ -305,7 +302,7 @@ impl Select for Below {
 }
 
 impl Features {
-    /// Applies `draw` to the features that `select` needs, and to some more. Their order does not
+    /// Applies `draw` to the features that `select` needs, and to a few more. Their order does not
     /// depend on the selection.
     pub(super) fn selected<T: Send + Copy>(
         &self,
@@ -327,7 +324,7 @@ impl Features {
         drawn
     }
 
-    /// All features with a lower priority than this, in an order that does not depend on it.
+    /// All features below this priority, in an order that does not depend on it.
     #[must_use]
     pub fn below(&self, priority: f32) -> Vec<Feature> {
         self.selected(&Below(priority), |feature, all| {
@@ -404,7 +401,6 @@ mod tests {
         Features::new(Arc::new(Hierarchy::new(mesh)), 7)
     }
 
-    /// Number of features below this priority, and area, for the halves x <= 0 and x > 0.
     fn counts(features: &Features, priority: f32) -> [[f64; 2]; 2] {
         let mut found = [[0.0; 2]; 2];
         for face in &features.hierarchy.faces {
@@ -433,7 +429,6 @@ mod tests {
 
     #[test]
     fn unequal_parts_have_features_in_proportion_to_their_area() {
-        // Two small triangles beside one of fifteen times their area.
         let mut mesh = Mesh::sphere(20);
         mesh.triangles.truncate(3);
         fn triangle(x: f32, size: f32) -> [[f32; 3]; 3] {

@@ -2,8 +2,8 @@
 //!
 //! The two parts of a patch have nearly equal area. Where triangles are smaller than a feature of
 //! noise, a whole patch of them carries one feature (Bousseau, Kaplan, Thollot and Sillion 2006).
-//! Triangles are grouped by position and by normal, so that the two sides of a thin leaf become two
-//! patches. A node has the same random numbers at every visit.
+//! We group triangles by position and by normal, so that, for example, the two sides of a thin
+//! leaf become two patches. A node has the same random numbers at every visit.
 
 use std::ops::Range;
 
@@ -11,17 +11,15 @@ use glam::Vec3;
 
 use crate::mesh::Mesh;
 
-/// Weight of the normal relative to the position when faces are grouped: a difference of 1
-/// in the normal counts as a distance of this many patch radii. Chosen by eye.
+/// Weight of the normal relative to the position when faces are grouped: a difference of 1 in the
+/// normal counts as a distance of this many patch radii. We chose it by eye.
 const FACING: f32 = 0.5;
 
-/// A triangle of the mesh with an area above 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
     pub(super) normal: Vec3,
     pub(super) area: f64,
-    /// Index of the triangle in the mesh.
     pub(super) number: u32,
 }
 
@@ -31,16 +29,16 @@ pub(super) struct Patch {
     /// Its faces in [`Hierarchy::faces`], one face if the patch is a leaf.
     pub(super) faces: Range<usize>,
     pub(super) area: f64,
-    /// Centre of a sphere that encloses the patch.
     pub(super) center: Vec3,
-    /// Radius of that sphere, in the unit of the model.
+    /// Radius of a sphere around `center` that encloses the patch.
     pub(super) radius: f32,
-    /// Index after the last descendant. The first part of the patch is the next patch, the
-    /// second begins where the first one ends.
+    /// Index after the last descendant. The first part of the patch comes right after this patch.
+    /// The second begins where the first one ends.
     pub(super) end: usize,
 }
 
-/// All patches of a mesh. Independent of the view, so it is built once for a mesh.
+/// All patches of a mesh. You can build this once for a mesh, because it does not depend on the
+/// view.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hierarchy {
     pub(super) faces: Vec<Face>,
@@ -66,8 +64,8 @@ impl Face {
     }
 }
 
-/// A uniformly distributed point of a triangle from two uniform numbers in 0..1 (Turk
-/// 1990: the unit square folded at its diagonal).
+/// Draws a uniformly distributed point of a triangle from two uniform numbers in 0..1 (Turk 1990:
+/// this folds the unit square at its diagonal).
 pub(super) fn point_in(corners: [Vec3; 3], mut second: f32, mut third: f32) -> Vec3 {
     if second + third > 1.0 {
         (second, third) = (1.0 - second, 1.0 - third);
@@ -106,9 +104,9 @@ impl Hierarchy {
         self.faces.len()
     }
 
-    /// Adds the patch of `faces`, of which the first has index `first`, and all its descendants.
-    /// The area of a patch is at most half of its grandparent's, so the depth of recursion is
-    /// bounded by the range of f32.
+    /// Adds the patch of `faces` and all its descendants. `first` is the index of the first face.
+    /// The area of a patch is at most half of its grandparent's, so the range of f32 bounds the
+    /// depth of recursion.
     fn split(&mut self, faces: &mut [Face], first: usize) {
         let corners = || faces.iter().flat_map(|face| face.corners);
         let (low, high) = corners()
@@ -178,7 +176,6 @@ fn halve(faces: &mut [Face], area: f64, radius: f32) -> usize {
     cut.unwrap_or(1).clamp(1, faces.len() - 1)
 }
 
-/// The random seed of one node of a tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Seed(pub(super) u64);
 
@@ -236,7 +233,6 @@ mod tests {
                 .map(|face: &Face| face.normal.dot(faces[0].normal))
                 .fold(1.0, f32::min);
             assert!(least > 0.7, "{least}");
-            // The radius of a disc of the same area.
             let round = (patch.area / std::f64::consts::PI).sqrt() as f32;
             assert!(patch.radius < 4.0 * round, "{} {round}", patch.radius);
             count += 1;

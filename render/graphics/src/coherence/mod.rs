@@ -1,8 +1,8 @@
 //! Noise that stays on a moving object and looks flat in the picture.
 //!
-//! Two methods (Bousseau, Kaplan, Thollot and Sillion 2006, section 5, temporal coherence):
-//! textures that follow a few [`Particles`], and [`Features`] of noise that sit on the surface
-//! itself. Particles and features are chosen on the processor, once for both forms of
+//! You can choose from two methods (Bousseau, Kaplan, Thollot and Sillion 2006, section 5,
+//! temporal coherence): textures that follow a few [`Particles`], and [`Features`] of noise that
+//! sit on the surface itself. The processor chooses particles and features once, for both forms of
 //! [`crate::compute::Compute`]. [`draw_anchored`] and [`draw_splats`] then work pixel by pixel.
 
 mod projection;

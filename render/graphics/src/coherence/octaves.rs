@@ -1,14 +1,14 @@
 //! The octaves of feature noise, and a texture of smooth noise that repeats without a seam.
 //!
-//! Octave o has features of radius r / 2^o. A feature's rank is its priority converted to features
-//! per pixel, at the scale at which it is seen. Ranks grow as the model moves away. Octave 0 takes
-//! features up to some rank, each further octave those up to four times the rank of the one before.
-//! So about the same number of features overlap in every octave. As the model moves away, features
-//! fade one after the other from each octave to the next.
+//! Octave o has features of radius r / 2^o. A feature has a priority. Its rank is this priority
+//! converted to features per pixel, at the scale at which you see it. Ranks grow as the model
+//! moves away. Octave 0 takes features up to some rank, each further octave those up to four times
+//! the rank of the one before. So about the same number of features overlap in every octave. As
+//! the model moves away, features fade one after the other from each octave to the next.
 //!
 //! The repeating texture interpolates independent lattice values with cubic B-splines. It is
 //! smooth, has about one wavelength and repeats with the lattice. Interpolation lowers the spread
-//! between the nodes, so the texture is scaled to a standard deviation of [`SPREAD`].
+//! between the nodes, so we scale the texture to a standard deviation of [`SPREAD`].
 
 use rayon::prelude::*;
 
@@ -16,11 +16,11 @@ use super::hierarchy::Seed;
 use crate::field::Field;
 
 /// Width of the range of ranks, in octaves, over which a feature fades to the next octave. Wide
-/// fades pop less. Narrow ones mix fewer sizes of features. Chosen by eye.
+/// fades pop less. Narrow ones mix fewer sizes of features. We chose it by eye.
 const FADE: f32 = 1.0;
 
-/// Standard deviation of both kinds of noise about their mean of 0.5. Values beyond 0 and
-/// 1, which are 2.5 standard deviations away, are cut off.
+/// Standard deviation of both kinds of noise about their mean of 0.5. We clip values to 0..1,
+/// which is 2.5 standard deviations to each side.
 pub const SPREAD: f32 = 0.2;
 
 /// Feature noise of several octaves, each of half the size of the one before.
@@ -30,28 +30,26 @@ pub struct FeatureNoise {
     pub largest_px: f32,
     /// Number of octaves, 1 to 8.
     pub octaves: usize,
-    /// Strength of an octave relative to the one before, above 0: 1/2 gives the turbulence
-    /// of Perlin 1985, 1 gives all octaves the same strength.
+    /// Strength of an octave relative to the one before, above 0. For example, 1/2 gives the
+    /// turbulence of Perlin 1985, and 1 gives all octaves the same strength.
     pub persistence: f32,
-    /// Mean number of features of each octave that overlap at a point, above 0. More make
-    /// the noise more even and slower to draw.
+    /// Mean number of features of each octave that overlap at a point, above 0. If you ask for
+    /// more, the noise becomes more even and slower to draw.
     pub coverage: f32,
 }
 
 impl FeatureNoise {
-    /// Slow changes, like pigment carried by water.
+    /// Slow changes, e.g. pigment carried by water.
     pub const FLOW: Self = Self { largest_px: 40.0, octaves: 4, persistence: 0.5, coverage: 4.0 };
-    /// Fine grain, like pigment that settles.
+    /// Fine grain, e.g. pigment that settles.
     pub const DISPERSION: Self =
         Self { largest_px: 6.0, octaves: 2, persistence: 0.8, coverage: 4.0 };
 }
 
-/// The radius and amplitude of features in each octave.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Octaves {
-    /// For each octave the radius in pixels and the amplitude of its features.
+    /// Radius in pixels and amplitude of the features in each octave.
     each: Vec<[f32; 2]>,
-    /// The rank at which octave 0 ends, in features per pixel.
     first: f32,
 }
 
@@ -84,7 +82,7 @@ impl Octaves {
         octaves
     }
 
-    /// Features of an octave per pixel, each weighted by the square of its share.
+    /// Features of an octave per pixel, each weighted by its squared share.
     fn features(&self, octave: usize) -> f32 {
         const STEPS: usize = 400;
         let share = |level: f32| self.share(octave, level).powi(2);
@@ -107,17 +105,14 @@ impl Octaves {
         entered * (1.0 - passed(octave as f32, level))
     }
 
-    /// Features of this rank and above belong to no octave.
     pub(super) fn end(&self) -> f32 {
         self.first * 4.0f32.powf(self.each.len() as f32 - 1.0 + FADE / 2.0)
     }
 
-    /// Radius of the largest features, in pixels.
     pub(super) fn largest_px(&self) -> f32 {
         self.each[0][0]
     }
 
-    /// Radius of the largest features of this rank and above, in pixels.
     pub(super) fn largest_from(&self, rank: f32) -> f32 {
         self.each[self.first_of(rank).1.min(self.each.len() - 1)][0]
     }
@@ -128,8 +123,8 @@ impl Octaves {
         (level, (level + 0.5) as usize)
     }
 
-    /// Radius in pixels and amplitude with which a feature of this rank is drawn: once, or
-    /// twice while it fades from one octave to the next.
+    /// Radius in pixels and amplitude for drawing a feature of this rank. You get one pair, or two
+    /// while the feature fades from one octave to the next.
     pub(super) fn parts(&self, rank: f32) -> impl Iterator<Item = [f32; 2]> {
         // A feature belongs to two octaves at most.
         let (level, nearest) = self.first_of(rank);
@@ -142,7 +137,6 @@ impl Octaves {
     }
 }
 
-/// The integral of the squared profile over a disc of radius 1.
 fn squared_profile_integral() -> f32 {
     const STEPS: usize = 400;
     let rings = (0..STEPS).map(|i| (i as f32 + 0.5) / STEPS as f32);
@@ -150,11 +144,10 @@ fn squared_profile_integral() -> f32 {
     std::f32::consts::TAU * sum / STEPS as f32
 }
 
-/// Width and height of the texture in texels.
 const SIDE: usize = 512;
 
-/// Noise of 512 x 512 texels that repeats, with mean 0.5 and standard deviation
-/// [`SPREAD`]. Its waves are about `wave_texels` long, a power of two from 8 to 128.
+/// Noise of 512 x 512 texels that repeats, with mean 0.5 and standard deviation [`SPREAD`]. Its
+/// waves are about `wave_texels` long. You can ask for a power of two from 8 to 128.
 ///
 /// # Panics
 /// If `wave_texels` is not such a number.
@@ -221,15 +214,16 @@ mod tests {
             persistence: 0.5,
             coverage: 4.0,
         });
-        let drawn = |rank: f32| -> Vec<f32> {
-            let mut amplitudes = vec![0.0; 3];
-            for [radius, amplitude] in octaves.parts(rank) {
-                amplitudes[(32.0 / radius).log2().round() as usize] += amplitude;
-            }
-            amplitudes
-        };
         let ranks = (0..3000).map(|i| octaves.first * 2.0f32.powf(i as f32 / 300.0 - 3.0));
-        let all: Vec<Vec<f32>> = ranks.map(drawn).collect();
+        let all: Vec<Vec<f32>> = ranks
+            .map(|rank: f32| -> Vec<f32> {
+                let mut amplitudes = vec![0.0; 3];
+                for [radius, amplitude] in octaves.parts(rank) {
+                    amplitudes[(32.0 / radius).log2().round() as usize] += amplitude;
+                }
+                amplitudes
+            })
+            .collect();
         for octave in 0..3 {
             let most = all.iter().map(|drawn| drawn[octave]).fold(0.0, f32::max);
             assert!((most / octaves.each[octave][1] - 1.0).abs() < 1e-3, "{octave}: {most}");
@@ -250,7 +244,7 @@ mod tests {
             persistence: 0.7,
             coverage: 2.0,
         });
-        // Campbell's sum computed another way: in small steps of the rank.
+        // This computes Campbell's sum another way, in small steps of the rank.
         let steps = 200_000;
         let variance: f64 = (0..steps)
             .map(|i| {
@@ -270,9 +264,9 @@ mod tests {
         fn step(a: (usize, usize), b: (usize, usize), texture: &Field<f32>) -> f32 {
             (texture[a] - texture[b]).abs()
         }
-        let most = |inside: &dyn Fn(usize, usize) -> f32, at: usize| {
+        fn most(inside: &dyn Fn(usize, usize) -> f32, at: usize) -> f32 {
             (0..SIDE).map(|i| inside(at, i)).fold(0.0, f32::max)
-        };
+        }
         let across = |x: usize, y: usize| step((x, y), ((x + 1) % SIDE, y), &texture);
         let down = |y: usize, x: usize| step((x, y), (x, (y + 1) % SIDE), &texture);
         for steps in [&across as &dyn Fn(usize, usize) -> f32, &down] {

@@ -1,5 +1,5 @@
-//! The mapping between positions of a model and pixels of a camera's picture, and a measure of
-//! popping: how much noise changes between two frames at the same point of the object.
+//! Maps positions of a model to pixels of a camera's picture and back. It also measures popping,
+//! which is how much noise changes between two frames at the same point of the object.
 
 use glam::{Mat4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use crate::camera::Camera;
 use crate::field::Field;
 
-/// The mapping of one camera and picture size: from positions of the model to pixels and
-/// depth, and back.
+/// The mapping of one camera and picture size. Use this to go from positions of the model to
+/// pixels and depth, and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projection {
     pub(super) camera: Camera,
@@ -16,32 +16,22 @@ pub struct Projection {
     pub(super) height: usize,
     clip_from_model: Mat4,
     model_from_clip: Mat4,
-    /// Unit vectors to the right and upwards in the picture, in model coordinates.
     axes: [Vec3; 2],
-    /// Focal length in pixels: the length in the picture of one model unit at a distance of
-    /// one unit in front of the eye.
+    /// Length in pixels of one model unit at a distance of one unit in front of the eye.
     pub(super) focal_px: f32,
 }
 
-/// A position of the model, projected to the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Projected {
-    /// Distance from the left edge in pixels.
     pub(super) x: f32,
-    /// Distance from the upper edge in pixels.
     pub(super) y: f32,
-    /// Depth, 0 (near plane) to 1 (far plane).
     pub(super) depth: f32,
-    /// Distance in front of the eye along the viewing direction, in the unit of the model.
     pub(super) distance: f32,
 }
 
-/// A projected position. One nearer than the near plane is projected as if it lay on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ClampedProjected {
-    /// Distance from the left edge in pixels.
     pub(super) x: f32,
-    /// Distance from the upper edge in pixels.
     pub(super) y: f32,
     /// Distance in front of the eye, at least the near plane's distance, in the unit of the model.
     pub(super) distance: f32,
@@ -74,8 +64,8 @@ impl Projection {
         (clip.w >= self.camera.near && clip.w.is_finite()).then(|| self.screen(clip))
     }
 
-    /// Projects a position of the model. One nearer than the near plane is treated as if it lay on
-    /// it.
+    /// Projects a position of the model. This treats a position nearer than the near plane as if
+    /// it lay on the plane.
     pub(super) fn project_clamped(&self, position: Vec3) -> ClampedProjected {
         let mut clip = self.clip_from_model * position.extend(1.0);
         let along = clip.w;
@@ -103,28 +93,25 @@ impl Projection {
         model.truncate() / model.w
     }
 
-    /// Unit vectors to the right and upwards in the picture, in model coordinates.
     pub(super) fn axes(&self) -> [Vec3; 2] {
         self.axes
     }
 
-    /// The contribution of a row of pixels to [`Self::unproject`] before the division by w.
+    /// One row of pixels contributes this to [`Self::unproject`] before the division by w.
     pub(super) fn row(&self, y: usize) -> Vec4 {
         let up = 1.0 - (2 * y + 1) as f32 / self.height as f32;
         self.model_from_clip.w_axis + self.model_from_clip.y_axis * up
     }
 
-    /// The centre of a column in clip coordinates, -1 (left) to 1 (right).
     pub(super) fn column(&self, x: usize) -> f32 {
         (2 * x + 1) as f32 / self.width as f32 - 1.0
     }
 
-    /// The matrix from clip to model coordinates.
     pub(super) fn model_from_clip(&self) -> Mat4 {
         self.model_from_clip
     }
 
-    /// Pixels in the picture for a unit of the model across the viewing direction, at a distance of
+    /// Length in pixels of one unit of the model across the viewing direction, at a distance of
     /// one unit in front of the eye.
     #[must_use]
     pub fn focal_px(&self) -> f32 {
@@ -143,8 +130,9 @@ impl Projection {
         (self.width, self.height)
     }
 
-    /// Pixels to the right and downwards by which a point `distance` in front of the eye and at
-    /// (`x`, `y`) in the picture moves, per unit of the model moved along `direction`.
+    /// How far a point moves in the picture when the model moves along `direction`: pixels to the
+    /// right and downwards, per unit of the model. The point is `distance` in front of the eye and
+    /// at (`x`, `y`) in the picture.
     #[must_use]
     pub fn moved(&self, [x, y]: [f32; 2], distance: f32, direction: Vec3) -> [f32; 2] {
         let [right, up] = self.axes;
@@ -159,14 +147,14 @@ impl Projection {
         ]
     }
 
-    /// `near far / (far - near)`. Depth is a constant minus this over distance.
+    /// `near far / (far - near)`. You get a point's depth by subtracting this over its distance
+    /// from a constant.
     #[must_use]
     pub fn depth_scale(&self) -> f32 {
         let Camera { near, far, .. } = self.camera;
         near * far / (far - near)
     }
 
-    /// Depth at a distance in front of the eye, above 0.
     pub(super) fn depth_at(&self, distance: f32) -> f32 {
         let Camera { near, far, .. } = self.camera;
         far / (far - near) - self.depth_scale() / distance
@@ -193,7 +181,7 @@ pub struct NoiseFrame<'a> {
     pub noise: &'a Field<f32>,
 }
 
-/// Differences of noise between frames, summed over one pair of frames or several.
+/// Differences of noise between frames. You can sum them over several pairs of frames.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Popping {
     /// Sum of squared differences.
@@ -203,9 +191,9 @@ pub struct Popping {
 }
 
 impl Popping {
-    /// Compares each pixel of `after` with the noise of `before` at the same point of the
-    /// object, interpolated between four pixels. Points that were hidden before, or next
-    /// to the edge of a surface, are left out.
+    /// Compares each pixel of `after` with the noise of `before` at the same point of the object,
+    /// interpolated between four pixels. This leaves out points that were hidden before or lie
+    /// next to the edge of a surface.
     ///
     /// # Panics
     /// If a field does not have the size of its frame.

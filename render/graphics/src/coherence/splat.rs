@@ -1,9 +1,9 @@
 //! Noise as a sum of round features (splats) that face the viewer.
 //!
-//! On the processor and on a graphics device alike, each pixel gathers from the features
-//! near its square of 8 x 8 pixels in one fixed order, so that sums do not depend on
-//! threads. A feature adds only to pixels at the depth of its own surface: hidden surfaces
-//! never show through, and a surface that comes into sight has its features already.
+//! Each pixel gathers from the features near its square of 8 x 8 pixels in one fixed order, on the
+//! processor and on a graphics device alike. So sums do not depend on threads. A feature adds only
+//! to pixels at the depth of its own surface. This keeps hidden surfaces from showing through, and
+//! a surface that comes into sight has its features already.
 
 use std::ops::Range;
 
@@ -39,9 +39,9 @@ pub struct Splat {
     pub tightness: f32,
 }
 
-/// Draws features: 0.5 plus the sum of all features at each pixel, clamped to 0..1. At a distance d
-/// from its centre a feature adds its amplitude times `6 t^5 - 15 t^4 + 10 t^3` with t = 1 - d /
-/// radius. Pixels of `depth` 1 show no surface and get 0.5.
+/// Draws features. The result at each pixel is 0.5 plus the sum of all features there, clamped to
+/// 0..1. At a distance d from its centre a feature adds its amplitude times `6 t^5 - 15 t^4 + 10
+/// t^3` with t = 1 - d / radius. Pixels of `depth` 1 show no surface and get 0.5.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -64,10 +64,9 @@ pub fn draw_splats(
 
 type Square = [[f32; SIDE]; SIDE];
 
-/// Pixels of a row or column of a square.
 const PLACES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
-/// Tolerance beyond which a feature adds nothing, with what rounding may add.
+/// Beyond this many tolerances a feature adds nothing. It includes a margin for rounding.
 const REACH: f32 = 2.001;
 
 impl Splat {
@@ -82,11 +81,11 @@ impl Splat {
         nearest > surfaces.farthest(limits(self.x, radius), limits(self.y, radius))
     }
 
-    /// Whether it may add to a pixel of the square with this first pixel and these depths.
+    /// Whether it may add to a pixel of this square. The square has this first pixel and these
+    /// depths.
     #[inline]
     fn reaches(&self, [column, row]: [usize; 2], [low, high]: [f32; 2]) -> bool {
         let radius = 1.0 / self.narrowness;
-        // Where it and the pixels of the square overlap, to both sides of its centre.
         fn overlap(first: usize, at: f32, radius: f32) -> [f32; 2] {
             let low = first as f32 + 0.5 - at;
             let high = (first + SIDE) as f32 - 0.5 - at;
@@ -107,7 +106,7 @@ impl Splat {
         !is_far
     }
 
-    /// The squares, out of `count`, that it may touch in a row or column of them.
+    /// The squares that it may touch in a row or column of `count` squares.
     fn squares(&self, at: f32, count: usize) -> Range<usize> {
         let radius = 1.0 / self.narrowness;
         let [from, to] = [at - radius, at + radius].map(|at| at / SIDE as f32);
@@ -116,17 +115,16 @@ impl Splat {
     }
 }
 
-/// For each of some numbered places the features that touch it, in the order of the features.
+/// For each of some numbered places, the features that touch it. Features keep their order.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Lists {
     /// Index in `splats` at which the list of each place begins, then the end of the last.
     starts: Vec<u32>,
-    /// Indices of features, list after list.
     splats: Vec<u32>,
 }
 
 impl Lists {
-    /// Lists of `pairs` of a place, below `places`, and a feature.
+    /// Builds the lists from `pairs` of a place (below `places`) and a feature.
     fn new(places: usize, pairs: &[[u32; 2]]) -> Self {
         let mut starts = vec![0u32; places + 1];
         for [place, _] in pairs {
@@ -153,9 +151,7 @@ impl Lists {
 /// Features by bands, which are rows of squares.
 struct Bands<'a> {
     splats: &'a [Splat],
-    /// Number of squares in a band.
     across: usize,
-    /// Features that touch each band.
     lists: Lists,
 }
 
@@ -169,8 +165,8 @@ impl<'a> Bands<'a> {
         Self { splats, across: width.div_ceil(SIDE), lists: Lists::new(down, &pairs) }
     }
 
-    /// For each square of a band the features that touch it, with `surfaces`, without those that
-    /// are hidden there.
+    /// For each square of a band the features that touch it. If you give `surfaces`, this leaves
+    /// out features that are hidden there.
     fn squares(&self, band: usize, surfaces: Option<&DepthTiles>) -> Lists {
         let ranges: Option<Vec<_>> = surfaces
             .map(|surfaces| (0..self.across).map(|column| surfaces.range(column, band)).collect());
@@ -194,7 +190,6 @@ impl<'a> Bands<'a> {
         Lists::new(self.across, &pairs)
     }
 
-    /// The features that touch each square, band after band.
     fn all(&self) -> Lists {
         let down = self.lists.starts.len() - 1;
         let bands: Vec<_> =
@@ -252,7 +247,6 @@ pub(super) fn draw_splats_on_tiles(
 struct Gather<'a> {
     list: &'a [u32],
     splats: &'a [Splat],
-    /// Centre of the first pixel.
     first: [f32; 2],
     depths: &'a Square,
     sum: &'a mut Square,
@@ -275,7 +269,7 @@ impl pulp::WithSimd for Gather<'_> {
                     continue;
                 }
                 let own = splat.depth + splat.slope_y * down;
-                // A copy, and a loop over numbers, which compilers vectorise.
+                // We copy the row and loop over numbers, which compilers vectorise.
                 let mut row = *sums;
                 for column in 0..SIDE {
                     let right = left + PLACES[column];
@@ -298,13 +292,11 @@ impl pulp::WithSimd for Gather<'_> {
 struct SplatParams {
     width: u32,
     height: u32,
-    /// Index in the batch at which [`Lists::starts`] begins.
     starts: u32,
-    /// Index in the batch at which [`Lists::splats`] begins.
     lists: u32,
 }
 
-/// The kernel that sums all features at each pixel.
+/// This kernel sums all features at each pixel.
 pub static GATHER_SPLATS: Kernel = Kernel {
     name: "gather_splats",
     source: include_str!("splat.wgsl"),
@@ -321,7 +313,7 @@ fn draw_splats_on_gpu(
     let (width, height) = depth.size();
     let lists = Bands::new(width, height, splats).all();
     let sums = gpu.plane(width, height)?;
-    // Rounded up, so that the features of the next frame fit the same memory.
+    // We round up, so that the features of the next frame fit the same memory.
     let capacity = splats.len().max(1).next_power_of_two();
     let features = gpu.plane(capacity, 1)?;
     gpu.write(&features, splats)?;

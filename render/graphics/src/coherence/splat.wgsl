@@ -1,4 +1,4 @@
-// The sum of all features at each pixel; twin of splat.rs. A workgroup is a square of
+// The sum of all features at each pixel. This is the twin of splat.rs. A workgroup is a square of
 // pixels with its own list of features.
 
 struct SplatParams {
@@ -44,7 +44,7 @@ fn gather_splats(
     let end = batch[square + 1u];
     var sum = 0.0;
     for (var i = batch[square]; i < end; i++) {
-        // Members are read one by one: most features of a list miss most of its rows.
+        // We read members one by one, because most features of a list miss most of its rows.
         let index = batch[params.lists + i];
         let narrowness = splats[index].narrowness;
         let down = f32(at.y) + 0.5 - splats[index].y;

@@ -1,8 +1,9 @@
-//! GIF and APNG writers that take frame after frame, so that memory holds one frame only.
+//! GIF and APNG writers. You hand them frame after frame, so that memory holds one frame only.
 //!
-//! All frames of a GIF share one table of 255 colours, so that still pixels keep their index and do
-//! not flicker. Boxes of colours are cut at their median (Heckbert 1982), the box with the greatest
-//! error first. Then each colour moves to the mean of the pixels nearest to it (Lloyd 1982).
+//! All frames of a GIF share one table of 255 colours, so that still pixels keep their index and
+//! do not flicker. We cut boxes of colours at their median (Heckbert 1982), the box with the
+//! greatest error first. Then each colour moves to the mean of the pixels nearest to it (Lloyd
+//! 1982).
 
 use std::borrow::Cow;
 use std::io::Write;
@@ -13,27 +14,24 @@ use rayon::prelude::*;
 
 use super::frame::{CompressedFrame, Frame, FrameError, FrameRate, check_size, encoder_failed};
 
-/// Writer of an endlessly repeating GIF. Frame durations are rounded to whole hundredths
-/// of a second such that the average rate is exact.
+/// Writer of an endlessly repeating GIF. It rounds frame durations to whole hundredths of a
+/// second. The average rate stays exact.
 #[expect(missing_debug_implementations, reason = "the encoder has none")]
 pub struct Gif<'a, W: Write> {
     encoder: gif::Encoder<W>,
     rate: FrameRate,
     table: &'a ColorTable,
     size: [usize; 2],
-    /// Durations of a frame so far.
     elapsed: usize,
-    /// Palette indices shown after the last frame.
     shown: Vec<u8>,
-    /// Palette indices of the last frame as written: [`UNCHANGED`] where a pixel kept its colour.
+    /// Palette indices of the last frame in the file: [`UNCHANGED`] where a pixel kept its colour.
     written: Vec<u8>,
 }
 
-/// Palette index of pixels that do not change.
 const UNCHANGED: u8 = COLORS as u8;
 
 impl<'a, W: Write> Gif<'a, W> {
-    /// Starts a GIF with the colours of `table`, to be written to `to`.
+    /// Starts a GIF with the colours of `table`. It goes to the writer `to`.
     ///
     /// # Errors
     /// [`FrameError::Size`], [`FrameError::Encoder`].
@@ -46,10 +44,9 @@ impl<'a, W: Write> Gif<'a, W> {
         check_size("GIF", usize::from(u16::MAX), width, height)?;
         let mut colors = table.colors().as_flattened().to_vec();
         colors.resize(3 * (COLORS + 1), 0);
-        let failed = |error| encoder_failed("GIF", &error);
-        let mut encoder =
-            gif::Encoder::new(to, width as u16, height as u16, &colors).map_err(failed)?;
-        encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
+        let mut encoder = gif::Encoder::new(to, width as u16, height as u16, &colors)
+            .map_err(|error| encoder_failed("GIF", &error))?;
+        encoder.set_repeat(gif::Repeat::Infinite).map_err(|error| encoder_failed("GIF", &error))?;
         let shown = Vec::new();
         let written = vec![0; width * height];
         Ok(Self { encoder, rate, table, size: [width, height], elapsed: 0, shown, written })
@@ -63,7 +60,8 @@ impl<'a, W: Write> Gif<'a, W> {
         self.push_held(frame, 1)
     }
 
-    /// Appends a frame that is shown for `durations` durations of a frame, 655 seconds at most.
+    /// Appends a frame and shows it for `durations` frames, 655 seconds at most. Use this to hold
+    /// the last picture, for example.
     ///
     /// # Errors
     /// [`FrameError::Differs`] for another size, [`FrameError::Encoder`].
@@ -113,20 +111,19 @@ pub struct Apng<W: Write> {
     size: [usize; 2],
     wanted: usize,
     count: usize,
-    /// Durations of a frame so far.
     elapsed: usize,
-    /// Chunks of frames so far: they are numbered.
+    /// Number of frame chunks so far. The file numbers them.
     chunks: u32,
 }
 
-/// Most bytes of pixels in a chunk. The format allows nearly twice as many.
+/// A chunk has at most this many bytes of pixels. The format allows nearly twice as many.
 const CHUNK_BYTES: usize = 1 << 30;
 
-/// Durations of an APNG are stored in whole milliseconds.
+/// An APNG stores durations in whole milliseconds.
 const PARTS_PER_SECOND: u16 = 1000;
 
 impl<W: Write> Apng<W> {
-    /// Starts an APNG of `frames` frames, to be written to `to`.
+    /// Starts an APNG of `frames` frames. It goes to the writer `to`.
     ///
     /// # Errors
     /// [`FrameError::Size`], [`FrameError::Count`] for 0 frames, [`FrameError::Encoder`].
@@ -163,11 +160,11 @@ impl<W: Write> Apng<W> {
         self.push_held(&CompressedFrame::new(frame)?, 1)
     }
 
-    /// Appends a frame that is shown for `durations` durations of a frame, 65 seconds at most.
+    /// Appends a frame and shows it for `durations` frames, 65 seconds at most.
     ///
     /// # Errors
-    /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too
-    /// many, [`FrameError::Encoder`].
+    /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too many,
+    /// [`FrameError::Encoder`].
     pub fn push_held(
         &mut self,
         frame: &CompressedFrame,
@@ -178,7 +175,7 @@ impl<W: Write> Apng<W> {
             return Err(FrameError::Count { wanted: self.wanted, found: self.count + 1 });
         }
         let delay = self.rate.duration(self.elapsed, durations, f64::from(PARTS_PER_SECOND));
-        // Width, height, place, duration, then how the frame replaces the one before.
+        // Width, height, position, duration, then how the frame replaces the one before.
         let [width, height] = self.size.map(|size| size as u32);
         let mut control = [width, height, 0, 0].map(u32::to_be_bytes).as_flattened().to_vec();
         control.extend([delay, PARTS_PER_SECOND].map(u16::to_be_bytes).as_flattened());
@@ -194,7 +191,6 @@ impl<W: Write> Apng<W> {
         Ok(())
     }
 
-    /// Writes a chunk that begins with its number.
     fn numbered(&mut self, name: ChunkType, content: &[u8]) -> Result<(), FrameError> {
         let content = [&self.chunks.to_be_bytes(), content].concat();
         self.chunks += 1;
@@ -206,7 +202,7 @@ impl<W: Write> Apng<W> {
         written.map_err(|error| encoder_failed("APNG", &error))
     }
 
-    /// Completes the file.
+    /// Completes the file. You must have appended all frames.
     ///
     /// # Errors
     /// [`FrameError::Count`] if frames are missing, [`FrameError::Encoder`].
@@ -222,15 +218,16 @@ fn check_same(wanted: [usize; 2], found: [usize; 2]) -> Result<(), FrameError> {
     if wanted == found { Ok(()) } else { Err(FrameError::Differs { wanted, found }) }
 }
 
-/// Most colours of a table. One more index of the GIF is left for pixels that do not
-/// change.
+/// A table has at most this many colours. We leave one more index of the GIF for pixels that do
+/// not change.
 pub(super) const COLORS: usize = 255;
-/// Bits per channel by which colours are distinguished: 32,768 bins.
+/// Bits per channel by which we distinguish colours: 32,768 bins.
 const BITS: usize = 5;
 const SIDE: usize = 1 << BITS;
 const ROUNDS: usize = 4;
 
-/// Up to 255 colours, and a lookup of the nearest one for every colour.
+/// Up to 255 colours, and a lookup of the nearest one for every colour. You need this table before
+/// you write a [`Gif`].
 #[derive(Debug, Clone)]
 pub struct ColorTable {
     colors: Vec<[u8; 3]>,
@@ -238,7 +235,6 @@ pub struct ColorTable {
     nearest: Vec<u8>,
 }
 
-/// Histogram of the frames' colours, of fixed size.
 #[derive(Debug, Clone)]
 pub(super) struct Census {
     /// Sums of red, green, blue and count for each bin.
@@ -269,7 +265,7 @@ impl Census {
 }
 
 impl ColorTable {
-    /// Makes the table for `frames`, which are read once, one at a time.
+    /// Makes the table for `frames`. This reads them once, one at a time.
     ///
     /// # Errors
     /// The first error that `frames` yields.
@@ -344,7 +340,6 @@ fn nearest(colors: &[[f32; 3]], wanted: [f32; 3]) -> usize {
     distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }
 
-/// Mean colours of up to [`COLORS`] boxes.
 fn boxes(found: &mut [([f32; 3], f32)]) -> Vec<[f32; 3]> {
     let mut open: Vec<&mut [([f32; 3], f32)]> = vec![found];
     while open.len() < COLORS {
@@ -376,8 +371,8 @@ fn mean(colors: &[([f32; 3], f32)]) -> [f32; 3] {
     [0, 1, 2].map(|i| colors.iter().map(|color| color.0[i] * color.1).sum::<f32>() / count)
 }
 
-/// Channel with the greatest squared error within a box, and that error, 0 for a box that cannot be
-/// cut.
+/// The channel with the greatest squared error within a box, and this error. It is 0 for a box
+/// that cannot be cut.
 fn spread(colors: &[([f32; 3], f32)]) -> (usize, f32) {
     if colors.len() < 2 {
         return (0, 0.0);
@@ -401,7 +396,6 @@ mod tests {
     use image::codecs::png::PngDecoder;
     use std::io::Cursor;
 
-    /// A red square that moves over white paper.
     fn frames() -> Vec<Frame> {
         (0..5)
             .map(|at: usize| {

@@ -12,7 +12,7 @@ use spectra::color::RgbSpace;
 use super::{ExportError, check_cell, check_size};
 use crate::field::Field;
 
-/// A part of an OpenEXR file: its name, and channels with their samples row by row.
+/// A part of an OpenEXR file: its name, and named channels with their samples row by row.
 pub type ExrPart = (String, Vec<(String, Vec<f32>)>);
 
 /// Encodes named channels (samples row by row) with the primaries of sRGB. A pixel is `cell_mm`
@@ -26,12 +26,12 @@ pub fn exr_file(
     encoded(size, cell_mm, vec![(attributes, channels)])
 }
 
-/// Encodes parts of one size, each with named channels of 32-bit floats, as one OpenEXR file with
-/// the primaries of sRGB. A pixel is `cell_mm` wide.
+/// Encodes parts of one size as one OpenEXR file with the primaries of sRGB. Each part has named
+/// channels of 32-bit floats. A pixel is `cell_mm` wide.
 ///
 /// # Errors
-/// [`ExportError`] for an empty picture, a pixel size out of range, and parts that have no name of
-/// their own.
+/// [`ExportError`] for an empty picture, a pixel size out of range, and parts with the same name
+/// or none.
 pub fn exr_parts(
     size: (usize, usize),
     cell_mm: f64,
@@ -80,7 +80,6 @@ fn encoded(
     Ok(bytes)
 }
 
-/// Chromaticities of sRGB's primaries and white.
 fn chromaticities() -> Chromaticities {
     let space = RgbSpace::Srgb;
     let columns = space.xyz_from_linear().0;
@@ -100,8 +99,8 @@ fn chromaticities() -> Chromaticities {
     }
 }
 
-/// Encodes linear sRGB (white at 1) as channels R, G, B of 32-bit floats, unclipped, with the
-/// primaries of sRGB in attribute `chromaticities`. A pixel is `cell_mm` wide.
+/// Encodes linear sRGB (white at 1) as channels R, G, B of 32-bit floats. This does not clip
+/// colours. Attribute `chromaticities` has the primaries of sRGB. A pixel is `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are not
@@ -126,7 +125,7 @@ pub fn float_exr(
     exr_file(size, cell_mm, channels.collect(), LayerAttributes::default())
 }
 
-/// The channels R, G and B of a picture as 32-bit floats, for [`exr_file`].
+/// The channels R, G and B of a picture as 32-bit floats. You pass them to [`exr_file`].
 ///
 /// # Errors
 /// [`ExportError::NotFinite`].
@@ -139,12 +138,12 @@ pub fn rgb_channels(picture: &Field<[f32; 4]>) -> Result<Vec<(String, FlatSample
         let y = index / picture.width();
         return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
     }
-    let channel =
-        |index: usize| FlatSamples::F32(values.iter().map(move |rgb| rgb[index]).collect());
     Ok(["R", "G", "B"]
         .iter()
         .enumerate()
-        .map(|(i, name)| ((*name).to_owned(), channel(i)))
+        .map(|(i, name)| {
+            ((*name).to_owned(), FlatSamples::F32(values.iter().map(|rgb| rgb[i]).collect()))
+        })
         .collect())
 }
 

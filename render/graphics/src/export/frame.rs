@@ -1,5 +1,5 @@
-//! Frames of an animation: encoded sRGB with 8 bits per channel, also compressed as PNG and
-//! animated PNG store them.
+//! Frames of an animation: encoded sRGB with 8 bits per channel. Frames can also be kept
+//! compressed, as PNG and animated PNG store them.
 
 use std::io::{BufRead, Seek};
 
@@ -31,7 +31,7 @@ pub enum FrameError {
         /// Height in pixels.
         height: usize,
     },
-    /// A frame differs in size from the animation.
+    /// A frame has another size than the animation.
     #[error("all frames have {} x {} pixels, found `{} x {}`", .wanted[0], .wanted[1], .found[0], .found[1])]
     Differs {
         /// Width and height of the animation in pixels.
@@ -39,7 +39,7 @@ pub enum FrameError {
         /// Width and height of the frame in pixels.
         found: [usize; 2],
     },
-    /// The number of frames is not the announced one.
+    /// You gave more or fewer frames than announced.
     #[error("an animation of {}, found `{found}`", counted(*wanted, "frame"))]
     Count {
         /// Number of frames announced in advance.
@@ -54,14 +54,14 @@ pub enum FrameError {
         /// Frames per second.
         found: f64,
     },
-    /// The file is not a frame written by [`frame_png`].
+    /// The file is not a frame that [`frame_png`] wrote.
     #[error("no frame: {reason}")]
     #[hint("remove the file, and it is rendered again")]
     Unreadable {
         /// Reason given by the decoder.
         reason: String,
     },
-    /// The encoder or the writer behind it failed.
+    /// The encoder or the writer failed.
     #[error("no {format} could be made: {reason}")]
     Encoder {
         /// Name of the format.
@@ -87,14 +87,14 @@ impl FrameRate {
         }
     }
 
-    /// Start of frame `index` in whole parts of a second (`parts` per second). Each frame
-    /// ends where the next starts, so rounding does not accumulate.
+    /// Start of frame `index` in whole parts of a second (`parts` per second). Each frame ends
+    /// where the next one starts, so rounding does not accumulate.
     fn start(self, index: usize, parts: f64) -> u64 {
         (index as f64 * parts / self.0).round() as u64
     }
 
-    /// Length of `durations` frames after `elapsed` others, in whole parts of a second. Longer
-    /// ones than a file can state are shortened.
+    /// Length of `durations` frames after `elapsed` others, in whole parts of a second. This
+    /// shortens a length that a file cannot state.
     pub(super) fn duration(self, elapsed: usize, durations: usize, parts: f64) -> u16 {
         let length = self.start(elapsed + durations, parts) - self.start(elapsed, parts);
         u16::try_from(length).unwrap_or(u16::MAX)
@@ -126,7 +126,7 @@ pub fn frame_png(frame: &Frame) -> Result<Vec<u8>, FrameError> {
     let mut encoder = Encoder::new(&mut bytes, frame.width() as u32, frame.height() as u32);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    // Files of painted frames are an eighth larger, and ready in a fifth of the time.
+    // This makes files of painted frames an eighth larger, and writes them in a fifth of the time.
     encoder.set_compression(Compression::Fast);
     encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
     let written = encoder.write_header().and_then(|mut writer| {
@@ -177,14 +177,14 @@ pub(super) fn encoder_failed(format: &'static str, error: &dyn std::error::Error
     FrameError::Encoder { format, reason: error.to_string() }
 }
 
-/// First bytes of every PNG file.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// End of the chunk IHDR of a frame: 8 bits of red, green and blue, the only methods of
+/// How the chunk IHDR of a frame ends: 8 bits of red, green and blue, the only methods of
 /// compression and filters, not interlaced.
 const KIND: [u8; 5] = [8, ColorType::Rgb as u8, 0, 0, 0];
 
-/// The pixels of a frame, filtered and compressed as in its PNG file.
+/// The pixels of a frame, filtered and compressed as in its PNG file. Use this to join frames
+/// without unpacking them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CompressedFrame {
     width: u32,
@@ -204,8 +204,8 @@ impl CompressedFrame {
         })
     }
 
-    /// The pixels of a whole PNG file as [`frame_png`] writes it. `None` for any other file. The
-    /// pixels themselves are not checked.
+    /// Takes the pixels out of a whole PNG file that [`frame_png`] wrote. `None` for any other
+    /// file. This does not check the pixels themselves.
     #[must_use]
     pub fn from_png(bytes: &[u8]) -> Option<Self> {
         let mut rest = bytes.strip_prefix(&SIGNATURE)?;
@@ -243,7 +243,6 @@ impl CompressedFrame {
         self.height as usize
     }
 
-    /// The stream that the chunks of the file hold together.
     pub(super) fn zlib(&self) -> &[u8] {
         &self.zlib
     }

@@ -1,8 +1,8 @@
-//! Picture files for other programs: PNG, TIFF, linear OpenEXR and OpenEXR of several parts, layers
-//! as OpenRaster, PLY, frames and animations (GIF, APNG).
+//! Writes picture files for other programs: PNG, TIFF, linear OpenEXR and OpenEXR of several
+//! parts, layers as OpenRaster, PLY, frames and animations (GIF, APNG).
 //!
-//! The functions take plain data and return bytes, the same bytes for the same data. The caller
-//! writes the files. Only [`Sequence`] works on a folder.
+//! You pass plain data to these functions and get bytes, the same bytes for the same data. You
+//! write the files yourself. Only [`Sequence`] works on a folder.
 
 mod exr;
 mod picture_file;
@@ -25,7 +25,7 @@ pub use picture_file::{
 pub use ply::ply;
 pub use sequence::{AnimationFormat, Sequence, SequenceError, SequenceSettings};
 
-/// Data that cannot be written as a picture.
+/// Data that we cannot write as a picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ExportError {
     /// The picture is empty or larger than the format allows.

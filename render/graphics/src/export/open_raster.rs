@@ -1,9 +1,9 @@
 //! OpenRaster files: layers for painting programs.
 //!
-//! Follows the draft specification 0.0.5 of freedesktop.org: a ZIP archive that begins with the
-//! uncompressed entry `mimetype`, then `stack.xml` with the layers from the uppermost, one PNG per
-//! layer, the merged picture and a reduced picture as thumbnail. PNG files are compressed
-//! themselves, so all entries are stored.
+//! This follows the draft specification 0.0.5 of freedesktop.org. The file is a ZIP archive. It
+//! begins with the uncompressed entry `mimetype`, then has `stack.xml` with the layers from the
+//! uppermost, one PNG per layer, the merged picture and a reduced picture as thumbnail. PNG files
+//! are compressed themselves, so we store all entries.
 
 use std::io::{Cursor, Write};
 
@@ -17,13 +17,11 @@ use super::picture_file::{Png, png8, png16, rgba16};
 use super::{ExportError, check_cell, check_size};
 use crate::field::Field;
 
-/// Version of the specification.
 const VERSION: &str = "0.0.5";
 
-/// Longest side of the thumbnail in pixels.
 const THUMBNAIL_PX: usize = 256;
 
-/// Writer of an OpenRaster file that takes layer after layer, the lowest first.
+/// Writer of an OpenRaster file. You hand it layer after layer, the lowest first.
 #[expect(missing_debug_implementations, reason = "the archive has none")]
 pub struct OpenRaster {
     archive: ZipWriter<Cursor<Vec<u8>>>,
@@ -32,7 +30,6 @@ pub struct OpenRaster {
     layers: Vec<LayerName>,
 }
 
-/// A layer in the list of the file.
 struct LayerName {
     name: String,
     visible: bool,
@@ -52,8 +49,8 @@ impl OpenRaster {
         Ok(file)
     }
 
-    /// Adds a layer above those before: red, green, blue and opacity in encoded sRGB, not
-    /// premultiplied. A layer that is not `visible` is listed as hidden.
+    /// Adds a layer above those before, with red, green, blue and opacity in encoded sRGB, not
+    /// premultiplied. If you pass false for `visible`, programs list the layer as hidden.
     ///
     /// # Errors
     /// [`ExportError`] for a layer of another size, or if the encoder fails.
@@ -73,12 +70,12 @@ impl OpenRaster {
         Ok(())
     }
 
-    /// Completes the file with the merged picture in linear sRGB, and returns its content. The
-    /// number of pixels outside the gamut is counted in the merged picture.
+    /// Completes the file with the merged picture in linear sRGB, and returns its content.
+    /// [`Png::outside`] counts the merged picture's pixels outside the gamut.
     ///
     /// # Errors
-    /// [`ExportError`] for a picture of another size or with colours that are not finite, or if the
-    /// encoder fails.
+    /// [`ExportError`] for a picture of another size or with colours that are not finite, or if
+    /// the encoder fails.
     pub fn finish(mut self, merged: &Field<[f32; 4]>) -> Result<Png, ExportError> {
         let (width, height) = self.size;
         if (merged.width(), merged.height()) != self.size {
@@ -103,7 +100,6 @@ impl OpenRaster {
         self.archive.write_all(bytes).map_err(|error| failed(&error))
     }
 
-    /// Content of `stack.xml`.
     fn stack(&self) -> std::io::Result<Vec<u8>> {
         let width = self.size.0.to_string();
         let height = self.size.1.to_string();
@@ -142,7 +138,6 @@ impl OpenRaster {
     }
 }
 
-/// Name of the file of layer `index`, from 0.
 fn file_of(index: usize) -> String {
     format!("data/layer{index:03}.png")
 }
@@ -151,8 +146,8 @@ fn failed(error: &dyn std::error::Error) -> ExportError {
     ExportError::Encoder { format: "OpenRaster", reason: error.to_string() }
 }
 
-/// Width and height of a picture reduced until its longer side has at most `longest_px` pixels.
-/// A smaller picture keeps its size.
+/// Width and height of a picture after reducing it until its longer side has at most `longest_px`
+/// pixels. A smaller picture keeps its size.
 #[must_use]
 pub fn reduced_size((width, height): (usize, usize), longest_px: usize) -> (usize, usize) {
     let longest = width.max(height).max(1);
@@ -166,7 +161,7 @@ pub fn reduced_size((width, height): (usize, usize), longest_px: usize) -> (usiz
     (reduced(width, longest, longest_px), reduced(height, longest, longest_px))
 }
 
-/// The picture in linear sRGB reduced to [`reduced_size`]: each pixel is the mean of the area that
+/// Reduces a picture in linear sRGB to [`reduced_size`]. Each pixel is the mean of the area that
 /// it covers.
 #[must_use]
 pub fn reduced(picture: &Field<[f32; 4]>, longest_px: usize) -> Field<[f32; 4]> {
@@ -208,7 +203,6 @@ impl Covered {
         Self { start: edge(index, before, count), end: edge(index + 1, before, count) }
     }
 
-    /// Covered pixels with their shares, which sum to 1.
     fn shares(&self) -> impl Iterator<Item = (usize, f64)> {
         let Self { start, end } = *self;
         let last = end.ceil() as usize;
@@ -246,8 +240,8 @@ mod tests {
         assert_eq!(&bytes[30..54], b"mimetypeimage/openraster");
         assert_eq!(bytes, file(), "the same bytes every time");
         let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
-        let name = |index| archive.by_index(index).unwrap().name().to_owned();
-        let names: Vec<String> = (0..6).map(name).collect();
+        let names: Vec<String> =
+            (0..6).map(|index| archive.by_index(index).unwrap().name().to_owned()).collect();
         assert_eq!(archive.len(), 6);
         let wanted = [
             "mimetype",

@@ -1,5 +1,5 @@
-//! Files of pictures in linear sRGB: PNG with 8 or 16 bits and TIFF with 16 bits, encoded as sRGB,
-//! and the formats that a user chooses from.
+//! Writes files of pictures in linear sRGB: PNG with 8 or 16 bits and TIFF with 16 bits, encoded
+//! as sRGB. It also has the formats that a user chooses from.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -18,7 +18,7 @@ use super::exr::linear_exr;
 use super::{ExportError, check_cell, check_size};
 use crate::field::Field;
 
-/// Least share of pixels outside the gamut that is worth a note.
+/// Users get a note from this share of pixels outside the gamut on.
 const NOTEWORTHY: f64 = 0.0005;
 
 /// File format of a picture.
@@ -31,7 +31,7 @@ pub enum PictureFormat {
     Png16,
     /// TIFF in sRGB with 16 bits per channel.
     Tiff16,
-    /// OpenEXR of linear sRGB with 32-bit floats, unclipped.
+    /// OpenEXR of linear sRGB with 32-bit floats. This format does not clip colours.
     LinearExr,
 }
 
@@ -55,7 +55,7 @@ impl PictureFormat {
 pub struct PictureFile {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Share of pixels outside the gamut of the format, whose chroma was reduced, 0..1.
+    /// Share of pixels outside the gamut of the format, 0..1. We reduced their chroma.
     pub outside: f64,
 }
 
@@ -69,15 +69,15 @@ pub struct OutsideGamut {
 }
 
 impl PictureFile {
-    /// A note if a noteworthy share of pixels, 0.05 % or more, was outside the gamut.
+    /// A note for the user if 0.05 % of the pixels or more were outside the gamut.
     #[must_use]
     pub fn outside_gamut(&self) -> Option<OutsideGamut> {
         (self.outside >= NOTEWORTHY).then_some(OutsideGamut { share: self.outside })
     }
 }
 
-/// Encodes a picture in linear sRGB (white at 1, the fourth value is ignored). A pixel is `cell_mm`
-/// wide.
+/// Encodes a picture in linear sRGB (white at 1). This ignores the fourth value. A pixel is
+/// `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are not
@@ -87,7 +87,9 @@ pub fn picture_file(
     cell_mm: f64,
     format: PictureFormat,
 ) -> Result<PictureFile, ExportError> {
-    let png = |Png { bytes, outside }| (bytes, outside);
+    fn png(Png { bytes, outside }: Png) -> (Vec<u8>, usize) {
+        (bytes, outside)
+    }
     let (bytes, outside) = match format {
         PictureFormat::Png8 => png(png8(picture, cell_mm)?),
         PictureFormat::Png16 => png(png16(picture, cell_mm)?),
@@ -154,7 +156,7 @@ fn big_endian(samples: &[u16]) -> Vec<u8> {
     samples.iter().flat_map(|sample| sample.to_be_bytes()).collect()
 }
 
-/// Encodes plain numbers as a 16-bit grey channel without a colour space. `texts` are stored as
+/// Encodes plain numbers as a 16-bit grey channel without a colour space. You can add `texts` as
 /// (keyword, text). A pixel is `cell_mm` wide.
 pub fn grey16(
     values: &Field<u16>,
@@ -218,13 +220,13 @@ fn file(
 pub struct Tiff {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Number of pixels outside the sRGB gamut, which lost chroma as in a PNG.
+    /// Number of pixels outside the sRGB gamut. They lost chroma, as in a PNG.
     pub outside: usize,
 }
 
-/// Encodes linear sRGB (white at 1, the fourth value is ignored) as TIFF 6.0 with 16 bits per
-/// channel: the pixels of a 16-bit PNG, compressed without loss, with the ICC profile of sRGB and
-/// the resolution of pixels that are `cell_mm` wide.
+/// Encodes linear sRGB (white at 1) as TIFF 6.0 with 16 bits per channel. This ignores the fourth
+/// value. The pixels are those of a 16-bit PNG, compressed without loss. The file has the ICC
+/// profile of sRGB, and its resolution says that pixels are `cell_mm` wide.
 ///
 /// # Errors
 /// [`ExportError`] for an empty picture, a pixel size out of range, colours that are not finite,
@@ -252,14 +254,14 @@ pub fn tiff16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Tiff, ExportErr
     Ok(Tiff { bytes: bytes.into_inner(), outside })
 }
 
-/// The ICC profile of sRGB, the same bytes every time.
+/// The ICC profile of sRGB. It has the same bytes every time.
 fn srgb_profile() -> Result<Vec<u8>, ExportError> {
-    /// Bytes of the header that hold the time at which a profile was made.
+    /// These bytes of the header hold the time at which the profile was made.
     const MADE: std::ops::Range<usize> = 24..36;
     let mut profile = ColorProfile::new_srgb();
     profile.cicp = None;
     let mut bytes = profile.encode().map_err(|error| failed(&error))?;
-    // The encoder writes the present time. The day on which sRGB was published stays the same.
+    // The encoder writes the present time. We put the day on which sRGB was published there.
     let published: Vec<u8> =
         [1999_u16, 10, 18, 0, 0, 0].iter().flat_map(|n| n.to_be_bytes()).collect();
     bytes[MADE].copy_from_slice(&published);
@@ -289,7 +291,8 @@ pub fn srgb16(picture: &Field<[f32; 4]>) -> Result<Srgb16, ExportError> {
     Ok(Srgb16 { pixels, outside })
 }
 
-/// Encodes linear sRGB like [`srgb16`] with 8 bits per channel: the pixels of an 8-bit PNG.
+/// Encodes linear sRGB like [`srgb16`], but with 8 bits per channel. These are the pixels of an
+/// 8-bit PNG.
 ///
 /// # Errors
 /// [`ExportError::NotFinite`].
@@ -297,13 +300,12 @@ pub fn srgb8(picture: &Field<[f32; 4]>) -> Result<Field<[u8; 3]>, ExportError> {
     Ok(encoded(picture, eight_bits)?.0)
 }
 
-/// Encoded sRGB in 0..1 as 8 bits per channel.
 pub(super) fn eight_bits(rgb: [f64; 3]) -> [u8; 3] {
     rgb.map(|value| (value * 255.0).round() as u8)
 }
 
-/// Pixels made by `pixel` from encoded sRGB in 0..1, and the number of those outside the gamut by
-/// more than f32 rounding (see [`Rgb::in_gamut`]).
+/// Makes pixels by `pixel` from encoded sRGB in 0..1. Also returns the number of pixels that are
+/// outside the gamut by more than f32 rounding (see [`Rgb::in_gamut`]).
 pub(super) fn encoded<T: Send>(
     picture: &Field<[f32; 4]>,
     pixel: impl Fn([f64; 3]) -> T + Sync,

@@ -1,5 +1,3 @@
-//! Triangles as a PLY file.
-
 use ply_rs_bw::ply::{
     Addable, DefaultElement, ElementDef, Encoding, Ply, Property, PropertyDef, PropertyType,
     ScalarType,
@@ -8,8 +6,9 @@ use ply_rs_bw::writer::Writer;
 
 use super::ExportError;
 
-/// Encodes triangles as a binary PLY file (Turk 1994): `x`, `y`, `z` of each vertex, its colour as
-/// `red`, `green`, `blue` (encoded sRGB, 0..1, written as bytes), and `vertex_indices` of each face.
+/// Encodes triangles as a binary PLY file (Turk 1994). Each vertex has `x`, `y`, `z` and a colour
+/// as `red`, `green`, `blue`. You give the colour in encoded sRGB (0..1), and the file stores
+/// bytes. Each face has `vertex_indices`.
 ///
 /// # Errors
 /// [`ExportError::Encoder`] if there are 2^31 vertices or more.

@@ -1,8 +1,9 @@
-//! A folder of numbered frames that can be interrupted and resumed, and the animation made of it.
+//! A folder of numbered frames, and the animation made of it. You can interrupt the work and
+//! resume it.
 //!
 //! Next to the frames (`frame-0001.png` and so on) lies `animation.json` with a digest of the
-//! settings they were rendered with. Complete frames of the same settings are kept. Frames of other
-//! settings are removed before the first new one is written, so a folder never mixes two
+//! settings they were rendered with. We keep complete frames of the same settings. We remove
+//! frames of other settings before we write the first new one, so a folder never mixes two
 //! animations.
 
 use std::fs::{self, File};
@@ -18,14 +19,13 @@ use super::frame::{CompressedFrame, Frame, FrameError, FrameRate, frame_png, rea
 
 const FORMAT: &str = "impasto-animation";
 const VERSION: u32 = 1;
-/// Most frames of a sequence: ten hours at 25 frames per second.
 const MOST_FRAMES: usize = 900_000;
 
 /// Settings of a sequence, stored in `animation.json`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SequenceSettings {
-    /// Digest of everything that the frames depend on: settings and inputs.
+    /// Digest of everything that the frames depend on, e.g. settings and inputs.
     pub settings: String,
     /// Number of frames.
     pub frames: usize,
@@ -44,7 +44,7 @@ struct Manifest {
     settings: SequenceSettings,
 }
 
-/// A folder of frames, and the frames that are still missing.
+/// A folder of frames. It knows which frames are still missing.
 #[derive(Debug)]
 pub struct Sequence {
     folder: PathBuf,
@@ -53,8 +53,8 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Opens a folder of frames, creating it if needed. Frames rendered with other settings are
-    /// removed. No other file is touched.
+    /// Opens a folder of frames, or creates it. This removes frames rendered with other settings
+    /// and touches no other file.
     ///
     /// # Errors
     /// [`SequenceError`] if a file cannot be read or written, if frames lack a manifest, or if the
@@ -84,7 +84,7 @@ impl Sequence {
         Ok(sequence)
     }
 
-    /// Indices (from 0) of the frames still to be rendered, rising.
+    /// Indices (from 0) of the frames that you still have to render, rising.
     #[must_use]
     pub fn remaining(&self) -> &[usize] {
         &self.remaining
@@ -96,7 +96,7 @@ impl Sequence {
         self.folder.join(format!("frame-{:04}.png", index + 1))
     }
 
-    /// Writes frame `index`, whole or not at all.
+    /// Writes frame `index`, as a whole or not at all.
     ///
     /// # Errors
     /// [`SequenceError::Frame`] for a frame of another size, or the reason why it cannot be
@@ -110,8 +110,8 @@ impl Sequence {
         Ok(())
     }
 
-    /// Makes the frames that remain by `picture`, in order, and writes them. Each is compressed and
-    /// written while the next one is made.
+    /// Makes the frames that remain by calling `picture` in order, and writes them. This
+    /// compresses and writes each frame while you make the next one.
     ///
     /// # Errors
     /// An error of `picture`, after the frames before it were written, or an error of
@@ -141,7 +141,7 @@ impl Sequence {
         Ok(())
     }
 
-    /// The settings that the frames belong to, with their number and size.
+    /// The settings of these frames, with their number and size.
     #[must_use]
     pub fn settings(&self) -> &SequenceSettings {
         &self.settings
@@ -158,7 +158,7 @@ impl Sequence {
         })
     }
 
-    /// Reads all frames in order, one at a time, without unpacking those that
+    /// Reads all frames in order, one at a time. This does not unpack those that
     /// [`Self::write_frame`] wrote.
     pub fn compressed(&self) -> impl Iterator<Item = Result<CompressedFrame, SequenceError>> {
         (0..self.settings.frames).map(|index| {
@@ -170,7 +170,8 @@ impl Sequence {
         })
     }
 
-    /// Removes all its frames, the manifest, and the folder if nothing else is in it.
+    /// Removes all its frames and the manifest. This also removes the folder if nothing else is in
+    /// it.
     ///
     /// # Errors
     /// [`SequenceError::Io`] if a file cannot be removed.
@@ -238,9 +239,9 @@ fn remove(path: &Path) -> Result<(), SequenceError> {
 /// File format of an animation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AnimationFormat {
-    /// GIF, of 255 colours chosen for all its frames.
+    /// GIF, with 255 colours chosen for all its frames.
     Gif,
-    /// An animated PNG, with all colours.
+    /// Animated PNG, with all colours.
     Apng,
 }
 
@@ -255,8 +256,8 @@ impl AnimationFormat {
         }
     }
 
-    /// Joins all frames of a folder at `rate`. The last one is shown for `last` durations of a
-    /// frame, at least one.
+    /// Joins all frames of a folder at `rate`. It shows the last one for `last` frames, at least
+    /// one.
     ///
     /// # Errors
     /// [`SequenceError`] if a frame cannot be read, the format allows no such frames, or the
@@ -292,7 +293,7 @@ impl AnimationFormat {
     }
 }
 
-/// Name of the file that says what the frames of a folder belong to.
+/// Name of the manifest. It states the settings of the frames in this folder.
 pub(super) const MANIFEST: &str = "animation.json";
 
 /// A folder of frames cannot be used.
@@ -313,7 +314,7 @@ pub enum SequenceError {
         /// Reason given by the system.
         source: std::io::Error,
     },
-    /// The folder holds frames but no manifest that says what they belong to.
+    /// The folder holds frames but no manifest with their settings.
     #[error("{}: the folder holds frames but no {MANIFEST}", .path.display())]
     #[hint("name an empty folder, or move the frames away")]
     Foreign {
@@ -483,7 +484,6 @@ mod tests {
         format.encode(&sequence, (FrameRate::new(10.0).unwrap(), last)).unwrap()
     }
 
-    /// Durations of the frames in ms.
     fn durations(frames: image::Frames<'_>) -> Vec<u32> {
         let frames = frames.collect_frames().unwrap();
         frames.iter().map(|frame| frame.delay().numer_denom_ms()).map(|(n, d)| n / d).collect()

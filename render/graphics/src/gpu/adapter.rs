@@ -1,16 +1,16 @@
-//! The graphics adapters of this machine, and the reasons why a graphics device failed.
+//! The graphics adapters of this machine, and the ways in which a graphics device fails.
 
 use documents::hint::Explain;
 
-/// The user's choice of what computes.
+/// What you let compute: the processor or a graphics adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BackendChoice {
     /// A hardware adapter if there is one, else the processor.
     #[default]
     Auto,
-    /// The processor, never a graphics adapter.
+    /// The processor. This never uses a graphics adapter.
     Cpu,
-    /// Any graphics adapter. Hardware is preferred to software.
+    /// Any graphics adapter. This prefers hardware to software.
     Gpu,
 }
 
@@ -25,13 +25,13 @@ pub enum Kind {
     Virtual,
     /// Hardware of a kind that the driver does not state.
     Other,
-    /// An emulation on the processor (for example lavapipe), for tests: slower than
+    /// An emulation on the processor, e.g. lavapipe. Use this for tests only: it is slower than
     /// [`BackendChoice::Cpu`].
     Software,
 }
 
 impl Kind {
-    /// The kind in lower case, as it is printed.
+    /// The kind in lower case, for messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -68,9 +68,9 @@ pub struct Adapter {
     pub driver: String,
     /// Discrete, integrated, virtual, other or software.
     pub kind: Kind,
-    /// Sizes and counts that kernels must keep to.
+    /// Limits that kernels must stay within.
     pub limits: Limits,
-    /// The reason why it cannot be used. `None` if it can.
+    /// The reason why you cannot use it. `None` if you can.
     pub unfit: Option<String>,
     pub(super) inner: wgpu::Adapter,
 }
@@ -103,7 +103,7 @@ impl Adapter {
         }
     }
 
-    /// Whether it is hardware, not an emulation on the processor.
+    /// Whether this is hardware, not an emulation on the processor.
     #[must_use]
     pub fn is_hardware(&self) -> bool {
         self.kind != Kind::Software
@@ -123,12 +123,12 @@ fn unfit(limits: Limits, computes: bool) -> Option<String> {
     Some(format!("{} {} where {} are needed", lacking.1, lacking.0, lacking.2))
 }
 
-/// Every adapter of this machine, in order of preference. Unfit ones come last. Empty if no driver
-/// is installed.
+/// Every adapter of this machine, in order of preference. Unfit ones come last. If no driver is
+/// installed, this is empty.
 #[must_use]
 pub fn adapters() -> Vec<Adapter> {
-    // Excludes OpenGL, which another crate of the program may have enabled: kernels were
-    // never tested on it.
+    // This excludes OpenGL, which another crate of the program may have enabled. We never tested
+    // kernels on it.
     let backends = wgpu::Instance::enabled_backend_features() & wgpu::Backends::PRIMARY;
     if backends.is_empty() {
         return Vec::new();
@@ -157,12 +157,12 @@ pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
     })
 }
 
-/// A graphics device failed. Computation on the processor never returns this.
+/// A graphics device failed. You never get this from the processor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[hint("paint on the processor: [backend=cpu]")]
 #[fault(Environment)]
 pub enum DeviceError {
-    /// No adapter can be used.
+    /// You cannot use any adapter.
     #[error("no graphics adapter: {reason}")]
     NoAdapter {
         /// The reason, one line.

@@ -10,18 +10,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::adapter::{Adapter, BackendChoice, DeviceError, adapters, best};
 use super::pipelines::{Pipeline, RasterPipeline, ScatterPipeline, StencilPipeline};
 
-/// Number of submissions that may be pending on the device. The next one waits for the oldest.
-/// Chosen by hand: few, so that memory is freed soon.
+/// At most this many submissions are pending on the device. The next one waits for the oldest. We
+/// chose few, so that memory is freed soon.
 const IN_FLIGHT: usize = 3;
 
-/// Number of the next buffer.
 static NEXT_NUMBER: AtomicU64 = AtomicU64::new(0);
 
-/// Memory on the device. Clones share it.
+/// Memory on the device. Clones share this memory.
 #[derive(Debug, Clone)]
 pub struct Buffer {
     pub(super) inner: wgpu::Buffer,
-    /// Unique among all buffers of the program.
     pub(super) number: u64,
 }
 
@@ -32,8 +30,8 @@ struct Reported {
     refused: Option<String>,
 }
 
-/// An open device. It executes submissions in their order. An error of one may be returned by a
-/// later call.
+/// An open device. It executes submissions in their order. You may get the error of a submission
+/// from a later call.
 #[derive(Debug)]
 pub struct Device {
     adapter: Adapter,
@@ -51,7 +49,7 @@ pub struct Device {
 }
 
 impl Device {
-    /// Opens `adapter` with the largest buffers that it allows.
+    /// Opens `adapter`. You can allocate buffers up to the largest size that the adapter allows.
     ///
     /// # Errors
     /// [`DeviceError::NoAdapter`] if the adapter is unfit or the driver cannot open it.
@@ -118,7 +116,7 @@ impl Device {
         self.reported.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the first error that the driver has reported since the last call. `what` names the
+    /// Returns the first error that the driver reported since the last call. `what` names the
     /// current operation.
     pub(super) fn check(&self, what: &str) -> Result<(), DeviceError> {
         let mut reported = self.reported();
@@ -143,7 +141,8 @@ impl Device {
         Ok(())
     }
 
-    /// Allocates a buffer of `bytes` zeros. `what` names its content in errors.
+    /// Allocates a buffer of `bytes` zeros. `what` names its content in errors, for example
+    /// `paint`.
     ///
     /// # Errors
     /// [`DeviceError::TooLarge`] beyond the limit of the adapter, [`DeviceError::OutOfMemory`] if
@@ -197,13 +196,12 @@ impl Device {
         Ok(Buffer { inner, number: NEXT_NUMBER.fetch_add(1, Ordering::Relaxed) })
     }
 
-    /// Waits until a submission has been executed.
     pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
         self.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None })
     }
 
     /// Polls the driver, which frees memory no longer in use. wgpu panics if the device is lost
-    /// during a wait. The panic is caught here.
+    /// during a wait. We catch this panic here.
     fn poll(&self, how: wgpu::PollType) -> Result<(), DeviceError> {
         self.check("a submission")?;
         let polled = catch_unwind(AssertUnwindSafe(|| self.inner.poll(how)));
@@ -242,18 +240,18 @@ pub(super) fn one_line(error: &wgpu::Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Whether the system may have graphics hardware. Linux has a device node for it, without one no
-/// driver is loaded, since some drivers print to the terminal.
+/// Whether the system may have graphics hardware. Linux has a device node for it. We load no
+/// driver without this node, since some drivers print to the terminal.
 fn hardware_is_possible() -> bool {
     const NODES: [&str; 5] = ["/dev/dri", "/dev/nvidiactl", "/dev/dxg", "/dev/kfd", "/dev/mali0"];
     !cfg!(target_os = "linux") || NODES.iter().any(|node| Path::new(node).exists())
 }
 
-/// Opens the device that `choice` selects. `None` means the processor.
+/// Opens the device that `choice` selects. `None` means that you compute on the processor.
 ///
 /// # Errors
-/// Only for [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] if there is no usable adapter,
-/// or the driver's error if it cannot be opened. `Auto` then selects the processor.
+/// Only for [`BackendChoice::Gpu`]: [`DeviceError::NoAdapter`] if there is no usable adapter, or
+/// the driver's error if it cannot be opened. `Auto` then selects the processor.
 pub fn choose(choice: BackendChoice) -> Result<Option<Device>, DeviceError> {
     let skipped = match choice {
         BackendChoice::Auto => !hardware_is_possible(),

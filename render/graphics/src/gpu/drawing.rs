@@ -11,7 +11,7 @@ use super::recording::{Draw, List, ScatterDraw, StencilDraw};
 use super::target::StencilTarget;
 
 impl Device {
-    /// Compiles `shader` unless that was done before.
+    /// Compiles `shader` unless this was done before.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
@@ -77,7 +77,7 @@ impl Device {
 }
 
 /// Copies the target into a buffer without gaps between rows. WebGPU copies several rows at once
-/// only if each has a multiple of 256 bytes. Others are copied one by one.
+/// only if each has a multiple of 256 bytes. We copy others one by one.
 fn copy_texels(encoder: &mut wgpu::CommandEncoder, Draw { target, into, .. }: &Draw) {
     let row_bytes = target.width * TEXEL_BYTES;
     let at_once = match row_bytes % wgpu::COPY_BYTES_PER_ROW_ALIGNMENT {
@@ -100,7 +100,7 @@ fn copy_texels(encoder: &mut wgpu::CommandEncoder, Draw { target, into, .. }: &D
 }
 
 impl Device {
-    /// Compiles `shader` unless that was done before.
+    /// Compiles `shader` unless this was done before.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
@@ -120,7 +120,7 @@ impl Device {
         Ok(())
     }
 
-    /// Compiles `shader` unless that was done before.
+    /// Compiles `shader` unless this was done before.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the shader.
@@ -140,8 +140,8 @@ impl Device {
         Ok(())
     }
 
-    /// Encodes the drawing of the scene's depth, if it is drawn anew, the counting of faces
-    /// behind it, and the copy of the stencil into the rows of the target.
+    /// Encodes three steps: draws the depth of the scene if the draw has one, counts faces behind
+    /// it, and copies the stencil into the rows of the target.
     pub(super) fn encode_stencil(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -173,7 +173,6 @@ impl Device {
         copy_stencil(encoder, target);
     }
 
-    /// Encodes the drawing of faces that add to a buffer.
     pub(super) fn encode_scatter(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -189,14 +188,14 @@ impl Device {
             (&parameters.inner, shader.parameters.bytes),
             faces.buffers.iter().map(|buffer| &buffer.inner),
         );
-        // A pass needs a picture. This one is neither read nor written.
+        // A pass needs a picture, but this pass neither reads nor writes it.
         let mut pass = begin_pass(encoder, shader.name, target, (None, None));
         pass.set_pipeline(&pipeline.render);
         draw_list(&mut pass, faces, &group);
     }
 }
 
-/// Use of the depth and the stencil of the target by a pass.
+/// How a pass uses the depth and the stencil of the target.
 type Uses = (Option<wgpu::Operations<f32>>, Option<wgpu::Operations<u32>>);
 
 fn begin_pass<'a>(

@@ -1,8 +1,8 @@
-//! The graphics device: adapters, buffers, kernels, recorded commands and readback. This
-//! folder has no code specific to paint, and no other folder uses wgpu directly.
+//! The graphics device: adapters, buffers, kernels, recorded commands and readback. This folder
+//! has no code specific to paint, and no other folder uses wgpu directly.
 //!
-//! Kernels keep to what every WebGPU device has: 8 storage buffers, workgroups of 64 invocations
-//! and 32-bit numbers. Buffers may be as large as the adapter allows.
+//! You can run our kernels on every WebGPU device: they need 8 storage buffers, workgroups of 64
+//! invocations and 32-bit numbers. Buffers may be as large as the adapter allows.
 mod pipelines;
 mod adapter;
 mod device;

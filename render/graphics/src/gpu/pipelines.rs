@@ -1,12 +1,12 @@
-//! Kernels and shaders as data (WGSL source and bindings), and their pipelines as the driver
-//! compiled them.
+//! Kernels and shaders as data (WGSL source and bindings), and their pipelines, which the driver
+//! compiles.
 //!
-//! A kernel or shader has its parameters at binding 0 and its storage buffers from 1 on. A
-//! [`Layout`] describes a struct that Rust and WGSL share.
+//! A kernel or shader has its parameters at binding 0 and its storage buffers from 1 on. If Rust
+//! and WGSL share a struct, a [`Layout`] describes it.
 
 use std::num::NonZero;
 
-/// Name, size and field offsets of a struct in Rust. A test compares them with the WGSL struct of
+/// Name, size and field offsets of a struct in Rust. A test compares this with the WGSL struct of
 /// the same name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
@@ -18,8 +18,8 @@ pub struct Layout {
     pub fields: &'static [(&'static str, usize)],
 }
 
-/// The [`Layout`] of a `repr(C)` struct. All its fields must be listed, in any order, otherwise it
-/// does not compile.
+/// The [`Layout`] of a `repr(C)` struct. You must list all its fields, in any order. Otherwise
+/// this does not compile.
 #[macro_export]
 macro_rules! layout {
     ($type:ident { $($field:ident),* $(,)? }) => {{
@@ -37,14 +37,14 @@ pub use layout;
 /// Width and height of a workgroup, in invocations.
 pub const GROUP: u32 = 8;
 
-/// Use of a storage buffer by a kernel.
+/// How a kernel uses a storage buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
     /// The kernel only reads it.
     Read,
     /// The kernel reads and writes it.
     Write,
-    /// The kernel reads the data recorded by [`super::Recording::batch`].
+    /// The kernel reads the data that you recorded by [`super::Recording::batch`].
     Batch,
 }
 
@@ -52,9 +52,9 @@ pub enum Storage {
 /// and its storage buffers from 1 on, in order.
 #[derive(Debug)]
 pub struct Kernel {
-    /// Name of the entry point, also used in errors, unique among all shaders.
+    /// Name of the entry point, unique among all shaders. Errors show this name.
     pub name: &'static str,
-    /// The complete WGSL source, parts concatenated.
+    /// The complete WGSL source. You concatenate its parts.
     pub source: &'static str,
     /// Layout of the uniform struct at binding 0.
     pub parameters: Layout,
@@ -70,14 +70,16 @@ pub fn groups(cells: usize) -> u32 {
     (cells as u32).div_ceil(GROUP)
 }
 
-/// A shader that draws triangles. Its vertex entry point `corner` takes only the index of a corner
-/// (three per triangle). Its fragment entry point `pixel` returns the four numbers of a pixel.
-/// Group 0 binds its parameters at 0 and the buffers that it reads from 1 on, in order.
+/// A shader that draws triangles.
+///
+/// Its vertex entry point `corner` takes only the index of a corner (three per triangle). Its
+/// fragment entry point `pixel` returns the four numbers of a pixel. Group 0 binds its parameters
+/// at 0 and the buffers that it reads from 1 on, in order.
 #[derive(Debug)]
 pub struct RasterShader {
-    /// Name used in errors, unique among all shaders and kernels.
+    /// Name, unique among all shaders and kernels. Errors show this name.
     pub name: &'static str,
-    /// The complete WGSL source, parts concatenated.
+    /// The complete WGSL source.
     pub source: &'static str,
     /// Layout of the uniform struct at binding 0.
     pub parameters: Layout,
@@ -87,14 +89,15 @@ pub struct RasterShader {
     pub buffers: usize,
 }
 
-/// A shader that draws triangles for their depth and stencil alone. Its vertex entry point
-/// `corner` takes only the index of a corner (three per triangle). Group 0 binds its
-/// parameters at 0 and the buffers that it reads from 1 on, in order.
+/// A shader that draws triangles for their depth and stencil only. Use this to count faces.
+///
+/// Its vertex entry point `corner` takes only the index of a corner (three per triangle). Group 0
+/// binds its parameters at 0 and the buffers that it reads from 1 on, in order.
 #[derive(Debug)]
 pub struct StencilShader {
-    /// Name used in errors, unique among all shaders and kernels.
+    /// Name, unique among all shaders and kernels. Errors show this name.
     pub name: &'static str,
-    /// The complete WGSL source, parts concatenated.
+    /// The complete WGSL source.
     pub source: &'static str,
     /// Layout of the uniform struct at binding 0.
     pub parameters: Layout,
@@ -102,20 +105,20 @@ pub struct StencilShader {
     pub buffers: usize,
 }
 
-/// A shader that draws both sides of triangles. Its fragment entry point `pixel` returns nothing
-/// and adds to a storage buffer. Otherwise as [`StencilShader`]. The buffer that it writes comes
-/// last, and only the fragment stage may use it.
+/// A shader that draws both sides of triangles. Use this to add to a storage buffer: its fragment
+/// entry point `pixel` returns nothing. Otherwise it is like [`StencilShader`]. The buffer that it
+/// writes comes last, and only the fragment stage may use it.
 #[derive(Debug)]
 pub struct ScatterShader {
-    /// Name used in errors, unique among all shaders and kernels.
+    /// Name, unique among all shaders and kernels. Errors show this name.
     pub name: &'static str,
-    /// The complete WGSL source, parts concatenated.
+    /// The complete WGSL source.
     pub source: &'static str,
     /// Layout of the uniform struct at binding 0.
     pub parameters: Layout,
     /// Layouts of other structs that Rust writes or reads.
     pub structs: &'static [Layout],
-    /// Number of storage buffers, that which it writes included.
+    /// Number of storage buffers, including the one that it writes.
     pub buffers: usize,
 }
 
@@ -131,7 +134,7 @@ pub(super) fn bind_group_layout(
     let entry = |binding: u32, ty, has_dynamic_offset, bytes| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: match ty {
-            // Vertex shaders of the base profile write no buffers.
+            // Vertex shaders of the base profile do not write buffers.
             wgpu::BufferBindingType::Storage { read_only: false } => {
                 visibility - wgpu::ShaderStages::VERTEX
             }
@@ -155,7 +158,8 @@ pub(super) fn bind_group_layout(
     })
 }
 
-/// Binds `bytes` of `parameters`, from an offset set at each dispatch, and then `storage`.
+/// Binds `bytes` of `parameters` and then `storage`. Each dispatch sets the offset of the
+/// parameters.
 pub(super) fn bind_group<'a>(
     device: &wgpu::Device,
     label: &'static str,
@@ -178,7 +182,6 @@ pub(super) fn bind_group<'a>(
     })
 }
 
-/// A kernel compiled by the driver.
 #[derive(Debug, Clone)]
 pub(super) struct Pipeline {
     pub(super) compute: wgpu::ComputePipeline,
@@ -226,7 +229,6 @@ pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Size of a drawn pixel in bytes.
 pub(super) const TEXEL_BYTES: u32 = 16;
 
-/// A raster shader compiled by the driver, with or without culling of back faces.
 #[derive(Debug, Clone)]
 pub(super) struct RasterPipeline {
     pub(super) render: wgpu::RenderPipeline,
@@ -234,7 +236,6 @@ pub(super) struct RasterPipeline {
 }
 
 impl RasterPipeline {
-    /// Compiles `shader`. The driver reports errors through the error scopes of `device`.
     pub(super) fn compile(
         device: &wgpu::Device,
         shader: &'static RasterShader,
@@ -291,10 +292,9 @@ impl RasterPipeline {
     }
 }
 
-/// Format of the depth and stencil that faces are counted in. Every WebGPU device has it.
+/// Format of the depth and stencil in which we count faces. Every WebGPU device has it.
 pub(super) const DEPTH_STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
 
-/// A stencil shader compiled by the driver.
 #[derive(Debug, Clone)]
 pub(super) struct StencilPipeline {
     /// Draws the scene: writes depth, leaves the stencil.
@@ -304,7 +304,6 @@ pub(super) struct StencilPipeline {
     pub(super) layout: wgpu::BindGroupLayout,
 }
 
-/// A shader that adds to a buffer, compiled by the driver.
 #[derive(Debug, Clone)]
 pub(super) struct ScatterPipeline {
     pub(super) render: wgpu::RenderPipeline,
@@ -312,7 +311,6 @@ pub(super) struct ScatterPipeline {
 }
 
 impl StencilPipeline {
-    /// Compiles `shader`. The driver reports errors through the error scopes of `device`.
     pub(super) fn compile(device: &wgpu::Device, shader: &'static StencilShader) -> Self {
         let layout = bind_group_layout(
             device,
@@ -322,12 +320,14 @@ impl StencilPipeline {
             std::iter::repeat_n(true, shader.buffers),
         );
         let module = shader_module(device, shader.name, shader.source);
-        let on_depth_fail = |operation| wgpu::StencilFaceState {
-            compare: wgpu::CompareFunction::Always,
-            fail_op: wgpu::StencilOperation::Keep,
-            depth_fail_op: operation,
-            pass_op: wgpu::StencilOperation::Keep,
-        };
+        fn on_depth_fail(operation: wgpu::StencilOperation) -> wgpu::StencilFaceState {
+            wgpu::StencilFaceState {
+                compare: wgpu::CompareFunction::Always,
+                fail_op: wgpu::StencilOperation::Keep,
+                depth_fail_op: operation,
+                pass_op: wgpu::StencilOperation::Keep,
+            }
+        }
         let counting = wgpu::StencilState {
             front: on_depth_fail(wgpu::StencilOperation::DecrementWrap),
             back: on_depth_fail(wgpu::StencilOperation::IncrementWrap),
@@ -343,7 +343,6 @@ impl StencilPipeline {
 }
 
 impl ScatterPipeline {
-    /// Compiles `shader`. The driver reports errors through the error scopes of `device`.
     pub(super) fn compile(device: &wgpu::Device, shader: &'static ScatterShader) -> Self {
         let layout = bind_group_layout(
             device,
@@ -385,7 +384,6 @@ fn depth_state(
     }
 }
 
-/// A pipeline that draws both sides of triangles into a target without colours.
 fn pipeline(
     device: &wgpu::Device,
     name: &'static str,

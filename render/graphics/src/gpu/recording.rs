@@ -1,5 +1,5 @@
-//! Commands recorded for the device (dispatches, draws and copies, with their parameters and data),
-//! and their submission to the driver.
+//! Commands recorded for the device (dispatches, draws and copies, with their parameters and
+//! data), and their submission to the driver.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -11,11 +11,10 @@ use super::pipelines::{
 };
 use super::target::{StencilTarget, Target};
 
-/// Alignment of the parameters of each dispatch, in bytes: the largest that WebGPU adapters
-/// require.
+/// Alignment of the parameters of each dispatch, in bytes. No WebGPU adapter requires more than
+/// this.
 const ALIGNMENT: usize = 256;
 
-/// A command for the device.
 #[derive(Debug)]
 pub(super) enum Command {
     /// Runs a kernel over workgroups.
@@ -37,7 +36,6 @@ pub(super) enum Command {
     Scatter(Box<ScatterDraw>),
 }
 
-/// A draw of triangles.
 #[derive(Debug)]
 pub(super) struct Draw {
     pub(super) shader: &'static RasterShader,
@@ -51,7 +49,6 @@ pub(super) struct Draw {
     pub(super) into: Buffer,
 }
 
-/// Triangles drawn with some parameters and buffers.
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) buffers: Vec<Buffer>,
@@ -60,17 +57,15 @@ pub(super) struct List {
     pub(super) triangles: Range<u32>,
 }
 
-/// Faces counted in a stencil.
 #[derive(Debug)]
 pub(super) struct StencilDraw {
     pub(super) shader: &'static StencilShader,
-    /// The scene that gives the depth, drawn first, none to keep the depth of the target.
+    /// The scene that gives the depth. We draw it first. `None` keeps the depth of the target.
     pub(super) scene: Option<List>,
     pub(super) faces: List,
     pub(super) target: StencilTarget,
 }
 
-/// Faces that add to a buffer.
 #[derive(Debug)]
 pub(super) struct ScatterDraw {
     pub(super) shader: &'static ScatterShader,
@@ -78,7 +73,7 @@ pub(super) struct ScatterDraw {
     pub(super) target: StencilTarget,
 }
 
-/// Triangles of a draw: the parameters and buffers of its shader, and which triangles.
+/// Triangles of a draw, with the parameters and buffers of its shader.
 #[derive(Debug, Clone)]
 pub struct TriangleList<'a, P> {
     /// Parameters of the shader.
@@ -89,18 +84,19 @@ pub struct TriangleList<'a, P> {
     pub triangles: Range<usize>,
 }
 
-/// Number of triangles of a draw, and how they are drawn.
+/// How many triangles you draw, and how.
 #[derive(Debug, Clone, Copy)]
 pub struct Triangles {
     /// Number of triangles.
     pub count: usize,
-    /// Culls triangles with corners that run clockwise in the picture.
+    /// Whether to leave out triangles with corners that run clockwise in the picture.
     pub front_only: bool,
-    /// The four numbers of a pixel without a triangle.
+    /// The four numbers of a pixel that shows no triangle.
     pub background: [u32; 4],
 }
 
-/// Commands for one submission, with the parameters and batch data that they read.
+/// Commands for one submission, with the parameters and batch data that they read. You fill this,
+/// then pass it to [`Device::submit`].
 #[derive(Debug, Default)]
 pub struct Recording {
     pub(super) commands: Vec<Command>,
@@ -109,15 +105,15 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Removes everything, and keeps the memory for what is recorded next.
+    /// Removes everything, but keeps the memory for what you record next.
     pub(super) fn clear(&mut self) {
         self.commands.clear();
         self.parameters.clear();
         self.batch.clear();
     }
 
-    /// Appends `items` to the data that [`super::Storage::Batch`] binds. Returns the index of
-    /// the first, counted in items.
+    /// Appends `items` to the data that [`super::Storage::Batch`] binds. Returns the index of the
+    /// first one, counted in items.
     pub fn batch<T: bytemuck::Pod>(&mut self, items: &[T]) -> u32 {
         let first = self.batch.len().div_ceil(size_of::<T>());
         self.batch.resize(first * size_of::<T>(), 0);
@@ -125,11 +121,11 @@ impl Recording {
         first as u32
     }
 
-    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z), 0 in any
-    /// direction records nothing.
+    /// Records a dispatch of `kernel` on `buffers` over `groups` workgroups (x, y, z). If you pass
+    /// 0 for a direction, this records nothing.
     ///
     /// # Panics
-    /// If `parameters` has not the size of the kernel's parameters.
+    /// If `parameters` does not have the size of the kernel's parameters.
     pub fn dispatch<P: bytemuck::Pod>(
         &mut self,
         kernel: &'static Kernel,
@@ -146,8 +142,9 @@ impl Recording {
         self.commands.push(Command::Dispatch { kernel, buffers, parameters, groups });
     }
 
-    /// Records a draw of triangles over the whole `target`. Of equal depths the first triangle
-    /// wins. Then copies the four numbers of every pixel to `into`, row by row without gaps.
+    /// Records a draw of triangles over the whole `target`. Where depths are equal, you see the
+    /// first triangle. Then this copies the four numbers of every pixel to `into`, row by row
+    /// without gaps.
     ///
     /// # Panics
     /// If the shader needs another size of `parameters` or another number of buffers, or there are
@@ -177,10 +174,12 @@ impl Recording {
         })));
     }
 
-    /// Records the counting of faces in the stencil of `target`, which starts at 0: back faces that
-    /// are not before the depth of the target add 1, such front faces subtract 1, and it wraps at
-    /// 256. With a `scene`, its depth is drawn first, otherwise the target keeps the depth of the
-    /// last one. Then copies the stencil to [`StencilTarget::rows`].
+    /// Records the counting of faces in the stencil of `target`.
+    ///
+    /// The stencil starts at 0. Faces that are not before the depth of the target change it: a
+    /// back face adds 1, a front face subtracts 1, and it wraps at 256. If you give a `scene`,
+    /// this draws its depth first. Otherwise the target keeps the depth of the last one. Then this
+    /// copies the stencil to [`StencilTarget::rows`].
     ///
     /// # Panics
     /// If the shader needs another size of the parameters or another number of buffers, or there
@@ -204,8 +203,8 @@ impl Recording {
         })));
     }
 
-    /// Records a draw of both sides of faces, whose shader adds to its last buffer at their pixels
-    /// in a picture of the size of `target`. The target itself is left as it is.
+    /// Records a draw of both sides of faces in a picture of the size of `target`. The shader adds
+    /// to its last buffer at the pixels of the faces. This leaves the target itself as it is.
     ///
     /// # Panics
     /// If the shader needs another size of the parameters or another number of buffers, or there
@@ -221,8 +220,8 @@ impl Recording {
         self.commands.push(Command::Scatter(Box::new(ScatterDraw { shader, faces, target })));
     }
 
-    /// Checks a list of triangles for the shader of this name, size of parameters and number
-    /// of buffers, and appends its parameters.
+    /// Checks a list of triangles and appends its parameters. The shader has this name, size of
+    /// parameters and number of buffers.
     fn list<P: bytemuck::Pod>(
         &mut self,
         (name, bytes, buffers): (&str, usize, usize),
@@ -271,13 +270,12 @@ impl Recording {
     }
 }
 
-/// Name of a kernel and numbers of its buffers: dispatches that agree in both share a bind
-/// group.
+/// Name of a kernel and numbers of its buffers. Dispatches with the same key share a bind group.
 type BindGroupKey = (&'static str, Vec<u64>);
 
 impl Device {
-    /// Compiles `kernel` unless that was done before. [`Self::submit`] calls this for each kernel.
-    /// An earlier call keeps the compilation out of the first submission.
+    /// Compiles `kernel` unless this was done before. [`Self::submit`] does this for each kernel.
+    /// If you call it earlier, the first submission does not wait for the compiler.
     ///
     /// # Errors
     /// [`DeviceError::Refused`] if the driver rejects the kernel.
@@ -294,8 +292,8 @@ impl Device {
         Ok(())
     }
 
-    /// Submits the recorded commands in their order and empties the recording. Does not wait
-    /// for their completion.
+    /// Submits the recorded commands in their order and empties the recording. This does not wait
+    /// until they are done.
     ///
     /// # Errors
     /// [`DeviceError::Lost`] if the device was lost, [`DeviceError::Refused`] if the driver
@@ -348,7 +346,7 @@ impl Device {
         self.follow(index)
     }
 
-    /// A buffer of at least `bytes` that starts with `content`: `found` if it is large
+    /// A buffer of at least `bytes` that starts with `content`. This is `found` if it is large
     /// enough, else a new one.
     fn filled(
         &mut self,
@@ -425,7 +423,6 @@ impl Device {
     }
 }
 
-/// The storage buffers of `kernel` in the order of their bindings, `batch` included.
 fn storage_buffers<'a>(
     kernel: &Kernel,
     buffers: &'a [Buffer],

@@ -1,5 +1,5 @@
-//! Memory that drawing writes to: pictures of four numbers and a depth per pixel, stencils in which
-//! faces are counted, rows of values in a buffer, and copies to and from the processor.
+//! Memory that you draw into: pictures of four numbers and a depth per pixel, and stencils in
+//! which faces are counted. Also rows of values in a buffer, and copies to and from the processor.
 
 use std::sync::mpsc::channel;
 
@@ -8,7 +8,7 @@ use super::device::{Buffer, Device, one_line};
 use super::pipelines::{DEPTH, DEPTH_STENCIL, TEXEL, TEXEL_BYTES};
 use crate::tile::Rect;
 
-/// A picture to draw into. Clones share its memory.
+/// A picture to draw into. Clones share this memory.
 #[derive(Debug, Clone)]
 pub struct Target {
     pub(super) texels: wgpu::Texture,
@@ -77,7 +77,7 @@ impl Device {
     }
 }
 
-/// Depth and stencil of each pixel, and a buffer for the stencil. Clones share its memory.
+/// Depth and stencil of each pixel, and a buffer for the stencil. Clones share this memory.
 #[derive(Debug, Clone)]
 pub struct StencilTarget {
     pub(super) texture: wgpu::Texture,
@@ -94,7 +94,7 @@ impl StencilTarget {
         (self.width as usize, self.height as usize)
     }
 
-    /// The buffer that the stencil is copied to: one byte per pixel, in rows of
+    /// The buffer that receives the stencil. It has one byte per pixel, in rows of
     /// [`Self::row_bytes`].
     #[must_use]
     pub fn rows(&self) -> &Buffer {
@@ -108,14 +108,14 @@ impl StencilTarget {
     }
 }
 
-/// The least length of a row that WebGPU copies.
+/// WebGPU copies rows of a multiple of this many bytes.
 fn row_bytes(width: u32) -> u32 {
     width.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
 }
 
 impl Device {
-    /// Whether shaders of this device can add to buffers at the pixels of triangles, which a
-    /// [`super::ScatterShader`] does.
+    /// Whether you can use a [`super::ScatterShader`] on this device. It adds to buffers at the
+    /// pixels of triangles.
     #[must_use]
     pub fn scatters(&self) -> bool {
         let flags = self.adapter().inner.get_downlevel_capabilities().flags;
@@ -183,8 +183,8 @@ impl Device {
 /// Largest transfer between processor and device at a time, in bytes.
 pub(super) const CHUNK: u64 = 64 << 20;
 
-/// A set of values in a buffer: rows of equal length at equal distances. All members count
-/// values, not bytes.
+/// A set of values in a buffer: rows of equal length at equal distances. All members count values,
+/// not bytes. For example, [`Self::of`] describes a rectangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rows {
     /// Offset of the first row.
@@ -214,8 +214,8 @@ impl Rows {
         }
     }
 
-    /// Offset and length in bytes of each piece to transfer, for values of `bytes` each. Rows
-    /// longer than [`CHUNK`] are cut into several pieces.
+    /// Offset and length in bytes of each piece to transfer, for values of `bytes` each. This cuts
+    /// rows longer than [`CHUNK`] into several pieces.
     pub(super) fn pieces(self, bytes: usize) -> impl Iterator<Item = (u64, u64)> {
         let row = (self.length * bytes) as u64;
         let stride = (self.stride * bytes) as u64;
@@ -228,7 +228,7 @@ impl Rows {
 }
 
 impl Device {
-    /// Allocates a buffer that holds `values`. `what` names them in errors.
+    /// Allocates a buffer and writes `values` to it. `what` names them in errors.
     ///
     /// # Errors
     /// [`DeviceError::TooLarge`] beyond the limit of the adapter, [`DeviceError::OutOfMemory`] if
@@ -270,12 +270,12 @@ impl Device {
         self.check("a write")
     }
 
-    /// Reads the values in `rows` of `buffer`, after all earlier submissions. Only these rows
-    /// are transferred.
+    /// Reads the values in `rows` of `buffer`, after all earlier submissions. This transfers only
+    /// these rows.
     ///
     /// # Errors
-    /// [`DeviceError::Lost`] if the device was lost, [`DeviceError::OutOfMemory`] if there is
-    /// no memory for the staging buffer.
+    /// [`DeviceError::Lost`] if the device was lost, [`DeviceError::OutOfMemory`] if there is no
+    /// memory for the staging buffer.
     pub fn read<T: bytemuck::Pod>(
         &mut self,
         buffer: &Buffer,

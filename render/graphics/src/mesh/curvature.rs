@@ -1,20 +1,22 @@
-//! Principal curvatures of a mesh and their directions at every vertex, computed over places: the
-//! distinct positions of a mesh, with one normal each, so that seams do not matter.
+//! Principal curvatures of a mesh and their directions at every vertex.
 //!
-//! The curvature tensors of triangles and places follow Rusinkiewicz, "Estimating curvatures and
-//! their derivatives on triangle meshes", 2004, section 3. They are carried from one tangent plane
-//! to the next. Plane vectors are complex numbers: x along the first axis, y along the second. A
-//! line (a direction of arbitrary sign) is the square of its vector, so its angle is doubled and
-//! both signs are one number (Palacios and Zhang, "Rotational symmetry field design on surfaces",
-//! 2007). [`DVec2::rotate`] is the complex product.
+//! We compute them over places, which are the distinct positions of a mesh with one normal each,
+//! so that seams do not matter. The curvature tensors of triangles and places follow Rusinkiewicz,
+//! "Estimating curvatures and their derivatives on triangle meshes", 2004, section 3.
+//!
+//! Tensors are carried from one tangent plane to the next. For this, plane vectors are complex
+//! numbers: x along the first axis, y along the second. A line (a direction of arbitrary sign) is
+//! the square of its vector. This doubles its angle and makes both signs one number (Palacios and
+//! Zhang, "Rotational symmetry field design on surfaces", 2007). [`DVec2::rotate`] is the complex
+//! product.
 
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::model::{Mesh, Neighbours};
 
-/// Principal curvatures of a surface at a vertex, in 1/length of the model: positive where the
-/// surface bends away from its normal (a sphere of radius 2 has 0.5 twice).
+/// Principal curvatures of a surface at a vertex, in 1/length of the model. They are positive
+/// where the surface bends away from its normal. For example, a sphere of radius 2 has 0.5 twice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curvature {
     /// Principal curvature of least absolute value.
@@ -25,13 +27,13 @@ pub struct Curvature {
     pub along_least: [f32; 3],
     /// Unit direction of the greatest curvature, perpendicular to the other and to the normal.
     pub along_greatest: [f32; 3],
-    /// Whether a triangle with area meets the vertex. If none does, both curvatures are 0 and the
-    /// directions are any.
+    /// Whether a triangle with area meets the vertex. If none does, both curvatures are 0 and you
+    /// cannot rely on the directions.
     pub known: bool,
 }
 
 impl Curvature {
-    /// Curvature with this tensor in this tangent plane.
+    /// Curvature from the tensor of a place in its tangent plane.
     fn new(shape: &PlaceShape, plane: &TangentPlane) -> Self {
         let ShapeTensor { mean, difference } = shape.tensor;
         let half = difference.length();
@@ -56,9 +58,9 @@ impl Mesh {
     /// Principal curvatures of every vertex, from the change of the normals along the edges
     /// (Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes", 2004).
     ///
-    /// Vertices with the same position count as one, so seams do not show. The normals are the
-    /// mesh's own, averaged with their neighbours `rounds` times: 0 for a fine model, 1 to 3 for
-    /// one with visible facets or roughness. Every number is finite for a mesh that passes
+    /// Vertices with the same position count as one, so seams do not show. The normals of the mesh
+    /// are first averaged with their neighbours `rounds` times. Use 0 for a fine model, and 1 to 3
+    /// if you see facets or roughness. Every number is finite for a mesh that passes
     /// [`Mesh::check`].
     ///
     /// # Panics
@@ -80,26 +82,23 @@ fn finite(value: f64) -> f32 {
     value.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }
 
-/// A vector in single precision.
 fn single(vector: DVec3) -> [f32; 3] {
     vector.as_vec3().to_array()
 }
 
-/// Height of a triangle over its longest edge below which normals say nothing about the curvature
-/// across it: in f32 both ends of the height are the same point but for rounding.
+/// Below this height over the longest edge, a triangle's normals say nothing about the curvature
+/// across it. In f32 both ends of the height are then the same point except for rounding.
 const LEAST_HEIGHT: f64 = 1e-5;
 
 /// A curvature tensor in a tangent plane, `[[mean + x, y], [y, mean - x]]`, in 1/length: curvature
 /// is positive where the surface bends away from its normal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct ShapeTensor {
-    /// Mean of both principal curvatures.
     pub(super) mean: f64,
-    /// (x, y): half their difference, along the square of the direction of the greater one (by sign).
+    /// (x, y): half their difference, along the squared direction of the greater one (by sign).
     pub(super) difference: DVec2,
 }
 
-/// Curvature tensor of a place, in its tangent plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct PlaceShape {
     /// Mean of the tensors of its triangles, weighted by their areas around the place.
@@ -108,7 +107,7 @@ pub(super) struct PlaceShape {
     pub(super) area: f64,
 }
 
-/// Curvature tensor of a triangle, in its own plane, and the area that belongs to each corner.
+/// Curvature tensor of a triangle in its own plane, and the area of each corner.
 #[derive(Debug, Clone, Copy)]
 struct FaceShape {
     plane: TangentPlane,
@@ -141,18 +140,17 @@ pub(super) fn place_shapes(places: &Places, planes: &[TangentPlane]) -> Vec<Plac
         .collect()
 }
 
-/// Corners at every place in ascending order: a place's first index into the list, and the list,
-/// where corner c of triangle t is 3 t + c.
+/// Lists the corners at every place in ascending order. Returns each place's first index into the
+/// list, and the list itself. Corner c of triangle t is 3 t + c there.
 fn corners_of_places(places: &Places) -> (Vec<u32>, Vec<u32>) {
-    let corners = || places.triangles.iter().flatten();
     let mut starts = vec![0_u32; places.positions.len() + 1];
-    corners().for_each(|&place| starts[place as usize + 1] += 1);
+    places.triangles.iter().flatten().for_each(|&place| starts[place as usize + 1] += 1);
     for place in 0..places.positions.len() {
         starts[place + 1] += starts[place];
     }
     let mut next = starts.clone();
     let mut list = vec![0; 3 * places.triangles.len()];
-    for (corner, &place) in corners().enumerate() {
+    for (corner, &place) in places.triangles.iter().flatten().enumerate() {
         list[next[place as usize] as usize] = corner as u32;
         next[place as usize] += 1;
     }
@@ -177,8 +175,8 @@ impl PlaceShape {
 }
 
 impl FaceShape {
-    /// Fits the tensor to the differences of the normals along the edges (equation 4 there). `None`
-    /// for a triangle that is flat to a line.
+    /// Fits the tensor to the differences of the normals along the edges (equation 4 of
+    /// Rusinkiewicz). `None` for a triangle that is flat to a line.
     fn new(positions: [DVec3; 3], normals: [DVec3; 3]) -> Option<Self> {
         let edges = [0, 1, 2].map(|i| positions[(i + 2) % 3] - positions[(i + 1) % 3]);
         let longest = edges.iter().fold(0.0_f64, |most, edge| most.max(edge.length()));
@@ -212,7 +210,7 @@ impl FaceShape {
         finite.then(|| Self { plane, tensor, areas: mixed_areas(positions) })
     }
 
-    /// The tensor in the tangent plane of one of the corners (section 3.2 there).
+    /// The tensor in the tangent plane of one of the corners (section 3.2 of Rusinkiewicz).
     fn tensor_in(&self, plane: &TangentPlane) -> ShapeTensor {
         let ShapeTensor { mean, difference } = self.tensor;
         let facing = self.plane.normal.dot(plane.normal) >= 0.0;
@@ -246,7 +244,7 @@ fn mixed_areas(at: [DVec3; 3]) -> [f64; 3] {
     })
 }
 
-/// Smallest value of 1 + cosine of the angle between two normals at which a vector can be carried.
+/// A vector cannot be carried between two normals if 1 + the cosine of their angle is below this.
 const LEAST_OPENING: f64 = 1e-9;
 
 /// A tangent plane: its unit normal and two unit axes, right-handed.
@@ -258,31 +256,31 @@ pub(super) struct TangentPlane {
 }
 
 impl TangentPlane {
-    /// A plane with this unit normal and axes that depend on it alone.
+    /// A plane with this unit normal. The normal determines the axes.
     pub(super) fn of_normal(normal: DVec3) -> Self {
         let (right, up) = normal.any_orthonormal_pair();
         Self { normal, right, up }
     }
 
-    /// The plane seen from its other side. The first axis stays.
+    /// The plane seen from its other side. This keeps the first axis.
     pub(super) fn reversed(&self) -> Self {
         Self { normal: -self.normal, right: self.right, up: -self.up }
     }
 
-    /// Part of a vector in the plane.
     pub(super) fn projected(&self, vector: DVec3) -> DVec2 {
         DVec2::new(vector.dot(self.right), vector.dot(self.up))
     }
 
-    /// Unit vector along a line that is given by its square of any length but 0. The sign is
+    /// Unit vector along a line. You give the square of the line, of any length but 0. The sign is
     /// arbitrary.
     pub(super) fn along(&self, squared: DVec2) -> DVec3 {
         let root = square_root(squared);
         (self.right * root.x + self.up * root.y).normalize_or(self.right)
     }
 
-    /// Factor that carries squares of vectors from this plane to another: the shortest turn
-    /// between both normals, in the axes of both. `None` if the normals are opposite.
+    /// Factor that carries squares of vectors from this plane to another. It describes the
+    /// shortest turn between both normals, in the axes of both. `None` if the normals are
+    /// opposite.
     pub(super) fn turn_of_squares(&self, other: &Self) -> Option<DVec2> {
         let right = carried(self.right, self.normal, other.normal)?;
         let turn = other.projected(right).try_normalize()?;
@@ -297,7 +295,7 @@ pub(super) fn carried(vector: DVec3, from: DVec3, to: DVec3) -> Option<DVec3> {
     (opening > LEAST_OPENING).then(|| vector - (from + to) * (to.dot(vector) / opening))
 }
 
-/// Complex square root of a number of any length but 0, as a unit vector, 1 for 0.
+/// Complex square root of a number of any length but 0, as a unit vector. This is 1 for 0.
 fn square_root(squared: DVec2) -> DVec2 {
     let unit = squared.normalize_or(DVec2::X);
     // Each form loses digits on the other side.
@@ -310,33 +308,28 @@ fn square_root(squared: DVec2) -> DVec2 {
     }
 }
 
-/// Sum of unit normals, relative to the sum of their weights, below which they cancel out (a sheet
-/// with two sides): then one of them is taken.
+/// Unit normals cancel out if their sum, relative to the sum of their weights, is below this (e.g.
+/// on a sheet with two sides). We then take one of them.
 const LEAST_SUM: f64 = 1e-3;
 
-/// Least and greatest stiffness of an edge: an obtuse triangle would give a negative one, a
-/// needle one without limit.
+/// Least and greatest stiffness of an edge. Without these limits an obtuse triangle would give a
+/// negative one, and a needle an unlimited one.
 const STIFFNESS: [f64; 2] = [0.05, 5.0];
 
-/// The distinct positions of a mesh.
 #[derive(Debug, Clone)]
 pub(super) struct Places {
-    /// Number of the place of every vertex.
     pub(super) of_vertex: Vec<u32>,
-    /// Position of every place.
     pub(super) positions: Vec<DVec3>,
-    /// Unit normal of every place.
     pub(super) normals: Vec<DVec3>,
     /// Places of the corners of every triangle that has three distinct ones.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Adjacency along edges.
     pub(super) neighbours: Neighbours,
     /// Stiffness of the edge to each neighbour, see [`Neighbours::slots`].
     pub(super) stiffness: Vec<f64>,
 }
 
 impl Places {
-    /// The places of a mesh. Every normal is averaged `rounds` times with the mean of its
+    /// The places of a mesh. This averages every normal `rounds` times with the mean of its
     /// neighbours.
     pub(super) fn of(mesh: &Mesh, rounds: usize) -> Self {
         let (of_vertex, count) = mesh.weld();
@@ -356,8 +349,8 @@ impl Places {
     }
 
     /// Root mean square distance of the surface from its centre, weighted by area (the radius of a
-    /// sphere), 0 for a surface without area. Unlike a bounding box it does not change when the
-    /// model is turned.
+    /// sphere), 0 for a surface without area. Unlike a bounding box, this does not change when you
+    /// turn the model.
     pub(super) fn radius(&self) -> f64 {
         let corners = self.triangles.iter().map(|corners| {
             let at = corners.map(|corner| self.positions[corner as usize]);
@@ -375,11 +368,11 @@ impl Places {
     }
 }
 
-/// One unit normal for every place: the sum of its vertices' normals, each weighted over its
-/// triangles by the sine of the angle over the lengths of both edges (Max, "Weights for computing
-/// vertex normals from facet normals", 1999), so that neither seams nor the cut into triangles
-/// shift it. A vertex without a normal has the triangle's. A place without triangles has the mean
-/// of its vertices' normals, or +y.
+/// One unit normal for every place: the sum of its vertices' normals. Each vertex normal is
+/// weighted over its triangles by the sine of the angle over the lengths of both edges (Max,
+/// "Weights for computing vertex normals from facet normals", 1999). This way neither seams nor
+/// the cut into triangles shift it. A vertex without a normal takes the triangle's. A place
+/// without triangles takes the mean of its vertices' normals, or +y.
 fn joined_normals(mesh: &Mesh, of_vertex: &[u32], positions: &[DVec3]) -> Vec<DVec3> {
     fn normal_of(vertex: usize, mesh: &Mesh) -> DVec3 {
         DVec3::from(mesh.normals[vertex].map(f64::from))
@@ -417,8 +410,8 @@ fn joined_normals(mesh: &Mesh, of_vertex: &[u32], positions: &[DVec3]) -> Vec<DV
 
 /// Stiffness of the edges from all places to all neighbours: half the sum of the cotangents of the
 /// angles that face the edge (Pinkall and Polthier, "Computing discrete minimal surfaces and their
-/// conjugates", 1993), within [`STIFFNESS`]. With it sums over edges do not depend on the cut into
-/// triangles.
+/// conjugates", 1993), within [`STIFFNESS`]. With these weights, sums over edges do not depend on
+/// the cut into triangles.
 fn stiffness(triangles: &[[u32; 3]], positions: &[DVec3], neighbours: &Neighbours) -> Vec<f64> {
     let mut sums = vec![0.0; neighbours.slot_count()];
     for corners in triangles {
@@ -442,8 +435,8 @@ fn stiffness(triangles: &[[u32; 3]], positions: &[DVec3], neighbours: &Neighbour
     sums
 }
 
-/// Unit normals after rounds of averaging each, half and half, with the mean of its neighbours,
-/// weighted by stiffness: a diagonal or an open edge does not pull them to one side.
+/// Averages unit normals in rounds: each one, half and half, with the mean of its neighbours.
+/// Weights by stiffness keep a diagonal or an open edge from pulling them to one side.
 fn averaged(
     mut normals: Vec<DVec3>,
     neighbours: &Neighbours,
@@ -469,8 +462,9 @@ mod tests {
     use crate::mesh::test_shapes::{bare, cylinder, degrees_between, ragged, rough, torus, turned};
     use glam::{Quat, Vec3};
 
-    /// Greatest errors against known curvatures: of k, relative to the greatest at the vertex, and
-    /// of the direction of the least, in degrees.
+    /// Greatest errors against known curvatures. The first is the error of k, relative to the
+    /// greatest curvature at the vertex. The second is the error of the direction of the least
+    /// one, in degrees.
     fn errors(mesh: &Mesh, known: impl Fn(Vec3) -> ([f32; 2], Vec3), radius: f32) -> [f32; 2] {
         let mut worst = [0.0_f32; 2];
         for (curvature, &position) in mesh.curvatures(0).iter().zip(&mesh.positions) {

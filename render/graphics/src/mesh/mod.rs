@@ -1,5 +1,5 @@
-//! Triangle meshes: the model, checks and normals, curvature and fields of directions, files (OBJ,
-//! glTF, PLY) and sample models made by code.
+//! Triangle meshes: the model, checks and normals, curvature and fields of directions. You read
+//! them from files (OBJ, glTF, PLY) or take a sample model made by code.
 
 mod model;
 mod curvature;

@@ -1,7 +1,7 @@
 //! A triangle mesh with materials and textures: its validity, its vertex normals, and its closed
 //! parts.
 //!
-//! Vertices at the same position are welded for normals and closed parts, so that seams of textures
+//! We weld vertices at the same position for normals and closed parts, so that seams of textures
 //! do not matter.
 
 use std::ops::Range;
@@ -11,7 +11,7 @@ use documents::hint::Explain;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// A triangle mesh. All per-vertex lists have the same length.
+/// A triangle mesh. All per-vertex lists must have the same length.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     /// Vertex positions in the model's own unit, y points up.
@@ -21,8 +21,8 @@ pub struct Mesh {
     /// Texture coordinates per vertex as in glTF: (0, 0) is the upper left corner of the texture,
     /// (1, 1) the lower right. Textures repeat.
     pub texture_coordinates: Vec<[f32; 2]>,
-    /// Vertex colours, encoded sRGB in 0..1, which multiply the material's colour. White where a
-    /// file has none.
+    /// Vertex colours, encoded sRGB in 0..1. They multiply the material's colour. If a file has
+    /// none, this is white.
     pub colors: Vec<[f32; 3]>,
     /// Triangles, wound counter-clockwise seen from outside.
     pub triangles: Vec<Triangle>,
@@ -40,10 +40,10 @@ pub struct Triangle {
     pub material: u32,
 }
 
-/// Colour of a surface: a base colour, optionally times a texture.
+/// Colour of a surface: a base colour, which a texture may multiply.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Name in the file, empty where it has none. Several materials may share one.
+    /// Name in the file, empty if it has none. Several materials may share this name.
     pub name: String,
     /// Base colour, encoded sRGB in 0..1.
     pub color: [f32; 3],
@@ -64,13 +64,13 @@ pub struct Texture {
 }
 
 impl Material {
-    /// A material without name and texture. `color` is encoded sRGB in 0..1.
+    /// A material without name and texture. Pass `color` in encoded sRGB, 0..1.
     #[must_use]
     pub fn plain(color: [f32; 3]) -> Self {
         Self::named("", color)
     }
 
-    /// A material without texture. `color` is encoded sRGB in 0..1.
+    /// A material without texture. Pass `color` in encoded sRGB, 0..1.
     #[must_use]
     pub fn named(name: &str, color: [f32; 3]) -> Self {
         Self { name: name.to_owned(), color, texture: None }
@@ -164,8 +164,8 @@ pub enum MeshFault {
 }
 
 impl Mesh {
-    /// Checks that the mesh can be rendered: consistent list lengths, finite attributes,
-    /// valid indices, colours in 0..1.
+    /// Checks that you can render the mesh: consistent list lengths, finite attributes, valid
+    /// indices, colours in 0..1.
     ///
     /// # Errors
     /// The first [`MeshFault`] found.
@@ -214,7 +214,6 @@ impl Mesh {
     }
 }
 
-/// Checks that all values of an attribute are finite.
 fn check_finite<const N: usize>(what: &'static str, values: &[[f32; N]]) -> Result<(), MeshFault> {
     match values.iter().position(|value| value.iter().any(|number| !number.is_finite())) {
         None => Ok(()),
@@ -223,8 +222,8 @@ fn check_finite<const N: usize>(what: &'static str, values: &[[f32; N]]) -> Resu
 }
 
 impl Mesh {
-    /// Numbers the distinct positions from 0. Returns that number for every vertex, and how
-    /// many distinct positions there are.
+    /// Numbers the distinct positions from 0. Returns this number for every vertex, and how many
+    /// distinct positions there are.
     pub(super) fn weld(&self) -> (Vec<u32>, usize) {
         // Adding 0 turns -0 into 0.
         let bits = |at: u32| self.positions[at as usize].map(|value| (value + 0.0).to_bits());
@@ -240,8 +239,8 @@ impl Mesh {
         (welded, count)
     }
 
-    /// Whether the surface is watertight and oriented outwards: every edge is used equally
-    /// often in both directions, and the enclosed volume is positive.
+    /// Whether the surface is watertight and oriented outwards. For this, every edge is used
+    /// equally often in both directions, and the enclosed volume is positive.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         let (welded, _) = self.weld();
@@ -261,7 +260,7 @@ impl Mesh {
         balanced && self.volume() > 0.0
     }
 
-    /// Six times the enclosed volume, negative if the mesh is inside out.
+    /// Six times the enclosed volume. This is negative if the mesh is inside out.
     fn volume(&self) -> f64 {
         let first = self.positions.first().copied().unwrap_or_default().map(f64::from);
         let volumes = self.triangles.iter().map(|triangle| {
@@ -278,9 +277,10 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// Computes a normal for every vertex from the adjacent triangles, weighted by the angle at the
-    /// vertex (Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998).
-    /// Vertices with the same position get the same normal. A vertex without triangles gets +y.
+    /// Computes a normal for every vertex from the adjacent triangles, weighted by the angle at
+    /// the vertex (Thuermer and Wuethrich, "Computing vertex normals from polygonal facets",
+    /// 1998). Vertices with the same position get the same normal. If a vertex has no triangles,
+    /// this gives +y.
     #[must_use]
     pub fn vertex_normals(&self) -> Vec<[f32; 3]> {
         let (welded, count) = self.weld();
@@ -301,10 +301,10 @@ impl Mesh {
         welded.iter().map(|&vertex| normals[vertex as usize]).collect()
     }
 
-    /// Normals after `rounds` rounds of averaging each with its neighbours along edges
-    /// (Bousseau, Kaplan, Thollot and Sillion 2006, section 3.3). This simplifies shading
-    /// while the silhouette stays. Vertices with the same position count as one, so texture
-    /// seams do not show. 0 rounds return the normals unchanged.
+    /// Normals after `rounds` rounds of averaging each with its neighbours along edges (Bousseau,
+    /// Kaplan, Thollot and Sillion 2006, section 3.3). Use this to simplify shading while the
+    /// silhouette stays. Vertices with the same position count as one, so texture seams do not
+    /// show. If you pass 0 rounds, you get the normals unchanged.
     #[must_use]
     pub fn smoothed_normals(&self, rounds: usize) -> Vec<[f32; 3]> {
         if rounds == 0 {
@@ -336,8 +336,8 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// For every triangle whether the connected part of the mesh that it belongs to is watertight
-    /// and oriented outwards, as [`Self::is_closed`] reports for a whole mesh.
+    /// Tells for every triangle whether its connected part of the mesh is watertight and oriented
+    /// outwards. [`Self::is_closed`] reports this for a whole mesh.
     ///
     /// # Panics
     /// If a triangle has a vertex that does not exist. [`Mesh::check`] finds that.
@@ -370,12 +370,14 @@ impl Mesh {
             let [a, b, c] = triangle.corners.map(|corner| place(corner) - first);
             volumes[part_of[places[0] as usize] as usize] += a.cross(b).dot(c);
         }
-        let part = |places: &[u32; 3]| part_of[places[0] as usize] as usize;
-        triangles.iter().map(part).map(|part| !open[part] && volumes[part] > 0.0).collect()
+        triangles
+            .iter()
+            .map(|places: &[u32; 3]| part_of[places[0] as usize] as usize)
+            .map(|part| !open[part] && volumes[part] > 0.0)
+            .collect()
     }
 }
 
-/// The connected part of every place, and the number of parts.
 fn parts(neighbours: &Neighbours) -> (Vec<u32>, usize) {
     let mut part_of = vec![u32::MAX; neighbours.count()];
     let mut parts = 0;
@@ -397,16 +399,13 @@ fn parts(neighbours: &Neighbours) -> (Vec<u32>, usize) {
     (part_of, parts as usize)
 }
 
-/// The neighbours of every welded vertex, each list in ascending order.
 #[derive(Debug, Clone)]
 pub(super) struct Neighbours {
-    /// Index into `others` at which each vertex's neighbours start.
     starts: Vec<u32>,
     others: Vec<u32>,
 }
 
 impl Neighbours {
-    /// Joins the corners of every triangle. The corners are numbers below `count`.
     pub(super) fn of_triangles(triangles: impl Iterator<Item = [u32; 3]>, count: usize) -> Self {
         let mut edges: Vec<[u32; 2]> = Vec::with_capacity(6 * triangles.size_hint().0);
         for [a, b, c] in triangles {
@@ -423,30 +422,27 @@ impl Neighbours {
         Self { starts, others: edges.iter().map(|[_, to]| *to).collect() }
     }
 
-    /// Number of vertices.
     pub(super) fn count(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The neighbours of a vertex.
     pub(super) fn of(&self, vertex: usize) -> &[u32] {
         &self.others[self.slots(vertex)]
     }
 
-    /// Places of a vertex's neighbours in a list over all neighbours of all vertices.
+    /// Range of a vertex's neighbours in a list over all neighbours of all vertices.
     pub(super) fn slots(&self, vertex: usize) -> Range<usize> {
         self.starts[vertex] as usize..self.starts[vertex + 1] as usize
     }
 
-    /// Place of the neighbour `to` of the vertex `from` in a list over all neighbours of all
-    /// vertices, if they are neighbours.
+    /// Index of the neighbour `to` of the vertex `from` in a list over all neighbours of all
+    /// vertices. `None` if they are not neighbours.
     pub(super) fn slot(&self, from: u32, to: u32) -> Option<usize> {
         let slots = self.slots(from as usize);
         let found = self.others[slots.clone()].binary_search(&to).ok()?;
         Some(slots.start + found)
     }
 
-    /// Length of a list over all neighbours of all vertices.
     pub(super) fn slot_count(&self) -> usize {
         self.others.len()
     }

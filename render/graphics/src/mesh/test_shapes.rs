@@ -9,7 +9,6 @@ use rand_chacha::ChaCha8Rng;
 use super::model::{Material, Mesh, Triangle};
 use super::shapes::GridSize;
 
-/// Surface over a grid, with one material.
 fn surface(cells: GridSize, position: impl Fn(Vec2) -> Vec3) -> Mesh {
     let mut mesh = Mesh { materials: vec![Material::plain([0.5; 3])], ..Mesh::default() };
     mesh.add_grid(cells, 0, position);
@@ -60,7 +59,6 @@ pub(super) fn ridge(triangles: usize, height: f32) -> Mesh {
     })
 }
 
-/// Mesh of these triangles with computed normals.
 pub(super) fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
     let count = positions.len();
     let mut mesh = Mesh {
@@ -75,7 +73,7 @@ pub(super) fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
     mesh
 }
 
-/// The mesh with three vertices of its own for every triangle.
+/// Gives every triangle three vertices of its own.
 pub(super) fn ragged(mesh: &Mesh) -> Mesh {
     let corners: Vec<usize> =
         mesh.triangles.iter().flat_map(|one| one.corners.map(|at| at as usize)).collect();
@@ -92,8 +90,7 @@ pub(super) fn ragged(mesh: &Mesh) -> Mesh {
     }
 }
 
-/// The mesh with every place moved along its normal by up to `height`, at random, and with computed
-/// normals.
+/// Moves every place along its normal by up to `height`, at random, and computes the normals.
 pub(super) fn rough(mesh: &Mesh, height: f32) -> Mesh {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let (welded, count) = mesh.weld();
@@ -109,7 +106,6 @@ pub(super) fn rough(mesh: &Mesh, height: f32) -> Mesh {
     rough
 }
 
-/// The mesh turned about the origin.
 pub(super) fn turned(mesh: &Mesh, turn: Quat) -> Mesh {
     let all = |vectors: &[[f32; 3]]| {
         vectors.iter().map(|&vector| (turn * Vec3::from(vector)).to_array()).collect()

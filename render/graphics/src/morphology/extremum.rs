@@ -1,5 +1,5 @@
-//! The minimum or maximum of the pixels under a structuring element, on the processor tile by tile
-//! or as a kernel, and the openings and closings made of them.
+//! The minimum or maximum of the pixels under a structuring element, and the openings and closings
+//! made of them. The processor works tile by tile. A device runs a kernel.
 
 use pulp::Simd;
 use rayon::prelude::*;
@@ -9,9 +9,9 @@ use crate::compute::{ColorImage, Compute, GpuCompute, Image, Plane, assert_size}
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};
 
-/// The extremum of each channel under `element`, which is centred on each pixel in turn. Pixels
-/// outside the picture are ignored. The memory of `spare`, an image of the same size that is not
-/// needed any more, may be used for the result.
+/// The extremum of each channel under `element`, which is centred on each pixel in turn. This
+/// ignores pixels outside the picture. If you no longer need an image of the same size, pass it as
+/// `spare`, so that its memory can hold the result.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -54,7 +54,7 @@ struct ExtremumParams {
     spare: u32,
 }
 
-/// The kernel that takes the minimum or maximum on two segments that cross.
+/// This kernel takes the minimum or maximum on two segments that cross.
 pub static EXTREMUM: Kernel = Kernel {
     name: "extremum",
     source: include_str!("extremum.wgsl"),
@@ -81,7 +81,7 @@ fn extremum_on_gpu(
 ) -> Result<Plane<[f32; 4]>, DeviceError> {
     let (width, height) = color.size();
     let crossings = element.crossings();
-    // Intermediate results are needed outside the picture too.
+    // We need intermediate results outside the picture too.
     let margin = element.reach() as usize;
     let mut current = color.clone();
     let mut margin_in = 0;
@@ -107,8 +107,8 @@ fn extremum_on_gpu(
     Ok(current)
 }
 
-/// Removes light details that a round element of `radius_px` does not fit into. A radius of 0
-/// changes nothing. No pixel becomes lighter, and a second opening changes nothing.
+/// Removes light details that a round element of `radius_px` does not fit into. If you pass 0,
+/// nothing changes. No pixel becomes lighter, and a second opening changes nothing.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -125,8 +125,8 @@ pub fn opening(
     extremum(compute, &eroded, element, Extremum::Maximum, None)
 }
 
-/// Removes dark details that a round element of `radius_px` does not fit into. A radius of 0
-/// changes nothing. No pixel becomes darker, and a second closing changes nothing.
+/// Removes dark details that a round element of `radius_px` does not fit into. If you pass 0,
+/// nothing changes. No pixel becomes darker, and a second closing changes nothing.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -143,7 +143,8 @@ pub fn closing(
     extremum(compute, &dilated, element, Extremum::Minimum, None)
 }
 
-/// An [`opening`] followed by a [`closing`], in three passes rather than four.
+/// An [`opening`] followed by a [`closing`]. Use this instead of both calls: it takes three passes
+/// rather than four.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -162,17 +163,15 @@ pub fn opening_then_closing(
     extremum(compute, &dilated, element, Extremum::Minimum, Some(eroded))
 }
 
-/// Width and height of a tile in pixels, without the margin that the element needs.
 const TILE: (usize, usize) = (192, 96);
 
-/// Numbers per pixel.
 const CHANNELS: usize = 4;
 
-/// The extremum under the element of each pixel and channel, into `result`, which must
-/// have the size of `field`. Pixels outside the picture are ignored.
+/// Computes the extremum under the element for each pixel and channel. Writes it into `result`,
+/// which must have the size of `field`. This ignores pixels outside the picture.
 ///
-/// Works tile by tile and in place: each pixel gathers only from pixels after it, which
-/// have not been overwritten yet.
+/// We work tile by tile and in place: each pixel gathers only from pixels after it, which have not
+/// been overwritten yet.
 pub(super) fn extremum_into(
     field: &Field<[f32; 4]>,
     element: StructuringElement,
@@ -209,11 +208,8 @@ struct Tile {
     width: usize,
     height: usize,
     reach: usize,
-    /// Distance from one row to the next, in pixels.
     stride: usize,
-    /// Index of the cell that holds the first result.
     first: usize,
-    /// The gathers, in the order in which they are applied.
     gathers: Vec<Gather>,
 }
 
@@ -222,7 +218,6 @@ struct Tile {
 struct Gather {
     /// Offsets of the gathered pixels, rising from 0.
     offsets: [usize; Self::MAX_COUNT],
-    /// Number of offsets in use.
     count: usize,
 }
 
@@ -235,8 +230,8 @@ impl Gather {
         Self { offsets: all, count: offsets.len() }
     }
 
-    /// Adds the gathers for a segment of `pixels` pixels, `step` apart: the first gather
-    /// joins up to 5 pixels, each further one up to 5 results of the one before.
+    /// Adds the gathers for a segment of `pixels` pixels, `step` apart. The first gather joins up
+    /// to 5 pixels, each further one up to 5 results of the one before.
     fn segment(step: usize, pixels: usize, gathers: &mut Vec<Self>) {
         let mut done = 1;
         while done < pixels {
@@ -268,7 +263,7 @@ impl Tile {
     }
 
     /// Copies the part of the picture at `(left, top)` with its margin into `cells`. Cells outside
-    /// the picture get a value that never is the extremum.
+    /// the picture get a value that is never the extremum.
     fn load(
         &self,
         field: &Field<[f32; 4]>,
@@ -299,7 +294,8 @@ impl Tile {
         }
     }
 
-    /// Copies the results into `rows`, whole rows of `width`, from column `left` on.
+    /// Copies the results into `rows`, from column `left` on. The rows are whole, `width` pixels
+    /// each.
     fn store(&self, cells: &[f32], left: usize, width: usize, rows: &mut [[f32; 4]]) {
         let count = self.width.min(width - left);
         for (row, cells) in rows.chunks_mut(width).zip(cells.chunks(self.stride * CHANNELS)) {
@@ -309,7 +305,6 @@ impl Tile {
     }
 }
 
-/// Applies all gathers of a tile to its cells.
 fn run<const MAXIMUM: bool>(tile: &Tile, cells: &mut [f32]) {
     struct Run<'a, const MAXIMUM: bool>(&'a Tile, &'a mut [f32]);
 
@@ -336,7 +331,6 @@ fn run<const MAXIMUM: bool>(tile: &Tile, cells: &mut [f32]) {
     crate::lanes::vectorized(Run::<MAXIMUM>(tile, cells));
 }
 
-/// Applies one gather of `COUNT` pixels to the first `last` numbers.
 #[inline(always)]
 fn gathered<S: Simd, const MAXIMUM: bool, const COUNT: usize>(
     simd: S,

@@ -1,12 +1,13 @@
-// The minimum or maximum of the pixels on two segments that cross; twin of extremum.rs.
+// The minimum or maximum of the pixels on two segments that cross. This is the twin of
+// extremum.rs.
 
 struct ExtremumParams {
-    // Size of the picture in pixels; both planes have a margin around it.
+    // Size of the picture in pixels. Both planes have a margin around it.
     size: vec2<i32>,
     // Width of the margin in the plane that is read, and in the one that is written.
     margin_in: i32,
     margin_out: i32,
-    // Of each segment: the step from a pixel to the next, then the number of pixels on either
+    // For each segment: the step from a pixel to the next, then the number of pixels on either
     // side of its middle.
     along: vec2<i32>,
     across: vec2<i32>,

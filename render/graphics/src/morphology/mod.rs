@@ -1,19 +1,19 @@
 //! Mathematical morphology of colour pictures: openings and closings with a round structuring
 //! element, after Serra, "Image analysis and mathematical morphology" (1982).
 //!
-//! An opening removes what is lighter than its surroundings and too small for the element, a
-//! closing what is darker. Channels are processed independently, coverage among them. So bare paper
-//! must be white: specks of paint on paper then count as dark details, and gaps in paint as light
-//! ones.
+//! An opening removes what is lighter than its surroundings and too small for the element. A
+//! closing removes what is darker. We process channels independently, coverage among them. So pass
+//! bare paper as white: specks of paint on paper then count as dark details, and gaps in paint as
+//! light ones.
 //!
-//! The element is an octagon, the sum of a square and a diamond, each a sum of segments, so a pass
-//! needs a few comparisons per pixel at any radius. Minimum and maximum are exact, so both forms of
-//! [`crate::compute::Compute`] agree bit for bit.
+//! The element is an octagon, which is the sum of a square and a diamond. Both are sums of
+//! segments, so a pass needs a few comparisons per pixel at any radius. Minimum and maximum are
+//! exact, so both forms of [`crate::compute::Compute`] agree bit for bit.
 mod extremum;
 
 pub use extremum::{EXTREMUM, closing, extremum, opening, opening_then_closing};
 
-/// Which extremum of the pixels under a structuring element is taken.
+/// Whether to take the minimum or the maximum of the pixels under a structuring element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extremum {
     /// The minimum: an erosion.
@@ -26,28 +26,21 @@ pub enum Extremum {
 /// max(|x| - square, 0) + max(|y| - square, 0) <= diamond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StructuringElement {
-    /// Half of the width of the square, in pixels.
     square: u32,
-    /// Reach of the diamond along rows and columns, in pixels.
     diamond: u32,
 }
 
-/// A cross of two segments with a common middle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Crossing {
-    /// Step from a pixel to the next along the first segment, as (x, y).
     along: [i32; 2],
-    /// Step from a pixel to the next along the second segment, as (x, y).
     across: [i32; 2],
-    /// Pixels of the first segment on either side of the middle.
     reach_along: u32,
-    /// Pixels of the second segment on either side of the middle.
     reach_across: u32,
 }
 
 impl StructuringElement {
-    /// The octagon closest to a regular one that reaches `radius_px` along rows and columns.
-    /// A regular octagon contains the disc of that radius and reaches 8 % beyond it.
+    /// The octagon closest to a regular one that reaches `radius_px` along rows and columns. A
+    /// regular octagon contains the disc of this radius and reaches 8 % beyond it.
     #[must_use]
     pub fn round(radius_px: u32) -> Self {
         // The share of the diamond in a regular octagon: 2 - sqrt(2).
@@ -55,18 +48,16 @@ impl StructuringElement {
         Self { square: radius_px - diamond, diamond }
     }
 
-    /// The element of two passes with this one.
+    /// The element that has the effect of two passes with this one.
     #[must_use]
     pub fn twice(self) -> Self {
         Self { square: 2 * self.square, diamond: 2 * self.diamond }
     }
 
-    /// Half of the width of the octagon's square part, in pixels.
     fn square(self) -> u32 {
         self.square
     }
 
-    /// Length of the two diagonals on either side of their middle, in pixels.
     fn diagonal(self) -> u32 {
         (self.diamond - self.crosses()) / 2
     }
@@ -77,16 +68,16 @@ impl StructuringElement {
         self.square + self.diamond
     }
 
-    /// Whether the element contains the pixel at the offset (x, y) from its centre.
+    /// Whether the element contains the pixel at this offset (x, y) from its centre.
     #[must_use]
     pub fn covers(self, x: i32, y: i32) -> bool {
-        let beyond = |distance: i32| distance.unsigned_abs().saturating_sub(self.square);
-        beyond(x) + beyond(y) <= self.diamond
+        [x, y].map(|at| at.unsigned_abs().saturating_sub(self.square)).iter().sum::<u32>()
+            <= self.diamond
     }
 
-    /// Number of crosses of 5 pixels that the element is composed of. The sum of two diagonals has
-    /// only every other pixel of a diamond. The square fills the rest, and where there is none,
-    /// crosses do.
+    /// Number of crosses of 5 pixels among the parts of the element. The sum of two diagonals has
+    /// only every other pixel of a diamond. The square fills in the rest. If there is no square,
+    /// crosses do this.
     fn crosses(self) -> u32 {
         match (self.diamond % 2, self.square, self.diamond) {
             (1, _, _) => 1,
@@ -97,8 +88,9 @@ impl StructuringElement {
 
     /// The element as a Minkowski sum of crosses and segments, at least one.
     fn crossings(self) -> Vec<Crossing> {
-        let segment =
-            |along, reach_along| Crossing { along, across: [0, 0], reach_along, reach_across: 0 };
+        fn segment(along: [i32; 2], reach_along: u32) -> Crossing {
+            Crossing { along, across: [0, 0], reach_along, reach_across: 0 }
+        }
         let cross = Crossing { along: [1, 0], across: [0, 1], reach_along: 1, reach_across: 1 };
         let mut all = vec![cross; self.crosses() as usize];
         let diagonal = self.diagonal();
@@ -130,7 +122,8 @@ mod tests {
                     pixels += i32::from(element.covers(x, y));
                     let distance = f64::from(x * x + y * y);
                     inside += i32::from(distance <= square);
-                    // Contains the disc but for half a pixel, and ends 9 % and 1 px beyond it.
+                    // The element contains the disc except for half a pixel, and ends 9 % and 1 px
+                    // beyond it.
                     let core = distance.sqrt() <= f64::from(radius) - 0.5;
                     assert!(!core || element.covers(x, y), "{radius}: {x} {y}");
                     let far = distance.sqrt() > 1.09 * f64::from(radius) + 1.0;
@@ -150,10 +143,10 @@ mod tests {
                 let reach = element.reach() as i32;
                 let mut points = std::collections::BTreeSet::from([(0, 0)]);
                 for crossing in element.crossings() {
-                    let segment = |step: [i32; 2], reach: u32| {
+                    fn segment(step: [i32; 2], reach: u32) -> impl Iterator<Item = (i32, i32)> {
                         let reach = reach as i32;
                         (-reach..=reach).map(move |i| (i * step[0], i * step[1]))
-                    };
+                    }
                     let own: Vec<_> = segment(crossing.along, crossing.reach_along)
                         .chain(segment(crossing.across, crossing.reach_across))
                         .collect();

@@ -1,17 +1,18 @@
 //! Mean shift in the joint domain of position and colour.
 //!
-//! A step moves a point to the mean of all pixels in its window: those within the distance h_s in
-//! the picture and h_r in CIELUV. The kernel is flat, so its shadow is the Epanechnikov kernel
-//! (Comaniciu and Meer 2002, equations 17, 20 and 35). Steps are repeated until they are small.
+//! A step moves a point to the mean of all pixels in its window. These are the pixels within the
+//! distance h_s in the picture and h_r in CIELUV. The kernel is flat, so its shadow is the
+//! Epanechnikov kernel (Comaniciu and Meer 2002, equations 17, 20 and 35). We repeat steps until
+//! they are small.
 //!
 //! A path ends early and takes the mode of an earlier path as soon as both round to the same pixel
-//! and their colours differ by at most [`MEETING`] range radii. Paths are stored per tile in the
+//! and their colours differ by at most [`MEETING`] range radii. We store paths per tile in the
 //! order of the pixels, so the result does not depend on threads.
 //!
-//! Measured on two photographs (1 Mpx, radii 10 px and 8): 3.4 and 4.2 steps per pixel instead of
-//! 10.0 and 11.9 for complete paths. Compared with paths that end at steps a hundred times shorter,
-//! 0.40 and 0.58 % of the modes differ by more than half a range radius. For complete paths the
-//! shares are 0.22 and 0.34 %.
+//! We measured this on two photographs (1 Mpx, radii 10 px and 8). It takes 3.4 and 4.2 steps per
+//! pixel instead of 10.0 and 11.9 for complete paths. Compared with paths that end at steps a
+//! hundred times shorter, 0.40 and 0.58 % of the modes differ by more than half a range radius.
+//! For complete paths the shares are 0.22 and 0.34 %.
 
 use pulp::Simd;
 use rayon::prelude::*;
@@ -19,7 +20,6 @@ use spectra::color::{Rgb, RgbSpace};
 
 use crate::field::Field;
 
-/// Radii of the window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bandwidth {
     /// h_s: radius in the picture, in pixels.
@@ -28,11 +28,11 @@ pub(super) struct Bandwidth {
     pub(super) range: f32,
 }
 
-/// Largest number of f32 lanes in a vector of any machine.
+/// A vector has at most this many f32 lanes on any machine.
 pub(super) const MOST_LANES: usize = 16;
 
-/// A point of the joint domain, for example a pixel or a mode, or the difference of two points. `x`
-/// and `y` are in pixels.
+/// A point of the joint domain, e.g. a pixel or a mode, or the difference of two points. `x` and
+/// `y` are in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Mode {
     pub(super) x: f32,
@@ -42,7 +42,6 @@ pub(super) struct Mode {
 }
 
 impl Mode {
-    /// The point moved by `step`.
     pub(super) fn moved(self, step: Self) -> Self {
         let color = [0, 1, 2].map(|i| self.color[i] + step.color[i]);
         Self { x: self.x + step.x, y: self.y + step.y, color }
@@ -58,7 +57,6 @@ pub(super) fn step<S: Simd>(
     at: Mode,
     Bandwidth { spatial_px, range }: Bandwidth,
 ) -> Option<Mode> {
-    // Index of each lane.
     const LANES: [f32; MOST_LANES] =
         [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
     let lane = S::as_simd_f32s(&LANES).0[0];
@@ -112,19 +110,18 @@ pub(super) fn step<S: Simd>(
     Some(Mode { x: mean(sum_x), y: mean(sum_y), color: [mean(sum_l), mean(sum_u), mean(sum_v)] })
 }
 
-/// Largest difference in colour at which a path joins an earlier one, in range radii.
+/// A path joins an earlier one if their colours differ by at most this, in range radii.
 pub(super) const MEETING: f32 = 0.05;
 
 /// A path ends at a step of at most this length, in spatial and range radii.
 const STILL: f32 = 0.01;
 
-/// Largest number of steps of a path: rounding may make it alternate between two windows.
+/// A path has at most this many steps: rounding may make it alternate between two windows.
 const MOST_STEPS: usize = 100;
 
-/// Width and height of a tile in pixels.
 const TILE: usize = 64;
 
-/// The mode of every pixel. `meeting` is usually [`MEETING`], with 0 no path joins another.
+/// The mode of every pixel. Pass [`MEETING`] for `meeting`. If you pass 0, no path joins another.
 pub(super) fn modes(planes: &LuvPlanes, bandwidth: Bandwidth, meeting: f32) -> Field<Mode> {
     let width = planes.width;
     let height = planes.height;
@@ -149,7 +146,6 @@ pub(super) fn modes(planes: &LuvPlanes, bandwidth: Bandwidth, meeting: f32) -> F
     modes
 }
 
-/// The pixels of one tile.
 struct Tile<'a> {
     planes: &'a LuvPlanes,
     bandwidth: Bandwidth,
@@ -226,7 +222,7 @@ fn squared([l, u, v]: [f32; 3]) -> f32 {
     l * l + u * u + v * v
 }
 
-/// L* of cells outside the picture, so far from every colour that no window contains them.
+/// L* of cells outside the picture. This is so far from every colour that no window contains them.
 const NOWHERE: f32 = 1e6;
 
 /// L*, u* and v* relative to the white of sRGB. Each is a plane with a margin on all sides.
@@ -235,13 +231,13 @@ pub(super) struct LuvPlanes {
     pub(super) height: usize,
     /// Width of the margin in cells. No window contains a cell of the margin.
     pub(super) margin: usize,
-    /// Distance from one row to the next, in cells.
     pub(super) stride: usize,
     pub(super) values: [Vec<f32>; 3],
 }
 
 impl LuvPlanes {
-    /// Converts encoded sRGB with coverage, composited on white. `margin` is in cells.
+    /// Converts encoded sRGB with coverage to CIELUV, after compositing on white. `margin` is in
+    /// cells.
     pub(super) fn new(picture: &Field<[f32; 4]>, margin: usize) -> Self {
         let width = picture.width();
         let height = picture.height();
@@ -265,23 +261,21 @@ impl LuvPlanes {
         Self { width, height, margin, stride, values }
     }
 
-    /// The colour of a pixel.
     pub(super) fn at(&self, x: usize, y: usize) -> [f32; 3] {
         let cell = (y + self.margin) * self.stride + x + self.margin;
         [0, 1, 2].map(|plane| self.values[plane][cell])
     }
 }
 
-/// Number of steps in the table of the sRGB transfer curve.
 const STEPS: usize = 4096;
 
-/// Conversion of encoded sRGB to CIELUV, within 1e-3 of the conversion in f64 (tested).
+/// Converts encoded sRGB to CIELUV. A test compares this with the conversion in f64: they agree
+/// within 1e-3.
 struct LuvOfSrgb {
-    /// Linear light at equal steps of the encoded value, 0 to 1. The last entry is repeated.
+    /// Linear light at equal steps of the encoded value, 0 to 1. We repeat the last entry.
     linear: Vec<f32>,
     /// Matrix from linear sRGB to X, Y, Z, scaled so that white has Y = 1.
     xyz: [[f32; 3]; 3],
-    /// u' and v' of white.
     white: [f32; 2],
 }
 
@@ -299,7 +293,7 @@ impl LuvOfSrgb {
         }
     }
 
-    /// L*, u*, v* of `rgb`, which is clamped to 0..1.
+    /// L*, u*, v* of `rgb`. This clamps `rgb` to 0..1.
     fn of(&self, rgb: [f32; 3]) -> [f32; 3] {
         let linear = rgb.map(|value| {
             let place = value.clamp(0.0, 1.0) * STEPS as f32;
@@ -332,7 +326,6 @@ mod tests {
 
     const BANDWIDTH: Bandwidth = Bandwidth { spatial_px: 6.0, range: 8.0 };
 
-    /// Three shaded regions with noise and soft edges between them.
     fn planes() -> LuvPlanes {
         let mut random = ChaCha8Rng::seed_from_u64(3);
         let mut picture = Field::filled(150, 90, [1.0; 4]);
@@ -390,7 +383,7 @@ mod tests {
         modes: Vec<Vec<f32>>,
     }
 
-    /// Cases in which only one radius matters: three numbers are a colour, two a position.
+    /// Checks cases in which only one radius matters: three numbers are a colour, two a position.
     #[test]
     fn modes_are_those_of_scikit_learn() {
         let text = include_str!("../../../../tests/golden/segmentation.json");
@@ -414,7 +407,8 @@ mod tests {
                 let own =
                     if wanted.len() == 3 { mode.color.to_vec() } else { vec![mode.x, mode.y] };
                 for (own, wanted) in own.iter().zip(wanted) {
-                    // The tolerance of the golden file, and 1e-3 for the colour conversion.
+                    // This allows the tolerance of the golden file, and 1e-3 for the colour
+                    // conversion.
                     let near = (own - wanted).abs() <= tolerance + 1e-3;
                     assert!(near, "{pixel}: {mode:?}, wanted {wanted:?}");
                 }

@@ -1,9 +1,9 @@
-//! Division of photographs into flat regions by mean shift.
+//! Divides photographs into flat regions by mean shift.
 //!
-//! After Comaniciu and Meer, "Mean shift: a robust approach toward feature space analysis" (IEEE
-//! PAMI 24, 2002), section 4.2. Every pixel is a point in the joint domain of position and colour,
-//! and is moved to a mode of the density of these points. Connected pixels with nearby modes form a
-//! region. Small regions are merged into a neighbour.
+//! This follows Comaniciu and Meer, "Mean shift: a robust approach toward feature space analysis"
+//! (IEEE PAMI 24, 2002), section 4.2. Every pixel is a point in the joint domain of position and
+//! colour. We move it to a mode of the density of these points. Connected pixels with nearby modes
+//! form a region. We merge small regions into a neighbour.
 
 mod mean_shift;
 mod regions;
@@ -15,20 +15,20 @@ use crate::field::Field;
 use mean_shift::{Bandwidth, LuvPlanes, MEETING, MOST_LANES, modes};
 use regions::{RegionGraph, cut, join_alike, join_small, linked};
 
-/// Settings of segmentation: the coarseness of regions.
+/// Settings of segmentation. You choose how coarse the regions are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentationSettings {
     /// Radius of the window in the picture, in pixels: 1 to
     /// [`SegmentationSettings::MAX_SPATIAL_PX`]. Larger details stay. The time is proportional to
-    /// its square.
+    /// the square of this radius.
     pub spatial_radius_px: f32,
-    /// Radius of the window in colour, a difference in CIELUV above 0 (black and white differ
-    /// by 100). Smaller contrasts are flattened.
+    /// Radius of the window in colour, a difference in CIELUV above 0 (black and white differ by
+    /// 100). This flattens smaller contrasts.
     pub range_radius: f32,
-    /// Area in pixels below which a region is merged into a neighbour.
+    /// We merge a region below this area in pixels into a neighbour.
     pub least_region_px: u32,
-    /// Step in CIELUV by which smooth gradients are divided into tones, 0 and up, 0 divides
-    /// nothing.
+    /// Step in CIELUV by which smooth gradients are divided into tones, 0 and up. If you pass 0,
+    /// gradients stay whole.
     pub tone_step: f32,
 }
 
@@ -38,7 +38,7 @@ impl SegmentationSettings {
 }
 
 impl Default for SegmentationSettings {
-    /// For a photograph of about 1 megapixel: 10 px, 8 in CIELUV, regions of 60 px and more,
+    /// Suits a photograph of about 1 megapixel: 10 px, 8 in CIELUV, regions of 60 px and more,
     /// gradients not divided.
     fn default() -> Self {
         Self { spatial_radius_px: 10.0, range_radius: 8.0, least_region_px: 60, tone_step: 0.0 }
@@ -56,7 +56,7 @@ pub struct Segmentation {
 }
 
 impl Segmentation {
-    /// The picture with each region in its mean colour.
+    /// The picture with each region in its mean colour. Use this to show the regions.
     #[must_use]
     pub fn flat(&self) -> Field<[f32; 4]> {
         let values = self
@@ -70,14 +70,14 @@ impl Segmentation {
     }
 }
 
-/// Regions of `picture`, which is encoded sRGB with coverage.
+/// Finds the regions of `picture`, which is encoded sRGB with coverage.
 ///
-/// Pixels with close modes are linked. Regions that are too small are merged into a neighbour, then
-/// neighbours with mean modes within the range radius are merged, the nearest first. Smooth
-/// gradients are divided into tones if [`SegmentationSettings::tone_step`] is above 0.
+/// We link pixels with close modes and merge regions that are too small into a neighbour. Then we
+/// merge neighbours with mean modes within the range radius, the nearest first. If
+/// [`SegmentationSettings::tone_step`] is above 0, we divide smooth gradients into tones.
 ///
-/// Bare paper (coverage below 1/2) counts as white and never shares a region with paint, unless one
-/// of them is too small. The result does not depend on the number of threads.
+/// Bare paper (coverage below 1/2) counts as white and never shares a region with paint, unless
+/// one of them is too small. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`SegmentationError`] if a setting is out of its range.
@@ -109,7 +109,7 @@ pub fn segment(
     Ok(Segmentation { labels, colors })
 }
 
-/// The mean of every region, weighted by coverage, white if its coverage is 0.
+/// The mean of every region, weighted by coverage. This is white if the region's coverage is 0.
 fn means(picture: &Field<[f32; 4]>, labels: &Field<u32>, count: usize) -> Vec<[f32; 4]> {
     let mut sums = vec![([0.0f64; 4], 0u32); count];
     for (&label, &[r, g, b, coverage]) in labels.values().iter().zip(picture.values()) {

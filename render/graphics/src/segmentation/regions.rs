@@ -1,8 +1,8 @@
-//! Regions: connected pixels with modes that are close, their graph of neighbours, and the merging
-//! of regions that are too small or too similar.
+//! Regions: connected pixels with modes that are close. This has their graph of neighbours, and
+//! merges regions that are too small or too similar.
 //!
 //! A smooth gradient becomes one region, however much the colours of its ends differ. A painter
-//! lays such a gradient in a few washes. So the modes of a region are divided by the plane through
+//! lays such a gradient in a few washes. So we divide the modes of a region by the plane through
 //! their mean perpendicular to the axis of greatest variance, until no part has a greater variance
 //! than colours spread evenly over one step.
 
@@ -20,7 +20,6 @@ pub(super) struct Sets {
 }
 
 impl Sets {
-    /// `count` sets of one member each.
     pub(super) fn new(count: usize) -> Self {
         Self { parents: (0..count as u32).collect() }
     }
@@ -46,8 +45,8 @@ impl Sets {
     }
 }
 
-/// Renumbers labels without gaps, in the order of their first appearance row by row. Returns
-/// the number of different labels.
+/// Renumbers labels without gaps, in the order in which they first appear row by row. Returns how
+/// many different labels there are.
 pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usize {
     const NONE: u32 = u32::MAX;
     let mut numbers = vec![NONE; count];
@@ -63,13 +62,13 @@ pub(super) fn numbered(sets: &mut Sets, labels: &mut [u32], count: usize) -> usi
     found as usize
 }
 
-/// Largest distance in colour of the modes of linked neighbours, in range radii. With 1, the
-/// pixels of a soft edge would link the regions on both sides. A region that this value
+/// We link neighbours if the colours of their modes differ by at most this, in range radii. With
+/// 1, the pixels of a soft edge would link the regions on both sides. A region that this value
 /// divides needlessly is merged again later.
 const LINK: f32 = 0.5;
 
-/// Labels every pixel with its region. Returns the labels with the number of regions. Neighbours in
-/// a row or column are linked if their modes are within the spatial radius and half the range
+/// Labels every pixel with its region. Returns the labels with the number of regions. This links
+/// neighbours in a row or column if their modes are within the spatial radius and half the range
 /// radius of each other, and both are `painted` or both bare. Regions are the connected components
 /// (Comaniciu and Meer 2002, section 4.2, step 2).
 pub(super) fn linked(
@@ -108,27 +107,23 @@ pub(super) fn linked(
     (Field::from_values(width, height, labels), count)
 }
 
-/// Sums over the pixels of a region.
 #[derive(Debug, Clone, Copy, Default)]
 struct Weight {
-    /// Number of pixels.
     pixels: u32,
     /// Sums of L*, u*, v* of the modes.
     colors: [f64; 3],
-    /// Number of pixels with paint.
     painted: u32,
 }
 
 /// The regions of a picture. A merged region keeps the smallest label of its parts.
 pub(super) struct RegionGraph {
     weights: Vec<Weight>,
-    /// Labels of the neighbours of each region. Some may have been merged since.
+    /// Labels of the neighbours of each region. Some may have been merged since then.
     neighbours: Vec<Vec<u32>>,
     sets: Sets,
 }
 
 impl RegionGraph {
-    /// The graph of `count` labelled regions with the modes of their pixels.
     pub(super) fn new(
         labels: &Field<u32>,
         count: usize,
@@ -147,18 +142,17 @@ impl RegionGraph {
         Self { weights, neighbours: neighbours(labels, count), sets: Sets::new(count) }
     }
 
-    /// Number of labels, merged regions included.
     pub(super) fn count(&self) -> usize {
         self.weights.len()
     }
 
-    /// Number of pixels of a region, 0 if it was merged into another.
+    /// Number of pixels of a region. This is 0 if it was merged into another.
     pub(super) fn pixels(&self, region: u32) -> u32 {
         self.weights[region as usize].pixels
     }
 
-    /// The distance of the mean modes of two regions in CIELUV, increased by a large constant
-    /// if one is paint and the other bare paper.
+    /// The distance of the mean modes of two regions in CIELUV. We add a large constant if one is
+    /// paint and the other bare paper.
     pub(super) fn apart(&self, one: u32, other: u32) -> f64 {
         const PAPER: f64 = 1e4;
         let [one, other] = [one, other].map(|region| &self.weights[region as usize]);
@@ -176,7 +170,6 @@ impl RegionGraph {
         .sqrt()
     }
 
-    /// The neighbours of a region, by rising label.
     pub(super) fn around(&mut self, region: u32) -> &[u32] {
         let mut around = std::mem::take(&mut self.neighbours[region as usize]);
         around.iter_mut().for_each(|label| *label = self.sets.least(*label));
@@ -207,14 +200,13 @@ impl RegionGraph {
         whole
     }
 
-    /// Replaces `labels` by the labels of the merged regions, numbered without gaps. Returns the
-    /// number of regions.
+    /// Replaces `labels` by the labels of the merged regions, and numbers these without gaps.
+    /// Returns the number of regions.
     pub(super) fn relabel(mut self, labels: &mut Field<u32>) -> usize {
         numbered(&mut self.sets, labels.values_mut(), self.weights.len())
     }
 }
 
-/// The neighbours of each region, by rising label.
 fn neighbours(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     let rows: Vec<&[u32]> = labels.values().chunks_exact(labels.width()).collect();
     let mut pairs: Vec<u64> = (0..rows.len())
@@ -246,13 +238,14 @@ pub(super) fn join_small(graph: &mut RegionGraph, least_px: u32) {
     let all = (0..graph.count() as u32).map(|region| Reverse((graph.pixels(region), region)));
     let mut small: BinaryHeap<_> = all.filter(|Reverse((pixels, _))| *pixels < least_px).collect();
     while let Some(Reverse((pixels, region))) = small.pop() {
-        // It may have been joined since.
+        // We may have joined it since.
         if graph.pixels(region) != pixels {
             continue;
         }
         let around = graph.around(region).to_vec();
-        let apart = |other: u32| graph.apart(region, other);
-        let nearest = around.into_iter().min_by(|&a, &b| apart(a).total_cmp(&apart(b)));
+        let nearest = around
+            .into_iter()
+            .min_by(|&a, &b| graph.apart(region, a).total_cmp(&graph.apart(region, b)));
         let Some(nearest) = nearest else { continue };
         let whole = graph.join(region, nearest);
         if graph.pixels(whole) < least_px {
@@ -294,12 +287,11 @@ pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
     }
 }
 
-/// Rounds of the power iteration that finds an axis.
 const ROUNDS: usize = 24;
 
 /// Divides the `count` regions of `labels` until the variance of a part along any axis is at most
-/// `step`^2 / 12, the variance of colours spread evenly over `step` in CIELUV, then into connected
-/// parts. Returns the new labels and their number.
+/// `step`^2 / 12. This is the variance of colours spread evenly over `step` in CIELUV. Then
+/// divides them into connected parts. Returns the new labels and their number.
 pub(super) fn cut(
     labels: &Field<u32>,
     count: usize,
@@ -338,7 +330,6 @@ pub(super) fn cut(
     (Field::from_values(width, height, own), count)
 }
 
-/// The pixels of each region.
 fn by_region(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     let mut sizes = vec![0; count];
     labels.values().iter().for_each(|&label| sizes[label as usize] += 1);
@@ -355,7 +346,7 @@ fn halve<'a>(pixels: &'a mut [u32], modes: &[Mode], most: f64, parts: &mut Vec<&
         parts.push(pixels);
         return;
     };
-    // A stable sort: pixels below the plane first, each side in its former order.
+    // This sort is stable: pixels below the plane come first, and each side keeps its order.
     pixels.sort_by_key(|&pixel| plane.height(&modes[pixel as usize]) >= 0.0);
     let below = pixels.partition_point(|&pixel| plane.height(&modes[pixel as usize]) < 0.0);
     if below == 0 || below == pixels.len() {
@@ -367,7 +358,7 @@ fn halve<'a>(pixels: &'a mut [u32], modes: &[Mode], most: f64, parts: &mut Vec<&
     halve(high, modes, most, parts);
 }
 
-/// The plane through the mean colour, perpendicular to the axis of greatest variance.
+/// Goes through the mean colour, perpendicular to the axis of greatest variance.
 struct Plane {
     mean: [f64; 3],
     axis: [f64; 3],
@@ -392,8 +383,8 @@ impl Plane {
         let covariance: [[f64; 3]; 3] = std::array::from_fn(|i| {
             std::array::from_fn(|j| squares[i][j] / count - mean[i] * mean[j])
         });
-        // Starting from the channel of greatest variance makes a start perpendicular to the
-        // axis unlikely.
+        // If we start from the channel of greatest variance, the start is hardly ever
+        // perpendicular to the axis.
         let first = (0..3).max_by(|&a, &b| covariance[a][a].total_cmp(&covariance[b][b]))?;
         let mut axis = covariance[first];
         let mut variance = 0.0;
@@ -434,7 +425,7 @@ mod tests {
 
     #[test]
     fn links_reach_over_steps_within_the_bandwidths_only() {
-        // Steps in L* of 2, 2, 3, a step of place, the paper's edge.
+        // The row has steps in L* of 2, 2, 3, then a step of place, then the paper's edge.
         let row = [(0.0, 10.0), (0.0, 12.0), (0.0, 14.0), (0.0, 17.0), (9.0, 17.0), (9.0, 17.0)];
         let modes = Field::from_values(
             6,
@@ -446,7 +437,7 @@ mod tests {
         assert_eq!((labels.values(), count), (&[0, 0, 0, 1, 2, 3][..], 4));
     }
 
-    /// The labels of a row of regions after `joining`. A region is given by its number of pixels
+    /// The labels of a row of regions after `joining`. You give a region by its number of pixels
     /// and its L*.
     fn joined(regions: &[(usize, f32)], joining: impl Fn(&mut RegionGraph)) -> Vec<u32> {
         let mut labels = Vec::new();
@@ -479,7 +470,6 @@ mod tests {
         let row = [(4, 0.0), (1, 50.0), (2, 60.0), (4, 90.0)];
         let found = joined(&row, |graph| join_small(graph, 3));
         assert_eq!(found, [0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2]);
-        // A single region has no neighbour to join.
         assert_eq!(joined(&[(2, 0.0)], |graph| join_small(graph, 10)), [0, 0]);
         let row = [(2, 0.0), (1, 9.0), (3, 20.0)];
         assert_eq!(joined(&row, |graph| join_small(graph, 10)), [0; 6]);

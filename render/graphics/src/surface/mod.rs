@@ -1,9 +1,9 @@
 //! The visible surface of a mesh, pixel by pixel.
 //!
-//! [`Model`] holds a mesh in the memory of a [`crate::compute::Compute`], with the same bytes on
-//! the processor and on a device, and draws it into a [`VisibilityBuffer`] (Burns and Hunt 2013):
-//! the triangle that each pixel shows. [`SurfacePoint`] then interpolates position, normal and
-//! colour where a pixel shows the mesh.
+//! You put a mesh into the memory of a [`crate::compute::Compute`] as a [`Model`]. Its bytes are
+//! the same on the processor and on a device. The model draws a [`VisibilityBuffer`] (Burns and
+//! Hunt 2013), which is the triangle that each pixel shows. Use [`SurfacePoint`] to interpolate
+//! position, normal and colour there.
 mod raster;
 mod surface_point;
 mod model;
@@ -26,8 +26,8 @@ pub use surface_point::{FourPoints, FourVectors, SurfacePoint, dot_products, pos
 /// [`Fragment::triangle`] of a pixel that shows no triangle.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 
-/// The nearest triangle at the centre of a pixel, and the position on that triangle. The 16
-/// bytes are the same on the processor and on a graphics device.
+/// The nearest triangle at the centre of a pixel, and the position on this triangle. The 16 bytes
+/// are the same on the processor and on a graphics device.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Fragment {
@@ -45,7 +45,7 @@ pub struct Fragment {
 pub type VisibilityBuffer = Field<Fragment>;
 
 impl Fragment {
-    /// Name, size and offsets of the struct, for kernels that bind fragments.
+    /// Name, size and offsets of the struct. Kernels that bind fragments need this.
     pub const LAYOUT: Layout = layout!(Fragment { triangle, second, third, depth });
 
     /// A pixel that shows no triangle.
@@ -58,33 +58,33 @@ impl Fragment {
 pub struct Vertex {
     /// Position in the unit of the model.
     pub position: [f32; 3],
-    /// Texture coordinate to the right, 0 and 1 are the edges, beyond them the texture repeats.
+    /// Texture coordinate to the right. 0 and 1 are the edges. Beyond them the texture repeats.
     pub u: f32,
     /// Outward normal of length 1.
     pub normal: [f32; 3],
-    /// Texture coordinate downwards, 0 and 1 are the edges, beyond them the texture repeats.
+    /// Texture coordinate downwards. 0 and 1 are the edges. Beyond them the texture repeats.
     pub v: f32,
-    /// Encoded sRGB, 0..1. Multiplies the colour of the material.
+    /// Encoded sRGB, 0..1. This multiplies the colour of the material.
     pub color: [f32; 3],
     spare: f32,
 }
 
-/// The colour of a material, and where its texture lies among all texels.
+/// The colour of a material, and where to find its texture among all texels.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct PackedMaterial {
-    /// Encoded sRGB, 0..1. Multiplies the texture.
+    /// Encoded sRGB, 0..1. This multiplies the texture.
     pub color: [f32; 3],
     /// Index of the texture's first texel in [`PackedMesh::texels`].
     pub first: u32,
-    /// Width of the texture in texels, 0 without a texture.
+    /// Width of the texture in texels. If there is no texture, this is 0.
     pub width: u32,
     /// Height of the texture in texels.
     pub height: u32,
     spare: [u32; 2],
 }
 
-/// Something with a position, for example a vertex.
+/// Something with a position, e.g. a vertex.
 pub trait Positioned: Sync {
     /// Position in the unit of the model.
     fn position(&self) -> [f32; 3];
@@ -105,12 +105,12 @@ impl Positioned for Vertex {
 }
 
 impl Vertex {
-    /// Name, size and offsets of the struct, for shaders that bind vertices.
+    /// Name, size and offsets of the struct. Shaders that bind vertices need this.
     pub const LAYOUT: Layout = layout!(Vertex { position, u, normal, v, color, spare });
 }
 
 impl PackedMaterial {
-    /// Name, size and offsets of the struct, for kernels that bind materials.
+    /// Name, size and offsets of the struct. Kernels that bind materials need this.
     pub const LAYOUT: Layout = layout!(PackedMaterial { color, first, width, height, spare });
 }
 
@@ -127,16 +127,16 @@ pub struct PackedMesh {
     pub texels: Vec<u32>,
     /// Lowest and highest corner of the bounding box, in the unit of the model.
     pub bounds: [Vec3; 2],
-    /// Whether the mesh is closed, so that only front faces are seen from outside it.
+    /// Whether the mesh is closed. From outside you then see only front faces.
     pub closed: bool,
 }
 
 impl PackedMesh {
-    /// Packs a mesh that [`Mesh::check`] accepts.
+    /// Packs a mesh. It must pass [`Mesh::check`].
     ///
     /// # Panics
-    /// If the mesh's lists of vertex attributes differ in length, or its textures have
-    /// 2^32 texels or more.
+    /// If the mesh's lists of vertex attributes differ in length, or its textures have 2^32 texels
+    /// or more.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
         let Mesh { positions, normals, texture_coordinates, colors, .. } = mesh;

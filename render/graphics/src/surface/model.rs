@@ -1,4 +1,4 @@
-//! Meshes in the memory of a compute, drawn into visibility buffers.
+//! Meshes in the memory of a compute. They draw themselves into visibility buffers.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use crate::compute::{Compute, GpuCompute, Image, Plane};
 use crate::field::Field;
 use crate::gpu::{Buffer, DeviceError, Target, Triangles};
 
-/// A mesh in the memory of the [`Compute`] that made it, ready to be drawn from any
-/// camera. Of use to that compute only, like an [`Image`].
+/// A mesh in the memory of the [`Compute`] that made it, ready to be drawn from any camera. You
+/// can use it with this compute only, like an [`Image`].
 #[derive(Debug)]
 pub enum Model {
     /// In the processor's memory.
@@ -56,7 +56,7 @@ impl Model {
         }
     }
 
-    /// The model in the processor's memory.
+    /// The model in the processor's memory. Use this in an operation on the processor.
     ///
     /// # Panics
     /// If the model lives on a graphics device.
@@ -68,7 +68,7 @@ impl Model {
         }
     }
 
-    /// The model in device memory.
+    /// The model in device memory. Use this in an operation on a graphics device.
     ///
     /// # Panics
     /// If the model lives in the processor's memory.
@@ -99,7 +99,7 @@ const MADE_BY_DEVICE: &str = "the processor was handed a model of a graphics dev
 
 const MADE_BY_HOST: &str = "a graphics device was handed a model in the processor's memory";
 
-/// The faces to draw: only front faces if the mesh is closed and seen from outside.
+/// Which faces to draw. Only front faces are enough if the mesh is closed and seen from outside.
 fn visible_sides(closed: bool, bounds: [glam::Vec3; 2], camera: &Camera) -> Sides {
     let [low, high] = bounds;
     // The near plane may cut the surface open for a camera just outside the bounds.
@@ -114,7 +114,7 @@ fn visible_sides(closed: bool, bounds: [glam::Vec3; 2], camera: &Camera) -> Side
 pub struct HostModel {
     mesh: PackedMesh,
     rasteriser: Rasteriser,
-    /// The last picture. Its memory is reused once no image shares it.
+    /// The last picture. We reuse its memory once no image shares it.
     last: Arc<VisibilityBuffer>,
 }
 
@@ -124,7 +124,7 @@ impl HostModel {
         Self { mesh, rasteriser: Rasteriser::default(), last }
     }
 
-    /// The mesh in the form for rasterising.
+    /// The mesh in the layout for drawing.
     #[must_use]
     pub fn mesh(&self) -> &PackedMesh {
         &self.mesh

@@ -1,11 +1,11 @@
 //! Rasterises triangles on the processor: projects and clips them, sorts them into bands of rows
 //! and fills their pixels.
 //!
-//! Follows the rules of graphics devices, so that both agree up to rounding. Vertices are rounded
-//! to the 256th of a pixel. A pixel belongs to the triangle that contains its centre. A centre on
-//! an edge belongs to the triangle below or to the right of the edge. The nearest triangle is seen.
-//! At equal depth, the one with the lowest index is. Triangles are clipped at the near and far
-//! plane.
+//! This follows the rules of graphics devices, so that both agree up to rounding. We round
+//! vertices to the 256th of a pixel. A pixel belongs to the triangle that contains its centre. If
+//! the centre lies on an edge, it belongs to the triangle below or to the right of the edge. You
+//! see the nearest triangle, and at equal depth the one with the lowest index. We clip triangles
+//! at the near and far plane.
 
 use std::ops::Range;
 
@@ -17,8 +17,8 @@ use crate::camera::Camera;
 use crate::gpu::{RasterShader, layout};
 use crate::mesh::{Mesh, Triangle};
 
-/// The shader that draws a visibility buffer on a graphics device. It reads buffers of [`Vertex`]
-/// and [`Triangle`]. A pixel is a [`Fragment`].
+/// This shader draws a visibility buffer on a graphics device. It reads buffers of [`Vertex`] and
+/// [`Triangle`]. A pixel is a [`Fragment`].
 pub static RASTER: RasterShader = RasterShader {
     name: "raster",
     source: include_str!("raster.wgsl"),
@@ -35,7 +35,8 @@ pub struct RasterParams {
     pub clip_from_model: [[f32; 4]; 4],
 }
 
-/// Draws both sides of all triangles of a mesh as `camera` sees them.
+/// Draws both sides of all triangles of a mesh as `camera` sees them. Use a [`Rasteriser`] if you
+/// draw several pictures.
 ///
 /// # Panics
 /// If a triangle has a corner that the mesh does not have.
@@ -53,18 +54,18 @@ pub fn visible(mesh: &Mesh, camera: &Camera, width: usize, height: usize) -> Vis
     visible
 }
 
-/// Draws triangles on the processor. Keeps its memory between pictures.
+/// Draws triangles on the processor. It keeps its memory between pictures.
 #[derive(Debug, Clone, Default)]
 pub struct Rasteriser {
     bands: Bands,
 }
 
 impl Rasteriser {
-    /// Draws triangles over all of `visible`, which is cleared first.
+    /// Draws triangles over all of `visible`. This clears it first.
     ///
     /// # Panics
-    /// If a triangle has a corner that `vertices` does not have, or there are 2^31
-    /// triangles or more.
+    /// If a triangle has a corner that `vertices` does not have, or there are 2^31 triangles or
+    /// more.
     pub fn draw(
         &mut self,
         clip_from_model: Mat4,
@@ -90,26 +91,26 @@ impl Rasteriser {
     }
 }
 
-/// Rows of pixels that one thread draws at a time.
+/// A thread draws this many rows of pixels at a time.
 pub(super) const BAND: usize = 16;
 
-/// Triangles that one thread sorts into bands at a time.
+/// A thread sorts this many triangles into bands at a time.
 const CHUNK: usize = 2048;
 
-/// This bit is set where an entry of a band is the index of a piece of a clipped triangle.
+/// An entry of a band has this bit if it is the index of a piece of a clipped triangle.
 const PIECE: u32 = 1 << 31;
 
-/// Which sides of triangles are drawn.
+/// Which sides of triangles to draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sides {
     /// Front and back faces.
     Both,
-    /// Only faces with corners that run counter-clockwise in the picture. Of a closed surface seen
-    /// from outside, nothing else is visible.
+    /// Only faces with corners that run counter-clockwise in the picture. Use this for a closed
+    /// surface seen from outside, where nothing else is visible.
     Front,
 }
 
-/// Projected triangles by the bands in which they may have pixels. Keeps its memory between
+/// Projected triangles by the bands in which they may have pixels. It keeps its memory between
 /// pictures.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Bands {
@@ -117,7 +118,6 @@ pub(super) struct Bands {
     chunks: Vec<Chunk>,
 }
 
-/// Some triangles, sorted into bands.
 #[derive(Debug, Clone, Default)]
 struct Chunk {
     /// For each band the triangles to draw there, or pieces of clipped ones ([`PIECE`]).
@@ -125,7 +125,6 @@ struct Chunk {
     pieces: Vec<Piece>,
 }
 
-/// A triangular piece of a clipped triangle.
 #[derive(Debug, Clone)]
 struct Piece {
     triangle: u32,
@@ -134,8 +133,8 @@ struct Piece {
 }
 
 impl Bands {
-    /// Projects triangles to a picture of (width, height) pixels and sorts them. What was sorted
-    /// before is dropped.
+    /// Projects triangles to a picture of (width, height) pixels and sorts them. This drops what
+    /// you sorted before.
     ///
     /// # Panics
     /// If a triangle has a corner that `vertices` does not have, or there are 2^31 triangles or
@@ -158,8 +157,8 @@ impl Bands {
         );
     }
 
-    /// Calls `draw` with each shape of `band`, which starts at row [`BAND`] times its index,
-    /// in the order of `triangles`, the list that was sorted.
+    /// Calls `draw` with each shape of `band`, in the order of `triangles`, which must be the list
+    /// that you sorted. The band starts at row [`BAND`] times its index.
     #[inline]
     pub(super) fn for_each_shape(
         &self,
@@ -181,7 +180,6 @@ impl Bands {
     }
 }
 
-/// Sorts triangles into the bands that they touch.
 struct Sorter<'a, V> {
     screen: Screen,
     vertices: &'a [V],
@@ -219,7 +217,7 @@ impl<V: Positioned> Sorter<'_, V> {
         }
     }
 
-    /// Adds `entry` to the bands in which the triangle of these corners may have pixels.
+    /// Adds `entry` to the bands in which the triangle with these corners may have pixels.
     fn add(&self, corners: &[Corner; 3], entry: u32, bands: &mut [Vec<u32>]) {
         let [a, b, c] = corners;
         let twice_area = i64::from(b.x - a.x) * i64::from(c.y - a.y)
@@ -239,7 +237,7 @@ impl<V: Positioned> Sorter<'_, V> {
     }
 }
 
-/// A triangle or a piece of a clipped one, its corners clockwise in the picture.
+/// A triangle or a piece of a clipped one. Its corners run clockwise in the picture.
 pub(super) struct Shape {
     triangle: u32,
     corners: [Corner; 3],
@@ -274,7 +272,7 @@ impl Shape {
         }
     }
 
-    /// Index of the triangle that it is or belongs to.
+    /// Index of the triangle that this is or belongs to.
     pub(super) fn triangle(&self) -> u32 {
         self.triangle
     }
@@ -284,13 +282,12 @@ impl Shape {
         self.front
     }
 
-    /// Greatest depth of a corner.
     pub(super) fn greatest_depth(&self) -> f32 {
         let [a, b, c] = &self.corners;
         a.depth.max(b.depth).max(c.depth)
     }
 
-    /// The columns, out of `width`, in which it may have pixels.
+    /// The columns in which it may have pixels, of `width`.
     pub(super) fn columns(&self, width: usize) -> Range<usize> {
         let [a, b, c] = &self.corners;
         pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width)
@@ -304,7 +301,7 @@ impl Shape {
     }
 
     /// Shares of its corners in 1 / w where the second and third corner have these weights in the
-    /// picture. They add up to 1 / w.
+    /// picture. These add up to 1 / w.
     #[inline]
     pub(super) fn inverse_w(&self, second: f32, third: f32) -> [f32; 3] {
         let [a, b, c] = &self.corners;
@@ -316,11 +313,11 @@ impl Shape {
 /// positive inside.
 #[derive(Clone, Copy)]
 struct Edge {
-    /// Value at the first pixel of the row.
     value: i64,
     by_column: i64,
     by_row: i64,
-    /// Least value that counts as inside: 0 on upper and left edges, else 1 (the fill rule).
+    /// Least value that counts as inside (the fill rule). This is 0 on upper and left edges, else
+    /// 1.
     least: i64,
 }
 
@@ -341,9 +338,9 @@ impl Edge {
     }
 }
 
-/// Calls `visit` with each pixel of `shape` among `pixels`, which are whole rows of `width`
-/// from row `first_row` on: its index, the pixel, and the weights of the shape's second and
-/// third corner in the picture.
+/// Calls `visit` with each pixel of `shape` among `pixels`. These are whole rows of `width`, from
+/// row `first_row` on. `visit` gets the index, the pixel, and the weights of the shape's second
+/// and third corner in the picture.
 #[inline(always)]
 pub(super) fn cover<P>(
     shape: &Shape,
@@ -384,8 +381,8 @@ pub(super) fn cover<P>(
     }
 }
 
-/// Draws `shape` into `pixels`, which are whole rows of `width` from row `first_row` on,
-/// wherever it is nearer than what they show.
+/// Draws `shape` into `pixels` wherever it is nearer than what they show. These are whole rows of
+/// `width`, from row `first_row` on.
 pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [Fragment]) {
     cover(shape, first_row, width, pixels, |_, pixel, second, third| {
         let depth = shape.depth(second, third);
@@ -401,15 +398,14 @@ pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [
     });
 }
 
-/// Vertices are rounded to this many steps per pixel, as graphics devices do (8 bits of
-/// sub-pixel precision), so that edge functions are exact in integers.
+/// We round vertices to this many steps per pixel, so that edge functions are exact in integers.
+/// Graphics devices do this too (8 bits of sub-pixel precision).
 pub(super) const STEPS: i32 = 256;
 
-/// Size of the guard band: triangles are clipped where they reach further than this from
-/// the centre of the picture, in halves of its size. Keeps edge functions within 64 bits.
+/// Size of the guard band. We clip triangles where they reach further than this from the centre of
+/// the picture, in halves of its size. This keeps edge functions within 64 bits.
 const GUARD: f32 = 16.0;
 
-/// A vertex projected to the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     /// Distance from the left edge, in [`STEPS`] of a pixel.
@@ -418,12 +414,12 @@ pub(super) struct Corner {
     pub(super) y: i32,
     /// Depth, 0 (near plane) to 1 (far plane).
     pub(super) depth: f32,
-    /// 1 / w of the clip coordinates. 0 outside the guard band. `x` then has one bit for each plane
-    /// of [`PLANES`] that the vertex is beyond.
+    /// 1 / w of the clip coordinates. If the vertex is outside the guard band, this is 0, and `x`
+    /// has one bit for each plane of [`PLANES`] that the vertex is beyond.
     pub(super) inverse_w: f32,
 }
 
-/// The transform from model coordinates to pixels of a picture.
+/// Transforms model coordinates to pixels of a picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Screen {
     clip_from_model: Mat4,
@@ -432,7 +428,6 @@ pub(super) struct Screen {
     planes: [Vec4; 6],
 }
 
-/// A corner of a clipped triangle.
 #[derive(Debug, Clone, Copy)]
 struct ClippedCorner {
     clip: Vec4,
@@ -446,13 +441,12 @@ impl Screen {
         Self { clip_from_model, half_width, half_height, planes: PLANES }
     }
 
-    /// This transform without a far plane: nothing is too far away, and depth may exceed 1.
+    /// This transform without a far plane. Nothing is too far away, and depth may exceed 1.
     pub(super) fn without_far_plane(mut self) -> Self {
         self.planes[FAR] = BEFORE_EYE;
         self
     }
 
-    /// Projects one position of the model.
     fn corner(&self, position: [f32; 3]) -> Corner {
         let clip = self.clip(position);
         match self
@@ -482,15 +476,15 @@ impl Screen {
         }
     }
 
-    /// Projects many positions of the model into `corners`, which is overwritten.
+    /// Projects many positions of the model. This overwrites `corners`.
     pub(super) fn corners(&self, positions: &[impl Positioned], corners: &mut Vec<Corner>) {
         let each = positions.par_iter().with_min_len(1 << 11).map(|at| self.corner(at.position()));
         each.collect_into_vec(corners);
     }
 
-    /// Clips a triangle to the view frustum plus guard band. Returns a convex polygon of 0
-    /// or 3 to 9 projected corners, each with the barycentric weights of the triangle's
-    /// second and third corner.
+    /// Clips a triangle to the view frustum plus guard band. You get a convex polygon of 0 or 3 to
+    /// 9 projected corners, each with the barycentric weights of the triangle's second and third
+    /// corner.
     pub(super) fn clip_triangle(&self, positions: [[f32; 3]; 3]) -> Vec<(Corner, [f32; 2])> {
         let weights = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
         let clips = positions.map(|position| self.clip(position));
@@ -507,8 +501,8 @@ impl Screen {
                 if sides[i] >= 0.0 {
                     left.push(here);
                 }
-                // Always interpolated from the inside outwards, so that two triangles that
-                // share the edge are clipped at the same point.
+                // We always interpolate from the inside outwards, so that two triangles that share
+                // the edge are clipped at the same point.
                 if sides[i] >= 0.0 && sides[next] < 0.0 {
                     left.push(between(here, polygon[next], sides[i] / (sides[i] - sides[next])));
                 } else if sides[i] < 0.0 && sides[next] >= 0.0 {
@@ -524,7 +518,7 @@ impl Screen {
 /// Position of the far plane in [`PLANES`].
 const FAR: usize = 1;
 
-/// The plane through the eye along the picture: everything beyond the near plane is inside.
+/// This plane goes through the eye along the picture. Everything beyond the near plane is inside.
 const BEFORE_EYE: Vec4 = Vec4::W;
 
 /// Near and far plane, then the four planes of the guard band. A point is inside where the
@@ -544,8 +538,8 @@ fn between(from: ClippedCorner, to: ClippedCorner, share: f32) -> ClippedCorner 
     ClippedCorner { clip: from.clip + (to.clip - from.clip) * share, weights }
 }
 
-/// The pixels, out of `count` in a row or column, whose centres lie from `low` to `high`,
-/// both in [`STEPS`] of a pixel.
+/// The pixels with a centre from `low` to `high`, of `count` pixels in a row or column. Both
+/// limits are in [`STEPS`] of a pixel.
 pub(super) fn pixel_range(low: i32, high: i32, count: usize) -> Range<usize> {
     let first = (low + STEPS / 2 - 1).div_euclid(STEPS).max(0) as usize;
     let after = ((high + STEPS / 2).div_euclid(STEPS).max(0) as usize).min(count);

@@ -1,4 +1,4 @@
-// Draws the visibility buffer of a mesh; twin of raster.rs.
+// Draws the visibility buffer of a mesh. This is the twin of raster.rs.
 
 struct RasterParams {
     clip_from_model: mat4x4<f32>,

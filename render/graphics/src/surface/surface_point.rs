@@ -1,5 +1,5 @@
-//! Position, normal and colour of a mesh at the pixel that shows it, for single points and for four
-//! points on one triangle, for example the samples of a pixel, at once.
+//! Position, normal and colour of a mesh at the pixel that shows it. You can take one point, or
+//! four points on one triangle at once, for example the samples of a pixel.
 
 use glam::{Vec2, Vec3, Vec4};
 
@@ -16,13 +16,12 @@ pub fn position_at(mesh: &Mesh, fragment: Fragment) -> Vec3 {
     between(fragment, corners.map(|corner| Vec3::from(mesh.positions[corner as usize])))
 }
 
-/// Interpolates the values of a triangle's corners.
 #[inline(always)]
 fn between(fragment: Fragment, [a, b, c]: [Vec3; 3]) -> Vec3 {
     a + (b - a) * fragment.second + (c - a) * fragment.third
 }
 
-/// A point on a mesh that a pixel shows, with the corners of its triangle.
+/// A point on a mesh that a pixel shows. It knows the corners of its triangle.
 #[derive(Debug, Clone, Copy)]
 pub struct SurfacePoint<'a> {
     fragment: Fragment,
@@ -48,7 +47,7 @@ impl<'a> SurfacePoint<'a> {
         }
     }
 
-    /// Points of one triangle, the first fragment's.
+    /// Points of one triangle, which is the first fragment's.
     #[inline]
     pub(super) fn on_one_triangle<const N: usize>(
         mesh: &'a PackedMesh,
@@ -63,13 +62,11 @@ impl<'a> SurfacePoint<'a> {
         }
     }
 
-    /// The corners of its triangle.
     #[inline]
     pub(super) fn corners(&self) -> [&'a Vertex; 3] {
         self.corners
     }
 
-    /// The material of its triangle.
     #[inline]
     pub(super) fn material(&self) -> &'a PackedMaterial {
         self.material
@@ -89,8 +86,8 @@ impl<'a> SurfacePoint<'a> {
         between(self.fragment, self.corners.map(|corner| corner.position.into()))
     }
 
-    /// The interpolated normal, of length 1 (or 0 if the mesh has none), on the side of
-    /// the surface that faces `eye`.
+    /// The interpolated normal on the side of the surface that faces `eye`, of length 1. If the
+    /// mesh has no normal there, this is 0.
     #[must_use]
     #[inline]
     pub fn normal(&self, eye: Vec3) -> Vec3 {
@@ -100,8 +97,8 @@ impl<'a> SurfacePoint<'a> {
         if self.faces_away(eye) { -normal } else { normal }
     }
 
-    /// The colour of the surface without light, encoded sRGB in 0..1: the colours of
-    /// material, vertices and texture multiplied. The texture is bilinear and repeats.
+    /// The colour of the surface without light, encoded sRGB in 0..1: the colours of material,
+    /// vertices and texture multiplied. We sample the texture bilinearly and repeat it.
     #[must_use]
     #[inline]
     pub fn albedo(&self) -> Vec3 {
@@ -138,8 +135,8 @@ impl<'a> SurfacePoint<'a> {
     }
 }
 
-/// The index of the texel at `place`, which is -1 to `count`, in a row of `count` texels
-/// that repeats.
+/// The index of the texel at `place` in a row of `count` texels that repeats. Pass a place from -1
+/// to `count`.
 fn wrapped(place: f32, count: u32) -> u32 {
     let place = place.floor();
     if place < 0.0 {
@@ -151,10 +148,11 @@ fn wrapped(place: f32, count: u32) -> u32 {
     }
 }
 
-/// Three numbers of each of four points: the first numbers of all, then the second, then the third.
+/// Three numbers of each of four points: all first numbers, then all second ones, then all third
+/// ones.
 pub type FourVectors = [Vec4; 3];
 
-/// Four points on one triangle of a mesh. Its numbers are the numbers of four [`SurfacePoint`]s,
+/// Four points on one triangle of a mesh. You get the same numbers as from four [`SurfacePoint`]s,
 /// bit for bit.
 #[derive(Debug, Clone, Copy)]
 pub struct FourPoints<'a> {
@@ -221,7 +219,6 @@ impl<'a> FourPoints<'a> {
         [red * own_red, green * own_green, blue * own_blue]
     }
 
-    /// Interpolates values of the corners.
     #[inline(always)]
     fn between(&self, value: impl Fn(&Vertex) -> [f32; 3]) -> FourVectors {
         let [a, b, c] = self.points[0].corners().map(value);
@@ -244,7 +241,7 @@ mod tests {
     use super::*;
     use crate::mesh::{Material, Mesh, Texture};
 
-    /// A ball of which every third triangle has a texture, and one vertex has no normal.
+    /// A ball in which every third triangle has a texture, and one vertex has no normal.
     fn ball() -> PackedMesh {
         let mut mesh = Mesh::sphere(60);
         mesh.materials[0].color = [0.9, 0.35, 0.6];

@@ -1,4 +1,5 @@
-//! Paints swatches in a style, makes an art map of them, and writes its tiles as one picture.
+//! Paints swatches in a style, makes an art map of them, and writes its tiles as one picture. Run
+//! it like this:
 //!
 //! `cargo run --release -p impasto-artmap --example art_map -- oil-flat tiles.png`
 
@@ -35,8 +36,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     println!("tone      L*  (sample)  coherence  error  floor  contrast  length  border  use");
     let first = Texture::tiled(&map.keys[map.first].tile.color);
-    // Unevenness over more than some strokes is not a stroke.
-    let level = |texture: &Texture| texture.levelled(4.0 * map.spacing);
+    // Unevenness over more than this is not a stroke.
+    let far = 4.0 * map.spacing;
     for key in &map.keys {
         let sample = samples.samples.iter().find(|sample| sample.name == key.name);
         let sample = sample.ok_or("a tile has no sample")?;
@@ -57,13 +58,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             co_occurrence_error(&whole, &tile),
             co_occurrence_error(&half(false), &half(true)),
             contrast(&tile) / contrast(&whole),
-            stroke_length(&level(&tile)) / stroke_length(&level(&whole)),
+            stroke_length(&tile.levelled(far)) / stroke_length(&whole.levelled(far)),
             wrap_ratio(&tile),
             most_used(&key.sources, &sample.mask, map.patch),
         );
     }
 
-    // Key tiles, and below each the tile half way to the next one.
+    // The picture shows the key tiles, and below each the tile half way to the next one.
     let size = map.size();
     let mut sheet = Field::filled(map.keys.len() * size, 2 * size, [1.0; 4]);
     for (index, key) in map.keys.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! Figures of how well a map has the brushwork of its sample: its contrast and strokes compared
-//! with the sample, how maps agree with each other and with themselves across their borders, and
-//! how often they repeat a place of their sample.
+//! Measures how well a map has the brushwork of its sample. You can compare its contrast and
+//! strokes with the sample, see how maps agree with each other and with themselves across their
+//! borders, and how often they repeat a place of their sample.
 
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
@@ -13,7 +13,7 @@ use crate::relief::blurred_tile;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Texture {
     lightness: Field<f32>,
-    /// Texels that belong to it, `None` for all of a texture that tiles.
+    /// Texels that belong to it. `None` if the texture tiles and all do.
     mask: Option<Field<bool>>,
 }
 
@@ -24,7 +24,7 @@ impl Texture {
         Self { lightness: lightness(color), mask: None }
     }
 
-    /// The texels of a sample, in linear sRGB, that are true in the mask.
+    /// Takes the texels of a sample, in linear sRGB, that are true in the mask.
     ///
     /// # Panics
     /// If the sizes differ.
@@ -36,8 +36,8 @@ impl Texture {
         Self { lightness: lightness(color), mask: Some(mask.clone()) }
     }
 
-    /// The texture without its variation over distances much longer than `sigma` texels: L* less
-    /// its mean around each texel, weighted by a Gaussian of that deviation.
+    /// The texture without its variation over distances much longer than `sigma` texels. This
+    /// subtracts from L* its mean around each texel, weighted by a Gaussian of this deviation.
     #[must_use]
     pub fn levelled(&self, sigma: f64) -> Self {
         let means = match &self.mask {
@@ -63,20 +63,21 @@ impl Texture {
         self.inside().map(f64::from).sum::<f64>() / count
     }
 
-    /// L* of every texel, those outside the mask too.
+    /// L* of every texel, also outside the mask.
     #[must_use]
     pub fn lightness(&self) -> &Field<f32> {
         &self.lightness
     }
 
-    /// L* of the texels that belong to it, row by row.
     fn inside(&self) -> impl Iterator<Item = f32> + '_ {
-        let inside = |index: usize| self.mask.as_ref().is_none_or(|mask| mask.values()[index]);
         let values = self.lightness.values().iter().enumerate();
-        values.filter(move |(index, _)| inside(*index)).map(|(_, value)| *value)
+        values
+            .filter(move |(index, _)| self.mask.as_ref().is_none_or(|mask| mask.values()[*index]))
+            .map(|(_, value)| *value)
     }
 
-    /// Calls `with` with L* of every texel and of the one `step` away, where both belong to it.
+    /// Calls `with` with L* of every texel and of the texel `step` away, if both belong to the
+    /// texture.
     fn pairs(&self, step: [isize; 2], mut with: impl FnMut(f32, f32)) {
         let (width, height) = self.size();
         let inside = |at: (usize, usize)| self.mask.as_ref().is_none_or(|mask| mask[at]);
@@ -99,7 +100,7 @@ impl Texture {
     }
 }
 
-/// Blur of the values inside a mask. Values outside give nothing.
+/// Blurs the values inside a mask. Values outside count for nothing.
 fn masked_blur(values: &Field<f32>, mask: &Field<bool>, sigma: f64) -> Field<f32> {
     let weighed = values
         .values()
@@ -129,11 +130,10 @@ fn lightness(color: &Picture) -> Field<f32> {
     Field::from_values(lab.width(), lab.height(), values)
 }
 
-/// Grey levels of co-occurrences.
 const LEVELS: usize = 16;
-/// Shares of the texels below the darkest and above the lightest level.
+/// We ignore this share of the texels below the darkest and above the lightest level.
 const TAILS: f64 = 0.005;
-/// Distances in texels at which texels are compared: along both axes and both diagonals.
+/// We compare texels at these distances: along both axes and both diagonals.
 const STEPS: [[isize; 2]; 14] = [
     [1, 0],
     [2, 0],
@@ -150,13 +150,13 @@ const STEPS: [[isize; 2]; 14] = [
     [3, -3],
     [6, -6],
 ];
-/// Correlation at which a stroke ends.
+/// A stroke ends at this correlation.
 const END: f64 = 0.05;
 
-/// Average co-occurrence error between two textures, 0 (alike) to 2: how often grey levels stand
-/// at given distances from each other, a figure that predicts how people rank textures (Benard,
-/// Thollot and Sillion 2009). The levels are 16 between the 0.5 and 99.5 percentiles of L* of
-/// `reference`.
+/// Average co-occurrence error between two textures, from 0 (alike) to 2. It measures how often
+/// grey levels stand at given distances from each other. This predicts how people rank textures
+/// (Benard, Thollot and Sillion 2009). We divide L* into 16 levels between the 0.5 and 99.5
+/// percentiles of `reference`.
 #[must_use]
 pub fn co_occurrence_error(reference: &Texture, other: &Texture) -> f64 {
     let mut sorted: Vec<f32> = reference.inside().collect();
@@ -197,8 +197,8 @@ pub fn contrast(texture: &Texture) -> f64 {
 }
 
 /// Length of strokes in texels along y: the integral of the autocorrelation of L* until it falls
-/// below 0.05. Unevenness over long distances counts as well: compare textures of different size
-/// after [`Texture::levelled`].
+/// below 0.05. Unevenness over long distances counts as well. If you compare textures of different
+/// size, use [`Texture::levelled`] first.
 #[must_use]
 pub fn stroke_length(texture: &Texture) -> f64 {
     let (mean, variance) = moments(texture);
@@ -222,7 +222,6 @@ pub fn stroke_length(texture: &Texture) -> f64 {
     length
 }
 
-/// Mean and variance of L*.
 fn moments(texture: &Texture) -> (f64, f64) {
     let count = texture.inside().count().max(1) as f64;
     let mean = texture.inside().map(f64::from).sum::<f64>() / count;
@@ -230,12 +229,12 @@ fn moments(texture: &Texture) -> (f64, f64) {
     (mean, squares.sum::<f64>() / count)
 }
 
-/// Deviation, in texels, of the blur of the lightness that is compared.
+/// Deviation, in texels, of the blur before we compare lightness.
 const DETAIL: f64 = 2.0;
 
-/// Correlation of the detail of L* of two maps that tile, -1 to 1: whether their strokes stand at
-/// the same places. Detail is L* blurred by 2 texels, less L* blurred by `spacing`, the distance of
-/// strokes.
+/// Correlation of the detail of L* of two maps that tile, -1 to 1. Use this to see whether their
+/// strokes stand at the same places. Detail is L* blurred by 2 texels, less L* blurred by
+/// `spacing`, the distance of strokes.
 ///
 /// # Panics
 /// If the maps differ in size.
@@ -251,8 +250,8 @@ pub fn coherence(first: &Texture, second: &Texture, spacing: f64) -> f64 {
     if squares > 0.0 { sum(&first, &second) / squares.sqrt() } else { 0.0 }
 }
 
-/// Mean step of L* across the borders of a map that tiles, over the mean step within it: 1 where
-/// no seam shows.
+/// Mean step of L* across the borders of a map that tiles, over the mean step within it. If this
+/// is 1, no seam shows.
 #[must_use]
 pub fn wrap_ratio(map: &Texture) -> f64 {
     let (width, height) = map.size();
@@ -278,9 +277,9 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
     if mean(inside) > 0.0 { mean(across) / mean(inside) } else { 1.0 }
 }
 
-/// The figure of [`wrap_ratio`] that 95 of 100 places inside the map stay below: a column and a row
-/// inside taken for the borders. A border above that stands out. Strokes that happen to end at one
-/// place raise both.
+/// The ratio that 95 of 100 places inside the map stay below. For this we take a column and a row
+/// inside for the borders of [`wrap_ratio`]. If the border is above this value, it stands out.
+/// Strokes that happen to end at one place raise both.
 #[must_use]
 pub fn usual_wrap_ratio(map: &Texture) -> f64 {
     let (width, height) = map.size();
@@ -306,9 +305,9 @@ pub fn usual_wrap_ratio(map: &Texture) -> f64 {
     ratios.get(ratios.len() * 95 / 100).copied().unwrap_or(1.0)
 }
 
-/// Use of the most used part of a sample over the mean use of its parts, or over a single use where
-/// the map is too small to show every part once: 1 where all are used alike. Parts are squares of
-/// `block` texels that lie in the mask.
+/// Use of the most used part of a sample over the mean use of its parts. If the map is too small
+/// to show every part once, it is over a single use instead. This is 1 where all parts are used
+/// alike. Parts are squares of `block` texels that lie in the mask.
 #[must_use]
 pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) -> f64 {
     let width = mask.width().div_ceil(block);
@@ -334,7 +333,6 @@ pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) ->
     uses.map(|(&used, &inside)| used as f64 / inside as f64 / mean).fold(0.0, f64::max)
 }
 
-/// Detail of L* of a map that tiles, row by row.
 fn detail(lightness: &Field<f32>, spacing: f64) -> Vec<f64> {
     let fine = blurred_tile(lightness, DETAIL);
     let coarse = blurred_tile(lightness, spacing.max(2.0 * DETAIL));
@@ -347,7 +345,6 @@ mod tests {
     use super::*;
     use graphics::field::Field;
 
-    /// Vertical dashes, `length` texels long, `spacing` texels apart.
     fn dashes(size: usize, length: usize, spacing: usize, dark: f32) -> Texture {
         let values = (0..size * size)
             .map(|index: usize| {
@@ -436,8 +433,8 @@ mod tests {
 
     #[test]
     fn places_inside_tell_what_is_usual() {
-        // Waves along x: the steps down are 0, those across rise and fall with the waves, so that
-        // the steepest columns have pi / 2 times the mean of columns.
+        // Waves along x: the steps down are 0. The steps across rise and fall with the waves, so
+        // that the steepest columns have pi / 2 times the mean of columns.
         let map = waves(96, 12.0, 0.1, 0.3);
         let usual = usual_wrap_ratio(&map);
         assert!((usual - std::f64::consts::FRAC_PI_2).abs() < 0.1, "{usual}");

@@ -5,18 +5,17 @@ use graphics::field::Field;
 use graphics::picture::Picture;
 use rayon::prelude::*;
 
-/// Tangents of the least and the greatest elevation of the light: 2 and 40 degrees.
+/// Tangents of the least and the greatest elevation of the light, which are 2 and 40 degrees.
 const TANGENTS: [f32; 2] = [0.035, 0.84];
 
-/// Tangent of the elevation by the root mean square of the slopes: at 2.5 a usual slope is 1.4
-/// times as light or as dark as a level surface.
+/// Tangent of the elevation over the root mean square of the slopes. With 2.5, a usual slope is
+/// 1.4 times as light or as dark as a level surface.
 const PER_SLOPE: f32 = 2.5;
 
-/// Linear grey of a level surface.
 const LEVEL: f32 = 0.25;
 
-/// Slopes of a surface to the right and downwards, as rise by run, 0 beyond the passage. Texels
-/// beyond the passage count as high as the passage beside them.
+/// Slopes of a surface to the right and downwards, as rise over run. They are 0 beyond the
+/// passage. Texels beyond the passage count as high as the passage beside them.
 ///
 /// # Panics
 /// If heights and mask differ in size.
@@ -53,8 +52,8 @@ pub(crate) fn slopes(
     Field::from_values(width, height, rows)
 }
 
-/// Tangent of the elevation of a light that shows the relief of all surfaces: the flatter they are,
-/// the lower the light, from 40 down to 2 degrees.
+/// Tangent of the elevation of a light that shows the relief of all surfaces. The flatter they
+/// are, the lower this light stands, from 40 down to 2 degrees.
 pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 2]>>) -> f32 {
     let mut sum = 0.0;
     let mut count = 0.0;
@@ -66,9 +65,9 @@ pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 
     (PER_SLOPE * slope).clamp(TANGENTS[0], TANGENTS[1])
 }
 
-/// A white surface under one distant light from the upper left, after Lambert: linear grey 0 to 1,
-/// a quarter where the surface is level. `tangent` is the tangent of the light's elevation. Nothing
-/// casts shadows.
+/// Shows a white surface under one distant light from the upper left, after Lambert. You get a
+/// linear grey of 0 to 1, a quarter where the surface is level. `tangent` is the tangent of the
+/// light's elevation. Nothing casts shadows.
 pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
     // Half of the light's way along the canvas is from the left, half from above.
     let along = 0.5_f32.sqrt() / tangent;
@@ -89,7 +88,7 @@ pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
 pub(crate) fn blurred_tile(field: &Field<f32>, sigma: f64) -> Field<f32> {
     let width = field.width();
     let height = field.height();
-    // The blur repeats the cells at the border. Four deviations keep that out of the tile.
+    // The blur repeats the cells at the border. Four deviations stop this from reaching the tile.
     let margin = (4.0 * sigma).ceil() as usize;
     fn wrapped(index: usize, size: usize, margin: usize) -> usize {
         (index as isize - margin as isize).rem_euclid(size as isize) as usize
@@ -114,7 +113,6 @@ pub(crate) fn blurred_tile(field: &Field<f32>, sigma: f64) -> Field<f32> {
 mod tests {
     use super::*;
 
-    /// A plane of 9 x 9 texels that rises by `across` and `down`.
     fn plane(across: f32, down: f32) -> Field<[f32; 2]> {
         let heights = Field::from_values(
             9,

@@ -1,5 +1,5 @@
-//! Sheets: all samples of a set side by side on one picture, at a scale of whole pixels per texel
-//! or whole texels per pixel.
+//! Sheets: one picture shows all samples of a set side by side. A texel takes whole pixels, or a
+//! pixel whole texels.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -7,27 +7,26 @@ use graphics::picture::Picture;
 use crate::relief::{raked, raking_tangent, slopes};
 use crate::sample::{Sample, SampleSet};
 
-/// Linear grey of the sheet, on which both dark and light samples stand out.
+/// Linear grey of the sheet. Both dark and light samples stand out on this.
 const GROUND: [f32; 3] = [0.45; 3];
 
-/// Width of the border of the sheet in pixels.
 const MARGIN: usize = 24;
 
-/// Distance between samples in pixels.
 const GAP: usize = 16;
 
-/// Width beyond which the next sample begins a new line: seven samples fit into one.
+/// Beyond this width the next sample begins a new line. Seven samples fit into one.
 const LINE: usize = 2 * MARGIN + 6 * GAP + 7 * 330;
 
-/// Pictures of a sample on the sheet: its colours, and its relief where it has one.
 type Shown = Vec<Field<Option<[f32; 3]>>>;
 
-/// A picture of all samples side by side, in their order, from dark to light, below each the relief
-/// of its paint under a raking light from the upper left, where height and size are known. The
-/// light stands the lower the flatter the paint of the set is, from 40 down to 2 degrees.
+/// Shows all samples side by side, in their order, from dark to light.
 ///
-/// In linear sRGB, as the samples. All samples have one scale, a whole number of pixels a texel or
-/// of texels a pixel. Texels beyond a passage show the grey of the sheet.
+/// Where height and size are known, you see below each sample the relief of its paint under a
+/// raking light from the upper left. If the paint of the set is flatter, this light stands lower,
+/// from 40 down to 2 degrees.
+///
+/// The picture is in linear sRGB, like the samples. All samples have one scale, a whole number of
+/// pixels per texel or of texels per pixel. Texels beyond a passage show the grey of the sheet.
 #[must_use]
 pub fn sheet(set: &SampleSet) -> Picture {
     let largest = set.samples.iter().map(|sample| sample.size().0.max(sample.size().1)).max();
@@ -63,13 +62,11 @@ pub fn sheet(set: &SampleSet) -> Picture {
     sheet
 }
 
-/// Slopes of the paint of a sample, where they are known.
 fn relief(sample: &Sample) -> Option<Field<[f32; 2]>> {
     let (height, mm) = sample.height_mm.as_ref().zip(sample.mm_per_texel)?;
     Some(slopes(height, &sample.mask, mm))
 }
 
-/// The samples line by line.
 fn lines(shown: &[Shown]) -> Vec<&[Shown]> {
     let mut lines = Vec::new();
     let mut first = 0;
@@ -87,7 +84,6 @@ fn line_width(line: &[Shown]) -> usize {
     line.iter().map(|pictures| pictures[0].width() + GAP).sum::<usize>() - GAP
 }
 
-/// Heights of the strips of colours and of reliefs.
 fn strip_heights(line: &[Shown]) -> Vec<usize> {
     let strips = line.iter().map(Vec::len).max().unwrap_or(0);
     (0..strips)
@@ -107,13 +103,11 @@ fn place(sheet: &mut Picture, picture: &Field<Option<[f32; 3]>>, (left, top): (u
     }
 }
 
-/// Largest side of a picture on the sheet in pixels.
 const LARGEST_PX: usize = 480;
 
-/// Most pixels along a texel.
 const MOST_UP: usize = 8;
 
-/// Enlargement of single texels, or reduction of blocks of them. One of both is 1.
+/// Enlarges single texels, or reduces blocks of them. One of both numbers is 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Scale {
     up: usize,
@@ -133,8 +127,8 @@ impl Scale {
         (texels * self.up).div_ceil(self.down)
     }
 
-    /// The picture at this scale: means of the texels of `mask` under each pixel, `None` where
-    /// there are none.
+    /// The picture at this scale. A pixel is the mean of the texels of `mask` under it, `None`
+    /// where there are none.
     fn scaled(self, picture: &Picture, mask: &Field<bool>) -> Field<Option<[f32; 3]>> {
         let width = self.pixels(picture.width());
         let height = self.pixels(picture.height());
@@ -188,7 +182,6 @@ mod tests {
     #[test]
     fn samples_lie_from_left_to_right_with_their_relief_below() {
         let sheet = sheet(&set(vec![sample(0.1, (240, 100), true), sample(0.8, (60, 200), false)]));
-        // Two pixels a texel.
         assert_eq!(sheet.width(), 2 * MARGIN + 480 + GAP + 120);
         assert_eq!(sheet.height(), 2 * MARGIN + 400 + GAP + 200);
         assert_eq!(sheet[(MARGIN + 1, MARGIN + 1)], GROUND, "beyond the passage");

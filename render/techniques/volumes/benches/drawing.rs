@@ -1,5 +1,5 @@
-//! Frames of a still life of 60,000 triangles at 750 x 570 pixels: what is seen, light and
-//! hatching, and the picture.
+//! Frames of a still life of 60,000 triangles at 750 x 570 pixels. We measure what is seen, light
+//! and hatching, and the picture.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -38,8 +38,9 @@ impl Scene {
         let framing = Framing { aspect: SIZE.0 as f32 / SIZE.1 as f32, ..Framing::default() };
         let camera = framing.fit(&mesh.positions);
         // Patches of every count, as many as volumes with four shells make.
-        let count = |i: usize| ((i % SIZE.0 / 40 + i / SIZE.0 / 30) % 5) as i32;
-        let counts = (0..SIZE.0 * SIZE.1).map(count).collect();
+        let counts = (0..SIZE.0 * SIZE.1)
+            .map(|i: usize| ((i % SIZE.0 / 40 + i / SIZE.0 / 30) % 5) as i32)
+            .collect();
         let counts = Field::from_values(SIZE.0, SIZE.1, counts);
         let counts = compute.upload(&counts).unwrap();
         Self { compute, model, hatching, camera, look: DrawingLook::default(), counts }
@@ -100,7 +101,7 @@ fn revealed(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| scene.reveal(&visible, &shaded));
 }
 
-/// From the model to the picture in the processor's memory, but for counting.
+/// Goes from the model to the picture in the processor's memory, without counting.
 #[divan::bench(args = [BackendChoice::Cpu, BackendChoice::Gpu])]
 fn frame(bencher: Bencher<'_, '_>, choice: BackendChoice) {
     let Ok(compute) = Compute::choose(choice) else { return };

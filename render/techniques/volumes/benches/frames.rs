@@ -1,5 +1,6 @@
-//! Whole frames of a still life of 60,000 triangles at 750 x 570 pixels, one sample a pixel: two
-//! steps of the world, and the picture. Every frame begins with the same growing volumes.
+//! Whole frames of a still life of 60,000 triangles at 750 x 570 pixels, one sample per pixel. A
+//! frame is two steps of the world, and the picture. Every frame begins with the same growing
+//! volumes.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -22,10 +23,8 @@ use volumes::world::{Pour, Recipe, Single, World, WorldSettings};
 
 const SIZE: (usize, usize) = (750, 570);
 
-/// Steps of time from one frame to the next.
 const STEPS: usize = 2;
 
-/// Shells of washed paint.
 const SHELLS: [f32; 4] = [1.0, 0.93, 0.86, 0.79];
 
 fn main() {
@@ -45,7 +44,6 @@ impl Scene {
         Self { mesh, camera }
     }
 
-    /// A world with `count` growing volumes of the grid, in the cells nearest to the camera.
     fn poured(&self, count: usize) -> World {
         let settings = Settings::default();
         let mut world = World::of(&self.mesh, &WorldSettings::from(&settings)).unwrap();
@@ -73,7 +71,6 @@ impl Scene {
         world
     }
 
-    /// A world with one large volume that still moves.
     fn hero(&self) -> World {
         let settings = Settings::default();
         let mut world = World::of(&self.mesh, &WorldSettings::from(&settings)).unwrap();
@@ -86,7 +83,6 @@ impl Scene {
         world
     }
 
-    /// A painter with these shells and strength of hatching.
     fn painter(&self, shells: &[f32], hatching: f32, inside: Inside) -> VolumePainter {
         let mut settings = Settings::default();
         settings.picture.samples = 1;
@@ -99,7 +95,6 @@ impl Scene {
     }
 }
 
-/// Frames of a world, each from the same snapshot.
 fn frames(bencher: Bencher<'_, '_>, world: &World, camera: &Camera, mut painter: VolumePainter) {
     bencher.with_inputs(|| world.clone()).bench_local_values(|mut world| {
         (0..STEPS).for_each(|_| world.step().unwrap());
@@ -128,7 +123,7 @@ fn hero(bencher: Bencher<'_, '_>) {
     frames(bencher, &scene.hero(), &scene.camera, painter);
 }
 
-/// Frames painted wholly on any graphics device; nothing without one.
+/// Paints frames wholly on any graphics device. Without one, this does nothing.
 #[divan::bench(args = [0, 64, 256])]
 fn on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
     let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };
@@ -138,7 +133,6 @@ fn on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
     frames(bencher, &scene.poured(volumes), &scene.camera, painter);
 }
 
-/// Such frames with hatching and four shells.
 #[divan::bench(args = [64])]
 fn hatched_on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
     let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };
@@ -165,7 +159,6 @@ fn pigments(bencher: Bencher<'_, '_>, volumes: usize) {
     frames(bencher, &scene.poured(volumes), &scene.camera, painter);
 }
 
-/// The two steps of a frame.
 #[divan::bench(args = [64, 256])]
 fn steps(bencher: Bencher<'_, '_>, volumes: usize) {
     let world = Scene::new().poured(volumes);
@@ -175,7 +168,7 @@ fn steps(bencher: Bencher<'_, '_>, volumes: usize) {
     });
 }
 
-/// What is made once for a scene: its grid and its samples.
+/// Makes what you need once for a scene: its grid and its samples.
 #[divan::bench(sample_count = 10)]
 fn world(bencher: Bencher<'_, '_>) {
     let scene = Scene::new();

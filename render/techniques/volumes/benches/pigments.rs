@@ -64,15 +64,18 @@ fn scene() -> &'static Scene {
             .collect();
         cells.sort_by(|a, b| a.0.distance(camera.eye).total_cmp(&b.0.distance(camera.eye)));
         cells.truncate(64);
-        let pour = |(seed, (place, normal)): (usize, &(Vec3, Vec3))| {
-            let radius = cell * (0.5 + 0.05 * (seed % 8) as f32);
-            let mut volume = Volume::ball(*place, radius, 2, seed as u64);
-            volume.paint = Cell { pigments: [0; 8], vehicle: 100_000 };
-            volume.paint.pigments[seed % 3] = 3_000_000;
-            volume.normal = *normal;
-            volume
-        };
-        let volumes: Vec<Volume> = cells.iter().enumerate().map(pour).collect();
+        let volumes: Vec<Volume> = cells
+            .iter()
+            .enumerate()
+            .map(|(seed, (place, normal)): (usize, &(Vec3, Vec3))| {
+                let radius = cell * (0.5 + 0.05 * (seed % 8) as f32);
+                let mut volume = Volume::ball(*place, radius, 2, seed as u64);
+                volume.paint = Cell { pigments: [0; 8], vehicle: 100_000 };
+                volume.paint.pigments[seed % 3] = 3_000_000;
+                volume.normal = *normal;
+                volume
+            })
+            .collect();
         let surface = SampledSurface::from(&samples);
         let profile = FilmProfile::default();
         let films = Film::of_volumes(&volumes, profile, (&surface, &lattice), &SCALE);

@@ -1,4 +1,5 @@
-//! Benchmarks of paint volumes: particles moved a second, with all forces and the guard.
+//! Benchmarks of paint volumes: how long particles take to move for a second, with all forces and
+//! the guard.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
@@ -14,7 +15,6 @@ use volumes::volume::Volume;
 
 const STEP: f32 = 1.0 / 120.0;
 
-/// Volumes of one level of detail.
 #[derive(Clone, Copy)]
 struct Crowd {
     count: usize,
@@ -36,7 +36,7 @@ impl fmt::Display for Crowd {
 }
 
 impl Crowd {
-    /// Volumes on the plane y = 0, one a cell, that keep growing and so never rest.
+    /// Volumes on the plane y = 0, one per cell. They keep growing and so never rest.
     fn volumes(self) -> Vec<Volume> {
         let side = (self.count as f64).sqrt().ceil() as usize;
         (0..self.count)
@@ -50,7 +50,6 @@ impl Crowd {
             .collect()
     }
 
-    /// The plane below them, with 64 samples a cell.
     fn floor(self) -> Vec<Vec3> {
         let side = 8 * (self.count as f64).sqrt().ceil() as usize;
         (0..side * side)
@@ -59,7 +58,7 @@ impl Crowd {
     }
 
     fn run(self, bencher: Bencher, surroundings: &Surroundings) {
-        // Growth so slow that the shapes stay alike through the bench.
+        // Growth is so slow that the shapes stay similar through the bench.
         let settings = MotionSettings { fastest: 0.002, ..MotionSettings::default() };
         let mut volumes = self.volumes();
         let particles: usize = volumes.iter().map(|v| v.particles.places[0].len()).sum();
@@ -84,14 +83,15 @@ fn on_a_surface(bencher: Bencher, crowd: Crowd) {
     crowd.run(bencher, &surroundings);
 }
 
-/// The look-up of the nearest sample, made once for a scene of about 1000 cells.
+/// Builds the look-up of the nearest sample, which you need once for a scene of about 1000 cells.
 #[divan::bench]
 fn surface_lattice(bencher: Bencher) {
     let places = Crowd { count: 1000, detail: 2 }.floor();
     bencher.bench(|| SurfaceLattice::of(&places, 1.0).unwrap());
 }
 
-/// Particles moved on any graphics device, with the way there and back; nothing without one.
+/// Moves particles on any graphics device, and copies them there and back. Without a device, this
+/// does nothing.
 #[divan::bench(args = CROWDS)]
 fn on_a_device(bencher: Bencher, crowd: Crowd) {
     let Ok(Some(mut device)) = choose(BackendChoice::Gpu) else { return };

@@ -26,7 +26,6 @@ fn grid(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| Grid::of(black_box(&mesh), cell, SAMPLES_PER_CELL, 1).unwrap());
 }
 
-/// Its samples alone.
 #[divan::bench(sample_count = 10)]
 fn samples(bencher: Bencher<'_, '_>) {
     let (mesh, cell) = still_life();
@@ -34,7 +33,6 @@ fn samples(bencher: Bencher<'_, '_>) {
         .bench_local(|| SurfaceSamples::of(black_box(&mesh), cell, SAMPLES_PER_CELL, 1).unwrap());
 }
 
-/// A level square of as many cells.
 fn level(side: f32) -> Mesh {
     let positions = vec![[0.0; 3], [side, 0.0, 0.0], [side, 0.0, side], [0.0, 0.0, side]];
     let triangles = [[0, 2, 1], [0, 3, 2]];
@@ -63,7 +61,7 @@ fn wet(pigments: usize) -> (Grid, Spilling, Vec<Cell>) {
     (grid, spilling, paint)
 }
 
-/// Spilling between wet cells. Goal: 10 million cell-steps a second.
+/// Spilling between wet cells. Our goal is 10 million cell-steps per second.
 #[divan::bench(args = [1, 3, 8], sample_count = 10)]
 fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
     let (grid, mut spilling, paint) = wet(pigments);
@@ -77,7 +75,7 @@ fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
         });
 }
 
-/// Spilling on any graphics device, with the way there and back; nothing without one.
+/// Spills on any graphics device, and copies there and back. Without a device, this does nothing.
 #[divan::bench(args = [1, 8], sample_count = 10)]
 fn spill_on_a_device(bencher: Bencher<'_, '_>, pigments: usize) {
     let Ok(Some(mut device)) = choose(BackendChoice::Gpu) else { return };
@@ -94,8 +92,8 @@ fn spill_on_a_device(bencher: Bencher<'_, '_>, pigments: usize) {
         });
 }
 
-/// A still life of 60,000 triangles while paint is poured on it: two steps, as a frame takes, once
-/// there are as many volumes of the grid.
+/// Two steps, as a frame takes, while paint is poured on a still life of 60,000 triangles. We
+/// first wait until the grid has this many volumes.
 #[divan::bench(args = [64, 256], sample_count = 100)]
 fn frame_of_a_world(bencher: Bencher<'_, '_>, volumes: usize) {
     let (mesh, _) = still_life();

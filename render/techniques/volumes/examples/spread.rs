@@ -1,7 +1,7 @@
-//! Plays a script of paint volumes and writes a picture of every second of it:
+//! Plays a script of paint volumes and writes a picture of every second of it. Run it like this:
 //! `cargo run -r -p impasto-volumes --example spread -- FOLDER [SCRIPT.toml]`.
 //!
-//! Without a script, colour wakes a village.
+//! If you give no script, colour wakes a village.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -50,11 +50,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (scene, camera) = subject(&script, Path::new(&name).parent().unwrap_or(Path::new("")))?;
     let settings = script.settings().map_err(|fault| fault.to_string())?;
 
-    // The world, played from the first second to the last.
+    // We play the world from the first second to the last.
     let view = FirstView::new(&scene, &camera, SIZE);
     let mut performance = Performance::new(&script, &scene, &settings, &view)
         .map_err(|error| error.located(&name, &text))?;
-    // Its pictures: grey outside of the volumes, colour inside.
+    // Its pictures are grey outside of the volumes, and in colour inside.
     let mut painter = VolumePainter::new(&scene, &settings, &script.region_styles(&settings))?;
     for second in 0..=script.seconds as u64 {
         performance
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The scene of a script, whose files lie in `folder`, and the camera that sees it first.
+/// The scene of a script, with its files in `folder`, and the camera that sees it first.
 fn subject(script: &Script, folder: &Path) -> Result<(Mesh, Camera), Box<dyn Error>> {
     let aspect = SIZE.0 as f32 / SIZE.1 as f32;
     let scene = match script.subject_in(folder).map_err(|fault| fault.to_string())? {

@@ -1,10 +1,10 @@
-//! Whether a volume holds a point: the face that the ray from the centre to the point leaves
-//! through, and the distance at which it does.
+//! Finds out whether a volume holds a point. For this we look for the face through which the ray
+//! from the centre to the point leaves, and its distance.
 //!
-//! Every ray from the centre of a star-shaped volume leaves through one face. The search starts at
-//! the face through which the ray leaves the sphere at rest and crosses edges until the ray lies
-//! between the three planes through the centre and the edges of the face (Devillers, Pion and
-//! Teillaud 2002, "Walking in a triangulation").
+//! Every ray from the centre of a star-shaped volume leaves through one face. We start at the face
+//! through which the ray leaves the sphere at rest. Then we cross edges until the ray lies between
+//! the three planes through the centre and the edges of the face (Devillers, Pion and Teillaud
+//! 2002, "Walking in a triangulation").
 
 use std::sync::OnceLock;
 
@@ -12,23 +12,23 @@ use glam::{DVec3, Vec3};
 
 use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 
-/// Crossed edges after which all faces are searched instead, as a walk over flat faces may circle.
+/// After this many crossed edges we search all faces instead, because a walk over flat faces may
+/// circle.
 const MOST_CROSSED: usize = 64;
 
-/// The inside of a star-shaped volume, prepared for many points.
+/// The inside of a star-shaped volume. You prepare this once for many points.
 #[derive(Debug, Clone)]
 pub struct Inside {
     center: DVec3,
-    /// Places of the vertices relative to the centre.
     places: Vec<DVec3>,
     routes: &'static Routes,
-    /// Distance from the centre within which there is no face.
+    /// Distance from the centre within which there are no faces.
     least: f64,
     /// Distance of the farthest vertex from the centre.
     most: f64,
 }
 
-/// Where the ray from the centre through a point leaves a volume.
+/// The point at which the ray from the centre through a point leaves a volume.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exit {
     /// Index of the face.
@@ -38,8 +38,8 @@ pub struct Exit {
 }
 
 impl Inside {
-    /// The inside of `volume`, which must be star-shaped about its centre, as the guard of its
-    /// motion keeps it. Faces are flat.
+    /// The inside of `volume`. It must be star-shaped about its centre, which the guard of its
+    /// motion ensures. Faces are flat.
     #[must_use]
     pub fn of(volume: &Volume) -> Self {
         let [x, y, z] = &volume.particles.places;
@@ -56,12 +56,12 @@ impl Inside {
         Self { center: volume.center.as_dvec3(), places, routes, least, most }
     }
 
-    /// Whether the volume holds the point `at`. Points on its skin are held.
+    /// Whether the volume holds the point `at`. This includes points on its skin.
     #[must_use]
     pub fn holds(&self, at: Vec3) -> bool {
         let ray = at.as_dvec3() - self.center;
         let distance = ray.length_squared();
-        // The bounds are rounded, so the margin leaves points near them to the faces.
+        // The bounds are rounded. The margin leaves points near them to the faces.
         if distance < (self.least * self.least) * (1.0 - 1e-12) {
             return true;
         }
@@ -72,8 +72,8 @@ impl Inside {
         along <= whole
     }
 
-    /// Where the ray from the centre through `at` leaves the volume; for the centre itself the
-    /// distance is infinite.
+    /// Finds where the ray from the centre through `at` leaves the volume. If `at` is the centre
+    /// itself, the distance is infinite.
     #[must_use]
     pub fn exit(&self, at: Vec3) -> Exit {
         let ray = at.as_dvec3() - self.center;
@@ -94,8 +94,8 @@ impl Inside {
         self.most
     }
 
-    /// The face that `ray` leaves through, and the products of the normal of its plane with `ray`
-    /// and with a point of the plane: the plane is crossed at their ratio.
+    /// The face through which `ray` leaves. Also returns the products of the normal of its plane
+    /// with `ray` and with a point of the plane. The ray crosses the plane at their ratio.
     fn leaving(&self, ray: DVec3) -> (u32, f64, f64) {
         let face = self.face_along(ray);
         let [a, b, c] = self.corners(face);
@@ -115,9 +115,9 @@ impl Inside {
         faces.max_by(|&a, &b| worst(a).total_cmp(&worst(b))).unwrap_or(face)
     }
 
-    /// On which side of the planes through the centre and the edges of `face` the ray lies:
-    /// nowhere negative if it leaves through the face. Two faces find opposite values at their
-    /// common edge, to the bit.
+    /// On which side of the planes through the centre and the edges of `face` the ray lies. No
+    /// number is negative if the ray leaves through the face. Two faces get opposite values at
+    /// their common edge, to the bit.
     fn sides(&self, face: u32, ray: DVec3) -> [f64; 3] {
         let [a, b, c] = self.corners(face);
         [a.cross(b).dot(ray), b.cross(c).dot(ray), c.cross(a).dot(ray)]
@@ -128,15 +128,14 @@ impl Inside {
     }
 }
 
-/// Ways over the faces of a sphere at rest.
 #[derive(Debug)]
 struct Routes {
     faces: &'static [[u32; 3]],
-    /// The faces across the edges from the first corner to the second, on to the third, and back.
+    /// The faces across three edges: from the first corner to the second, on to the third, and
+    /// back.
     across: Vec<[u32; 3]>,
-    /// Squares along each side of a cube around the sphere.
     side: usize,
-    /// The face in the middle of each of these squares.
+    /// The face in the middle of each square of this cube.
     starts: Vec<u32>,
 }
 
@@ -146,7 +145,7 @@ impl Routes {
             [const { OnceLock::new() }; MOST_DETAIL as usize + 1];
         ROUTES[usize::from(detail)].get_or_init(|| {
             let mesh = SphereMesh::of_detail(detail);
-            // Squares are somewhat smaller than faces.
+            // Squares are a little smaller than faces.
             Self::over(mesh, 4 << detail)
         })
     }
@@ -159,7 +158,7 @@ impl Routes {
         let mut face = 0;
         for cell in 0..6 * side * side {
             let ray = middle_of(cell, side);
-            // The faces of a sphere are such that walks over them arrive (Delaunay).
+            // Walks over the faces of a sphere always arrive (Delaunay).
             loop {
                 let [a, b, c] = mesh.faces[face as usize].map(|corner| places[corner as usize]);
                 let sides = [a.cross(b), b.cross(c), c.cross(a)].map(|side| side.dot(ray));
@@ -186,7 +185,7 @@ fn across(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
     faces.iter().map(|&[a, b, c]| [face_along(b, a), face_along(c, b), face_along(a, c)]).collect()
 }
 
-/// The square of a cube around the centre that a ray passes.
+/// The square of a cube around the centre through which a ray goes.
 fn cell_of(ray: DVec3, side: usize) -> usize {
     let size = ray.abs();
     let axis = if size.x >= size.y && size.x >= size.z {
@@ -204,7 +203,6 @@ fn cell_of(ray: DVec3, side: usize) -> usize {
     ((2 * axis + usize::from(at[axis] < 0.0)) * side + v) * side + u
 }
 
-/// A ray through the middle of a square.
 fn middle_of(cell: usize, side: usize) -> DVec3 {
     let plane = cell / (side * side);
     let v = cell / side % side;
@@ -271,7 +269,7 @@ mod tests {
                 })
                 .sum::<usize>();
         }
-        // About an eighth of a cube that is 3.2 radii wide.
+        // This is about an eighth of a cube that is 3.2 radii wide.
         assert!((10_000..16_000).contains(&held), "{held}");
     }
 
@@ -310,7 +308,7 @@ mod tests {
     fn a_walk_that_circles_finds_its_face_among_all() {
         let volume = bumpy(Vec3::ZERO, 1.0, 2, 2);
         let inside = Inside::of(&volume);
-        // Directions whose start is at the far side of the volume.
+        // These directions start at the far side of the volume.
         let turned: Vec<u32> = (0..inside.routes.starts.len())
             .map(|cell| {
                 let side = inside.routes.side;

@@ -1,16 +1,16 @@
-//! Memory of a graphics device that is kept from step to step.
+//! Memory of a graphics device that lasts from step to step.
 
 use graphics::gpu::{Buffer, Device, DeviceError, Rows};
 
-/// A buffer that grows with what it has to hold.
+/// A buffer that grows with its content.
 #[derive(Debug, Default)]
 pub(crate) struct DeviceMemory {
     buffer: Option<(Buffer, u64)>,
 }
 
 impl DeviceMemory {
-    /// A buffer of at least `bytes`, whose content is that of the last call or zeros; `what` names
-    /// it in errors.
+    /// A buffer of at least `bytes`. You find the content of the last call there, or zeros. `what`
+    /// names the buffer in errors.
     ///
     /// # Errors
     /// [`DeviceError`] for more than the device lends or has left.
@@ -26,7 +26,7 @@ impl DeviceMemory {
         {
             return Ok(buffer.clone());
         }
-        // The old one is given back first.
+        // We give back the old one first.
         self.buffer = None;
         let enlarged = (bytes + bytes / 2).min(device.adapter().limits.binding_bytes).max(bytes);
         let buffer = device.buffer(what, enlarged)?;
@@ -35,9 +35,6 @@ impl DeviceMemory {
     }
 
     /// A buffer that begins with these values.
-    ///
-    /// # Errors
-    /// [`DeviceError`] as [`Self::of_bytes`], and if the device was lost.
     pub(crate) fn holding<T: bytemuck::Pod>(
         &mut self,
         device: &mut Device,

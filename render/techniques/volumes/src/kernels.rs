@@ -1,4 +1,4 @@
-//! The kernels of volumes, for the test that validates them.
+//! The kernels of volumes. A test validates them.
 
 use graphics::gpu::Kernel;
 

@@ -1,14 +1,8 @@
-//! States as files: bytes that hold every number to the bit, with a name, a version, whose state it
-//! is, and a checksum.
+//! States as files. Their bytes hold every number to the bit, with a name, a version, an identity
+//! and a checksum. Whole numbers have the lowest byte first, and floats are stored by their bits.
 //!
-//! Reasons why a saved state cannot be used.
-//!
-//! Values as bytes: whole numbers with the lowest byte first, floats by their bits.
-//!
-//! The file around a state.
-//!
-//! 16 bytes with the name of the format, 4 with its version, 32 with the SHA-256 digest of whose
-//! state it is, the state, and 32 with the digest of all that.
+//! A file has 16 bytes with the name of the format, 4 with its version, 32 with the SHA-256 digest
+//! that says what the state belongs to, the state, and 32 with the digest of all this.
 
 use documents::hint::Explain;
 use glam::Vec3;
@@ -30,7 +24,7 @@ macro_rules! numbers {
     )*};
 }
 
-/// Stores a structure field by field; a field that is not listed does not compile.
+/// Stores a structure field by field. If you leave out a field, this does not compile.
 macro_rules! stored {
     ($structure:ty { $($field:ident),* $(,)? }) => {
         impl $crate::saved::Stored for $structure {
@@ -79,14 +73,12 @@ pub enum SavedError {
 
 /// A value that is stored as bytes and read again to the bit.
 pub(crate) trait Stored: Sized {
-    /// Appends it to `bytes`.
     fn store(&self, bytes: &mut Vec<u8>);
 
-    /// Reads one; none if the bytes end before, or are no such value.
+    /// Reads one. `None` if the bytes end too early, or are not such a value.
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 
-/// Bytes that are read from the front.
 #[derive(Debug)]
 pub(crate) struct Reader<'b> {
     rest: &'b [u8],
@@ -97,7 +89,6 @@ impl<'b> Reader<'b> {
         Self { rest: bytes }
     }
 
-    /// Whether all bytes have been read.
     pub(crate) fn is_empty(&self) -> bool {
         self.rest.is_empty()
     }
@@ -174,7 +165,7 @@ impl<T: Stored> Stored for Vec<T> {
 
     fn read(from: &mut Reader<'_>) -> Option<Self> {
         let count = u64::read(from)?;
-        // A value has a byte at least: a wrong count does not reserve memory.
+        // A value has at least one byte, so a wrong count does not reserve memory.
         let fits = count <= from.rest.len() as u64;
         if fits { (0..count).map(|_| T::read(from)).collect() } else { None }
     }
@@ -182,18 +173,16 @@ impl<T: Stored> Stored for Vec<T> {
 
 const DIGEST: usize = 32;
 
-/// A kind of saved state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kind {
-    /// Name of the format, the first bytes of a file.
+    /// Name of the format. A file begins with these bytes.
     pub(crate) format: &'static [u8; 16],
-    /// Version of the format.
     pub(crate) version: u32,
-    /// Name of the state in errors.
+    /// Name of the state. Errors show this.
     pub(crate) name: &'static str,
 }
 
-/// The digest of texts that say whose state it is.
+/// The digest of texts that say what a state belongs to.
 pub(crate) fn identity<'t>(texts: impl IntoIterator<Item = &'t str>) -> [u8; DIGEST] {
     let mut digest = Sha256::new();
     for text in texts {
@@ -203,7 +192,7 @@ pub(crate) fn identity<'t>(texts: impl IntoIterator<Item = &'t str>) -> [u8; DIG
     digest.finalize().into()
 }
 
-/// A file with this state, given as bytes, of this `identity`.
+/// Puts the bytes of a state into a file of this `identity`.
 pub(crate) fn sealed(kind: Kind, identity: &[u8; DIGEST], state: &[u8]) -> Vec<u8> {
     let mut file = Vec::with_capacity(kind.format.len() + 4 + 2 * DIGEST + state.len());
     file.extend_from_slice(kind.format);
@@ -215,7 +204,8 @@ pub(crate) fn sealed(kind: Kind, identity: &[u8; DIGEST], state: &[u8]) -> Vec<u
     file
 }
 
-/// The bytes of the state in a file, if it is of this kind and `identity` and undamaged.
+/// Takes the bytes of the state out of a file. It must be undamaged, and of this kind and
+/// `identity`.
 pub(crate) fn opened<'f>(
     kind: Kind,
     identity: &[u8; DIGEST],

@@ -7,7 +7,8 @@ use graphics::surface::ClosedSurfaces;
 
 use crate::volume::Volume;
 
-/// Colours that tell regions apart, encoded sRGB (Okabe and Ito 2008, safe for colour-blind eyes).
+/// Colours that distinguish regions, encoded sRGB (Okabe and Ito 2008). You can tell them apart
+/// with deficient colour vision.
 pub const REGIONS: [[f32; 3]; 7] = [
     [0.0, 0.447, 0.698],
     [0.902, 0.624, 0.0],
@@ -37,7 +38,7 @@ impl VolumeSurfaces {
         surfaces
     }
 
-    /// Normals of the vertices, of length 1: means of those of their faces by area.
+    /// Normals of the vertices, of length 1. Each is the mean of the normals of its faces by area.
     #[must_use]
     pub fn normals(&self) -> Vec<Vec3> {
         let mut normals = vec![Vec3::ZERO; self.vertices.len()];
@@ -52,7 +53,7 @@ impl VolumeSurfaces {
         normals.into_iter().map(Vec3::normalize_or_zero).collect()
     }
 
-    /// Replaces all faces by those of these volumes, in the same memory.
+    /// Replaces all faces by the faces of these volumes, in the same memory.
     pub fn update(&mut self, volumes: &[Volume]) {
         self.clear();
         for (volume, surface) in volumes.iter().zip(0..) {
@@ -60,7 +61,8 @@ impl VolumeSurfaces {
         }
     }
 
-    /// The surfaces as a list for counting.
+    /// The surfaces as a list for counting. Pass this to an
+    /// [`InsideCounter`](graphics::surface::InsideCounter).
     #[must_use]
     pub fn closed(&self) -> ClosedSurfaces<'_, [f32; 3]> {
         ClosedSurfaces { vertices: &self.vertices, triangles: &self.triangles }
@@ -84,14 +86,14 @@ impl VolumeSurfaces {
                     .map(|at: [f32; 3]| (center + (Vec3::from(at) - center) * scale).to_array()),
             ),
         }
-        let corners = |face: &[u32; 3]| face.map(|corner| first + corner);
         let faces = volume.mesh().faces.iter();
-        let faces = faces.map(|face| Triangle { corners: corners(face), material: surface });
+        let faces = faces
+            .map(|face| Triangle { corners: face.map(|corner| first + corner), material: surface });
         self.triangles.extend(faces);
     }
 }
 
-/// A binary PLY file of the surfaces of volumes; each has a colour by its region.
+/// A binary PLY file of the surfaces of volumes. Each has the colour of its region.
 ///
 /// # Errors
 /// [`ExportError`] for more than 2^31 vertices.

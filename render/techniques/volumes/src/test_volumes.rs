@@ -1,8 +1,5 @@
-//! Volumes and scenes for tests.
-//!
-//! Surfaces for tests.
-//!
-//! A graphics device for tests, and how far its pictures may be from the processor's.
+//! Volumes, scenes and surfaces for tests. Also a graphics device for tests, and how far its
+//! pictures may be from the processor's.
 
 use std::io::Write;
 
@@ -17,7 +14,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::volume::Volume;
 
-/// A volume with bumps of a third of its radius, whose vertices also lie beside their resting
+/// A volume with bumps of a third of its radius. Its vertices also lie beside their resting
 /// directions. It is star-shaped.
 pub(crate) fn bumpy(center: Vec3, radius: f32, detail: u8, seed: u64) -> Volume {
     let random = &mut ChaCha8Rng::seed_from_u64(seed);
@@ -70,8 +67,7 @@ pub(crate) fn plane(count: usize) -> Mesh {
     }
 }
 
-/// A camera that looks at the middle of [`plane`] from a distance, turned about the vertical by
-/// some degrees.
+/// Looks at the middle of [`plane`] from a distance, turned about the vertical by some degrees.
 pub(crate) fn camera(turned_deg: f32, distance: f32) -> Camera {
     let target = Vec3::new(2.0, 2.0, 0.0);
     let (sin, cos) = turned_deg.to_radians().sin_cos();
@@ -80,7 +76,7 @@ pub(crate) fn camera(turned_deg: f32, distance: f32) -> Camera {
     Camera { eye, target, up, field_of_view_deg: 40.0, near: 0.05 * distance, far: 3.0 * distance }
 }
 
-/// A mesh of plain triangles whose normals point up.
+/// A mesh of plain triangles. Its normals point up.
 pub(crate) fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
     let count = positions.len();
     Mesh {
@@ -93,7 +89,7 @@ pub(crate) fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
     }
 }
 
-/// A sheet of `squares` by `squares` squares: the places of `at(u, v)` for u and v in 0..1.
+/// A sheet of `squares` by `squares` squares. `at(u, v)` gives the places for u and v in 0..1.
 pub(crate) fn sheet(squares: u32, at: impl Fn(f32, f32) -> [f32; 3]) -> Mesh {
     let row = squares + 1;
     let share = |i: u32| i as f32 / squares as f32;
@@ -104,7 +100,6 @@ pub(crate) fn sheet(squares: u32, at: impl Fn(f32, f32) -> [f32; 3]) -> Mesh {
     bare(&points, &triangles)
 }
 
-/// Both meshes as one.
 pub(crate) fn joined(mut one: Mesh, other: &Mesh) -> Mesh {
     let first = one.positions.len() as u32;
     one.positions.extend(&other.positions);
@@ -118,9 +113,9 @@ pub(crate) fn joined(mut one: Mesh, other: &Mesh) -> Mesh {
     one
 }
 
-/// A device, hardware before software. `None` without an adapter, with a note on standard error.
-/// Appends the name of the adapter (or `none`) to the file that the environment variable
-/// `IMPASTO_GPU_TESTS` names, if it is set.
+/// A device, hardware before software. Without an adapter you get `None`, with a note on standard
+/// error. If you set the environment variable `IMPASTO_GPU_TESTS`, this appends the name of the
+/// adapter (or `none`) to the file with that name.
 pub(crate) fn device() -> Option<Compute> {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);

@@ -1,6 +1,5 @@
-//! One volume of paint: a closed mesh whose vertices are particles.
-//!
-//! Triangulated unit spheres of six levels of detail: an icosahedron, subdivided.
+//! One volume of paint. It is a closed mesh, and its vertices are particles. Meshes come from unit
+//! spheres of six levels of detail, which are subdivided icosahedra.
 
 use std::sync::OnceLock;
 
@@ -12,9 +11,9 @@ use paint::layer::Cell;
 pub struct Particles {
     /// Places relative to the centre of the volume along x, y and z, in the unit of the scene.
     pub places: [Vec<f32>; 3],
-    /// Velocities along x, y and z, in units of the scene a second.
+    /// Velocities along x, y and z, in units of the scene per second.
     pub velocities: [Vec<f32>; 3],
-    /// Index of the sample of the surface that each particle is pulled to; the greatest number for
+    /// Index of the sample of the surface that pulls each particle. The greatest number means
     /// none.
     pub samples: Vec<u32>,
 }
@@ -24,19 +23,19 @@ pub struct Particles {
 pub struct Volume {
     /// Centre, in the unit of the scene.
     pub center: Vec3,
-    /// Place that its centre moves to.
+    /// Its centre moves to this place.
     pub target_center: Vec3,
     /// Radius at which it rests at present, above 0, in the unit of the scene.
     pub radius: f32,
-    /// Radius that it grows or shrinks to.
+    /// It grows or shrinks to this radius.
     pub target_radius: f32,
     /// Level of detail of its mesh, 0 to [`MOST_DETAIL`].
     pub detail: u8,
     /// Index of the region that it colours.
     pub region: u16,
-    /// Cell of the grid that it stands in; none for a single volume.
+    /// Cell of the grid in which it stands. `None` for a single volume.
     pub cell: Option<u32>,
-    /// Number of the body that it colours, see `wetting::Bodies`; 0 for all.
+    /// Number of the body that it colours, see `wetting::Bodies`. 0 means all.
     pub body: u32,
     /// Mean unit normal of the surface that it lies on, or zero.
     pub normal: Vec3,
@@ -48,7 +47,8 @@ pub struct Volume {
     pub paint: Cell,
     /// Its particles.
     pub particles: Particles,
-    /// The forces under which it came to rest, as a number that tells forces apart; 0 if it moves.
+    /// Number of the forces under which it came to rest, 0 if it moves. Other forces have another
+    /// number.
     pub(crate) rests_under: u64,
 }
 
@@ -111,11 +111,11 @@ impl Volume {
 /// Highest level of detail, of 10,242 vertices.
 pub const MOST_DETAIL: u8 = 5;
 
-/// A unit sphere of triangles: an icosahedron whose faces are halved along every edge once per
-/// level of detail, with all vertices on the sphere.
+/// A unit sphere of triangles. It starts as an icosahedron. Each level of detail halves the faces
+/// along every edge and moves all vertices onto the sphere.
 ///
-/// The vertices of a level are the first ones of the next level, and the faces `4 f` to `4 f + 3`
-/// of the next level lie in face `f` of this one.
+/// The vertices of a level are the first ones of the next level. The faces `4 f` to `4 f + 3` of
+/// the next level lie in face `f` of this one.
 #[derive(Debug)]
 pub struct SphereMesh {
     /// Unit vectors from the centre to the vertices.
@@ -124,8 +124,8 @@ pub struct SphereMesh {
     pub axes: [Vec<f32>; 3],
     /// Corners of the faces, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
-    /// The vertices joined to each vertex by an edge, in ascending order: six, but five for the
-    /// first 12, whose last entry is the vertex itself.
+    /// The vertices joined to each vertex by an edge, in ascending order. There are six. The first
+    /// 12 vertices have only five, and their last entry is the vertex itself.
     pub neighbours: Vec<[u32; 6]>,
     /// Distance from the centre to the nearest face, below 1.
     pub inradius: f32,
@@ -134,8 +134,8 @@ pub struct SphereMesh {
 }
 
 impl SphereMesh {
-    /// The sphere with `detail` 0 to [`MOST_DETAIL`]: 10 4^detail + 2 vertices, 20 4^detail
-    /// faces.
+    /// The sphere with `detail` 0 to [`MOST_DETAIL`]. It has 10 4^detail + 2 vertices and 20
+    /// 4^detail faces.
     ///
     /// # Panics
     /// If `detail` is above [`MOST_DETAIL`].
@@ -176,7 +176,7 @@ fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let turned = [DVec3::new(0.0, a, b), DVec3::new(a, b, 0.0), DVec3::new(b, 0.0, a)];
         vertices.extend(turned.map(DVec3::normalize));
     }
-    // Edges of the icosahedron have one length; faces are the triples joined by edges.
+    // All edges of the icosahedron are equally long. Three vertices joined by edges make a face.
     let joined = |a: usize, b: usize| vertices[a].distance(vertices[b]) < 1.1;
     let mut faces = Vec::with_capacity(20);
     for a in 0..12 {
@@ -193,7 +193,7 @@ fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, faces)
 }
 
-/// The four faces of every face, with the new vertices at the middles of edges appended.
+/// Cuts every face into four, and appends the new vertices at the middles of edges.
 fn halved(vertices: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let mut edges: Vec<[u32; 2]> = faces
         .iter()
@@ -219,7 +219,7 @@ fn halved(vertices: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
 
 fn neighbours(count: usize, faces: &[[u32; 3]]) -> Vec<[u32; 6]> {
     let mut lists = vec![Vec::with_capacity(6); count];
-    // Every edge has two faces, which run along it in opposite directions.
+    // Every edge has two faces. They run along it in opposite directions.
     for &[a, b, c] in faces {
         for (from, to) in [(a, b), (b, c), (c, a)] {
             lists[from as usize].push(to);
@@ -251,7 +251,7 @@ mod tests {
 
     #[test]
     fn every_level_is_a_closed_sphere_of_known_size() {
-        // Distances of the nearest face, from a second implementation in numpy.
+        // These distances of the nearest face come from a second implementation in numpy.
         for (detail, inradius) in [(0, 0.795), (2, 0.982), (3, 0.9955), (4, 0.9989)] {
             let mesh = SphereMesh::of_detail(detail);
             assert_eq!(mesh.directions.len(), 10 * 4_usize.pow(detail.into()) + 2);

@@ -1,5 +1,5 @@
-//! A smooth field of lines along a surface, and arrows made from it, along which things can move. A
-//! spanning tree gives the lines their signs.
+//! A smooth field of lines along a surface. You can make arrows from it, along which things move.
+//! A spanning tree gives the lines their signs.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -12,32 +12,28 @@ use super::{DirectionFault, DirectionSettings, Guide, Line};
 use crate::mesh::curvature::{PlaceShape, Places, TangentPlane, carried, place_shapes};
 use crate::mesh::model::Mesh;
 
-/// Least smoothing length, as a share of the model's radius: places without curvature
-/// take their neighbours' directions through it.
+/// Least smoothing length, as a share of the model's radius. Through this, places without
+/// curvature take their neighbours' directions.
 const LEAST_SMOOTHING: f64 = 1e-3;
 
-/// Least length of the part of a guide along the surface, relative to the guide.
+/// A guide needs a part along the surface of at least this length, relative to the guide.
 const LEAST_ALONG: f64 = 1e-3;
 
 /// A smooth field of tangent directions of arbitrary sign on a mesh, one for every vertex.
 ///
-/// It belongs to the model: it does not depend on a camera, and it turns with the mesh. Only a
-/// connected part without any direction in its shape, for example a sphere or a plane, follows a
-/// fixed axis (y, or x if its surface faces up), and its poles stay singular.
+/// This field belongs to the model: it does not depend on a camera, and it turns with the mesh. If
+/// a connected part has no direction in its shape, for example a sphere or a plane, it follows a
+/// fixed axis (y, or x if its surface faces up). Its poles then stay singular.
 #[derive(Debug, Clone)]
 pub struct DirectionField {
     pub(super) of_vertex: Vec<u32>,
     pub(super) links: Links,
     pub(super) planes: Vec<TangentPlane>,
-    /// Squares of the lines at all places, of length 0 to 1.
     pub(super) squares: Vec<DVec2>,
-    /// Unit lines at all places.
     pub(super) lines: Vec<DVec3>,
-    /// Unit arrows of guides, at the places that have one.
     pub(super) guided: Vec<Option<DVec3>>,
 }
 
-/// A surface, from which evidence is found.
 struct Base<'a> {
     of_vertex: &'a [u32],
     shapes: Vec<PlaceShape>,
@@ -49,9 +45,11 @@ struct Base<'a> {
 
 impl DirectionField {
     /// The field along the principal directions of the mesh's curvature ([`Mesh::curvatures`]),
-    /// smoothed over `settings.smoothing` as lines of two-fold symmetry. A direction counts by the
-    /// difference between the absolute values of both curvatures times the model's radius. Where
-    /// they are equal the neighbours decide. Vertices with a guide have its direction.
+    /// smoothed over `settings.smoothing` as lines of two-fold symmetry.
+    ///
+    /// The weight of a direction is the difference between the absolute values of both curvatures
+    /// times the model's radius. Where both are equal, the neighbours decide. If you give a vertex
+    /// a guide, it has the direction of the guide.
     ///
     /// # Errors
     /// [`DirectionFault`] if the smoothing is outside 0..1, or a guide has no such vertex or no
@@ -73,8 +71,8 @@ impl DirectionField {
     }
 
     /// The field through given lines, one for each vertex, smoothed over `settings.smoothing`. A
-    /// line counts by its weight and the area around its vertex. Where weights are 0 the neighbours
-    /// decide. Vertices with a guide have its direction.
+    /// line counts by its weight and the area around its vertex. Where you set weights to 0, the
+    /// neighbours decide. If you give a vertex a guide, it has the direction of the guide.
     ///
     /// # Errors
     /// As [`Self::of_curvature`].
@@ -131,8 +129,8 @@ impl DirectionField {
         self.lines[self.of_vertex[vertex] as usize].as_vec3().to_array()
     }
 
-    /// How well the direction at a vertex is determined, 0 to 1: near 0 at singular places, around
-    /// which directions cancel out, and far from any evidence.
+    /// How well the direction at a vertex is determined, 0 to 1. This is near 0 at singular
+    /// places, around which directions cancel out, and where no evidence is near.
     ///
     /// # Panics
     /// If the mesh has no such vertex.
@@ -141,9 +139,9 @@ impl DirectionField {
         self.squares[self.of_vertex[vertex] as usize].length().min(1.0) as f32
     }
 
-    /// Unit direction, of arbitrary sign, at a point inside a triangle with these corners. The
-    /// barycentric weights are not negative and add up to 1. But for the sign it is continuous in
-    /// the triangle and across its edges, except at singular points.
+    /// Unit direction, of arbitrary sign, at a point inside a triangle with these corners. Pass
+    /// barycentric weights that are not negative and add up to 1. Except for its sign, the
+    /// direction is continuous in the triangle and across its edges, but not at singular points.
     ///
     /// # Panics
     /// If the mesh has no such vertices.
@@ -156,13 +154,12 @@ impl DirectionField {
     }
 }
 
-/// Line with this square, a projected axis where nothing determines it.
+/// Line with this square. This is a projected axis where nothing determines the line.
 fn line(plane: &TangentPlane, square: DVec2) -> DVec3 {
     let axis = plane.projected(DVec3::Y);
     plane.along(if square == DVec2::ZERO { axis.rotate(axis) } else { square })
 }
 
-/// The unit arrows of guides at the places that they fix, and their unit squares.
 fn fixed_squares(
     guides: &[Guide],
     of_vertex: &[u32],
@@ -193,7 +190,7 @@ fn fixed_squares(
     Ok((fixed, given))
 }
 
-/// Part of an arrow along an axis below which it does not decide the sign of a connected part.
+/// A smaller part along an axis does not decide the sign of a connected part.
 const LEAST_PART: f64 = 1e-3;
 
 /// Lines with signs: an arrow for every vertex, and a strength that fades to 0 where neighbours
@@ -202,27 +199,27 @@ const LEAST_PART: f64 = 1e-3;
 pub struct FlowField {
     of_vertex: Vec<u32>,
     normals: Vec<DVec3>,
-    /// Unit arrows at all places.
     arrows: Vec<DVec3>,
-    /// Strength of the flow at all places, 0 to 1.
     strengths: Vec<f64>,
     singular: Vec<bool>,
 }
 
 impl DirectionField {
-    /// Gives the lines signs along the spanning tree of greatest reliability, which grows from all
-    /// places with a guide at once, so that flow runs along guides and not against them. Where
-    /// signs cannot agree, around singular places and across the cuts that half turns force,
-    /// vertices are marked as singular and the strength is 0. It rises to 1 over `fade_rings` rings
-    /// of edges (2 or 3 are usual, 0 leaves it at 1 beside singular vertices).
+    /// Gives the lines signs along the spanning tree of greatest reliability. The tree grows from
+    /// all places with a guide at once, so that flow runs along guides and not against them.
+    ///
+    /// Signs cannot agree around singular places and across the cuts that half turns force. This
+    /// marks the vertices there as singular and sets the strength to 0. The strength rises to 1
+    /// over `fade_rings` rings of edges. Use 2 or 3. If you pass 0, it is 1 right beside singular
+    /// vertices.
     #[must_use]
     pub fn oriented(&self, fade_rings: usize) -> FlowField {
         self.signed(self.arrows(), fade_rings)
     }
 
-    /// Gives the lines the signs of arrows of any length, one for each vertex, 0 leaves a vertex
-    /// without. A connected part takes those vertices' signs as [`Self::oriented`] does, turned
-    /// over if most given arrows say so.
+    /// Gives the lines the signs of given arrows, one for each vertex and of any length. Pass 0
+    /// for a vertex without an arrow. A connected part takes the signs as [`Self::oriented`] does.
+    /// This turns all of them over if most given arrows say so.
     ///
     /// # Panics
     /// If there are fewer arrows than vertices.
@@ -262,7 +259,6 @@ impl DirectionField {
         }
     }
 
-    /// Unit arrows at all places, signed along the tree.
     fn arrows(&self) -> Vec<DVec3> {
         let reliabilities: Vec<f64> = self.squares.iter().map(|square| square.length()).collect();
         let guided = (0..).zip(&self.guided).filter(|(_, guide)| guide.is_some());
@@ -285,14 +281,11 @@ impl DirectionField {
         arrows
     }
 
-    /// Cosine of the angle between the arrows of two neighbours, carried along their link.
     fn cosine(&self, arrows: &[DVec3], place: usize, other: usize) -> f64 {
-        let normal = |place: usize| self.planes[place].normal;
-        let there = carried(arrows[other], normal(other), normal(place));
+        let there = carried(arrows[other], self.planes[other].normal, self.planes[place].normal);
         there.map_or(0.0, |there| arrows[place].dot(there))
     }
 
-    /// Whether the arrow of a neighbour differs by more than 90 degrees.
     fn is_singular(&self, arrows: &[DVec3], place: usize) -> bool {
         let mut links = self.links.of(place).iter();
         links.any(|link| self.cosine(arrows, place, link.to as usize) < 0.0)
@@ -327,9 +320,9 @@ impl FlowField {
         self.singular[self.of_vertex[vertex] as usize]
     }
 
-    /// Flow at a point inside a triangle with these corners, whose barycentric weights are not
-    /// negative and add up to 1: a tangent vector. Its length, 0 to 1, is the strength. It is
-    /// continuous in the triangle and across its edges.
+    /// Flow at a point inside a triangle with these corners, as a tangent vector. Pass barycentric
+    /// weights that are not negative and add up to 1. The length of the vector, 0 to 1, is the
+    /// strength. It is continuous in the triangle and across its edges.
     ///
     /// # Panics
     /// If the mesh has no such vertices.
@@ -342,7 +335,8 @@ impl FlowField {
     }
 }
 
-/// Whether the first arrow of a part points down, or if it is level to the left, or backwards.
+/// Whether the first arrow of a part points down. A level arrow points back if it goes to the
+/// left, or backwards.
 fn points_back(arrow: DVec3) -> bool {
     let parts = [arrow.y, arrow.x, arrow.z];
     parts.into_iter().find(|part| part.abs() > LEAST_PART).is_some_and(|part| part < 0.0)
@@ -371,19 +365,17 @@ fn rings(links: &Links, singular: &[bool], most: usize) -> Vec<usize> {
     rings
 }
 
-/// Smoothstep over 0..1.
 fn smooth(at: f64) -> f64 {
     at * at * (3.0 - 2.0 * at)
 }
 
-/// A place reached by the tree, from a place reached before, or as the first of its part.
+/// The tree reaches a place from an earlier place, or as the first of its part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Step {
     pub(super) place: u32,
     pub(super) from: Option<u32>,
 }
 
-/// A link that the tree may grow along.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
     reliability: f64,
@@ -392,7 +384,8 @@ struct Candidate {
 }
 
 impl Ord for Candidate {
-    /// The greater is taken first: the more reliable, then the lower indices.
+    /// The tree takes the greatest first: the most reliable candidate, and among equals the lowest
+    /// indices.
     fn cmp(&self, other: &Self) -> Ordering {
         self.reliability
             .total_cmp(&other.reliability)
@@ -418,8 +411,8 @@ impl Eq for Candidate {}
 /// All places in the order in which the spanning tree of greatest reliability reaches them, grown
 /// from the most reliable place of each connected part (Prim, "Shortest connection networks and
 /// some generalizations", 1957; over surfaces: Hoppe et al., "Surface reconstruction from
-/// unorganized points", 1992). Parts with places among `seeds` grow from all of these at once.
-/// Ties go to the lower index.
+/// unorganized points", 1992). If a part has places among `seeds`, it grows from all of these at
+/// once. Ties go to the lower index.
 pub(super) fn spanning_tree(
     links: &Links,
     of_place: &[f64],
@@ -460,7 +453,6 @@ pub(super) fn spanning_tree(
     steps
 }
 
-/// The best candidate with a place that is not reached yet.
 fn unreached(candidates: &mut BinaryHeap<Candidate>, reached: &[bool]) -> Option<Step> {
     while let Some(Candidate { place, from, .. }) = candidates.pop() {
         if !reached[place as usize] {

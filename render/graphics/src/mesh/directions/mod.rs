@@ -1,5 +1,5 @@
-//! Fields of directions along a surface: lines of least or greatest curvature, smoothed, and arrows
-//! made of them.
+//! Fields of directions along a surface: smoothed lines of least or greatest curvature. You can
+//! also make arrows of these lines.
 //!
 //! ```text
 //! curvature tensors -> evidence --+
@@ -19,10 +19,10 @@ pub use field::{DirectionField, FlowField};
 /// The principal direction that a field follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Along {
-    /// The direction in which the surface bends least: along a branch.
+    /// The direction in which the surface bends least, for example along a branch.
     #[default]
     Least,
-    /// The direction in which the surface bends most: around a branch.
+    /// The direction in which the surface bends most, for example around a branch.
     Greatest,
 }
 
@@ -31,12 +31,12 @@ pub enum Along {
 pub struct DirectionSettings {
     /// The principal direction that the field follows, the least by default.
     pub along: Along,
-    /// Rounds of averaging normals before curvature is computed, see
-    /// [`Mesh::curvatures`](crate::mesh::Mesh::curvatures), 1 by default.
+    /// Rounds of averaging normals before we compute curvature, see
+    /// [`Mesh::curvatures`](crate::mesh::Mesh::curvatures). The default is 1.
     pub normal_rounds: usize,
-    /// Length over which directions are smoothed where curvature is well defined, as a share of the
-    /// model's radius (root mean square distance of the surface from its centre): 0 to 1, 0.05 by
-    /// default. Where curvature says less the length grows by itself.
+    /// Length over which we smooth directions where curvature is well defined, 0 to 1. This is a
+    /// share of the model's radius (the root mean square distance of the surface from its centre).
+    /// The default is 0.05. Where curvature says less, the length grows by itself.
     pub smoothing: f64,
 }
 
@@ -46,7 +46,7 @@ impl Default for DirectionSettings {
     }
 }
 
-/// A direction that a vertex asks for.
+/// A direction that you want at a vertex, more or less.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Line {
     /// Direction of any length and sign in the model's axes. Only its part along the surface
@@ -59,11 +59,11 @@ pub struct Line {
 /// A direction that the field must have at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guide {
-    /// Index of the vertex. All vertices at the same position follow. Of several guides at one
-    /// position the last one counts.
+    /// Index of the vertex. All vertices at the same position follow. If you give several guides
+    /// at one position, the last one counts.
     pub vertex: u32,
     /// Direction of any length in the model's axes. Only its part along the surface counts. Lines
-    /// have no sign, but flow has the sign of the guide
+    /// do not have a sign, but flow takes the sign of this guide
     /// ([`DirectionField::oriented`](DirectionField::oriented)).
     pub along: [f32; 3],
 }
@@ -75,7 +75,7 @@ pub enum DirectionFault {
     #[error("the smoothing of directions is `{found}`, not 0 to 1")]
     #[hint("it is a share of the model's radius; 0.05 is usual")]
     Smoothing {
-        /// The smoothing asked for.
+        /// The smoothing that you asked for.
         found: f64,
     },
     /// A guide refers to a vertex that does not exist.
@@ -99,7 +99,7 @@ pub enum DirectionFault {
         guide: usize,
         /// Index of the vertex.
         vertex: u32,
-        /// The direction asked for.
+        /// The direction that you asked for.
         found: [f32; 3],
     },
 }

@@ -1,15 +1,15 @@
-//! Smooth lines through evidence: the field of squares that deviates least from the evidence and
-//! from link to link.
+//! Smooth lines through evidence. The field of squares deviates as little as possible from the
+//! evidence and from link to link.
 //!
-//! With squares z of unit lines, and links that carry them between tangent planes, it minimises
+//! With squares z of unit lines, and links that carry them between tangent planes, we minimise
 //! spread * sum of stiffness |z_i - turn z_j|^2 over the links + sum of weight |z_i - wanted_i|^2
 //! over the places (Knoeppel, Crane, Pinkall and Schroeder, "Globally optimal direction fields",
-//! 2013, section 4, with the alignment as a quadratic term). This is one linear system, solved by
-//! conjugate gradients with a diagonal preconditioner (Hestenes and Stiefel, 1952).
+//! 2013, section 4, with the alignment as a quadratic term). This is one linear system. We solve
+//! it by conjugate gradients with a diagonal preconditioner (Hestenes and Stiefel, 1952).
 //!
 //! The evidence is the direction and strength that curvature asks for at every place. A link joins
-//! two neighbouring places: it knows how squares of tangent vectors turn on the way, and how
-//! strongly it holds both together.
+//! two neighbouring places. It knows how squares of tangent vectors turn on the way, and how
+//! strongly it ties both places.
 
 use std::ops::Range;
 
@@ -20,31 +20,31 @@ use super::{Along, Line};
 use crate::mesh::curvature::{PlaceShape, Places, ShapeTensor, TangentPlane, carried};
 use crate::smoothstep;
 
-/// Residual at which the solver stops, relative to the residual without any lines.
+/// The solver stops at this residual, relative to the residual without any lines.
 const RESIDUAL: f64 = 1e-8;
 
-/// Most steps of the solver. A plane of 100,000 triangles that a guide in one corner decides takes
-/// about 1000, a still life of that size 400.
+/// Most steps of the solver. For example, a plane of 100,000 triangles with one guide in a corner
+/// takes about 1000, and a still life of that size 400.
 const MOST_STEPS: usize = 4000;
 
-/// Places in one portion of a sum. Sums are added portion by portion, so that the number of threads
+/// Places in one portion of a sum. We add sums portion by portion, so that the number of threads
 /// does not matter.
 const PORTION: usize = 1 << 11;
 
-/// The system that the smooth field solves.
 struct System<'a> {
     links: &'a Links,
     /// Square of the smoothing length.
     spread: f64,
     evidence: &'a Evidence,
     fixed: &'a [bool],
-    /// One over the diagonal of the matrix, 0 at fixed places and at those that nothing determines.
+    /// One over the diagonal of the matrix. It is 0 at fixed places and where nothing determines
+    /// the line.
     inverse_diagonal: Vec<f64>,
 }
 
-/// Squares of the smooth lines at all places. Their length, at most 1 but for rounding, shows how
-/// well the surroundings agree. Places that are `fixed` keep the value of `given`. One that nothing
-/// determines gets 0.
+/// Squares of the smooth lines at all places. Their length is at most 1 except for rounding, and
+/// shows how well the surroundings agree. Places in `fixed` keep the value of `given`. If nothing
+/// determines a place, it gets 0.
 pub(super) fn smooth_squares(
     links: &Links,
     evidence: &Evidence,
@@ -101,7 +101,7 @@ impl<'a> System<'a> {
         Self { links, spread, evidence, fixed, inverse_diagonal }
     }
 
-    /// The field from which the solver starts: fixed values, and elsewhere the evidence alone.
+    /// The field from which the solver starts: fixed values, and elsewhere only the evidence.
     fn start(&self, given: &[DVec2]) -> Vec<DVec2> {
         (0..given.len())
             .into_par_iter()
@@ -115,7 +115,7 @@ impl<'a> System<'a> {
             .collect()
     }
 
-    /// Size of the residual if all places but the fixed ones had no line.
+    /// Size of the residual if all places except the fixed ones had no line.
     fn size_without_lines(&self, given: &[DVec2]) -> f64 {
         let only_fixed: Vec<DVec2> = given
             .iter()
@@ -129,7 +129,7 @@ impl<'a> System<'a> {
         dot(&residual, &self.preconditioned(&residual))
     }
 
-    /// Product of the matrix and a field. At fixed places the product is of no use.
+    /// Product of the matrix and a field. Do not use the product at fixed places.
     fn multiply(&self, field: &[DVec2], product: &mut [DVec2]) {
         let rows = product.par_iter_mut().with_min_len(1 << 9).enumerate();
         rows.for_each(|(place, product)| {
@@ -149,7 +149,6 @@ impl<'a> System<'a> {
     }
 }
 
-/// Sum of the products of both fields, in a fixed order.
 fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
     let portions = a.par_chunks(PORTION).zip(b.par_chunks(PORTION));
     let sums: Vec<f64> =
@@ -162,15 +161,15 @@ fn add_scaled(field: &mut [DVec2], factor: f64, other: &[DVec2]) {
     pairs.for_each(|(value, other)| *value += *other * factor);
 }
 
-/// Difference of both curvatures, relative to the greater one, from which a direction begins to
-/// count, and from which it counts fully: below, the shape of the triangles decides it.
+/// A direction begins to count at the first difference of both curvatures, relative to the greater
+/// one, and counts fully at the second. Below these the shape of the triangles decides it.
 const ANISOTROPY: [f64; 2] = [0.03, 0.15];
 
-/// Mean reliability of a connected part above which no axis is added, and below which it is added
-/// fully.
+/// We add no axis to a connected part if its mean reliability is above the second number. Below
+/// the first, we add it fully.
 const SHAPELESS: [f64; 2] = [0.005, 0.03];
 
-/// An axis counts for a connected part if it lies along its surface at least half as well as the
+/// An axis counts for a connected part if it lies along the surface at least half as well as the
 /// best axis.
 const AXIS_SHARE: f64 = 0.5;
 
@@ -178,24 +177,22 @@ const AXIS_SHARE: f64 = 0.5;
 /// their weights (reliability in 0..1 times area).
 #[derive(Debug, Clone)]
 pub(super) struct Evidence {
-    /// Weight at every place.
     pub(super) weights: Vec<f64>,
-    /// Weighted unit square at every place.
     pub(super) squares: Vec<DVec2>,
 }
 
 impl Evidence {
-    /// Principal directions of a model of this radius.
     pub(super) fn of_curvature(shapes: &[PlaceShape], radius: f64, along: Along) -> Self {
-        let weight = |shape: &PlaceShape| shape.area * reliability(&shape.tensor, radius);
-        let weights: Vec<f64> = shapes.iter().map(weight).collect();
+        let weights: Vec<f64> = shapes
+            .iter()
+            .map(|shape: &PlaceShape| shape.area * reliability(&shape.tensor, radius))
+            .collect();
         let pairs = shapes.iter().zip(&weights);
         let squares =
             pairs.map(|(shape, weight)| principal_square(&shape.tensor, along) * *weight).collect();
         Self { weights, squares }
     }
 
-    /// Lines of the vertices, weighted by the area of their places.
     pub(super) fn of_lines(
         of_vertex: &[u32],
         planes: &[TangentPlane],
@@ -216,7 +213,7 @@ impl Evidence {
     }
 
     /// Adds an axis of the model to every connected part without a direction of curvature, for
-    /// example a sphere or a plane, unless it has a fixed place.
+    /// example a sphere or a plane. This skips parts with a fixed place.
     pub(super) fn add_axes(
         &mut self,
         links: &Links,
@@ -247,9 +244,9 @@ impl Evidence {
     }
 }
 
-/// How far the principal directions of a tensor can be relied on, 0..1: grows with the difference
-/// between the absolute values of both curvatures times the model's radius, and is 0 where they are
-/// nearly equal. On a saddle with curvatures +k and -k neither is the least.
+/// How far you can rely on the principal directions of a tensor, 0..1. This grows with the
+/// difference between the absolute values of both curvatures times the model's radius, and is 0
+/// where they are nearly equal. On a saddle with curvatures +k and -k neither is the least.
 fn reliability(tensor: &ShapeTensor, radius: f64) -> f64 {
     let mean = tensor.mean.abs();
     let half = tensor.difference.length();
@@ -272,7 +269,7 @@ fn principal_square(tensor: &ShapeTensor, along: Along) -> DVec2 {
     }
 }
 
-/// The axis that lies along the surface of a part: y, or else x, or else z.
+/// The axis that lies along the surface of a part. This prefers y, then x, then z.
 fn axis_along(
     order: &[u32],
     part: Range<usize>,
@@ -291,10 +288,8 @@ fn axis_along(
     axes[found.unwrap_or(0)]
 }
 
-/// A link from one place to a neighbour.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
-    /// Place at the other end.
     pub(super) to: u32,
     /// Above 0, and the same in both directions.
     pub(super) stiffness: f64,
@@ -302,7 +297,6 @@ pub(super) struct Link {
     pub(super) turn: DVec2,
 }
 
-/// The links of every place.
 #[derive(Debug, Clone)]
 pub(super) struct Links {
     starts: Vec<u32>,
@@ -310,8 +304,9 @@ pub(super) struct Links {
 }
 
 impl Links {
-    /// The links along the edges of the triangles. The stiffness is the edge's times (1 + cosine of
-    /// the angle between the normals) / 2. Places of opposite normals have no link.
+    /// The links along the edges of the triangles. Their stiffness is the stiffness of the edge
+    /// times (1 + cosine of the angle between the normals) / 2. Places with opposite normals have
+    /// no link.
     pub(super) fn new(places: &Places, planes: &[TangentPlane]) -> Self {
         let mut starts = vec![0];
         let mut all = Vec::with_capacity(places.stiffness.len());
@@ -330,18 +325,16 @@ impl Links {
         Self { starts, all }
     }
 
-    /// Number of places.
     pub(super) fn count(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The links of a place.
     pub(super) fn of(&self, place: usize) -> &[Link] {
         &self.all[self.starts[place] as usize..self.starts[place + 1] as usize]
     }
 
-    /// The places in connected groups: a list of all places, and the range of each group in it.
-    /// Groups are ordered by their first place.
+    /// The places in connected groups. Returns a list of all places, and the range of each group
+    /// in it. Groups are ordered by their first place.
     pub(super) fn parts(&self) -> (Vec<u32>, Vec<Range<usize>>) {
         let mut reached = vec![false; self.count()];
         let mut order: Vec<u32> = Vec::with_capacity(self.count());
@@ -368,10 +361,10 @@ impl Links {
     }
 }
 
-/// Unit line at a point of a triangle, from the normals and unit lines at its corners, whose
-/// weights are not negative and add up to 1. The lines are carried to the plane of the interpolated
-/// normal and averaged as squares, so their signs do not matter, and two triangles agree along the
-/// edge that they share.
+/// Unit line at a point of a triangle, from the normals and unit lines at its corners. Pass
+/// weights that are not negative and add up to 1. This carries the lines to the plane of the
+/// interpolated normal and averages them as squares. So their signs do not matter, and two
+/// triangles agree along the edge that they share.
 pub(super) fn line_within(normals: [DVec3; 3], lines: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     let plane = TangentPlane::of_normal(normal_within(normals, weights));
     let mut sum = DVec2::ZERO;
@@ -384,14 +377,14 @@ pub(super) fn line_within(normals: [DVec3; 3], lines: [DVec3; 3], weights: [f64;
     plane.along(sum)
 }
 
-/// Tangent vector at a point of a triangle, from the normals and tangent vectors at its corners.
+/// Tangent vector at a point of a triangle, from the normals and vectors at its corners.
 pub(super) fn vector_within(normals: [DVec3; 3], vectors: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     let normal = normal_within(normals, weights);
     let parts = (0..3).filter_map(|i| Some(weights[i] * carried(vectors[i], normals[i], normal)?));
     parts.sum()
 }
 
-/// Interpolated unit normal, the heaviest corner's if they cancel out.
+/// Interpolated unit normal. If the normals cancel out, this is the heaviest corner's.
 fn normal_within(normals: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     let sum: DVec3 = (0..3).map(|i| weights[i] * normals[i]).sum();
     let heaviest = (1..3).fold(0, |most, i| if weights[i] > weights[most] { i } else { most });
@@ -408,10 +401,10 @@ mod tests {
 
     #[test]
     fn the_evidence_is_continuous_where_a_saddle_is_symmetric() {
-        let pull = |mean| {
+        fn pull(mean: f64) -> DVec2 {
             let tensor = tensor(mean, 1.0);
             reliability(&tensor, 1.0) * principal_square(&tensor, Along::Least)
-        };
+        }
         assert_eq!(pull(0.0), DVec2::ZERO);
         assert!((pull(1e-3) - pull(-1e-3)).length() < 1e-3, "{} {}", pull(1e-3), pull(-1e-3));
         assert!(pull(0.5).x < -0.3 && pull(-0.5).x > 0.3, "{} {}", pull(0.5), pull(-0.5));

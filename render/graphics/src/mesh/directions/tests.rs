@@ -10,7 +10,6 @@ fn field(mesh: &Mesh) -> DirectionField {
     DirectionField::of_curvature(mesh, &DirectionSettings::default(), &[]).unwrap()
 }
 
-/// Corners of all edges of all triangles.
 fn edges(mesh: &Mesh) -> impl Iterator<Item = [usize; 2]> {
     mesh.triangles.iter().flat_map(|triangle| {
         let [a, b, c] = triangle.corners.map(|corner| corner as usize);
@@ -26,7 +25,6 @@ fn roughness(mesh: &Mesh, field: &DirectionField) -> f32 {
     (sum / count as f32).sqrt()
 }
 
-/// Greatest angle between the field and a wanted direction, in degrees, over the vertices chosen.
 fn greatest_error(
     mesh: &Mesh,
     field: &DirectionField,
@@ -40,7 +38,8 @@ fn greatest_error(
     angles.fold(0.0, f32::max)
 }
 
-/// Every direction is a unit vector, and flow is finite and has its strength for length.
+/// Checks that every direction is a unit vector, and that flow is finite and has its strength for
+/// length.
 fn assert_sound(name: &str, mesh: &Mesh, field: &DirectionField, flow: &FlowField) {
     for vertex in 0..mesh.positions.len() {
         for direction in [field.along(vertex), flow.arrow(vertex)] {
@@ -99,10 +98,12 @@ fn a_ball_has_smooth_lines_with_two_poles() {
     );
     assert!(error < 1.0, "{error} deg");
     let flow = field.oriented(2);
-    let singular = |vertex: usize| flow.is_singular(vertex);
-    assert!((0..mesh.positions.len()).any(singular), "the poles are singular");
+    assert!(
+        (0..mesh.positions.len()).any(|vertex| flow.is_singular(vertex)),
+        "the poles are singular"
+    );
     for (vertex, position) in mesh.positions.iter().enumerate() {
-        assert!(!singular(vertex) || position[1].abs() > 0.95, "{position:?} is singular");
+        assert!(!flow.is_singular(vertex) || position[1].abs() > 0.95, "{position:?} is singular");
     }
 }
 

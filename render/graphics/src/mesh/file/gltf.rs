@@ -1,7 +1,7 @@
-//! glTF 2.0 (Khronos Group, 2021): the default scene in its rest pose. Only base colours and
-//! textures are read, while metalness, roughness and opacity are ignored.
+//! glTF 2.0 (Khronos Group, 2021): the default scene in its rest pose. We read only base colours
+//! and textures, and ignore metalness, roughness and opacity.
 //!
-//! Accessors, buffer views and references are checked before the glTF reader follows them.
+//! We check accessors, buffer views and references before the glTF reader follows them.
 
 use std::path::Path;
 
@@ -72,7 +72,6 @@ fn malformed(name: &str, place: &str, reason: String) -> MeshError {
     MeshError::Malformed { name: name.to_owned(), place: place.to_owned(), reason }
 }
 
-/// Converts linear RGB, as glTF stores it, to encoded sRGB.
 fn encoded(linear: [f32; 3]) -> [f32; 3] {
     let linear = linear.map(|value| f64::from(value.clamp(0.0, 1.0)));
     Rgb(linear).encoded().0.map(|value| value.clamp(0.0, 1.0) as f32)
@@ -129,7 +128,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Adds the triangles of a primitive. Points and lines are skipped.
+    /// Adds the triangles of a primitive. This skips points and lines.
     fn add_primitive(
         &mut self,
         primitive: &gltf::Primitive<'_>,
@@ -214,7 +213,7 @@ impl Reader<'_> {
     }
 }
 
-/// Splits strips and fans into a plain list with three indices per triangle.
+/// Splits strips and fans into a list with three indices per triangle.
 fn triangles(mode: Mode, listed: &[u32]) -> Vec<u32> {
     match mode {
         Mode::TriangleStrip => listed
@@ -233,7 +232,7 @@ fn triangles(mode: Mode, listed: &[u32]) -> Vec<u32> {
     }
 }
 
-/// Component types and dimensions that an attribute may have.
+/// Component types and dimensions that we allow an attribute.
 pub(super) struct Kind {
     pub(super) name: &'static str,
     pub(super) types: &'static [DataType],
@@ -260,8 +259,8 @@ pub(super) const CORNERS: Kind = Kind {
     dimensions: &[Dimensions::Scalar],
 };
 
-/// Checks that an accessor has an allowed type and that all of its values lie within its
-/// buffer. The error is the reason as text.
+/// Checks that an accessor has an allowed type and that all of its values lie within its buffer.
+/// If not, the error says why.
 pub(super) fn check(
     accessor: &Accessor<'_>,
     kind: &Kind,
@@ -289,7 +288,6 @@ pub(super) fn check(
     }
 }
 
-/// Bytes of a buffer view, or the reason why it is out of bounds.
 pub(super) fn slice<'a>(
     view: &gltf::buffer::View<'_>,
     buffers: &'a [gltf::buffer::Data],
@@ -300,7 +298,7 @@ pub(super) fn slice<'a>(
     within.ok_or_else(|| format!("buffer view {} reaches beyond its buffer", view.index()))
 }
 
-/// Decodes the percent escapes of a relative reference (`%20`) into a path.
+/// Decodes the percent escapes of a relative reference (e.g. `%20`) into a path.
 pub(super) fn path_of(reference: &str) -> Result<String, String> {
     let mut bytes = Vec::with_capacity(reference.len());
     let mut rest = reference.as_bytes();

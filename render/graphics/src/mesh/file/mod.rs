@@ -12,10 +12,11 @@ pub use part::MeshError;
 
 use super::model::Mesh;
 
-/// Reads the bytes of a model. Its name is for errors, its pictures lie in the folder.
+/// Reads the bytes of a model. Pass its name for errors, and the folder of its pictures.
 type Reader = fn(&str, &Path, &[u8]) -> Result<Mesh, MeshError>;
 
-/// The reader of a model without a name: by its first bytes, or, of OBJ, by a line with a vertex.
+/// Recognises a model without a name. Most formats have known first bytes. An OBJ file has a line
+/// with a vertex.
 fn by_content(bytes: &[u8]) -> Option<Reader> {
     let start = bytes.trim_ascii_start();
     let mut lines = bytes.split(|byte| matches!(byte, b'\n' | b'\r'));
@@ -32,8 +33,8 @@ fn by_content(bytes: &[u8]) -> Option<Reader> {
 
 impl Mesh {
     /// Reads a model from a Wavefront OBJ file with its materials, a glTF 2.0 file (`.gltf` or
-    /// `.glb`) or a PLY file. The format follows from the file extension, the format of standard
-    /// input (`-`) from its first bytes. Missing normals are computed.
+    /// `.glb`) or a PLY file. The file extension gives the format. If you pass `-` for standard
+    /// input, its first bytes do. This computes missing normals.
     ///
     /// # Errors
     /// [`MeshError`] with the path, the line or element, and the reason.
@@ -62,7 +63,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// Normalises the normals, and computes those that are missing (stored as zeros).
+    /// Normalises the normals, and computes missing ones (stored as zeros).
     fn complete_normals(&mut self) {
         fn unit(normal: &[f32; 3]) -> Option<glam::Vec3> {
             glam::Vec3::from(*normal).try_normalize()

@@ -1,7 +1,7 @@
 //! Wavefront OBJ, with its MTL materials and their textures.
 //!
-//! OBJ and MTL files are validated line by line first, because the parser reports no line numbers
-//! and panics on some input.
+//! We validate OBJ and MTL files line by line first, because the parser does not report line
+//! numbers and panics on some input.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -11,9 +11,8 @@ use documents::counted;
 use super::part::{MeshError, PAINTED, PLAIN, Part};
 use crate::mesh::model::{Material, Mesh, Texture};
 
-/// Reads an OBJ file. Colours of materials and vertices are taken as encoded sRGB. If
-/// some vertices of a group lack a normal or texture coordinate, none of the group gets
-/// one from the file.
+/// Reads an OBJ file. We take colours of materials and vertices as encoded sRGB. If some vertices
+/// of a group lack a normal or texture coordinate, this ignores all of the group's.
 pub(super) fn read(name: &str, folder: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
     fn at_line(name: &str, (line, reason): (usize, String)) -> MeshError {
@@ -99,16 +98,19 @@ fn triples(values: Vec<f32>) -> Vec<[f32; 3]> {
     values.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect()
 }
 
-/// First `usemtl` line that names an unknown material. A file without `mtllib` may name
-/// any.
+/// First `usemtl` line that names an unknown material. A file without `mtllib` may name any
+/// material.
 fn unknown_material(text: &str, materials: &[tobj::Material]) -> Option<(usize, String)> {
-    let line = |(line, number): (&str, usize)| {
-        let name = line.trim().strip_prefix("usemtl ")?.trim();
-        let known = materials.iter().any(|material| material.name == name);
-        (!known).then(|| (number, format!("no material `{name}` in the libraries")))
-    };
     let has_library = text.lines().any(|line| line.trim().starts_with("mtllib "));
-    has_library.then(|| text.lines().zip(1..).find_map(line)).flatten()
+    has_library
+        .then(|| {
+            text.lines().zip(1..).find_map(|(line, number): (&str, usize)| {
+                let name = line.trim().strip_prefix("usemtl ")?.trim();
+                let known = materials.iter().any(|material| material.name == name);
+                (!known).then(|| (number, format!("no material `{name}` in the libraries")))
+            })
+        })
+        .flatten()
 }
 
 fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material, MeshError> {
@@ -131,7 +133,7 @@ fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material
     Ok(Material { name: found.name.clone(), color, texture })
 }
 
-/// Strips the options in front of a texture's file name (`-s 1 1 1 wood.png`).
+/// Strips the options in front of a texture's file name, e.g. `-s 1 1 1 wood.png`.
 fn without_options(told: &str) -> &str {
     let mut rest = told.trim();
     while rest.starts_with('-') {
@@ -150,7 +152,6 @@ fn without_options(told: &str) -> &str {
 /// Line number from 1, and the reason.
 pub(super) type LineFault = (usize, String);
 
-/// Number of positions, texture coordinates and normals.
 #[derive(Debug, Default, Clone, Copy)]
 struct Counts {
     positions: usize,
@@ -158,7 +159,6 @@ struct Counts {
     normals: usize,
 }
 
-/// Checks the lines of an OBJ file that affect the mesh.
 pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
     fn words(line: &'_ str) -> Option<String> {
         line.split_whitespace().next().map(str::to_owned)
@@ -229,7 +229,6 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
     Ok(())
 }
 
-/// Checks the colour lines of an MTL file.
 pub(super) fn check_mtl(text: &str) -> Result<(), LineFault> {
     for (line, number) in text.lines().zip(1..) {
         let mut words = line.split_whitespace();
@@ -245,7 +244,6 @@ pub(super) fn check_mtl(text: &str) -> Result<(), LineFault> {
     Ok(())
 }
 
-/// Number of words, if all of them are finite numbers.
 fn numbers(words: &[&str]) -> Result<usize, String> {
     let bad = words.iter().find(|word| !word.parse::<f32>().is_ok_and(f32::is_finite));
     match bad {
@@ -254,8 +252,8 @@ fn numbers(words: &[&str]) -> Result<usize, String> {
     }
 }
 
-/// Checks a face corner `position/texture/normal`, of which the last two may be missing.
-/// Negative indices count back from the latest entry.
+/// Checks a face corner `position/texture/normal`, where you may leave out the last two. Negative
+/// indices count back from the latest entry.
 fn corner(word: &str, so_far: Counts, all: Counts) -> Result<(), String> {
     let kinds = [
         ("position", so_far.positions, all.positions),

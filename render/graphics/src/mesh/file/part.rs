@@ -1,5 +1,5 @@
-//! Parts of a model as files store them, appended to one mesh, texture images, errors of reading
-//! models.
+//! Parts of a model as files store them, which we append to one mesh. Also texture images, and
+//! errors of reading models.
 
 use std::io::Cursor;
 
@@ -9,31 +9,29 @@ use image::{ImageReader, Limits};
 use crate::mesh::model::{Material, Mesh, MeshFault, Texture, Triangle};
 use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 
-/// Vertices and triangles of one material.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<[f32; 3]>,
-    /// Empty, or one per position, likewise the next two lists.
+    /// One per position or empty. This also holds for the next two lists.
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texture_coordinates: Vec<[f32; 2]>,
     pub(super) colors: Vec<[f32; 3]>,
-    /// Three vertex indices per triangle, counted within the part.
     pub(super) corners: Vec<u32>,
     pub(super) material: u32,
 }
 
-/// Material of a model without materials and vertex colours: light grey.
+/// Light grey, for a model without materials and vertex colours.
 pub(super) const PLAIN: Material =
     Material { name: String::new(), color: [0.8, 0.8, 0.8], texture: None };
 
-/// Material of a model without materials but with vertex colours: white, so that the
-/// vertex colours show unchanged.
+/// White, for a model without materials but with vertex colours. This shows the vertex colours
+/// unchanged.
 pub(super) const PAINTED: Material =
     Material { name: String::new(), color: [1.0; 3], texture: None };
 
 impl Mesh {
-    /// Appends a part. Missing attributes are filled in. Missing normals become zeros, to be
-    /// computed later.
+    /// Appends a part. This fills in missing attributes. Missing normals become zeros, and we
+    /// compute them later.
     pub(super) fn add(&mut self, part: Part) {
         let first = self.positions.len() as u32;
         let count = first as usize + part.positions.len();
@@ -57,7 +55,7 @@ impl Mesh {
 const LONGEST: u32 = 16_384;
 
 impl Texture {
-    /// Decodes a PNG, JPEG, TIFF or WebP image. The error is the decoder's reason.
+    /// Decodes a PNG, JPEG, TIFF or WebP image. If it cannot, the error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         if is_cut_off_jpeg(bytes) {
             return Err(CUT_OFF.to_owned());
@@ -90,7 +88,7 @@ pub enum MeshError {
         #[source]
         error: std::io::Error,
     },
-    /// The file extension is not one of a supported format.
+    /// We do not support the format of this file extension.
     #[error("{name}: no file extension of a model: `{extension}`")]
     #[hint("models are read from .obj, .gltf, .glb and .ply files")]
     UnknownFormat {

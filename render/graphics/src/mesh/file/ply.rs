@@ -1,5 +1,5 @@
-//! PLY (Turk 1994), text or binary: positions, normals, colours, texture coordinates, and
-//! polygons, which are split into triangle fans.
+//! PLY (Turk 1994), text or binary: positions, normals, colours, texture coordinates and polygons.
+//! We split polygons into triangle fans.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use ply_rs_bw::ply::{
 use super::part::{MeshError, PAINTED, PLAIN, Part};
 use crate::mesh::model::Mesh;
 
-/// Reads a PLY file. Elements other than vertices and faces are skipped.
+/// Reads a PLY file. This skips elements other than vertices and faces.
 pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let malformed = |place: &str, reason: &str| MeshError::Malformed {
         name: name.to_owned(),
@@ -87,7 +87,7 @@ fn assembled(vertices: &[Vertex], faces: &[Face], has: &dyn Fn(&str) -> bool) ->
     mesh
 }
 
-/// Property names of texture coordinates and colours in use among programs.
+/// Names that programs use for texture coordinates and colours.
 const COORDINATES: [[&str; 2]; 4] =
     [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 const COLORS: [[&str; 3]; 3] =
@@ -122,7 +122,7 @@ impl PropertyAccess for Vertex {
                 if let Some(axis) = COORDINATES.iter().find_map(|row| column(row, key)) {
                     self.coordinates[axis] = value;
                 } else if let Some(channel) = COLORS.iter().find_map(|row| column(row, key)) {
-                    // Integer colours are scaled by the greatest value of their type.
+                    // We scale integer colours by the greatest value of their type.
                     self.color[channel] = match property {
                         Property::UChar(_) | Property::Char(_) => value / 255.0,
                         Property::UShort(_) | Property::Short(_) => value / 65535.0,
@@ -149,7 +149,7 @@ impl PropertyAccess for Face {
         if !["vertex_indices", "vertex_index"].contains(&key) {
             return PropertyAccessResult::Ignored;
         }
-        // A negative index is mapped to one that is out of range.
+        // We map a negative index to one that is out of range.
         fn whole(value: i64) -> u32 {
             u32::try_from(value).unwrap_or(u32::MAX)
         }
@@ -166,7 +166,6 @@ impl PropertyAccess for Face {
     }
 }
 
-/// An element that is skipped.
 struct Other;
 
 impl PropertyAccess for Other {

@@ -1,4 +1,5 @@
-//! Sample models made by code with any number of triangles, for examples, tests and figures.
+//! Sample models made by code. You can ask for any number of triangles. We use them in examples,
+//! tests and figures.
 //!
 //! This file has their names and simple surfaces: grids, a sphere and a torus knot, sweeps along
 //! curves, and a photograph as a flat model.
@@ -59,7 +60,7 @@ impl SampleModel {
     }
 }
 
-/// Resolution of a grid. Each cell becomes two triangles.
+/// Resolution of a grid. Each cell becomes two triangles, so for example 3 x 2 cells give 12.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GridSize {
     /// Number of cells along u.
@@ -69,21 +70,23 @@ pub struct GridSize {
 }
 
 impl GridSize {
-    /// Grid of about `triangles` triangles with `aspect` times as many columns as rows, at least 3
-    /// x 2 cells.
+    /// Grid of about `triangles` triangles with `aspect` times as many columns as rows. You get at
+    /// least 3 x 2 cells.
     #[must_use]
     pub fn for_triangles(triangles: usize, aspect: f64) -> Self {
         let rows = (triangles as f64 / 2.0 / aspect).sqrt();
-        let at_least = |cells: f64, least| (cells.round() as usize).max(least);
+        fn at_least(cells: f64, least: usize) -> usize {
+            (cells.round() as usize).max(least)
+        }
         Self { columns: at_least(rows * aspect, 3), rows: at_least(rows, 2) }
     }
 }
 
 impl Mesh {
-    /// Appends the parametric surface `position(u, v)` for u and v in 0..1 (evaluated slightly
-    /// beyond for the normals), white and with one material. Texture coordinates are (u, v). Seen
-    /// from outside, u increases to the right and v downwards. Edges that coincide are joined. An
-    /// edge that collapses to a point becomes a pole.
+    /// Appends the parametric surface `position(u, v)` for u and v in 0..1, white and with one
+    /// material. Normals evaluate `position` slightly beyond this range. Texture coordinates are
+    /// (u, v). Seen from outside, u increases to the right and v downwards. This joins edges that
+    /// coincide. If an edge collapses to a point, it becomes a pole.
     pub fn add_grid(&mut self, cells: GridSize, material: u32, position: impl Fn(Vec2) -> Vec3) {
         let GridSize { columns, rows } = cells;
         let first = self.positions.len();
@@ -119,8 +122,8 @@ impl Mesh {
     }
 }
 
-/// Makes positions at the edges of a grid equal if they differ by rounding only. A pole gets the
-/// mean of its normals.
+/// Makes positions at the edges of a grid equal if they differ by rounding only. This gives a pole
+/// the mean of its normals.
 fn join(
     positions: &mut [[f32; 3]],
     normals: &mut [[f32; 3]],
@@ -152,8 +155,8 @@ fn join(
     }
 }
 
-/// Normal of the surface by central differences, at a pole, the normal of a point slightly beside
-/// it.
+/// Normal of the surface by central differences. At a pole, this is the normal of a point slightly
+/// beside it.
 fn normal(uv: Vec2, position: &impl Fn(Vec2) -> Vec3) -> Vec3 {
     const STEP: f32 = 1e-3;
     let slopes = |at: Vec2| {
@@ -239,7 +242,8 @@ fn lathe(outline: &[[f32; 2]]) -> impl Fn(Vec2) -> Vec3 + use<> {
     }
 }
 
-/// Tube along a spline, with radius `thickness(v)`, closed where that is 0 at the ends.
+/// Tube along a spline, with radius `thickness(v)`. If this is 0 at the ends, the tube is closed
+/// there.
 fn tube(points: &[Vec3], thickness: impl Fn(f32) -> f32) -> impl Fn(Vec2) -> Vec3 {
     let points = points.to_vec();
     move |uv| {
@@ -254,15 +258,14 @@ fn tube(points: &[Vec3], thickness: impl Fn(f32) -> f32) -> impl Fn(Vec2) -> Vec
     }
 }
 
-/// Linear blend of two colours.
 fn mix_colors(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
     [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * share)
 }
 
 impl Mesh {
-    /// A picture, encoded sRGB with opacity in 0..1, as a rectangle of two triangles in the plane z
-    /// = 0 around the origin, towards +z. Its longer side is 1. `camera::PictureView` has cameras
-    /// that see it. Transparent parts are white.
+    /// A picture, encoded sRGB with opacity in 0..1, as a rectangle of two triangles in the plane
+    /// z = 0 around the origin, towards +z. Its longer side is 1. Transparent parts are white. Use
+    /// the cameras of [`camera::PictureView`](crate::camera::PictureView) to see it.
     ///
     /// # Panics
     /// If the picture has no pixels, or a side of 2^32 or more.
@@ -297,7 +300,7 @@ impl Mesh {
             let at = (uv - 0.5) * sides;
             Vec3::new(at.x, -at.y, 0.0)
         });
-        // Textures repeat: corners keep to the middles of the outer texels.
+        // Textures repeat, so we put corners on the middles of the outer texels.
         let half = Vec2::new(0.5 / width as f32, 0.5 / height as f32);
         for at in &mut mesh.texture_coordinates {
             *at = Vec2::from(*at).clamp(half, Vec2::ONE - half).to_array();

@@ -13,15 +13,13 @@ const GLAZE: u32 = 1;
 const FRUIT: u32 = 2;
 const WOOD: u32 = 3;
 
-/// Radius of the cloth when spread out flat.
 const CLOTH_RADIUS: f32 = 2.95;
 
-/// Radius of the part of the cloth that lies flat on the table.
 const TABLE_RADIUS: f32 = 2.05;
 
 impl Mesh {
-    /// A still life of about `triangles` triangles, about 5 wide, with the table top at y =
-    /// 0. The cloth is open below. It uses materials, a texture and vertex colours.
+    /// A still life of about `triangles` triangles, about 5 wide, with the table top at y = 0. The
+    /// cloth is open below. Use this to try materials, a texture and vertex colours.
     #[must_use]
     pub fn still_life(triangles: usize) -> Self {
         let materials = vec![
@@ -49,7 +47,7 @@ impl Mesh {
         mesh
     }
 
-    /// Sets the colours of the vertices from index `first` on, by position.
+    /// Sets the colours of the vertices from index `first` on, by their position.
     pub(super) fn tint(&mut self, first: usize, color: impl Fn(Vec3) -> [f32; 3]) {
         for (position, found) in self.positions[first..].iter().zip(&mut self.colors[first..]) {
             *found = color(Vec3::from(*position));
@@ -57,7 +55,6 @@ impl Mesh {
     }
 }
 
-/// Four blue stripes and a red one on linen white.
 fn stripes() -> Texture {
     fn texel(x: u32) -> u32 {
         let blue = (8..16).contains(&(x % 32));

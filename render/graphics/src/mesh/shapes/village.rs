@@ -17,7 +17,6 @@ const DARK: u32 = 6;
 const LEAVES: u32 = 7;
 const TRUNK: u32 = 8;
 
-/// Distance from the centre of the land to its edge.
 const RADIUS: f32 = 10.0;
 
 /// Position of each house: angle around the church in radians, and distance from it.
@@ -40,7 +39,8 @@ const HOUSES: [[f32; 2]; 15] = [
 ];
 
 impl Mesh {
-    /// A village of about `triangles` triangles (1,500 or more), 20 wide. Open below.
+    /// A village of about `triangles` triangles, 20 wide and open below. You get at least about
+    /// 1,500.
     #[must_use]
     pub fn village(triangles: usize) -> Self {
         let materials = [
@@ -106,7 +106,7 @@ fn on_land(angle: f32, distance: f32) -> Vec3 {
     Vec3::new(x, height([x, z]), z)
 }
 
-/// Coverage by the path, 0..1. It winds down from the church.
+/// Coverage by the path, 0..1. The path winds down from the church.
 fn on_path(position: Vec3) -> f32 {
     let distance = position.x.hypot(position.z);
     let middle = 0.35 + 0.5 * (0.55 * distance).sin();
@@ -131,7 +131,6 @@ fn add_land(mesh: &mut Mesh, triangles: usize) {
     });
 }
 
-/// A flat quad, corners row by row from the upper left.
 fn add_flat(mesh: &mut Mesh, corners: [Vec3; 4], material: u32) {
     let [a, b, c, d] = corners;
     mesh.add_grid(GridSize { columns: 1, rows: 1 }, material, |Vec2 { x, y }| {
@@ -188,7 +187,6 @@ fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u3
     );
 }
 
-/// Four walls and a lid, given by half the width and the height.
 fn add_tower(
     mesh: &mut Mesh,
     placed: &dyn Fn(Vec3) -> Vec3,
@@ -220,7 +218,6 @@ fn add_church(mesh: &mut Mesh) {
     }
 }
 
-/// A tree: round, or slim like a cypress.
 fn add_tree(mesh: &mut Mesh, triangles: usize, at: Vec3, height: f32, slim: bool) {
     let first = mesh.positions.len();
     let wide = if slim { 0.17 } else { 0.42 } * height;

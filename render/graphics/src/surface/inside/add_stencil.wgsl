@@ -17,7 +17,7 @@ struct Fragment {
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
 @group(0) @binding(0) var<uniform> params: AddStencilParams;
-// Four pixels to a word, the leftmost in the lowest byte.
+// A word holds four pixels, the leftmost in the lowest byte.
 @group(0) @binding(1) var<storage, read> stencil: array<u32>;
 @group(0) @binding(2) var<storage, read> fragments: array<Fragment>;
 @group(0) @binding(3) var<storage, read_write> counts: array<i32>;

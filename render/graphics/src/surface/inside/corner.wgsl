@@ -2,11 +2,11 @@
 
 struct FacesParams {
     clip_from_model: mat4x4<f32>,
-    // Words from one vertex to the next; the first three are its position.
+    // Words from one vertex to the next. The first three are its position.
     vertex_words: u32,
     // Width of the picture in pixels.
     width: u32,
-    // The depth of fragments by the depth of this camera.
+    // Divide the depth of fragments by this to get the depth of this camera.
     depth_scale: f32,
     spare: u32,
 }

@@ -1,5 +1,5 @@
-//! Counts closed surfaces on the processor, or on a graphics device: in its stencil, or weighed by
-//! adding at every fragment.
+//! Counts closed surfaces on the processor or on a graphics device. The device counts in its
+//! stencil. If surfaces have weights, it adds at every fragment.
 
 use std::ops::Range;
 
@@ -15,8 +15,8 @@ use crate::mesh::Triangle;
 use crate::surface::model::{DeviceModel, Model};
 use crate::surface::{Fragment, Positioned, Vertex};
 
-/// Counts the closed surfaces that hold what each pixel shows. Keeps its memory between pictures,
-/// of use to one [`Compute`] only.
+/// Counts the closed surfaces that hold what each pixel shows. It keeps its memory between
+/// pictures, so use it with one [`Compute`] only.
 #[derive(Debug, Default)]
 pub struct InsideCounter {
     crossings: Crossings,
@@ -24,12 +24,12 @@ pub struct InsideCounter {
 }
 
 impl InsideCounter {
-    /// The number of `surfaces` that hold the point that each pixel of `visible` shows: of `model`,
-    /// as `camera` sees it. 0 where nothing is seen.
+    /// Counts the `surfaces` that hold the point which each pixel of `visible` shows. `visible` is
+    /// `model` as `camera` sees it. The count is 0 where nothing is seen.
     ///
-    /// A device draws the model again for its depth and counts in the stencil, in passes of at most
-    /// 255 surfaces. It may differ from the processor where a surface's outline passes within a
-    /// pixel or its skin within rounding.
+    /// A device draws the model again for its depth and counts in the stencil, in passes of at
+    /// most 255 surfaces. This may differ from the processor where the outline of a surface passes
+    /// within a pixel or its skin within rounding.
     ///
     /// # Errors
     /// [`DeviceError`] if a device has no memory left, was lost or has no stencil that can be read
@@ -57,11 +57,11 @@ impl InsideCounter {
         }
     }
 
-    /// The sum of the `weights` of the surfaces that hold the point that each pixel of `visible`
-    /// shows, 0 where nothing is seen. There is one weight for each surface. Sums beyond the range
+    /// Sums the `weights` of the surfaces that hold the point which each pixel of `visible` shows.
+    /// The sum is 0 where nothing is seen. Pass one weight for each surface. Sums beyond the range
     /// of `i32` wrap.
     ///
-    /// A device adds at every pixel of every face, which not all devices can
+    /// A device adds at every pixel of every face. Not all devices can do this
     /// ([`crate::gpu::Device::scatters`]).
     ///
     /// # Errors
@@ -93,15 +93,15 @@ impl InsideCounter {
         }
     }
 
-    /// The number of `surfaces` that hold the point that each pixel of `visible` shows and whose
-    /// gate lets its triangle pass, 0 where nothing is seen.
+    /// Counts the `surfaces` that hold the point which each pixel of `visible` shows, if the gate
+    /// of the surface lets the triangle there pass. The count is 0 where nothing is seen.
     ///
     /// # Errors
     /// As [`Self::weighed`].
     ///
     /// # Panics
-    /// As [`Self::counts`]. If a surface has no gate, or (on the processor) a triangle that is seen
-    /// has no normal.
+    /// As [`Self::counts`]. Also if a surface has no gate, or (on the processor) if a triangle that
+    /// is seen has no normal.
     pub fn gated(
         &mut self,
         compute: &mut Compute,
@@ -127,7 +127,7 @@ impl InsideCounter {
         }
     }
 
-    /// The stencil of the last picture if it has this size, else a new one.
+    /// The stencil of the last picture, or a new one if the size differs.
     fn target(
         &mut self,
         gpu: &GpuCompute,
@@ -142,17 +142,17 @@ impl InsideCounter {
     }
 }
 
-/// The least number of weights or gates for all surfaces.
+/// You need at least this many weights or gates.
 fn least(surfaces: ClosedSurfaces<'_, impl Positioned>) -> usize {
     let last = surfaces.triangles.iter().map(|triangle| triangle.material as usize).max();
     last.map_or(0, |last| last + 1)
 }
 
-/// The most closed surfaces that a stencil of 8 bits counts.
+/// A stencil of 8 bits counts at most this many closed surfaces.
 const MOST_IN_STENCIL: usize = 255;
 
-/// The shader that draws the depth of the scene and counts faces behind it in the stencil. It
-/// reads the words of vertices, and [`Triangle`]s.
+/// This shader draws the depth of the scene and counts faces behind it in the stencil. It reads
+/// the words of vertices, and [`Triangle`]s.
 pub static STENCIL_FACES: StencilShader = StencilShader {
     name: "stencil_faces",
     source: include_str!("corner.wgsl"),
@@ -160,8 +160,8 @@ pub static STENCIL_FACES: StencilShader = StencilShader {
     buffers: 2,
 };
 
-/// The shader that adds weights of closed surfaces. It reads the words of vertices,
-/// [`Triangle`]s, [`Fragment`]s and weights, and adds to the sums of pixels.
+/// This shader adds weights of closed surfaces. It reads the words of vertices, [`Triangle`]s,
+/// [`Fragment`]s and weights, and adds to the sums of pixels.
 pub static WEIGHED_FACES: ScatterShader = ScatterShader {
     name: "weighed_faces",
     source: concat!(include_str!("corner.wgsl"), include_str!("weigh.wgsl")),
@@ -170,9 +170,8 @@ pub static WEIGHED_FACES: ScatterShader = ScatterShader {
     buffers: 5,
 };
 
-/// The shader that counts closed surfaces with a gate. It reads the words of vertices,
-/// [`Triangle`]s, [`Fragment`]s, gates of surfaces and normals of triangles, and adds to the counts
-/// of pixels.
+/// This shader counts closed surfaces with a gate. It reads the words of vertices, [`Triangle`]s,
+/// [`Fragment`]s, gates of surfaces and normals of triangles, and adds to the counts of pixels.
 pub static GATED_FACES: ScatterShader = ScatterShader {
     name: "gated_faces",
     source: concat!(include_str!("corner.wgsl"), include_str!("gate.wgsl")),
@@ -181,7 +180,7 @@ pub static GATED_FACES: ScatterShader = ScatterShader {
     buffers: 6,
 };
 
-/// The kernel that adds the bytes of a stencil to counts.
+/// This kernel adds the bytes of a stencil to counts.
 pub static ADD_STENCIL: Kernel = Kernel {
     name: "add_stencil",
     source: include_str!("add_stencil.wgsl"),
@@ -214,7 +213,7 @@ impl FacesParams {
     const LAYOUT: crate::gpu::Layout =
         layout!(FacesParams { clip_from_model, vertex_words, width, depth_scale, spare });
 
-    /// For vertices of type `V`. There is no far plane, as faces beyond it count too.
+    /// Sets up vertices of type `V`. There is no far plane, as faces beyond it count too.
     fn new<V>(camera: &Camera, (width, height): (usize, usize)) -> Self {
         let clip_from_model = camera.endless_clip_from_model(width as f32 / height as f32);
         Self {
@@ -227,7 +226,6 @@ impl FacesParams {
     }
 }
 
-/// Closed surfaces in device memory.
 struct DeviceSurfaces {
     vertices: Plane<f32>,
     triangles: Plane<Triangle>,
@@ -247,7 +245,6 @@ impl DeviceSurfaces {
     }
 }
 
-/// Counts the surfaces that hold what each pixel shows in the stencil of `target`.
 fn device_counts(
     gpu: &mut GpuCompute,
     scene: &DeviceModel,
@@ -286,7 +283,8 @@ fn device_counts(
     Ok(counts)
 }
 
-/// Sorted triangles in runs of at most [`MOST_IN_STENCIL`] surfaces, at least one run.
+/// Cuts sorted triangles into runs of at most [`MOST_IN_STENCIL`] surfaces. There is at least one
+/// run.
 fn batches(triangles: &[Triangle]) -> Vec<Range<usize>> {
     let mut batches = Vec::new();
     let mut start = 0;
@@ -306,7 +304,6 @@ fn batches(triangles: &[Triangle]) -> Vec<Range<usize>> {
     batches
 }
 
-/// Sums the weights of the surfaces that hold what each pixel shows.
 fn device_weighed(
     gpu: &mut GpuCompute,
     visible: &Plane<Fragment>,
@@ -319,7 +316,6 @@ fn device_weighed(
     scattered(gpu, &WEIGHED_FACES, (visible.size(), &buffers), camera, surfaces, target)
 }
 
-/// Counts the surfaces that hold what each pixel shows and let its triangle pass.
 fn device_gated(
     gpu: &mut GpuCompute,
     visible: &Plane<Fragment>,
@@ -334,8 +330,8 @@ fn device_gated(
     scattered(gpu, &GATED_FACES, (visible.size(), &buffers), camera, surfaces, target)
 }
 
-/// Sums of `shader` over every pixel of every face. Its buffers are the surfaces' buffers, then
-/// `buffers`, then the sums.
+/// Sums `shader` over every pixel of every face. It gets the surfaces' buffers, then `buffers`,
+/// then the sums.
 fn scattered(
     gpu: &mut GpuCompute,
     shader: &'static ScatterShader,

@@ -1,5 +1,5 @@
-// Counts the closed surfaces that hold the seen point and whose gate lets its triangle pass;
-// twin of GatedCount. Follows corner.wgsl.
+// Counts the closed surfaces that hold the seen point, if their gate lets the triangle there pass.
+// This is the twin of GatedCount and follows corner.wgsl.
 
 struct Fragment {
     triangle: u32,
@@ -11,9 +11,10 @@ struct Fragment {
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
 @group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
-// Of each surface: what it faces, and the least cosine; then its body, 0 for any.
+// For each surface: the direction that it faces, and the least cosine. Then its body, or 0 for
+// any.
 @group(0) @binding(4) var<storage, read> gates: array<vec4<f32>>;
-// Of each triangle of the scene: its normal and its body, 0 for any.
+// For each triangle of the scene: its normal and its body, or 0 for any.
 @group(0) @binding(5) var<storage, read> normals: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> sums: array<atomic<i32>>;
 

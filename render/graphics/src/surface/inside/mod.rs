@@ -1,13 +1,13 @@
-//! The closed surfaces that hold each visible point, by counting faces behind it (z-fail, as for
-//! shadow volumes: Crow 1977, Heidmann 1991, Everitt and Kilgard 2002).
+//! Finds the closed surfaces that hold each visible point. For this we count faces behind it
+//! (z-fail, as for shadow volumes: Crow 1977, Heidmann 1991, Everitt and Kilgard 2002).
 //!
-//! Each face of a closed surface that covers a pixel at or behind the point seen there adds +1 if
-//! it faces away and -1 if it faces the eye. The sum is the number of surfaces that hold the point,
-//! wherever the eye stands: faces that the near plane cuts off lie before the point and never
-//! count, and there is no far plane for them.
+//! A face of a closed surface that covers a pixel at or behind the point seen there adds +1 if it
+//! faces away and -1 if it faces the eye. The sum is the number of surfaces that hold the point,
+//! wherever the eye stands. The near plane cuts off only faces before the point, which do not
+//! count, and there is no far plane for faces.
 //!
-//! Vertices are rounded to the 256th of a pixel and every pixel belongs to one of two faces that
-//! share an edge, so the faces of a closed surface sum to 0 over every pixel: there are no cracks.
+//! We round vertices to the 256th of a pixel, and every pixel belongs to one of two faces that
+//! share an edge. So the faces of a closed surface sum to 0 over every pixel, without cracks.
 //! Surfaces may overlap. Each must be closed, without self-intersections, its faces
 //! counter-clockwise seen from outside.
 mod counter;
@@ -26,8 +26,8 @@ use crate::surface::{Fragment, NO_TRIANGLE, Positioned, VisibilityBuffer};
 
 pub use counter::{ADD_STENCIL, GATED_FACES, InsideCounter, STENCIL_FACES, WEIGHED_FACES};
 
-/// Closed surfaces, which may overlap. Each is closed, does not intersect itself, and its
-/// triangles are counter-clockwise seen from outside.
+/// Closed surfaces, which may overlap. Each must be closed and must not intersect itself. Its
+/// triangles must be counter-clockwise seen from outside.
 #[derive(Debug)]
 pub struct ClosedSurfaces<'a, V> {
     /// The vertices of all surfaces, in the unit of the model.
@@ -50,13 +50,12 @@ impl<V> Copy for ClosedSurfaces<'_, V> {}
 pub struct Crossing {
     /// Index of the pixel, row by row.
     pub pixel: usize,
-    /// Index of the surface.
+    /// Depth as in [`crate::surface::Fragment`]. It may exceed 1, beyond the far plane.
     pub surface: u32,
     /// Depth as in [`crate::surface::Fragment`], above 1 beyond the far plane.
     pub depth: f32,
     /// 1 where the ray leaves the surface (a back face), -1 where it enters.
     pub sign: i32,
-    /// Shares of the face's corners in 1 / w of the clip coordinates.
     inverse_w: [f32; 3],
 }
 
@@ -73,21 +72,21 @@ impl Crossing {
 
 /// A sum over the crossings of each pixel's eye ray.
 ///
-/// Crossings of a pixel are added in the order of the triangles. A sum in whole numbers that
-/// wrap does not depend on that order.
+/// We add the crossings of a pixel in the order of the triangles. If you sum whole numbers that
+/// wrap, the result does not depend on this order.
 pub trait CrossingSum: Sync {
-    /// The sum of a pixel, its default is the sum over no crossing.
+    /// The sum of a pixel. Its default must be the sum over no crossing.
     type Sum: Copy + Default + Send + Sync;
 
-    /// Whether crossings before the seen point are added too, and crossings at pixels that show
-    /// nothing. Otherwise only crossings at or behind the seen point are added.
+    /// Set this if you want all crossings: also those before the seen point, and at pixels that
+    /// show nothing. Otherwise you get only crossings at or behind the seen point.
     const EVERY_CROSSING: bool = false;
 
     /// Adds a crossing to the sum of its pixel.
     fn add(&self, sum: &mut Self::Sum, crossing: &Crossing);
 }
 
-/// The number of closed surfaces that hold the seen point, 0 where nothing is seen.
+/// Counts the closed surfaces that hold the seen point. This is 0 where nothing is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Count;
 
@@ -100,12 +99,12 @@ impl CrossingSum for Count {
     }
 }
 
-/// The sum of the weights of the closed surfaces that hold the seen point, 0 where nothing is seen
-/// or no surface holds it.
+/// Sums the weights of the closed surfaces that hold the seen point. This is 0 where nothing is
+/// seen or no surface holds the point.
 ///
-/// The function gives the weight of a surface (first argument) at a pixel (second argument). It
-/// must be a function of these two alone, so that the crossings of a surface that does not hold the
-/// point cancel. Sums beyond the range of `i32` wrap.
+/// You pass a function that gives the weight of a surface (first argument) at a pixel (second
+/// argument). It must depend on these two alone, so that the crossings of a surface that does not
+/// hold the point cancel. Sums beyond the range of `i32` wrap.
 #[derive(Debug, Clone, Copy)]
 pub struct WeighedCount<W>(pub W);
 
@@ -119,21 +118,21 @@ impl<W: Fn(u32, usize) -> i32 + Sync> CrossingSum for WeighedCount<W> {
     }
 }
 
-/// Limits on what closed surfaces hold: the triangles of a scene that face as they do. So paint on one
-/// side of a thin wall does not show on the other.
+/// Limits what closed surfaces hold to the triangles of a scene that face the same way. For
+/// example, this keeps paint on one side of a thin wall from showing on the other.
 #[derive(Debug, Clone, Copy)]
 pub struct Gates<'a> {
-    /// Of each closed surface a unit vector, and as the fourth number the least cosine between it
-    /// and the normal of a triangle that the surface holds, -2 for a surface that holds all. The
-    /// fifth number names the only body that it can hold triangles of, 0 for any. The others have
-    /// no meaning.
+    /// For each closed surface: a unit vector, and as the fourth number the least cosine between
+    /// this vector and the normal of a triangle that the surface holds. Use -2 for a surface that
+    /// holds all triangles. The fifth number is the only body that it can hold triangles of, 0 for
+    /// any. The other numbers do not matter.
     pub surfaces: &'a [[f32; 8]],
-    /// The unit normal of each triangle of the scene, in the memory of what counts, and as the
-    /// fourth number its body, 0 for a triangle that surfaces of any body hold.
+    /// For each triangle of the scene: its unit normal, and as the fourth number its body. Use 0
+    /// for a triangle that surfaces of any body can hold. This image must be in the memory of the
+    /// compute that counts.
     pub normals: &'a Image<[f32; 4]>,
 }
 
-/// The number of closed surfaces that hold the seen point and let it pass.
 #[derive(Debug, Clone, Copy)]
 struct GatedCount<'a> {
     surfaces: &'a [[f32; 8]],
@@ -146,7 +145,7 @@ impl CrossingSum for GatedCount<'_> {
 
     #[inline]
     fn add(&self, sum: &mut i32, crossing: &Crossing) {
-        // Crossings are added only where a triangle is seen.
+        // We add crossings only where a triangle is seen.
         let [x, y, z, of] = self.normals[self.seen[crossing.pixel].triangle as usize];
         let [to_x, to_y, to_z, least, body, ..] = self.surfaces[crossing.surface as usize];
         let is_own = body == 0.0 || of == 0.0 || body == of;
@@ -156,28 +155,27 @@ impl CrossingSum for GatedCount<'_> {
     }
 }
 
-/// Columns of a tile. Its nearest seen depth lets faces before it be skipped.
+/// Columns of a tile. With the nearest depth in a tile we can skip faces before it.
 const TILE: usize = 16;
 
-/// Depths of a face within this much of the nearest seen one are looked at pixel by pixel:
-/// interpolated depths may exceed the depths of the corners by rounding.
+/// If the depths of a face come this close to the nearest seen one, we look at them pixel by
+/// pixel. Interpolated depths may exceed the depths of the corners by rounding.
 const MARGIN: f32 = 1e-5;
 
-/// Sums over the crossings of eye rays with the faces of closed surfaces, on the processor.
-/// Keeps its memory between pictures.
+/// Sums over the crossings of eye rays with the faces of closed surfaces, on the processor. It
+/// keeps its memory between pictures.
 #[derive(Debug, Clone, Default)]
 pub struct Crossings {
     bands: Bands,
 }
 
 impl Crossings {
-    /// The sum of each pixel of `visible`, which `camera` sees.
-    ///
-    /// The bits are the same for any number of threads.
+    /// The sum of each pixel of `visible`, which `camera` sees. You get the same bits for any
+    /// number of threads.
     ///
     /// # Panics
-    /// If a triangle has a corner that `vertices` does not have, or there are 2^31
-    /// triangles or more.
+    /// If a triangle has a corner that `vertices` does not have, or there are 2^31 triangles or
+    /// more.
     #[must_use]
     pub fn sum<S: CrossingSum>(
         &mut self,
@@ -212,7 +210,6 @@ impl Crossings {
     }
 }
 
-/// Adds the crossings of one shape to `sums`, the pixels of a band.
 fn add<S: CrossingSum>(
     summed: &S,
     shape: &Shape,
@@ -232,10 +229,9 @@ fn add<S: CrossingSum>(
     });
 }
 
-/// The seen depths of a band.
 struct SeenBand {
     width: usize,
-    /// Of each pixel, infinite where nothing is seen.
+    /// One for each pixel, infinite where nothing is seen.
     depths: Vec<f32>,
     /// The least of every [`TILE`] columns.
     nearest: Vec<f32>,

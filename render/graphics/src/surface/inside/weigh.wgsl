@@ -1,5 +1,5 @@
-// Adds the weight of a closed surface where its faces lie at or behind the seen point; twin of
-// WeighedCount. Follows corner.wgsl.
+// Adds the weight of a closed surface where its faces lie at or behind the seen point. This is the
+// twin of WeighedCount and follows corner.wgsl.
 
 struct Fragment {
     triangle: u32,

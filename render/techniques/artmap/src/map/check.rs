@@ -1,4 +1,5 @@
-//! Checks of a map: figures that need its tiles alone, not the samples, and the faults they show.
+//! Checks of a map: figures that you can measure without the samples, and the faults that these
+//! show.
 
 use std::cmp::Ordering;
 
@@ -12,18 +13,18 @@ use crate::measures::{Texture, coherence, contrast, stroke_length, usual_wrap_ra
 
 impl ArtMap {
     /// Faults of the map: tiles that do not cohere with the first one or show a seam, tones too
-    /// close or in the wrong order, in-betweens that lose contrast or lightness. An empty list for
-    /// a good map.
+    /// close or in the wrong order, in-betweens that lose contrast or lightness. If you get an
+    /// empty list, the map is good.
     #[must_use]
     pub fn faults(&self) -> Vec<MapFault> {
         self.figures().faults()
     }
 }
 
-/// Shares of the way to the lighter tile at which in-betweens are measured.
+/// We measure in-betweens at these shares of the way to the lighter tile.
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
 
-/// Distance in spacings above which unevenness is not a stroke.
+/// Unevenness over a longer distance than this, in spacings, is not a stroke.
 const LEVELLED: f64 = 4.0;
 
 /// Figures of a map, as `ArtMap::figures` measures them.
@@ -33,7 +34,8 @@ pub struct MapFigures {
     pub first: usize,
     /// Figures of the key tiles, in their order.
     pub keys: Vec<KeyFigures>,
-    /// Figures of the tiles at 25, 50 and 75 % between each two neighbours, made by dissolving.
+    /// Figures of the tiles at 25, 50 and 75 % between each two neighbours, which strokes dissolve
+    /// into.
     pub betweens: Vec<BetweenFigures>,
 }
 
@@ -46,17 +48,18 @@ pub struct KeyFigures {
     pub tone: f64,
     /// Standard deviation of L*.
     pub contrast: f64,
-    /// Length of the strokes along y in texels, of the tile levelled over four spacings.
+    /// Length of the strokes along y in texels. We level the tile over four spacings first.
     pub stroke_length: f64,
-    /// Correlation of its detail with the first tile's, -1 to 1, 1 for the first tile.
+    /// Correlation of its detail with the first tile's, -1 to 1. The first tile has 1.
     pub coherence: f64,
-    /// Correlation of its detail with the detail of the neighbouring tile on the side of the first
-    /// one,
-    /// -1 to 1. In line art strokes are added from tone to tone, so that only neighbours agree.
+    /// Correlation of its detail with the neighbouring tile's, on the side of the first tile, -1
+    /// to 1.
+    ///
+    /// Use this for line art: strokes are added from tone to tone, so that only neighbours agree.
     pub neighbour_coherence: f64,
-    /// Steps of L* across the borders over those within the tile, 1 where no seam shows.
+    /// Steps of L* across the borders over the steps within the tile. If this is 1, no seam shows.
     pub wrap_ratio: f64,
-    /// The ratio that 95 of 100 places within the tile stay below.
+    /// 95 of 100 places within the tile stay below this ratio.
     pub usual_wrap_ratio: f64,
 }
 
@@ -67,7 +70,8 @@ pub struct BetweenFigures {
     pub lower: usize,
     /// Share of the way to the lighter one, 0 to 1.
     pub share: f64,
-    /// Contrast relative to the key tiles, weighted by the share. None where they have no contrast.
+    /// Contrast relative to the key tiles, weighted by the share. `None` where they have no
+    /// contrast.
     pub contrast: Option<f64>,
     /// Mean L*.
     pub tone: f64,
@@ -113,7 +117,6 @@ impl ArtMap {
         MapFigures { first: self.first, keys, betweens: betweens.concat() }
     }
 
-    /// Figures of the tiles above the key tile `lower`.
     fn between_figures(&self, lower: usize, keys: &[KeyFigures]) -> Vec<BetweenFigures> {
         let Some(transition) = self.transition(lower, Between::Dissolve) else {
             return Vec::new();
@@ -141,20 +144,21 @@ impl ArtMap {
     }
 }
 
-/// Least coherence of a tile with the first one or with its neighbour on the way there.
-/// Independent synthesis stays below 0.15.
+/// Least coherence of a tile with the first one or with its neighbour on the way there. For
+/// comparison, independent synthesis stays below 0.15.
 const COHERENCE: f64 = 0.60;
-/// Largest step across the borders over that within a tile, unless places within it vary more.
+/// Largest step across the borders over the steps within a tile, unless places within it vary
+/// more.
 const WRAP: f64 = 1.05;
 /// Least contrast of an in-between, relative to its key tiles.
 const CONTRAST: f64 = 0.93;
-/// Largest distance of the tone of an in-between from the weighted mean, in L*.
+/// The tone of an in-between may differ by this from the weighted mean, in L*.
 const TONE: f64 = 0.5;
-/// Least distance of neighbouring tones in L*: a step k of 5 of 255 levels, below which Yan and
-/// others (2008, equation 7) have no tile in between.
+/// Least distance of neighbouring tones in L*. This is a step k of 5 of 255 levels, below which
+/// Yan and others (2008, equation 7) have no tile in between.
 const STEP: f64 = 5.0 / 2.55;
-/// Least distance of the darkest from the lightest tone in L*, by our own choice: with less, light
-/// and shade of a model can hardly be told apart.
+/// Least distance of the darkest from the lightest tone in L*. We chose this ourselves: with less,
+/// you can hardly tell light and shade of a model apart.
 const SPREAD: f64 = 20.0;
 
 /// A fault of a map: where, the figure found, and the one wanted.
@@ -248,7 +252,7 @@ pub enum MapFault {
 }
 
 impl MapFigures {
-    /// Faults that the figures show, of tiles first, then of pairs of neighbours.
+    /// Faults that these figures show: first of tiles, then of pairs of neighbours.
     #[must_use]
     pub fn faults(&self) -> Vec<MapFault> {
         let keys = self.keys.iter().flat_map(of_key);
@@ -319,8 +323,8 @@ mod tests {
 
     const SIZE: usize = 96;
 
-    /// Waves around a linear grey, `period` texels wide and shifted by `phase` periods, that lean by
-    /// one period over the height of the tile.
+    /// Waves around a linear grey, `period` texels wide and shifted by `phase` periods. They lean
+    /// by one period over the height of the tile.
     fn key(name: &str, grey: f32, period: f32, phase: f32) -> KeyMap {
         let color = Field::from_values(
             SIZE,
@@ -392,7 +396,7 @@ mod tests {
             !faults.iter().any(|fault| matches!(fault, MapFault::Coherence { .. })),
             "{faults:?}"
         );
-        // The first tile is the one that others are compared with.
+        // The first tile is the one that we compare others with.
         let other = ArtMap { first: 1, ..moved };
         let faults = other.faults();
         assert!(

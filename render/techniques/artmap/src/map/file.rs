@@ -1,8 +1,8 @@
 //! Files of art maps: OpenEXR, format `impasto-artmap`, version 1.
 //!
-//! One file has a part per key tile, `key.000`, `key.001` .. from dark to light, with scan lines of
-//! 32-bit float channels, so that any program that reads OpenEXR shows them. Tiles are squares of
-//! one size.
+//! One file has a part per key tile: `key.000`, `key.001` .. from dark to light. It has scan lines
+//! of 32-bit float channels, so you can look at it with any program that reads OpenEXR. Tiles are
+//! squares of one size.
 //!
 //! | channels | content |
 //! | --- | --- |
@@ -11,11 +11,11 @@
 //! | one per pigment, `vehicle` | paint in mm, left out without pigments |
 //! | `source.x`, `source.y` | column and row of the sample that the texel shows, 0 to 65534 |
 //!
-//! Attribute `impasto` of the first part is JSON in ASCII: format and version, provenance, size and
-//! spacing of the tiles, their names and tones, the settings of the synthesis, the channel of each
-//! pigment, and the pigment library. OpenEXR has no check sums, so the description has a SHA-256
-//! digest of every part and of itself (with the text of `digest` left empty): a damaged file is
-//! refused. Everything comes back bit for bit.
+//! Attribute `impasto` of the first part is JSON in ASCII. It holds format and version,
+//! provenance, size and spacing of the tiles, their names and tones, the settings of the
+//! synthesis, the channel of each pigment, and the pigment library. OpenEXR has no check sums. So
+//! this description has a SHA-256 digest of every part and of itself (with the text of `digest`
+//! left empty), and we refuse a damaged file. You get everything back bit for bit.
 
 use std::path::Path;
 
@@ -44,8 +44,8 @@ impl ArtMap {
         read(&path.display().to_string(), &documents::file::read(path)?)
     }
 
-    /// Writes the map to a file (OpenEXR, see [`crate::map::file`]), which is replaced as a whole
-    /// or not at all.
+    /// Writes the map to a file (OpenEXR, see [`crate::map::file`]). This replaces the file as a
+    /// whole or not at all.
     ///
     /// # Errors
     /// [`TexelFileError`] if the map is inconsistent or the file cannot be written.
@@ -54,10 +54,8 @@ impl ArtMap {
     }
 }
 
-/// Channels of the column and the row of the sample that a texel shows.
 const SOURCE: [&str; 2] = ["source.x", "source.y"];
 
-/// Files of art maps.
 const KIND: TexelFileKind = TexelFileKind {
     format: "impasto-artmap",
     version: 1,
@@ -65,16 +63,14 @@ const KIND: TexelFileKind = TexelFileKind {
     reserved: &[COLOR[0], COLOR[1], COLOR[2], HEIGHT, VEHICLE, SOURCE[0], SOURCE[1]],
 };
 
-/// Content of the attribute.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FileHeader {
     format: String,
     version: u64,
-    /// SHA-256 of the description with an empty text in this place.
+    /// SHA-256 of the description with an empty text in this field.
     digest: String,
     provenance: String,
-    /// Width and height of the tiles.
     size: usize,
     spacing: f64,
     mm_per_texel: Option<f64>,
@@ -84,7 +80,6 @@ struct FileHeader {
     first: usize,
     settings: SynthesisSettings,
     keys: Vec<KeyHeader>,
-    /// Pigments in use, with their channels, `None` for maps without paint.
     pigments: Option<Vec<PigmentChannel>>,
     library: Option<Value>,
 }
@@ -95,19 +90,16 @@ struct KeyHeader {
     part: String,
     name: String,
     tone: f64,
-    /// Whether the part has a channel of heights.
     relief: bool,
     /// SHA-256 of the numbers of the part.
     digest: String,
 }
 
-/// Name of the part of the tile number `index`.
 fn header_part(index: usize) -> String {
     format!("key.{index:03}")
 }
 
 impl FileHeader {
-    /// Description of `map`, without digests.
     fn of(map: &ArtMap) -> Result<Self, TexelFileError> {
         let keys = map.keys.iter().enumerate().map(|(index, key)| KeyHeader {
             part: header_part(index),
@@ -155,7 +147,7 @@ impl FileHeader {
         Ok(json)
     }
 
-    /// Parses and checks a description. Returns it with the library and slots that it holds.
+    /// Parses and checks a description. Returns it with the library and slots in it.
     fn from_json(
         origin: Origin<'_>,
         json: &str,
@@ -169,7 +161,6 @@ impl FileHeader {
         Ok((header, paint))
     }
 
-    /// The parts of the tiles.
     fn plans(&self) -> Vec<PartPlan> {
         self.keys
             .iter()
@@ -181,7 +172,6 @@ impl FileHeader {
             .collect()
     }
 
-    /// The description's own digest.
     fn own_digest(&self) -> Result<String, TexelFileError> {
         let bare = Self { digest: String::new(), ..self.clone() };
         Ok(of_text(&encoded(&KIND, &bare)?))
@@ -213,7 +203,7 @@ impl FileHeader {
             }
         }
         for pair in keys.windows(2) {
-            // Also if one of them is not a number.
+            // This also fails if one of them is not a number.
             if !matches!(pair[0].tone.partial_cmp(&pair[1].tone), Some(order) if order.is_le()) {
                 let darker = pair[0].tone;
                 let lighter = pair[1].tone;
@@ -227,16 +217,14 @@ impl FileHeader {
     }
 }
 
-/// Largest difference of a tone and the mean L* of its tile: colours differ in their last bits
+/// The tone and the mean L* of its tile may differ by this: colours differ in their last bits
 /// between machines.
 const TONE: f64 = 0.01;
 
-/// Texels of a tile.
 fn texels(tile: &Tile) -> Texels<'_> {
     Texels { color: &tile.color, paint: tile.paint.as_ref(), height_mm: tile.height_mm.as_ref() }
 }
 
-/// The part of a tile.
 fn part(key: &KeyMap, plan: PartPlan, pigments: Option<&[PigmentChannel]>) -> PartPlanes {
     plan.with(|channel| match SOURCE.iter().position(|name| *name == channel) {
         Some(axis) => key.sources.values().iter().map(|place| f32::from(place[axis])).collect(),
@@ -270,7 +258,6 @@ fn check_tone(tile: &Tile, tone: f64) -> Result<(), String> {
     Err(format!("has a mean L* of {wanted:.3}, its tone is `{tone}`"))
 }
 
-/// The tile of a part that passed the check.
 fn key_map(header: &KeyHeader, part: &PartPlanes, pigments: Option<&[PigmentChannel]>) -> KeyMap {
     let [columns, rows] = SOURCE.map(|name| part.of(name));
     let places = columns.iter().zip(rows).map(|(x, y)| [*x as u16, *y as u16]);
@@ -283,7 +270,7 @@ fn key_map(header: &KeyHeader, part: &PartPlanes, pigments: Option<&[PigmentChan
     KeyMap { name: header.name.clone(), tile, sources, tone: header.tone }
 }
 
-/// Decodes a map from `bytes`, the content of `file`. The name is used in errors only.
+/// Decodes a map from `bytes`, the content of `file`. We use the name in errors only.
 ///
 /// # Errors
 /// [`TexelFileError`] if the content is not OpenEXR, holds no art map, is of a newer version,
@@ -321,7 +308,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<ArtMap, TexelFileError> {
     })
 }
 
-/// Encodes a map as a file. Equal maps always give equal bytes.
+/// Encodes a map as a file. If you pass equal maps, you get equal bytes.
 ///
 /// # Errors
 /// [`TexelFileError::Unwritable`] for a map without tiles, tiles that are not squares of one size
@@ -388,7 +375,7 @@ mod tests {
 
     const SIZE: usize = 40;
 
-    /// Numbers that lose bits in anything but lossless storage.
+    /// A number that loses bits in anything but lossless storage.
     fn number(index: usize) -> f32 {
         0.001 + (index as f32 * 0.618_034).fract() / 3.0
     }
@@ -466,8 +453,8 @@ mod tests {
         assert!(ArtMap::open(&path).unwrap() == map());
     }
 
-    /// File of the parts and the description of `map` after a change, with digests of what it became,
-    /// as another program would write it.
+    /// The parts and the description of `map` as a file, after you changed them. It has the
+    /// digests of the result, as if another program had written it.
     fn forged(map: &ArtMap, change: impl FnOnce(&mut FileHeader, &mut [PartPlanes])) -> Vec<u8> {
         let mut header = FileHeader::of(map).unwrap();
         let plans = header.plans().into_iter();
@@ -631,13 +618,13 @@ mod tests {
 
     #[test]
     fn inconsistent_maps_are_not_written() {
-        let refused = |change: &dyn Fn(&mut ArtMap)| {
+        fn refused(change: &dyn Fn(&mut ArtMap)) -> String {
             let mut map = map();
             change(&mut map);
             let error = write(&map).unwrap_err();
             assert!(matches!(error, TexelFileError::Unwritable { .. }), "{error}");
             error.to_string()
-        };
+        }
         let none = refused(&|map| map.keys.clear());
         assert_eq!(none, "the art map cannot be saved: it has no texels");
         let other =

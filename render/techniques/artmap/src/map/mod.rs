@@ -33,13 +33,13 @@ pub struct KeyMap {
     pub tone: f64,
 }
 
-/// A painterly art map (Yan and others 2008): tiles of one size with the brushwork of a painting,
-/// from dark to light, with strokes at the same places.
+/// A painterly art map (Yan and others 2008). Its tiles have one size and show the brushwork of a
+/// painting, from dark to light, with strokes at the same places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArtMap {
     /// Tiles from dark to light, at least one.
     pub keys: Vec<KeyMap>,
-    /// Index of the tile that was made first and that the others follow.
+    /// Index of the tile that was made first. The others follow this one.
     pub first: usize,
     /// Pigments of the paint of the tiles, `None` for maps without pigments.
     pub paint: Option<PaintOfSamples>,
@@ -47,7 +47,7 @@ pub struct ArtMap {
     pub spacing: f64,
     /// Side of a texel in mm, where it is known.
     pub mm_per_texel: Option<f64>,
-    /// Whether heights were guessed from a photograph.
+    /// Whether heights are a guess from a photograph.
     pub guessed_relief: bool,
     /// Width and height of a patch of the synthesis, in texels.
     pub patch: usize,
@@ -60,8 +60,8 @@ pub struct ArtMap {
 }
 
 impl ArtMap {
-    /// Synthesises a map of the samples. Tiles are in the order of their mean lightness. Tiles of
-    /// equal lightness keep the order of the samples.
+    /// Synthesises a map of the samples. Tiles are in the order of their mean lightness. If tiles
+    /// are equally light, they keep the order of the samples.
     ///
     /// # Errors
     /// [`SynthesisError`], as of [`key_maps`].
@@ -69,7 +69,7 @@ impl ArtMap {
         Ok(Self::gathered(set, settings, key_maps(set, settings)?))
     }
 
-    /// Synthesises a map as [`Self::of`] does, with pictures of the steps
+    /// Synthesises a map as [`Self::of`] does. You also get pictures of the steps
     /// ([`key_maps_with_stages`]).
     ///
     /// # Errors
@@ -82,7 +82,6 @@ impl ArtMap {
         Ok((Self::gathered(set, settings, maps), stages))
     }
 
-    /// The map of synthesised places.
     fn gathered(set: &SampleSet, settings: &SynthesisSettings, maps: KeyMaps) -> Self {
         fn key((sample, sources): (&Sample, Field<[u16; 2]>)) -> KeyMap {
             let tile = tile_of(sample, &sources);
@@ -117,32 +116,33 @@ impl ArtMap {
     }
 
     /// Number of tiles between the tones `lower` and `upper` that make steps of at most `step` of
-    /// 255 levels of intensity (equation 7 of Yan and others 2008, with L* as intensity).
+    /// 255 levels of intensity (equation 7 of Yan and others 2008). We take L* as intensity.
     #[must_use]
     pub fn steps(lower: f64, upper: f64, step: f64) -> usize {
         ((upper - lower).abs() * 2.55 / step).floor() as usize
     }
 }
 
-/// Share of the change that goes on at a time where strokes dissolve.
+/// Where strokes dissolve, this share of the change happens at a time.
 const BAND: f32 = 0.15;
-/// Deviation of the smoothing of two tiles, in spacings of strokes.
+/// Deviation of the Gaussian that smooths two tiles, in spacings of strokes.
 const SMOOTH: f64 = 0.25;
 
-/// Deviation over mean of the difference of L* of two tiles up to which the tone changes evenly,
-/// and from which on strokes alone change it, as where lines are added to lines.
+/// The ratio of deviation to mean of the difference of L* of two tiles. Up to the first value the
+/// tone changes evenly. From the second on strokes alone change it, for example where lines are
+/// added to lines.
 const IN_STROKES: [f32; 2] = [1.0, 2.0];
 
-/// How a tile between two key tiles is made.
+/// How to make a tile between two key tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
-    /// Each place shows the strokes of either tile and changes once, light strokes first. Keeps
-    /// the contrast of the strokes. Where both tiles differ by much the same everywhere, the tone
-    /// changes evenly besides.
+    /// Each place shows the strokes of either tile and changes once, light strokes first. This
+    /// keeps the contrast of the strokes. Where both tiles differ by much the same everywhere, the
+    /// tone also changes evenly.
     #[default]
     Dissolve,
-    /// The weighted mean of both tiles (equation 8 of Yan and others 2008), in CIELAB.
+    /// The weighted mean of both tiles in CIELAB (equation 8 of Yan and others 2008).
     Blend,
 }
 
@@ -152,14 +152,14 @@ pub struct Transition<'a> {
     darker: &'a Tile,
     lighter: &'a Tile,
     labs: [Field<[f32; 3]>; 2],
-    /// When each texel changes, 0 first to 1 last, `None` where all change all the way.
+    /// When each texel changes, from 0 (first) to 1 (last). `None` where all change all the way.
     ranks: Option<Vec<f32>>,
     /// Share of the difference of tone that changes with the strokes. The rest changes evenly.
     in_strokes: f32,
 }
 
 impl ArtMap {
-    /// The transition from key tile `lower` to the next lighter one, `None` for the last one.
+    /// The transition from key tile `lower` to the next lighter one. `None` for the last one.
     #[must_use]
     pub fn transition(&self, lower: usize, between: Between) -> Option<Transition<'_>> {
         let darker = &self.keys.get(lower)?.tile;
@@ -175,8 +175,9 @@ impl ArtMap {
 }
 
 impl Transition<'_> {
-    /// The tile at `share` of the way: at 0 or less the darker, at 1 or more the lighter key tile.
-    /// In between the means of L*, a*, b*, of each pigment and of the height change in proportion.
+    /// The tile at `share` of the way. At 0 or less you get the darker key tile, at 1 or more the
+    /// lighter. In between, the means of L*, a*, b*, of each pigment and of the height change in
+    /// proportion.
     #[must_use]
     pub fn at(&self, share: f32) -> Tile {
         if share >= 1.0 {
@@ -222,18 +223,15 @@ impl Transition<'_> {
     }
 }
 
-/// How the channels of two tiles are mixed.
 struct Mixing {
-    /// Share of the lighter tile in the mean.
     share: f32,
-    /// Weight of the lighter tile at each texel.
     weights: Vec<f32>,
     /// Share of the difference of the means that changes with the weights.
     in_strokes: f32,
 }
 
 impl Mixing {
-    /// Mixes a channel of any sign. The mean is mixed from both tiles by share.
+    /// Mixes a channel of any sign. This mixes the mean from both tiles by share.
     fn level<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let means = [dark, light].map(|texels| mean(texels.iter().map(&of)));
         let step = means[1] - means[0];
@@ -254,7 +252,7 @@ impl Mixing {
         mixed
     }
 
-    /// Mixes a channel of amounts, which are not negative. The mean is mixed from both tiles by
+    /// Mixes a channel of amounts, which are not negative. This mixes the mean from both tiles by
     /// share.
     fn amount<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let mut mixed = self.level(dark, light, of);
@@ -273,7 +271,6 @@ fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
     (values.map(f64::from).sum::<f64>() / count) as f32
 }
 
-/// Share of the difference of tone that changes with the strokes.
 fn in_strokes([darker, lighter]: &[Field<[f32; 3]>; 2]) -> f32 {
     let pairs = || darker.values().iter().zip(lighter.values()).map(|(a, b)| b[0] - a[0]);
     let step = mean(pairs());
@@ -283,9 +280,9 @@ fn in_strokes([darker, lighter]: &[Field<[f32; 3]>; 2]) -> f32 {
     ((ratio - evenly) / (all - evenly)).clamp(0.0, 1.0)
 }
 
-/// When each texel changes: texels in the order of the smoothed mean of both tiles, lightest first.
-/// The place in that order is measured in the difference that changes with the strokes, so that the
-/// tile changes evenly. An order by the difference itself would keep the strongest strokes of one
+/// When each texel changes. We order texels by the smoothed mean of both tiles, lightest first,
+/// and measure the place in this order in the difference that changes with the strokes. So the
+/// tile changes evenly. An order by the difference itself would leave the strongest strokes of one
 /// tile to the end, and lose contrast.
 fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) -> Vec<f32> {
     let width = darker.width();
@@ -321,9 +318,9 @@ fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) 
 pub struct Tile {
     /// Colour under a level surface, in linear sRGB with white at 1.
     pub color: Picture,
-    /// Paint of each texel, `None` for maps without pigments.
+    /// Paint of each texel. `None` for maps without pigments.
     pub paint: Option<Field<TexelPaint>>,
-    /// Height of the surface above the ground in mm, `None` without relief.
+    /// Height of the surface above the ground in mm. `None` without relief.
     pub height_mm: Option<Field<f32>>,
 }
 
@@ -343,12 +340,13 @@ impl Tile {
     }
 }
 
-/// Texels on either side of a seam over which channels are blended.
+/// We blend channels over this many texels on either side of a seam.
 const BLEND: isize = 1;
 
-/// The tile that shows, at every texel, the texel of `sample` in `sources`. Where neighbouring
-/// texels show places that are not neighbours in the sample, colour, paint and height are the means
-/// of what the texels within one texel continue to. Elsewhere they belong to the source.
+/// Builds the tile that shows, at every texel, the texel of `sample` in `sources`. At a seam,
+/// neighbouring texels show places that are not neighbours in the sample. There, colour, paint and
+/// height are the means of what the texels within one texel continue to. Elsewhere you see the
+/// source alone.
 fn tile_of(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
     let size = sources.width();
     let shown: Vec<Vec<(usize, usize)>> = (0..size * size)
@@ -380,8 +378,8 @@ fn tile_of(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
     Tile { color: Field::from_values(size, size, color), paint, height_mm }
 }
 
-/// Places of the sample that a texel shows: its source, and at a seam also what the texels around
-/// it continue to. Without a seam that is the source alone.
+/// Places of the sample that a texel shows. This is its source, and at a seam also what the texels
+/// around it continue to.
 fn continued(
     sample: &Sample,
     sources: &Field<[u16; 2]>,
@@ -558,7 +556,6 @@ mod tests {
 
     #[test]
     fn steps_between_tones_are_those_of_the_paper() {
-        // 20 L* are 51 levels of 255: ten steps of at most 5.1.
         assert_eq!(ArtMap::steps(30.0, 50.0, 5.0), 10);
         assert_eq!(ArtMap::steps(30.0, 31.0, 5.0), 0);
     }

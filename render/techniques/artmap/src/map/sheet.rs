@@ -1,4 +1,4 @@
-//! A picture of a map to look at.
+//! A picture of a map for you to look at.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -7,23 +7,20 @@ use rayon::prelude::*;
 use super::{ArtMap, Between};
 use crate::relief::{raked, raking_tangent, slopes};
 
-/// Largest side of a tile on the sheet in pixels.
 const SIDE: usize = 256;
-/// Pixels between tiles and around them.
 const GAP: usize = 12;
-/// Ground of the sheet: L* of 60, between the tones of most maps.
+/// L* of 60, between the tones of most maps.
 const GROUND: [f32; 3] = [0.281; 3];
-/// Shares of the way to the lighter tile that are shown.
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
-/// Repeats of a tile beside and below each other.
 const REPEATS: usize = 3;
 
 impl ArtMap {
-    /// A picture of the map in linear sRGB, dark tones to the left. Rows from the top: the key
-    /// tiles, the tiles at 25, 50 and 75 % of the way between two neighbours, in the gap below
-    /// both, each key tile repeated three times in both directions. Where height and size are
-    /// known, the surfaces of the key tiles in grey under a light from the upper left. Tiles above
-    /// 256 texels are shown smaller.
+    /// A picture of the map in linear sRGB, dark tones to the left.
+    ///
+    /// Rows from the top: the key tiles, then the tiles at 25, 50 and 75 % of the way between two
+    /// neighbours, in the gap below both. Then each key tile, repeated three times in both
+    /// directions. Where height and size are known, you also see the surfaces of the key tiles in
+    /// grey, under a light from the upper left. We show tiles above 256 texels smaller.
     #[must_use]
     pub fn sheet(&self, between: Between) -> Picture {
         let size = self.size();
@@ -52,7 +49,6 @@ impl ArtMap {
         sheet
     }
 
-    /// The surfaces of the key tiles under a raking light, where height and size are known.
     fn relief_row(&self, side: usize, step: usize) -> Option<Row> {
         let mm = self.mm_per_texel?;
         let everywhere = Field::filled(self.size(), self.size(), true);
@@ -72,7 +68,7 @@ impl ArtMap {
         Some(Row { left: GAP, tiles: tiles.collect() })
     }
 
-    /// A row of in-betweens for each share, none for maps of one tile.
+    /// A row of in-betweens for each share. A map of one tile has none.
     fn between_rows(&self, between: Between, side: usize, step: usize) -> Vec<Row> {
         let columns: Vec<[Picture; 3]> = (0..self.keys.len())
             .into_par_iter()
@@ -94,15 +90,13 @@ impl ArtMap {
     }
 }
 
-/// Tiles beside each other.
 struct Row {
-    /// Column of the first tile.
     left: usize,
     tiles: Vec<Picture>,
 }
 
-/// The texels of a tile that repeats, from its upper left corner on, as `side` x `side` pixels,
-/// each the mean of `step` x `step` texels.
+/// The texels of a tile that repeats, from its upper left corner on, as `side` x `side` pixels.
+/// Each pixel is the mean of `step` x `step` texels.
 fn shrunk(tile: &Picture, side: usize, step: usize) -> Picture {
     let width = tile.width();
     let height = tile.height();
@@ -129,8 +123,8 @@ mod tests {
     use super::*;
     use crate::synthesis::SynthesisSettings;
 
-    /// A map of even tiles but for one bright texel in their upper left corner, with relief in the
-    /// first.
+    /// A map of even tiles with one bright texel in their upper left corner. The first one has
+    /// relief.
     fn map(size: usize, greys: &[f32]) -> ArtMap {
         ArtMap {
             keys: greys
@@ -192,7 +186,6 @@ mod tests {
     #[test]
     fn large_tiles_are_shown_smaller_and_single_ones_without_in_betweens() {
         let sheet = map(600, &[0.1]).sheet(Between::Dissolve);
-        // 600 texels by steps of three.
         assert_eq!((sheet.width(), sheet.height()), (GAP + 212, GAP + 3 * 212));
         let found = sheet[(GAP, GAP)][0];
         assert!((found - (2.0 + 0.8) / 9.0).abs() < 1e-5, "{found}");

@@ -43,8 +43,8 @@ impl Default for PaintedSettings {
 
 /// Paints the swatches of a style with the paint engine on the processor.
 ///
-/// Equal input gives equal bytes on any number of threads. The samples are upright, of the
-/// style's spacing, from dark to light, named `tone 1` and up.
+/// If you pass equal input, you get equal bytes on any number of threads. The samples are upright,
+/// have the style's spacing, go from dark to light, and are named `tone 1` and up.
 ///
 /// # Errors
 /// [`PaintedError`] for a style with numbers out of range, a hue that cannot be mixed, and a brush
@@ -150,11 +150,10 @@ mod tests {
 
     use super::*;
 
-    /// A shipped style on a small swatch.
     fn small(name: &str, side_cells: usize) -> Style {
         let mut style = Style::named(name).unwrap();
         style.canvas.side_cells = side_cells;
-        // Larger cells, for the same strokes in less time.
+        // We take larger cells, for the same strokes in less time.
         style.canvas.cell_mm *= 1.25;
         style
     }
@@ -236,7 +235,8 @@ mod tests {
         assert!(steps.iter().all(|step| (step / mean - 1.0).abs() < 0.12), "{steps:?}");
     }
 
-    /// Mean cosine of twice the angle between the strokes and y: 1 upright, 0 anyhow, -1 across.
+    /// Mean cosine of twice the angle between the strokes and y. This is 1 for upright strokes, 0
+    /// for strokes in all directions, -1 for strokes across.
     fn uprightness(sample: &Sample) -> f64 {
         let heights = sample.height_mm.as_ref().unwrap();
         let pairs = sample.color.values().iter().zip(heights.values());
@@ -268,9 +268,11 @@ mod tests {
         let style = small("hatching", 90);
         assert_eq!(style.paint.tones, ToneSource::Density);
         let set = painted_samples(&style, &settings(3)).unwrap();
-        let drawn =
-            |sample: &Sample| heights(sample).iter().map(|h| *h > 0.005).collect::<Vec<_>>();
-        let covers: Vec<Vec<bool>> = set.samples.iter().map(drawn).collect();
+        let covers: Vec<Vec<bool>> = set
+            .samples
+            .iter()
+            .map(|sample: &Sample| heights(sample).iter().map(|h| *h > 0.005).collect::<Vec<_>>())
+            .collect();
         fn cells(cover: &[bool]) -> usize {
             cover.iter().filter(|drawn| **drawn).count()
         }
@@ -300,7 +302,7 @@ mod tests {
         assert!(covered > mean - 16.0 && bare < mean - 20.0, "{mean}: {covered} {bare}");
     }
 
-    /// The style's shared tools, for looking at a whole canvas.
+    /// Paints a whole canvas, for looking at what the swatch cuts away.
     fn painted(style: &Style) -> (Document, Sample) {
         let ladder =
             ToneLadder::new(Arc::new(PigmentLibrary::van_gogh_oils()), "#c9a227", 2, spread(style))

@@ -1,9 +1,8 @@
-//! Painting of one swatch: the strokes of a tone, from a style and a seed, on a separate canvas
-//! without its margins.
+//! Paints one swatch: the strokes of a tone, from a style and a seed. It uses a separate canvas
+//! with margins, and cuts these away.
 //!
 //! Strokes run along y, from top to bottom. They start at the points of a jittered grid, so that
-//! strokes cover evenly. Everything that differs from stroke to stroke is drawn from the seed
-//! alone.
+//! strokes cover evenly. If strokes differ in something, we draw it from the seed alone.
 
 use std::sync::Arc;
 
@@ -35,7 +34,7 @@ pub(super) struct Workplace<'a> {
     pub(super) light: Arc<Light>,
 }
 
-/// Greatest deviation of the paint of a style from its tone, in L*.
+/// The paint of a style deviates from its tone by at most this, in L*.
 pub(super) fn spread(style: &Style) -> f64 {
     style.paint.lightness_spread + style.paint.streaks
 }
@@ -52,7 +51,7 @@ impl Mixtures {
         Self { spread, ends: ladder.shares_about(tone.lab.lightness, spread) }
     }
 
-    /// Shares by slot of the mixture that deviates by about `lightness` L* from the tone.
+    /// Shares by slot of the mixture that deviates from the tone by about `lightness` L*.
     fn shares(&self, lightness: f64) -> [f64; SLOTS] {
         let [dark, light] = &self.ends;
         let share = (0.5 + lightness / (2.0 * self.spread).max(1e-9)).clamp(0.0, 1.0);
@@ -60,7 +59,6 @@ impl Mixtures {
     }
 }
 
-/// Ground of the canvas of a swatch, with its margins.
 pub(super) fn ground(style: &Style, ladder: &ToneLadder) -> Result<Ground, GroundError> {
     let (across, along) = style.margins();
     let side = style.canvas.side_cells;
@@ -118,7 +116,6 @@ impl Workplace<'_> {
         painting.document()
     }
 
-    /// An even dry film of the tone, if the style has one.
     fn underpainting(&self, mixtures: &Mixtures) -> Option<Layer> {
         let Style { paint, canvas, .. } = self.style;
         if paint.underpainting_mm == 0.0 {
@@ -135,7 +132,7 @@ impl Workplace<'_> {
         })
     }
 
-    /// Mixture of the tone number `at`, and the share of the strokes that it has.
+    /// Mixture of the tone number `at`, and the share of the strokes that this tone has.
     fn tone(&self, at: usize) -> (&Tone, f64) {
         let tones = self.ladder.tones();
         match self.style.paint.tones {
@@ -147,7 +144,7 @@ impl Workplace<'_> {
         }
     }
 
-    /// Loads the clean brush with the paint of a stroke: each lock of hair with a mixture between
+    /// Loads the clean brush with the paint of a stroke. Each lock of hair gets a mixture between
     /// the darkest and the lightest of the stroke.
     fn load(
         &self,
@@ -174,7 +171,6 @@ impl Workplace<'_> {
         painting.set_brush_paint(brush, &half_mixed(&dark, &light, &weights))
     }
 
-    /// The middle of a painted canvas as a sample.
     fn sample(&self, at: usize, document: &Document) -> Sample {
         let (across, along) = self.style.margins();
         let side = self.style.canvas.side_cells;
@@ -197,8 +193,8 @@ impl Workplace<'_> {
     }
 }
 
-/// Paint of a head between two mixtures of equal volume: `weights` around the head, at even
-/// distances, are 0 for `dark` and 1 for `light`.
+/// Paint of a head between two mixtures of equal volume. `weights` lie at even distances around
+/// the head: 0 gives `dark`, 1 gives `light`.
 fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
     let width = dark.width();
     let height = dark.height();
@@ -227,22 +223,22 @@ fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
     mixed
 }
 
-/// Knots of the pattern of a half-mixed brush around its head.
 pub(super) const KNOTS: usize = 20;
-/// Steps of ranks from column to column and from row to row: Roberts' sequence R2 (2018): its first
-/// numbers below any share lie evenly on the plane.
+/// Steps of ranks from column to column and from row to row. This is Roberts' sequence R2 (2018):
+/// its first numbers below any share lie evenly on the plane.
 const RANK_STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
-/// Points of a stroke's path for each width of the brush.
+/// A stroke's path has this many points for each width of the brush.
 const POINTS: f64 = 2.0;
-/// Speed of the hand in brush widths a second. Time only orders the samples.
+/// Speed of the hand in brush widths per second. We only use time to order the samples.
 const SPEED: f64 = 10.0;
 
-/// A stroke of a swatch. Its paint is relative to the tone that it is painted in.
+/// A stroke of a swatch. Its paint is relative to the tone in which we paint it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchStroke {
     /// Coat of the stroke, from 0.
     pub coat: u32,
-    /// Rank among all strokes, 0 to 1: a tone of density `share` has the strokes below it.
+    /// Rank among all strokes, 0 to 1. For example, a tone of density 0.3 has the strokes below
+    /// 0.3.
     pub rank: f64,
     /// Poses of the brush, in mm from the corner of the canvas.
     pub samples: Vec<BrushworkSample>,
@@ -254,7 +250,7 @@ pub struct SwatchStroke {
     pub load_mm: f64,
 }
 
-/// Strokes on the canvas of a swatch with its margins, in the order in which they are painted.
+/// Strokes on the canvas of a swatch with its margins, in the order in which we paint them.
 #[must_use]
 pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -268,7 +264,7 @@ pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
     let mut all = Vec::new();
     for coat in 0..style.strokes.coats {
         let mut strokes = coat_strokes(style, coat, size, &mut random);
-        // A stroke that does not reach the swatch would only cost time.
+        // A stroke that does not reach the swatch only costs time.
         strokes.retain(|stroke| {
             stroke.samples.iter().any(|sample: &BrushworkSample| {
                 let reach = style.brush.size_mm;
@@ -283,7 +279,6 @@ pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
     all
 }
 
-/// Strokes of one coat over a canvas of `width` x `height` mm, column by column.
 fn coat_strokes(
     style: &Style,
     coat: u32,
@@ -311,7 +306,6 @@ fn coat_strokes(
     strokes
 }
 
-/// One stroke about `middle`, in mm.
 fn stroke(
     style: &Style,
     coat: u32,
@@ -323,7 +317,7 @@ fn stroke(
     let paint = &style.paint;
     let mut about = |spread: f64| spread * random.random_range(-1.0..=1.0);
     let length = plan.length_mm * (1.0 + about(plan.length_spread));
-    // The sum of three even numbers is nearly normal, with a standard deviation of 1.
+    // The sum of three even numbers is nearly normal. This has a standard deviation of 1.
     let angle = (0..3).map(|_| about(1.0)).sum::<f64>() * plan.angle_deg.to_radians();
     let sagitta = about(plan.bend) * length;
     let pressure = (plan.pressure * (1.0 + about(plan.pressure_spread))).clamp(0.0, 1.0);
@@ -335,7 +329,7 @@ fn stroke(
 }
 
 /// Poses along an arc from top to bottom. The broad side of the brush lies across the motion.
-/// Pressure falls towards both ends over a brush width.
+/// Pressure falls towards both ends. This takes a brush width.
 fn samples(
     style: &Style,
     [x, y]: [f64; 2],
@@ -345,25 +339,26 @@ fn samples(
     let points = (POINTS * length / size).ceil().clamp(4.0, 200.0);
     let taper = size.min(length / 2.0);
     let (sin, cos) = angle.sin_cos();
-    let pose = |at: usize| {
-        let share = at as f64 / points;
-        let along = length * (share - 0.5);
-        let across = sagitta * (1.0 - (2.0 * share - 1.0).powi(2));
-        let slope = -4.0 * sagitta * (2.0 * share - 1.0) / length;
-        let rise = ((share.min(1.0 - share) * length) / taper).clamp(0.0, 1.0);
-        let eased = rise * rise * (3.0 - 2.0 * rise);
-        BrushworkSample {
-            seconds: share * length / (size * SPEED),
-            x_mm: x + across * cos + along * sin,
-            y_mm: y + along * cos - across * sin,
-            pressure: pressure * (style.strokes.lift + (1.0 - style.strokes.lift) * eased),
-            tilt_x_deg: 0.0,
-            tilt_y_deg: 0.0,
-            // At 0 the broad side runs along x. The head turns with the heading.
-            twist_deg: -(angle + slope.atan()).to_degrees(),
-        }
-    };
-    (0..=points as usize).map(pose).collect()
+    (0..=points as usize)
+        .map(|at: usize| {
+            let share = at as f64 / points;
+            let along = length * (share - 0.5);
+            let across = sagitta * (1.0 - (2.0 * share - 1.0).powi(2));
+            let slope = -4.0 * sagitta * (2.0 * share - 1.0) / length;
+            let rise = ((share.min(1.0 - share) * length) / taper).clamp(0.0, 1.0);
+            let eased = rise * rise * (3.0 - 2.0 * rise);
+            BrushworkSample {
+                seconds: share * length / (size * SPEED),
+                x_mm: x + across * cos + along * sin,
+                y_mm: y + along * cos - across * sin,
+                pressure: pressure * (style.strokes.lift + (1.0 - style.strokes.lift) * eased),
+                tilt_x_deg: 0.0,
+                tilt_y_deg: 0.0,
+                // At 0 the broad side runs along x. The head turns with the heading.
+                twist_deg: -(angle + slope.atan()).to_degrees(),
+            }
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -11,26 +11,26 @@ use pigment::palette::{Cards, Palette, PaletteError};
 use pigment::{ColorTarget, MatchError, MatchOptions, PigmentId, PigmentLibrary, Recipe, Viewing};
 use spectra::color::{ColorCode, ColorCodeError, Lab};
 
-/// Number of tones allowed in a set.
+/// You can ask for this many tones.
 pub const TONES: std::ops::RangeInclusive<usize> = 2..=12;
 
-/// Most pigments of the mixture that stands for the hue.
+/// The mixture of the hue has at most this many pigments.
 const HUE_PIGMENTS: usize = 3;
-/// Dark paints, besides the darkest one, that may take part.
+/// This many dark paints, besides the darkest one, may take part.
 const DARKS: usize = 2;
-/// Greatest L* of the masstone of a dark paint (chosen by eye).
+/// A paint is dark if the L* of its masstone is at most this. We chose it by eye.
 const DARK: f64 = 45.0;
-/// Least share of a pigment in a mixture: strong pigments tint at far less than a fiftieth.
+/// Least share of a pigment in a mixture. Strong pigments tint at far less than a fiftieth.
 const LEAST_SHARE: f64 = 0.002;
-/// Greatest CIELAB hue difference of a mixture that keeps the hue (chosen by eye).
+/// A mixture keeps the hue up to this CIELAB hue difference. We chose it by eye.
 const HUE_TOLERANCE: f64 = 3.0;
-/// Least chroma of a mixture that keeps the hue, relative to an even shade or tint (chosen by eye).
+/// A mixture keeps the hue from this chroma on, relative to an even shade or tint. We chose it by
+/// eye.
 const LEAST_CHROMA: f64 = 0.35;
-/// Greatest deviation of a mixture from the L* that it should have.
+/// A mixture may deviate from the L* that it should have by this.
 const LIGHTNESS_TOLERANCE: f64 = 0.5;
-/// Times that the chroma of a colour is lowered to what paints reach.
+/// We lower the chroma of a colour up to this many times, until paints reach it.
 const FADINGS: usize = 12;
-/// Bisections for an end of the range, and for the share of two mixtures.
 const BISECTIONS: usize = 7;
 const SHARE_BISECTIONS: usize = 30;
 
@@ -43,7 +43,7 @@ pub struct Tone {
     pub shares: [f64; SLOTS],
 }
 
-/// Mixtures of one hue from the darkest to the lightest, in one table of pigments.
+/// Mixtures of one hue from the darkest to the lightest. They share one table of pigments.
 #[derive(Debug, Clone)]
 pub struct ToneLadder {
     library: Arc<PigmentLibrary>,
@@ -56,12 +56,12 @@ pub struct ToneLadder {
 impl ToneLadder {
     /// Finds `count` tones of `hue` (`#rrggbb` or `L,a,b`) in even steps of L*.
     ///
-    /// The darkest and the lightest mixture that keep the hue bound the range. The tones lie within
-    /// it, `margin` L* from both ends, so that strokes may be darker or lighter than their tone.
-    /// All mixtures come from the recipe search against the masstones of the library: the pigments
+    /// The range goes from the darkest to the lightest mixture that keep the hue. The tones lie
+    /// within it, `margin` L* from both ends, so that strokes may be darker or lighter than their
+    /// tone. We search recipes for all mixtures among these masstones of the library: the pigments
     /// of the mixture nearest to the hue, the white, the darkest paint, and dark paints of a like
-    /// hue. Chroma falls in proportion towards black and white, as in shades and tints, and further
-    /// where the paints reach less.
+    /// hue. Chroma falls in proportion towards black and white, as in shades and tints, and
+    /// further where the paints reach less.
     ///
     /// # Errors
     /// [`TonesError`] for a hue that is not a colour, a count out of range, a library that cannot
@@ -143,8 +143,8 @@ impl ToneLadder {
         [&self.rungs[0], &self.rungs[self.rungs.len() - 1]].map(|rung| rung.lab.lightness)
     }
 
-    /// Shares by slot of a mixture with this L*, blended from the two nearest mixtures of the
-    /// ladder, beyond the range, the mixture at its end.
+    /// Shares by slot of a mixture with this L*. We blend it from the two nearest mixtures of the
+    /// ladder. If you ask for an L* beyond the range, you get the mixture at its end.
     #[must_use]
     pub fn shares_at(&self, lightness: f64) -> [f64; SLOTS] {
         let above = self.rungs.partition_point(|rung| rung.lab.lightness < lightness);
@@ -169,11 +169,12 @@ impl ToneLadder {
         blended((low + high) / 2.0, dark, light)
     }
 
-    /// Two mixtures `spread` L* below and above a mean: blended in equal parts they have this L*.
-    /// Near the ends of the range they lie closer together.
+    /// Two mixtures `spread` L* below and above a mean. If you blend them in equal parts, they
+    /// have this L*. Near the ends of the range they lie closer together.
     ///
-    /// Dark paint outweighs light paint in a blend, so strokes that are as often darker as lighter
-    /// than their tone would darken it where they run into each other. Blends of these two do not.
+    /// Dark paint outweighs light paint in a blend. If strokes are as often darker as lighter than
+    /// their tone, they would darken it where they run into each other. Blends of these two
+    /// mixtures do not.
     #[must_use]
     pub fn shares_about(&self, lightness: f64, spread: f64) -> [[f64; SLOTS]; 2] {
         let pair = |middle: f64| [middle - spread, middle + spread].map(|l| self.shares_at(l));
@@ -189,7 +190,6 @@ impl ToneLadder {
         pair((low + high) / 2.0)
     }
 
-    /// Colour of an opaque film of a mixture, given as shares by slot.
     fn lab_of(&self, shares: &[f64; SLOTS]) -> Option<Lab> {
         let parts = self.slots.iter().zip(shares);
         let parts: Recipe = parts.filter_map(|(slot, &share)| Some(((*slot)?, share))).collect();
@@ -199,7 +199,7 @@ impl ToneLadder {
     }
 }
 
-/// Pigments for mixtures of a hue, at most one for each slot of a layer.
+/// Pigments for mixtures of a hue. There is at most one for each slot of a layer.
 fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesError> {
     let library = palette.library();
     let options = MatchOptions {
@@ -227,13 +227,12 @@ fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesErro
     Ok(chosen)
 }
 
-/// Angle between two hues in degrees, 0 to 180.
 fn turn(one: Lab, other: Lab) -> f64 {
     let turned = (one.to_lch().hue_degrees - other.to_lch().hue_degrees).abs();
     turned.min(360.0 - turned)
 }
 
-/// CIELAB of `base` in another lightness: chroma falls in proportion towards black and white.
+/// CIELAB of `base` in another lightness. Chroma falls in proportion towards black and white.
 fn shaded(base: Lab, lightness: f64) -> Lab {
     let share = if lightness < base.lightness {
         lightness / base.lightness
@@ -243,8 +242,8 @@ fn shaded(base: Lab, lightness: f64) -> Lab {
     Lab { lightness, a: share * base.a, b: share * base.b }
 }
 
-/// Mixture of a hue in one lightness, with its own colour: the nearest in the chroma of a shade or
-/// tint, or in as much of it as the paints reach there.
+/// Mixture of a hue in one lightness, with its own colour. This is the nearest mixture in the
+/// chroma of a shade or tint. Where paints do not reach this chroma, it is lower.
 fn mixture_at(
     search: &RecipeSearch<'_>,
     base: Lab,
@@ -265,7 +264,6 @@ fn mixture_at(
     Ok(found)
 }
 
-/// Nearest mixture to a colour, with its own colour.
 fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesError> {
     let target = ColorTarget { name: String::new(), color: TargetColor::Lab(lab) };
     let mut found = search.recipes_for(&target, &Task::default())?;
@@ -273,7 +271,7 @@ fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesEr
     Ok((best.lab[0], best.shares))
 }
 
-/// L* farthest from `base` towards `end` at which a mixture keeps the hue.
+/// Searches from `base` towards `end` for the farthest L* at which a mixture keeps the hue.
 fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
     let mut kept = base.lightness;
     let mut lost = end;
@@ -291,7 +289,7 @@ fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, Tones
     Ok(kept)
 }
 
-/// CIELAB hue difference between a mixture and the hue in the mixture's chroma.
+/// Hue difference between a mixture and the hue, which we take in the mixture's chroma.
 fn hue_difference(found: Lab, base: Lab) -> f64 {
     2.0 * found.to_lch().chroma * (turn(found, base).to_radians() / 2.0).sin()
 }

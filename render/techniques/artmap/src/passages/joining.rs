@@ -1,9 +1,9 @@
-//! Joining of regions to passages, from the scribbles on.
+//! Joins regions to passages, starting from the scribbles.
 //!
-//! Regions are joined by their traits: tone, contrast, and direction of strokes. Yan, Chi, Lee and
+//! We join regions by their traits: tone, contrast, and direction of strokes. Yan, Chi, Lee and
 //! Lin (2008, section 4.1) average the directions of the strongest fifth of the gradients. Angles
-//! jump from 180 to 0 degrees, so the structure tensor is averaged instead. Gaps are single strokes
-//! that are unlike the mean of the strokes around them. They are added to the passage at the end.
+//! jump from 180 to 0 degrees, so we average the structure tensor instead. Gaps are single strokes
+//! that are unlike the mean of the strokes around them. We add them to the passage at the end.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::PI;
@@ -13,26 +13,25 @@ use rayon::prelude::*;
 
 use super::regions::{Regions, beside, joined};
 
-/// A region while regions are joined.
 #[derive(Debug, Clone, PartialEq)]
 struct Candidate {
     traits: RegionTraits,
-    /// Index of the scribble that runs over it.
     scribble: Option<usize>,
 }
 
-/// A passage: all pixels that were joined to a scribble, and the number of regions under it.
+/// A passage: all pixels that were joined to a scribble, and how many regions lie under this
+/// scribble.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Passage {
     pub(super) pixels: Vec<u32>,
     pub(super) regions_under: usize,
 }
 
-/// The passage of each scribble.
+/// Finds the passage of each scribble.
 ///
-/// All regions under a scribble belong to it. A region under several scribbles is divided among
-/// them. Then neighbours are joined, the most alike first, while their unlikeness is below `reach`.
-/// Regions of different scribbles never are. Gaps are filled at last.
+/// All regions under a scribble belong to it. If a region lies under several scribbles, we divide
+/// it among them. Then we join neighbours, the most alike first, while their unlikeness is below
+/// `reach`. We never join regions of different scribbles. At the end we fill gaps.
 pub(super) fn passages(
     regions: &Regions,
     scribbles: &[Vec<u32>],
@@ -68,7 +67,7 @@ pub(super) fn passages(
     found
 }
 
-/// Regions of like traits, joined without scribbles, and their traits.
+/// Joins regions of like traits without scribbles. Also returns their traits.
 pub(super) fn joined_alike(
     regions: &Regions,
     intensity: &Field<f32>,
@@ -91,8 +90,8 @@ fn unite(whole: &mut Candidate, part: Candidate) {
     whole.scribble = whole.scribble.or(part.scribble);
 }
 
-/// Divides regions under several scribbles: each pixel goes to the scribble nearest along a path of
-/// rows and columns inside the region, of equally near ones to the first.
+/// Divides regions under several scribbles. Each pixel goes to the scribble that is nearest along
+/// a path of rows and columns inside the region. If two are equally near, the first one gets it.
 fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
     let width = regions.labels.width();
     let height = regions.labels.height();
@@ -137,7 +136,8 @@ fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
     Regions::numbered(labels, next as usize)
 }
 
-/// Regions in which those under one scribble are one, and their former number for each scribble.
+/// Makes one region of all regions under a scribble. Also returns their number before this, for
+/// each scribble.
 fn united(regions: &Regions, scribbles: &[Vec<u32>]) -> (Regions, Vec<usize>) {
     let mut names: Vec<u32> = (0..regions.count as u32).collect();
     let mut under = Vec::new();
@@ -155,34 +155,35 @@ fn united(regions: &Regions, scribbles: &[Vec<u32>]) -> (Regions, Vec<usize>) {
     (Regions::numbered(Field::from_values(width, height, labels), regions.count), under)
 }
 
-/// Share of the strongest gradients that give the direction.
+/// We take the direction from this share of the strongest gradients.
 const STRONGEST: f64 = 0.2;
 
-/// Depth from which gradients do not feel the neighbouring region.
+/// From this depth on, the neighbouring region does not affect gradients.
 const INSIDE: u32 = 4;
 
-/// Differences that cost 1: of the mean intensity and its deviation (0..1), and of the direction.
+/// This difference of the mean intensity and its deviation (0..1) costs 1, and so does this one of
+/// the direction.
 const MEAN_STEP: f64 = 0.08;
 const DEVIATION_STEP: f64 = 0.05;
 const ANGLE_STEP: f64 = 25.0 * PI / 180.0;
 
-/// Sums over a region, from which its traits follow. Sums of joined regions are added.
+/// Sums over a region, which give you its traits. To join regions, add their sums.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct RegionTraits {
-    /// Number of pixels.
     pub(super) pixels: f64,
     /// Sum of the intensity.
     sum: f64,
-    /// Sum of its square.
+    /// Sum of the squared intensity.
     squares: f64,
-    /// Sum of the strongest gradients with their angles doubled: along x and y.
+    /// Sum of the strongest gradients, along x and y. Their angles are doubled.
     doubled: [f64; 2],
     /// Sum of the squared lengths of these gradients.
     strength: f64,
 }
 
 impl RegionTraits {
-    /// Traits of the given pixels. `depth` is the distance of each pixel from the region's border.
+    /// Traits of the given pixels. Pass the distance of each pixel from the region's border as
+    /// `depth`.
     pub(super) fn of(
         pixels: &[u32],
         depth: &Field<u32>,
@@ -204,7 +205,6 @@ impl RegionTraits {
         traits
     }
 
-    /// Adds the sums of another region.
     pub(super) fn add(&mut self, other: &Self) {
         self.pixels += other.pixels;
         self.sum += other.sum;
@@ -219,12 +219,12 @@ impl RegionTraits {
         self.sum / self.pixels.max(1.0)
     }
 
-    /// Standard deviation of the intensity.
     pub(super) fn deviation(&self) -> f64 {
         (self.squares / self.pixels.max(1.0) - self.mean().powi(2)).max(0.0).sqrt()
     }
 
-    /// Share of the gradients that agree in direction: 1 if all do, 0 without any direction.
+    /// Share of the gradients that agree in direction: 1 if all do, 0 if they have no common
+    /// direction.
     pub(super) fn coherence(&self) -> f64 {
         let [x, y] = self.doubled;
         if self.strength > 0.0 { (x.hypot(y) / self.strength).min(1.0) } else { 0.0 }
@@ -239,7 +239,7 @@ impl RegionTraits {
         if angle < PI { angle } else { 0.0 }
     }
 
-    /// Unlikeness of two regions. Those below 1 are joined.
+    /// Unlikeness of two regions. You may join them if this is below 1.
     pub(super) fn apart(&self, other: &Self) -> f64 {
         let mean = (self.mean() - other.mean()) / MEAN_STEP;
         let deviation = (self.deviation() - other.deviation()) / DEVIATION_STEP;
@@ -250,7 +250,6 @@ impl RegionTraits {
     }
 }
 
-/// Traits of all regions.
 pub(super) fn traits_of(
     regions: &Regions,
     intensity: &Field<f32>,
@@ -264,8 +263,8 @@ pub(super) fn traits_of(
         .collect()
 }
 
-/// The pixels with gradients that belong to the region: the ones deep inside if they are a quarter
-/// of it, else those not at its border, else all.
+/// Pixels with gradients that belong to the region. If the pixels deep inside are a quarter of it,
+/// we take these. If not, we take the ones that are not at its border, or else all.
 fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
     let depths = [INSIDE, 2];
     let found = depths
@@ -281,13 +280,13 @@ fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
     found.unwrap_or_else(|| pixels.to_vec())
 }
 
-/// The fifth of the pixels that has the largest gradients, of equal ones the first.
+/// The fifth of the pixels that has the largest gradients. Among equal ones the first count.
 fn strongest(pixels: &[u32], gradient: &Field<[f32; 2]>) -> Vec<u32> {
     let mut by_strength: Vec<(u32, u32)> = pixels
         .iter()
         .map(|&pixel| {
             let [x, y] = gradient.values()[pixel as usize];
-            // Bits of numbers of at least 0 are in their order. The complement turns it around.
+            // The bits of numbers of at least 0 have their order. The complement turns it around.
             (!(x * x + y * y).to_bits(), pixel)
         })
         .collect();
@@ -303,21 +302,21 @@ fn strongest(pixels: &[u32], gradient: &Field<[f32; 2]>) -> Vec<u32> {
 /// A gap borders on passages with more than this share of its border.
 const LEAST_BORDER: f64 = 0.5;
 
-/// Largest area of a gap as a share of its passage.
+/// A gap has at most this share of the area of its passage.
 const MOST_AREA: f64 = 0.2;
 
-/// How many times more unlike a gap may be than a region that is joined.
+/// A gap may be this many times more unlike than a region that we join.
 const MORE_UNLIKE: f64 = 2.5;
 
-/// The passage of each region, with gaps filled: regions of small areas that belong to no passage
-/// and border mainly on passages go to the one that they are most like, unless they are very unlike
-/// all.
+/// The passage of each region, after filling gaps. A gap is a region of small area that belongs to
+/// no passage and borders mainly on passages. It goes to the passage that it is most like, unless
+/// it is very unlike all.
 ///
-/// A region of the size of a stroke has the tone of that stroke, which scatters about the mean of
-/// the passage, so the place decides with the traits. Regions behind a gap that are like the
-/// passage count as its border, and are joined once the gap is filled. The edge of the picture does
-/// not count as a border. This is ours. Yan, Chi, Lee and Lin do not say what becomes of such
-/// regions.
+/// A region of the size of a stroke has the tone of this stroke, which scatters about the mean of
+/// the passage. So its place decides together with its traits. Regions behind a gap that are like
+/// the passage count as its border. We join them once the gap is filled. The edge of the picture
+/// does not count as a border. This method is ours. Yan, Chi, Lee and Lin do not say what becomes
+/// of such regions.
 pub(super) fn filled(
     regions: &Regions,
     traits: &[RegionTraits],
@@ -341,7 +340,6 @@ pub(super) fn filled(
     }
 }
 
-/// Traits of each passage.
 fn sums(traits: &[RegionTraits], passages: &[Option<usize>]) -> Vec<RegionTraits> {
     let count = passages.iter().flatten().max().map_or(0, |&last| last + 1);
     let mut whole = vec![RegionTraits::default(); count];
@@ -353,7 +351,8 @@ fn sums(traits: &[RegionTraits], passages: &[Option<usize>]) -> Vec<RegionTraits
     whole
 }
 
-/// The passage that the region `label` touches and belongs to, of several the most alike.
+/// The passage that the region `label` touches and belongs to. If there are several, this is the
+/// one it is most like.
 fn around(
     label: usize,
     borders: &[(u32, u32)],
@@ -367,20 +366,18 @@ fn around(
         borders.iter().filter(|(other, _)| chosen(*other)).map(|(_, length)| length).sum()
     };
     let all = length(&|_| true);
-    let unlike = |passage: &usize| own.apart(&whole[*passage]);
     (0..whole.len())
         .filter(|passage: &usize| {
             let whole = &whole[*passage];
-            let inside = |other: u32| found[other as usize] == Some(*passage);
-            let taken = |other: u32| {
+            let enclosed = f64::from(length(&|other: u32| {
                 found[other as usize].is_some() || traits[other as usize].apart(whole) < reach
-            };
-            let enclosed = f64::from(length(&taken)) > LEAST_BORDER * f64::from(all);
+            })) > LEAST_BORDER * f64::from(all);
             let small = own.pixels < MOST_AREA * whole.pixels;
             let gap = enclosed && small && own.apart(whole) < MORE_UNLIKE * reach;
-            length(&inside) > 0 && (gap || own.apart(whole) < reach)
+            length(&|other: u32| found[other as usize] == Some(*passage)) > 0
+                && (gap || own.apart(whole) < reach)
         })
-        .min_by(|one, other| unlike(one).total_cmp(&unlike(other)))
+        .min_by(|one, other| own.apart(&whole[*one]).total_cmp(&own.apart(&whole[*other])))
 }
 
 /// The neighbours of each region by rising label, and the lengths of the common borders in pixels.
@@ -412,7 +409,8 @@ mod gaps_tests {
     use super::*;
     use graphics::field::Field;
 
-    /// Passages of strips, from the first column of each, its tone, and the passages known before.
+    /// Passages of strips. You give the first column of each, its tone, and the passages known
+    /// before.
     fn strips<const N: usize>(
         starts: [usize; N],
         tones: [f32; N],
@@ -453,7 +451,6 @@ mod tests {
     use super::super::regions::gradient_of;
     use super::*;
 
-    /// Six strips of 10 columns with the given tones.
     fn strips(tones: [f32; 6]) -> (Regions, Field<f32>) {
         let labels = (0..60 * 20).map(|i| (i % 60 / 10) as u32).collect();
         let regions = Regions { labels: Field::from_values(60, 20, labels), count: 6 };

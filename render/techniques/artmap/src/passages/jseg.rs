@@ -7,19 +7,19 @@
 //!                                      +------------- next window -------------+
 //! ```
 //!
-//! Classes: Deng and Manjunath quantise by peer groups and a generalised Lloyd algorithm. Here the
-//! colours are slightly smoothed instead of filtered by peer groups, and the start is
-//! deterministic: the class with the largest squared error is halved along its principal axis until
+//! Classes: Deng and Manjunath quantise by peer groups and a generalised Lloyd algorithm. Here we
+//! smooth the colours slightly instead of filtering them by peer groups. Our start is
+//! deterministic: we halve the class with the largest squared error along its principal axis until
 //! there are enough (Wu 1991).
 //!
-//! J = (S_T - S_W) / S_W, where S_T is the scatter of all places about their mean and S_W the
-//! scatter within the classes (equations 1 to 5). Inside a texture the classes are mixed and J is
-//! small. At a border of textures it is large.
+//! J = (S_T - S_W) / S_W. S_T is the scatter of all places about their mean, and S_W the scatter
+//! within the classes (equations 1 to 5). Inside a texture the classes are mixed and J is small.
+//! At a border of textures it is large.
 //!
 //! Valleys are the connected pixels of a region with small J. They grow until they fill their
-//! region: first, parts of small J that touch a single valley are added to it, at the current scale
-//! and all finer ones. Then single pixels follow, smallest J at the finest scale first (section IV
-//! B). At the end neighbours with alike histograms of colour are merged.
+//! region. First, we add parts of small J that touch a single valley to this valley, at the
+//! current scale and all finer ones. Then single pixels follow, smallest J at the finest scale
+//! first (section IV B). At the end we merge neighbours with similar histograms of colour.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -31,13 +31,11 @@ use rayon::prelude::*;
 
 use super::regions::{Regions, beside, joined};
 
-/// A size of the window.
 struct Scale {
-    /// Distance of the pixels that are looked at. The window is 8 times as wide, and 1.
+    /// We look at pixels this far apart. The window is 8 times as wide, plus 1.
     step: usize,
-    /// Least size of a valley in pixels.
     least_px: usize,
-    /// The picture's shorter side must be longer, in pixels.
+    /// We use this scale if the picture's shorter side is longer than this, in pixels.
     above_px: usize,
 }
 
@@ -49,10 +47,10 @@ const SCALES: [Scale; 4] = [
     Scale { step: 1, least_px: 32, above_px: 0 },
 ];
 
-/// Regions of a CIELUV picture, quantised to `color_classes` classes at most.
+/// Regions of a CIELUV picture, which we quantise to `color_classes` classes at most.
 ///
-/// All scales down to the finest are used, and only neighbours of nearly equal histograms are
-/// merged: an over-segmentation.
+/// This is an over-segmentation: we use all scales down to the finest, and merge only neighbours
+/// with nearly equal histograms.
 pub(crate) fn jseg(luv: &Field<[f32; 3]>, color_classes: usize) -> Regions {
     if luv.values().is_empty() {
         return Regions { labels: Field::filled(luv.width(), luv.height(), 0), count: 0 };
@@ -69,7 +67,7 @@ pub(crate) fn jseg(luv: &Field<[f32; 3]>, color_classes: usize) -> Regions {
     merged(&regions, &classes)
 }
 
-/// The regions divided by their valleys at one scale. `j` starts with that scale.
+/// Divides the regions by their valleys at one scale. `j` starts with this scale.
 fn divided(regions: &Regions, scale: &Scale, j: &[Field<f32>]) -> Regions {
     let mut labels = regions.labels.clone();
     let mut next = regions.count as u32;
@@ -83,16 +81,13 @@ fn divided(regions: &Regions, scale: &Scale, j: &[Field<f32>]) -> Regions {
     Regions::numbered(labels, next as usize)
 }
 
-/// Smoothing of the colours, as a standard deviation in pixels.
 const SIGMA: f64 = 1.0;
 
-/// Side of the cells of CIELUV in which equal colours are counted together.
+/// We count equal colours together in cells of CIELUV with this side.
 const CELL: f32 = 2.0;
 
-/// Number of rounds of Lloyd's algorithm.
 const ROUNDS: usize = 8;
 
-/// Colours of one cell of CIELUV.
 #[derive(Debug, Clone, Copy)]
 struct Bin {
     pixels: f64,
@@ -101,7 +96,7 @@ struct Bin {
 
 /// Class of every pixel of a CIELUV picture, below `most` (at most 255).
 ///
-/// Pictures of few colours have fewer classes.
+/// If a picture has few colours, it has fewer classes.
 fn quantised(luv: &Field<[f32; 3]>, most: usize) -> Field<u8> {
     let smooth = blurred(luv, SIGMA);
     let (bins, bin_of) = binned(&smooth);
@@ -111,7 +106,6 @@ fn quantised(luv: &Field<[f32; 3]>, most: usize) -> Field<u8> {
     Field::from_values(luv.width(), luv.height(), values)
 }
 
-/// The occupied cells of CIELUV, and the cell of each pixel.
 fn binned(luv: &Field<[f32; 3]>) -> (Vec<Bin>, Vec<u32>) {
     fn cell(value: f32) -> u64 {
         ((value / CELL).round() as i32 + 512).clamp(0, 1023) as u64
@@ -136,7 +130,6 @@ fn binned(luv: &Field<[f32; 3]>) -> (Vec<Bin>, Vec<u32>) {
     (bins, bin_of)
 }
 
-/// A class while it is being split: its bins, mean and squared error.
 struct Class {
     bins: Vec<Bin>,
     mean: Vector3<f64>,
@@ -155,7 +148,7 @@ impl Class {
         Self { bins, mean, scatter }
     }
 
-    /// Both sides of the plane through the mean, across the axis of largest scatter.
+    /// Cuts the class by the plane through the mean, across the axis of largest scatter.
     fn halves(self) -> [Vec<Bin>; 2] {
         let eigen = self.scatter.symmetric_eigen();
         let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
@@ -165,7 +158,7 @@ impl Class {
     }
 }
 
-/// Means of `most` classes at most.
+/// Means of at most `most` classes.
 fn split(bins: &[Bin], most: usize) -> Vec<Vector3<f64>> {
     let mut classes = vec![Class::of(bins.to_vec())];
     while classes.len() < most {
@@ -187,8 +180,8 @@ fn split(bins: &[Bin], most: usize) -> Vec<Vector3<f64>> {
     classes.into_iter().map(|class| class.mean).collect()
 }
 
-/// Means after some rounds in which each bin goes to its nearest mean (Lloyd 1982). Classes that
-/// lose all their bins are left out.
+/// Moves the means in some rounds in which each bin goes to its nearest mean (Lloyd 1982). This
+/// leaves out classes that lose all their bins.
 fn lloyd(bins: &[Bin], mut centers: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
     for _ in 0..ROUNDS {
         let mut sums = vec![(Vector3::zeros(), 0.0); centers.len()];
@@ -203,23 +196,22 @@ fn lloyd(bins: &[Bin], mut centers: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
     centers
 }
 
-/// Index of the nearest of `centers`, the first of equally near ones.
+/// Index of the nearest of `centers`. If several are equally near, this is the first.
 fn nearest(centers: &[Vector3<f64>], color: Vector3<f64>) -> usize {
     let apart = |index: usize| (centers[index] - color).norm_squared();
     (0..centers.len()).min_by(|&a, &b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
 }
 
-/// Radius of the window at the finest scale, so that it is 9 pixels wide.
+/// Radius of the window at the finest scale. This makes it 9 pixels wide.
 const RADIUS: isize = 4;
 
-/// Largest number of classes.
 const MOST_CLASSES: usize = 32;
 
-/// Largest value of J, of windows in which no class has two places.
+/// Largest value of J. We use it where no class has two places in the window.
 const MOST: f32 = 100.0;
 
-/// J of every pixel in a round window of 8 `step` + 1 pixels, of which each `step`-th pixel along
-/// both axes is looked at: 69 places at every scale.
+/// J of every pixel in a round window of 8 `step` + 1 pixels. We look at each `step`-th pixel
+/// along both axes. These are 69 places at every scale.
 ///
 /// # Panics
 /// If a class is 32 or above.
@@ -251,7 +243,6 @@ fn j_values(classes: &Field<u8>, step: usize) -> Field<f32> {
     found
 }
 
-/// Sums of the places in a window by class: their number, x and y.
 #[derive(Default)]
 struct Window {
     by_class: [[i32; 3]; MOST_CLASSES],
@@ -292,8 +283,8 @@ const OFFSETS: [f64; 7] = [-0.7, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4];
 
 /// The valleys of the region `label` with at least `least_px` pixels.
 ///
-/// `pixels` are the pixels of the region. Of all thresholds the lowest is taken that gives most
-/// valleys.
+/// `pixels` are the pixels of the region. We take the threshold that gives most valleys, and the
+/// lowest one of several.
 fn valleys(
     labels: &Field<u32>,
     label: u32,
@@ -322,14 +313,14 @@ fn valleys(
     found
 }
 
-/// The connected parts of those `pixels` that are `inside`, by rows and columns.
+/// The connected parts of the `pixels` that are `inside`. Parts are connected by rows and columns.
 fn components(
     pixels: &[u32],
     (width, height): (usize, usize),
     inside: impl Fn(u32) -> bool,
 ) -> Vec<Vec<u32>> {
     let Some((&first, &last)) = pixels.first().zip(pixels.last()) else { return Vec::new() };
-    // Pixels are in rising order, so the seen ones need no field of the picture's size.
+    // Pixels are in rising order, so this needs no field of the picture's size.
     let mut seen = vec![false; (last - first) as usize + 1];
     let mut parts = Vec::new();
     for &pixel in pixels {
@@ -356,11 +347,10 @@ fn components(
     parts
 }
 
-/// Marks pixels that belong to no valley yet.
 const NOBODY: u32 = u32::MAX;
 
-/// Divides a region among its valleys: replaces `label` in `labels` by `first_new` and up for the
-/// second valley and the following ones. The first valley keeps `label`.
+/// Divides a region among its valleys. The first valley keeps `label` in `labels`. The second one
+/// and those after it get `first_new` and up.
 ///
 /// `j` holds the fields of J from this scale to the finest.
 fn grow(
@@ -412,8 +402,8 @@ fn grow(
     }
 }
 
-/// Gives the parts of the remaining pixels with J below their mean to the only valley that they
-/// touch.
+/// Takes the parts of the remaining pixels with J below their mean. If a part touches a single
+/// valley, the valley gets it.
 fn grow_parts(labels: &mut Field<u32>, pixels: &[u32], names: &[u32], j: &Field<f32>) {
     let width = labels.width();
     let height = labels.height();
@@ -439,15 +429,15 @@ fn grow_parts(labels: &mut Field<u32>, pixels: &[u32], names: &[u32], j: &Field<
     }
 }
 
-/// Distance of histograms below which neighbours are merged. Deng and Manjunath take 0.4. An
+/// We merge neighbours if their histograms are closer than this. Deng and Manjunath take 0.4. An
 /// over-segmentation keeps more regions apart.
 const ALIKE: f64 = 0.1;
 
-/// Pixels of a region by colour class.
 type Histogram = Vec<f64>;
 
-/// Regions in which no two neighbours have histograms closer than 0.1: the Euclidean distance of
-/// the shares of the classes of CIELUV (Deng and Manjunath 2001, section IV C).
+/// Merges regions until no two neighbours have histograms closer than 0.1. The distance is the
+/// Euclidean distance of the shares of the classes of CIELUV (Deng and Manjunath 2001, section IV
+/// C).
 fn merged(regions: &Regions, classes: &Field<u8>) -> Regions {
     let most = classes.values().iter().max().map_or(0, |&class| class as usize + 1);
     let mut histograms: Vec<Histogram> = vec![vec![0.0; most]; regions.count];
@@ -470,7 +460,6 @@ fn apart(one: &Histogram, other: &Histogram) -> f64 {
 mod tests {
     use super::*;
 
-    /// Two mixtures of the same mean: columns and rows of two colours, and a plain one.
     fn mixtures() -> Field<[f32; 3]> {
         fn color(x: usize, y: usize) -> [f32; 3] {
             match (x < 80, y < 60) {
@@ -592,7 +581,7 @@ mod tests {
     #[test]
     fn two_half_discs_have_the_j_of_their_means() {
         let halves = map(40, 40, |x, _| u8::from(x > 20));
-        // By the definition, from the places themselves.
+        // This follows the definition, from the places themselves.
         let mut places = Vec::new();
         for y in -4i32..=4 {
             for x in -4i32..=4 {

@@ -1,4 +1,5 @@
-//! Made-up paintings for tests: textures of strokes with known masks, directions and spacings.
+//! Paintings made by code for tests: textures of strokes with known masks, directions and
+//! spacings.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -7,10 +8,8 @@ use rand_chacha::ChaCha8Rng;
 
 use super::marks::{Mark, MarkedArea, Marks};
 
-/// Number of random values of a texture.
 const VALUES: usize = 1 << 12;
 
-/// A way to paint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Brush {
     /// Broad strokes with dark furrows between them.
@@ -34,7 +33,6 @@ impl Brush {
     }
 }
 
-/// Strokes of one kind.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Texture {
     pub(super) brush: Brush,
@@ -54,7 +52,7 @@ impl Default for Texture {
 }
 
 impl Texture {
-    /// Encoded colour at a place. `random` are numbers from -1 to 1.
+    /// Encoded colour at a place. Pass numbers from -1 to 1 as `random`.
     fn at(&self, x: f64, y: f64, random: &[f64]) -> [f64; 3] {
         fn noise(a: i64, b: i64, channel: i64, random: &[f64]) -> f64 {
             let mixed = (a * 0x9E37_79B1 + b * 0x85EB_CA77 + channel * 0xC2B2_AE3D) as u64;
@@ -96,7 +94,7 @@ impl Texture {
     }
 }
 
-/// A picture in linear light in which `texture_at` gives the texture of each pixel.
+/// A picture in linear light. `texture_at` gives the texture of each pixel.
 pub(super) fn textured(
     width: usize,
     height: usize,
@@ -120,7 +118,7 @@ pub(super) fn textured(
                     fn place(at: usize, half: usize) -> f64 {
                         at as f64 + 0.5 * half as f64 - 0.25
                     }
-                    // Away from 0, so that truncating is rounding down.
+                    // We stay away from 0, so that truncating is rounding down.
                     let color = texture.at(place(x, k % 2) + 1e3, place(y, k / 2) + 1e3, &values);
                     (0..3).for_each(|channel| sum[channel] += color[channel] / 4.0);
                 }
@@ -131,7 +129,6 @@ pub(super) fn textured(
     )
 }
 
-/// A made-up painting with scribbles.
 pub(super) struct Painting {
     pub(super) name: &'static str,
     pub(super) textures: Vec<Texture>,

@@ -6,9 +6,9 @@
 //!                        SampleSet <- upright <- spacing <- direction of each passage
 //! ```
 //!
-//! After Yan, Chi, Lee and Lin (2008, section 4.1): the painter draws one line over each passage.
-//! Regions are joined to passages. Each passage is turned until its strokes run along y, and
-//! resized until all have one spacing of strokes.
+//! This follows Yan, Chi, Lee and Lin (2008, section 4.1). You draw one line over each passage. We
+//! join regions to passages. Then we turn each passage until its strokes run along y, and resize
+//! it until all have one spacing of strokes.
 
 mod marks;
 mod settings;
@@ -35,7 +35,7 @@ pub use upright::StrokeDirection;
 
 #[cfg(test)]
 mod tests {
-    //! Samples of made-up paintings: masks, directions, spacings, channels, and bad inputs.
+    //! Samples of paintings made by code: masks, directions, spacings, channels, and bad inputs.
 
     use documents::hint::Explain;
     use graphics::field::Field;
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
     use crate::sample::{PaintOfSamples, Sample, TexelPaint};
 
-    /// Intersection over union of the samples of a painting with its textures.
+    /// Intersection over union of each sample with its texture.
     fn overlaps(painting: &Painting, over: OverSegmentation) -> Vec<f64> {
         let picture = SourcePicture::of_colors(painting.picture(), painting.name);
         let settings = PassageSettings { over, ..PassageSettings::default() };
@@ -98,7 +98,6 @@ mod tests {
         Marks { file: "m.toml".to_owned(), painting: None, samples }
     }
 
-    /// A light texture on the left, a dark one on the right, with paint and relief.
     fn pair() -> SourcePicture {
         let textures = [
             Texture { degrees: 30.0, spacing: 8.0, color: [0.7, 0.65, 0.6], ..Texture::default() },
@@ -128,7 +127,7 @@ mod tests {
         ])
     }
 
-    /// Direction of the strokes of a finished sample, from its own pixels.
+    /// Direction of the strokes of a finished sample. We measure it in its own pixels.
     fn direction_of(sample: &Sample) -> f64 {
         let picture = SourcePicture::of_colors(sample.color.clone(), "sample");
         let (width, height) = sample.size();
@@ -305,7 +304,7 @@ mod tests {
             panic!("{spacing_source:?}")
         };
         assert_eq!(*seen, StrokesSeen::Relief);
-        // A guess from the colours says nothing that these do not.
+        // A guess from the colours adds nothing to them.
         picture.guessed_relief = true;
         let error = samples_of_picture(&picture, &marks, &settings).unwrap_err();
         assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");

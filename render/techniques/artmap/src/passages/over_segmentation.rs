@@ -1,4 +1,4 @@
-//! Over-segmentation of a picture by either method.
+//! Over-segmentation of a picture. You can choose one of two methods.
 
 use graphics::encoding::encoded_from_linear;
 use graphics::field::Field;
@@ -9,13 +9,13 @@ use super::jseg::jseg;
 use super::regions::{Regions, luv_of};
 use super::settings::{OverSegmentation, PassageError, PassageSettings};
 
-/// Longer side above which a picture is divided at a smaller size: the windows of both methods
-/// suit pictures of 0.1 to 1 megapixel.
+/// If the longer side is above this, we divide the picture at a smaller size. The windows of both
+/// methods suit pictures of 0.1 to 1 megapixel.
 const LONGEST_PX: usize = 1024;
 
-/// The small regions of a picture, of which passages are joined.
+/// Divides a picture into small regions. You then join passages of these.
 ///
-/// Pictures longer than 1024 px are divided at a whole fraction of their size.
+/// If a picture is longer than 1024 px, we divide it at a whole fraction of its size.
 ///
 /// # Errors
 /// [`PassageError::Setting`] if a setting is out of its range, [`PassageError::NoColor`] if a
@@ -41,10 +41,6 @@ pub fn over_segmented(
     Ok(Regions::numbered(Field::from_values(width, height, labels.collect()), small.count))
 }
 
-/// Checks that all colours are finite.
-///
-/// # Errors
-/// [`PassageError::NoColor`].
 pub(super) fn check_colors(color: &Picture) -> Result<(), PassageError> {
     let odd = color.values().iter().position(|color| !color.iter().all(|value| value.is_finite()));
     match odd.map(|pixel: usize| (pixel % color.width(), pixel / color.width())) {
@@ -68,8 +64,8 @@ fn divided(color: &Picture, settings: &PassageSettings) -> Regions {
     }
 }
 
-/// Means of squares of `factor` x `factor` pixels, in linear light. Squares at the right and lower
-/// edge that are cut off are left out, unless they are the only ones.
+/// Means of squares of `factor` x `factor` pixels, in linear light. This leaves out squares that
+/// the right or lower edge cuts off, unless they are the only ones.
 fn reduced(color: &Picture, factor: usize) -> Picture {
     fn size(pixels: usize, factor: usize) -> usize {
         (pixels / factor).max(1)

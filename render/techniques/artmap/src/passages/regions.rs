@@ -1,5 +1,5 @@
-//! Regions of a picture: the label of each pixel, neighbours, and the joining of neighbours.
-//! Colours are compared in CIELUV, and by intensity with its gradient.
+//! Regions of a picture: the label of each pixel, neighbours, and the joining of neighbours. You
+//! can compare colours in CIELUV, and by intensity with its gradient.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
@@ -13,14 +13,13 @@ use spectra::color::{Luv, Rgb, RgbSpace};
 /// Regions of a picture, from an over-segmentation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regions {
-    /// Region of each pixel: 0 and up without gaps, in the order in which regions first appear
-    /// row by row.
+    /// Region of each pixel. Regions count from 0 without gaps, in the order in which regions
+    /// first appear row by row.
     pub labels: Field<u32>,
     /// Number of regions.
     pub count: usize,
 }
 
-/// Indices of the pixels above, below, left and right of a pixel.
 pub(super) fn beside(pixel: u32, width: usize, height: usize) -> impl Iterator<Item = u32> {
     let across = width as u32;
     let x = pixel as usize % width;
@@ -35,7 +34,7 @@ pub(super) fn beside(pixel: u32, width: usize, height: usize) -> impl Iterator<I
 }
 
 impl Regions {
-    /// Regions of arbitrary labels below `labels_below`, numbered anew.
+    /// Numbers regions anew. Their labels may be any numbers below `labels_below`.
     pub(super) fn numbered(mut labels: Field<u32>, labels_below: usize) -> Self {
         let mut numbers = vec![None; labels_below];
         let mut count = 0;
@@ -57,7 +56,6 @@ impl Regions {
         pixels
     }
 
-    /// The labels of the neighbours of each region, by rows and columns.
     pub(super) fn neighbours(&self) -> Vec<BTreeSet<u32>> {
         let width = self.labels.width();
         let height = self.labels.height();
@@ -82,8 +80,8 @@ impl Regions {
         neighbours
     }
 
-    /// Distance of each pixel from the nearest pixel of another region, along rows and columns: 1
-    /// at a border, more inside. The edge of the picture does not count as a border.
+    /// Distance of each pixel from the nearest pixel of another region, along rows and columns.
+    /// This is 1 at a border, and more inside. The edge of the picture does not count as a border.
     pub(super) fn depths(&self) -> Field<u32> {
         let width = self.labels.width();
         let height = self.labels.height();
@@ -110,10 +108,10 @@ impl Regions {
     }
 }
 
-/// Joins neighbours, cheapest first, while their cost is below `limit`. Of equal costs the pair of
-/// the smallest labels is first. A joined region has the summary that `unite` makes of both.
+/// Joins neighbours, cheapest first, while their cost is below `limit`. Among equal costs the pair
+/// of the smallest labels comes first. A joined region has the summary that `unite` makes of both.
 ///
-/// `summaries` and the returned ones stand in the order of the labels. Costs are at least 0.
+/// You pass and get summaries in the order of the labels. Costs must be at least 0.
 pub(super) fn joined<T>(
     regions: &Regions,
     summaries: Vec<T>,
@@ -170,7 +168,7 @@ pub(super) fn joined<T>(
     relabelled(regions, &into, summaries)
 }
 
-/// Follows `into`, from each label to the smaller one that it was joined to, to its end.
+/// Follows `into` to its end. It leads from each label to the smaller one that we joined it to.
 fn relabelled<T>(
     regions: &Regions,
     into: &[u32],
@@ -185,12 +183,12 @@ fn relabelled<T>(
     let width = regions.labels.width();
     let height = regions.labels.height();
     let found = Regions::numbered(Field::from_values(width, height, labels), regions.count);
-    // Labels are numbered in the order of first appearance, which is the order of the least labels.
+    // We number labels in the order of first appearance, which is the order of the least labels.
     let kept = summaries.iter_mut().filter_map(Option::take).collect();
     (found, kept)
 }
 
-/// Smoothing before gradients are taken, as a standard deviation in pixels.
+/// We smooth before we take gradients, by this standard deviation in pixels.
 const GRADIENT_SIGMA: f64 = 1.0;
 
 /// CIELUV of every pixel, relative to the white of sRGB.
@@ -203,7 +201,7 @@ pub(super) fn luv_of(picture: &Picture) -> Field<[f32; 3]> {
     })
 }
 
-/// Intensity of every pixel: luminance encoded by the curve of sRGB, 0 to 1.
+/// Intensity of every pixel, 0 to 1. This is luminance encoded by the curve of sRGB.
 pub(super) fn intensity_of(picture: &Picture) -> Field<f32> {
     let weights = RgbSpace::Srgb.xyz_from_linear().0[1];
     mapped(picture, |color| {
@@ -213,7 +211,8 @@ pub(super) fn intensity_of(picture: &Picture) -> Field<f32> {
     })
 }
 
-/// Gradient of the intensity per pixel, to the right and down, of the slightly smoothed picture.
+/// Gradient of the intensity per pixel, to the right and down. We smooth the picture slightly
+/// first.
 pub(super) fn gradient_of(intensity: &Field<f32>) -> Field<[f32; 2]> {
     let width = intensity.width();
     let height = intensity.height();

@@ -1,4 +1,4 @@
-//! Report of a sample that was taken, and a picture with its marks and passages drawn on it.
+//! Reports how a sample was taken, and draws its marks and passages on the picture.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -6,26 +6,26 @@ use graphics::picture::Picture;
 use super::marks::{DrawnArea, Marks, MarksError};
 use super::upright::StrokeDirection;
 
-/// Channel of the picture in which strokes were seen.
+/// Where we saw strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StrokesSeen {
     /// In the lightness of the colours.
     Color,
-    /// In the height of the paint, where that is known and not guessed.
+    /// In the height of the paint, if you know it and did not guess it.
     Relief,
 }
 
-/// Origin of the distance of strokes.
+/// Where the distance of strokes comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpacingSource {
-    /// Two points that the painter marked.
+    /// Two points that you marked.
     Marked,
-    /// Set for all samples without marks that give one.
+    /// A setting for all samples without marks that give a distance.
     Set,
     /// Estimated by autocorrelation across the strokes.
     Estimated {
         /// Difference of the first maximum of the autocorrelation and the minimum before it, 0.1
-        /// to 2. Larger is more reliable.
+        /// to 2. A larger value is more reliable.
         sharpness: f64,
         /// Channel with the sharper maximum.
         seen: StrokesSeen,
@@ -39,15 +39,15 @@ pub struct PassageReport {
     pub name: String,
     /// Pixels of the passage in the picture.
     pub mask: Field<bool>,
-    /// Number of regions of the over-segmentation under the scribble, 0 for a rectangle.
+    /// Number of regions under the scribble. For a rectangle, this is 0.
     pub regions_under: usize,
     /// Direction of the strokes.
     pub direction: StrokeDirection,
-    /// Channel in which more of the gradients agree in direction.
+    /// Where we saw more of the gradients agree in direction.
     pub direction_seen: StrokesSeen,
     /// Distance of neighbouring strokes in pixels of the picture.
     pub spacing_px: f64,
-    /// Origin of that distance.
+    /// Where this distance comes from.
     pub spacing_source: SpacingSource,
     /// Texels of the sample per pixel of the picture, across and along the strokes.
     pub scale: [f64; 2],
@@ -89,13 +89,11 @@ const COLORS: [(&str, [f32; 3]); 7] = [
     ("purple", [0.604, 0.191, 0.386]),
 ];
 
-/// Linear grey towards which everything beyond the passages fades, and its share.
+/// Everything beyond the passages fades towards this linear grey, by this share.
 const FADED: (f32, f32) = (0.55, 0.7);
 
-/// Colour of the rim of a line.
 const RIM: [f32; 3] = [0.9; 3];
 
-/// Width of a line as a share of the longer side.
 const LINE: f64 = 1.0 / 400.0;
 
 /// Name of the colour in which [`marked_picture`] draws the mark number `index`, from 0.
@@ -110,8 +108,8 @@ pub fn color_of_mark(index: usize) -> [f32; 3] {
     COLORS[index % COLORS.len()].1
 }
 
-/// The picture with each mark drawn on it in a colour of its own, and, if there are any, the
-/// outlines of the `passages` that were taken by them. Everything beyond the passages is faded.
+/// Draws each mark on the picture in a colour of its own. If you pass `passages` that were taken
+/// by these marks, you also see their outlines. Everything beyond the passages fades.
 ///
 /// # Errors
 /// [`MarksError`] if a mark lies off the picture or two lines cross.
@@ -138,7 +136,7 @@ pub fn marked_picture(
         }
         match area {
             DrawnArea::Line(pixels) => {
-                // The rim keeps a line apart from paint of its own colour.
+                // The rim separates a line from paint of the same colour.
                 thick(&mut shown, pixels, reach + reach.div_ceil(2), RIM);
                 thick(&mut shown, pixels, reach, color);
             }

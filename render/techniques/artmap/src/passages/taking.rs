@@ -1,5 +1,5 @@
-//! Takes upright samples of one spacing from a picture and its marks, and proposes marks: large,
-//! textured passages that differ most.
+//! Takes upright samples of one spacing from a picture and its marks. It can also propose marks:
+//! large, textured passages that differ most.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -13,19 +13,21 @@ use super::settings::{Density, PassageError, PassageSettings, SourcePicture};
 use super::upright::{Estimate, Frame, StrokeDirection, estimated, upright};
 use crate::sample::{Sample, SampleSet};
 
-/// Least width of a passage in distances of strokes.
+/// A passage must be this many distances of strokes wide.
 const LEAST_SPACINGS: f64 = 4.0;
 
-/// Largest factor by which a sample is resized.
+/// We resize a sample by at most this factor.
 const MOST_SCALE: f64 = 8.0;
 
-/// The marked samples of a picture, upright, of one spacing, dark to light, and a report of each.
+/// Takes the marked samples of a picture. They are upright, have one spacing, and go from dark to
+/// light. You also get a report of each.
 ///
-/// Direction and distance of strokes are measured in the lightness and, where the picture has a
-/// true relief, in the height of the paint. The clearer of both counts.
+/// We measure direction and distance of strokes in the lightness and, if the picture has a true
+/// relief, in the height of the paint. The clearer of both counts.
 ///
-/// The spacing is the median of the samples' spacings, of an even number, of the smaller one in the
-/// middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of both directions.
+/// The spacing is the median of the samples' spacings. If their number is even, this is the
+/// smaller one in the middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of
+/// both directions.
 ///
 /// # Errors
 /// [`PassageError`]. If spacings cannot be estimated, it names all such samples.
@@ -60,12 +62,11 @@ pub fn samples_of_picture(
     Ok((SampleSet { samples, paint, provenance: picture.provenance.clone() }, reports))
 }
 
-/// Tones and relief of the picture, by which passages are found and measured.
+/// Tones and relief of the picture. We find and measure passages in these.
 struct Seen {
     intensity: Field<f32>,
     gradient: Field<[f32; 2]>,
     luv: Field<[f32; 3]>,
-    /// Heights in mm and their gradient.
     relief: Option<(Field<f32>, Field<[f32; 2]>)>,
 }
 
@@ -78,7 +79,6 @@ impl Seen {
         Self { intensity, gradient, luv: luv_of(&picture.color), relief }
     }
 
-    /// Direction of the strokes of a passage, in the channel where it is clearest.
     fn direction(&self, pixels: &[u32], depth: &Field<u32>) -> (StrokeDirection, StrokesSeen) {
         let color = StrokeDirection::of(pixels, depth, &self.intensity, &self.gradient);
         let relief = self.relief.as_ref();
@@ -90,7 +90,6 @@ impl Seen {
         }
     }
 
-    /// Distance of the strokes of a passage, in the channel where it is clearest.
     fn spacing(
         &self,
         mask: &Field<bool>,
@@ -108,7 +107,6 @@ impl Seen {
     }
 }
 
-/// The mask of each sample, and the number of regions under its scribble.
 fn masks(
     picture: &SourcePicture,
     seen: &Seen,
@@ -141,7 +139,7 @@ fn masks(
     Ok(masks.collect())
 }
 
-/// Direction and spacing of one passage, `None` if its spacing cannot be estimated.
+/// Direction and spacing of one passage. `None` if we cannot estimate its spacing.
 fn report(
     mark: &Mark,
     mask: Field<bool>,
@@ -183,7 +181,7 @@ fn report(
     }))
 }
 
-/// Sets the scale of each sample so that all have the median spacing. Returns it.
+/// Sets the scale of each sample so that all have the median spacing. Returns this spacing.
 fn level(reports: &mut [PassageReport], density: Density) -> Result<f64, PassageError> {
     let mut order: Vec<usize> = (0..reports.len()).collect();
     order.sort_by(|&one, &other| reports[one].spacing_px.total_cmp(&reports[other].spacing_px));
@@ -221,21 +219,21 @@ fn sample(picture: &SourcePicture, report: &PassageReport, spacing: f64) -> Samp
     }
 }
 
-/// Least share of the picture that a passage has.
+/// A passage has at least this share of the picture.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Least deviation of the intensity of a passage with strokes, 0 to 1.
+/// A passage with strokes has at least this deviation of the intensity, 0 to 1.
 const LEAST_DEVIATION: f64 = 0.01;
 
-/// Unlikeness beyond which passages count as equally unlike.
+/// Beyond this unlikeness, passages count as equally unlike.
 const MOST_APART: f64 = 4.0;
 
-/// Number of directions in which a line through the middle of a passage is tried.
+/// We try lines through the middle of a passage in this many directions.
 const DIRECTIONS: usize = 16;
 
-/// Marks for `count` samples at most of a picture in linear sRGB: scribbles inside passages that
-/// are large, have strokes, and differ most in tone, contrast and direction. Names are `passage 1`
-/// and so on. The first is the largest.
+/// Proposes marks for at most `count` samples of a picture in linear sRGB. These are scribbles
+/// inside passages that are large, have strokes, and differ most in tone, contrast and direction.
+/// You get the names `passage 1` and so on. The first passage is the largest.
 ///
 /// # Errors
 /// [`PassageError`] if a setting or a colour is out of its range, or no passage has strokes.
@@ -266,8 +264,8 @@ pub fn propose_marks(
     Ok(Marks { file: "proposed marks".to_owned(), painting: None, samples })
 }
 
-/// Labels of the chosen regions: the largest, then always the one with the largest product of
-/// extent and unlikeness to those before.
+/// Labels of the chosen regions. The largest comes first. Then we always take the one with the
+/// largest product of extent and unlikeness to those before.
 fn chosen(traits: &[RegionTraits], picture_px: usize, count: usize) -> Vec<usize> {
     let least = LEAST_SHARE * picture_px as f64;
     let mut left: Vec<usize> = (0..traits.len())
@@ -281,7 +279,7 @@ fn chosen(traits: &[RegionTraits], picture_px: usize, count: usize) -> Vec<usize
             let apart = chosen.iter().map(|&other| traits[label].apart(&traits[other]));
             apart.fold(MOST_APART, f64::min) * traits[label].pixels.sqrt()
         }
-        // Of equal ones the first.
+        // Among equal ones this takes the first.
         let best = (0..left.len()).rev().max_by(|&one, &other| {
             worth(left[one], &chosen, traits).total_cmp(&worth(left[other], &chosen, traits))
         });
@@ -291,7 +289,6 @@ fn chosen(traits: &[RegionTraits], picture_px: usize, count: usize) -> Vec<usize
     chosen
 }
 
-/// Distance of each pixel from the border of its region or of the picture.
 fn depths(regions: &Regions) -> Field<u32> {
     let mut depths = regions.depths();
     let width = depths.width();
@@ -306,7 +303,8 @@ fn depths(regions: &Regions) -> Field<u32> {
     depths
 }
 
-/// The longest of several lines through the deepest pixel that stay inside of the region.
+/// Tries several lines through the deepest pixel that stay inside the region, and returns the
+/// longest.
 fn scribble(regions: &Regions, label: usize, pixels: &[u32], depths: &Field<u32>) -> Vec<[f64; 2]> {
     let width = regions.labels.width();
     fn depth(pixel: u32, depths: &Field<u32>) -> u32 {

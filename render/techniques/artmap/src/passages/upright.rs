@@ -1,6 +1,6 @@
-//! Upright samples: the direction of a passage's strokes, their distance estimated by
-//! autocorrelation, the frame that says which place of the picture each texel shows, and one
-//! resampling of all channels.
+//! Turns passages into upright samples. This has the direction of a passage's strokes, an estimate
+//! of their distance by autocorrelation, and the frame which says what place of the picture each
+//! texel shows. All channels are resampled at once.
 
 use graphics::blurred;
 use graphics::field::Field;
@@ -13,7 +13,6 @@ use super::joining::RegionTraits;
 use super::settings::SourcePicture;
 use crate::sample::TexelPaint;
 
-/// Channels of an upright passage, cut to the extent of its mask.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Upright {
     pub(super) color: Picture,
@@ -22,7 +21,6 @@ pub(super) struct Upright {
     pub(super) mask: Field<bool>,
 }
 
-/// All channels of one texel.
 #[derive(Debug, Clone, Copy, Default)]
 struct Texel {
     color: [f32; 3],
@@ -32,8 +30,8 @@ struct Texel {
 
 /// The passage `mask` of a picture in `frame`.
 ///
-/// Colours are blended in linear light, paint and heights as mm: means over the area of a texel
-/// inside of the passage. Texels outside of it are zeros.
+/// We blend colours in linear light, paint and heights as mm. Each texel is the mean over its area
+/// inside the passage. Texels outside are zeros.
 pub(super) fn upright(source: &SourcePicture, mask: &Field<bool>, frame: &Frame) -> Upright {
     let texels = cut_to_extent(frame.resampled(mask, |taps| gathered(source, taps)));
     let width = texels.width();
@@ -72,7 +70,6 @@ fn channel<T: Default>(texels: &Field<Option<Texel>>, of: impl Fn(&Texel) -> T) 
     Field::from_values(texels.width(), texels.height(), values.collect())
 }
 
-/// The rows and columns that hold a texel of the passage.
 fn cut_to_extent(texels: Field<Option<Texel>>) -> Field<Option<Texel>> {
     let width = texels.width();
     let height = texels.height();
@@ -84,12 +81,12 @@ fn cut_to_extent(texels: Field<Option<Texel>>) -> Field<Option<Texel>> {
         (Some((left, right)), Some((top, bottom))) => {
             texels.part(Rect { x: left, y: top, width: right - left + 1, height: bottom - top + 1 })
         }
-        // Passages of single pixels in a row may be lost where a sample is made smaller.
+        // Passages of single pixels in a row may be lost where we make a sample smaller.
         _ => Field::filled(0, 0, None),
     }
 }
 
-/// Coherence below which a passage has no direction.
+/// Below this coherence a passage has no direction.
 const LEAST_COHERENCE: f64 = 0.2;
 
 /// Direction of the strokes of a passage.
@@ -100,8 +97,8 @@ pub struct StrokeDirection {
     pub degrees: f64,
     /// Share of the strong gradients that agree in direction, 0 to 1.
     pub coherence: f64,
-    /// Whether the passage is turned until its strokes run along y. It is not if the coherence is
-    /// below 0.2.
+    /// Whether to turn the passage until its strokes run along y. This is false if the coherence
+    /// is below 0.2.
     pub turned: bool,
 }
 
@@ -119,7 +116,7 @@ impl StrokeDirection {
         Self { degrees, coherence, turned: coherence >= LEAST_COHERENCE }
     }
 
-    /// Unit vector along the strokes, y for a passage that is not turned.
+    /// Unit vector along the strokes. This is y for a passage that is not turned.
     pub(super) fn along(&self) -> [f64; 2] {
         if !self.turned {
             return [0.0, 1.0];
@@ -129,14 +126,13 @@ impl StrokeDirection {
     }
 }
 
-/// Axes and size of an upright sample.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Frame {
     /// Place of the texel (0, 0) in the picture, in pixels from the first pixel's middle.
     origin: [f64; 2],
-    /// Unit vector across the strokes: x of the sample.
+    /// Unit vector across the strokes, which is x of the sample.
     across: [f64; 2],
-    /// Unit vector along the strokes: y of the sample.
+    /// Unit vector along the strokes, which is y of the sample.
     along: [f64; 2],
     /// Texels per pixel, across and along.
     scale: [f64; 2],
@@ -144,13 +140,13 @@ pub(super) struct Frame {
     pub(super) size: [usize; 2],
 }
 
-/// A pixel that contributes to a texel, and its weight.
+/// A pixel that contributes to a texel, and how much.
 pub(super) type Tap = (usize, f32);
 
 impl Frame {
     /// The frame that holds all true pixels of `mask`, which has at least one.
     ///
-    /// A frame along y of scale 1 shows the pixels as they are.
+    /// For example, a frame along y of scale 1 shows the pixels as they are.
     pub(super) fn around(mask: &Field<bool>, along: [f64; 2], scale: [f64; 2]) -> Self {
         let across = [along[1], -along[0]];
         let mut least = [f64::INFINITY; 2];
@@ -172,8 +168,8 @@ impl Frame {
         Self { origin, across, along, scale, size }
     }
 
-    /// The field of `gather` for each texel that lies in the mask by at least half, `None`
-    /// elsewhere. Weights are above 0 and sum to 1 over pixels inside of the mask, so that nothing
+    /// The result of `gather` for each texel that lies in the mask by at least half, `None`
+    /// elsewhere. Weights are above 0 and sum to 1 over pixels inside the mask, so that nothing
     /// from outside bleeds in.
     pub(super) fn resampled<T: Send + Sync>(
         &self,
@@ -191,10 +187,10 @@ impl Frame {
         Field::from_values(width, height, texels.collect())
     }
 
-    /// Fills `taps` for the texel at `place`. False if it lies outside of the mask.
+    /// Fills `taps` for the texel at `place`. Returns false if it lies outside the mask.
     ///
-    /// A texel is a tent over the sample's axes: one texel to each side, or one pixel where pixels
-    /// are larger.
+    /// A texel is a tent over the sample's axes. It reaches one texel to each side, or one pixel
+    /// where pixels are larger.
     fn taps(&self, mask: &Field<bool>, place: [f64; 2], taps: &mut Vec<Tap>) -> bool {
         taps.clear();
         let lengths = [0, 1].map(|axis| place[axis] / self.scale[axis]);
@@ -212,7 +208,7 @@ impl Frame {
                 let off = [x as f64 - middle[0], y as f64 - middle[1]];
                 let tent = |direction, half: f64| (1.0 - dot(off, direction).abs() / half).max(0.0);
                 let weight = tent(self.across, half[0]) * tent(self.along, half[1]);
-                // Below that, pixels beyond the tent would count by rounding alone.
+                // Below this, pixels beyond the tent would count by rounding alone.
                 if weight < 1e-9 {
                     continue;
                 }
@@ -233,37 +229,36 @@ fn dot(one: [f64; 2], other: [f64; 2]) -> f64 {
     one[0] * other[0] + one[1] * other[1]
 }
 
-/// Smallest difference of maximum and minimum of the autocorrelation.
+/// The maximum of the autocorrelation must exceed the minimum before it by this.
 const LEAST_SHARPNESS: f64 = 0.1;
 
-/// Smallest autocorrelation at the maximum. Blotches of one size without order have a minimum too,
-/// from which the autocorrelation rises to about 0.
+/// The autocorrelation must reach this at the maximum. Blotches of one size without order have a
+/// minimum too, from which the autocorrelation rises to about 0.
 const LEAST_PEAK: f64 = 0.1;
 
-/// Rise or fall of the autocorrelation that counts as one.
+/// We count a rise or fall of the autocorrelation from this size on.
 const RIPPLE: f64 = 0.02;
 
-/// Standard deviation in pixels of the smoothing against noise.
+/// We smooth against noise by this standard deviation in pixels.
 const NOISE_SIGMA: f64 = 1.0;
 
-/// Largest distance that is looked for, as a share of the passage's width.
+/// We look for distances up to this share of the passage's width.
 const LARGEST_SHARE: f64 = 1.0 / 4.0;
 
-/// An estimated distance of strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Estimate {
-    /// Distance of neighbouring strokes in pixels.
     pub(super) spacing_px: f64,
     /// Difference of the first maximum of the autocorrelation and the minimum before it, up to 2.
     pub(super) sharpness: f64,
 }
 
-/// Distance of strokes among the true pixels of `mask`, which run along `along`. If `turned` is
-/// false, strokes have no direction, and the mean over x and y is taken.
+/// Estimates the distance of strokes among the true pixels of `mask`. The strokes run along
+/// `along`. If you pass false for `turned`, strokes have no direction, and we take the mean over x
+/// and y.
 ///
-/// The first minimum of the autocorrelation across the strokes and the maximum after it are looked
-/// for. A parabola through the maximum gives fractions of a pixel. `None` if there is none, if the
-/// sharpness is below 0.1, or if the maximum itself is.
+/// We look for the first minimum of the autocorrelation across the strokes and the maximum after
+/// it. A parabola through the maximum gives fractions of a pixel. `None` if there is no maximum,
+/// or if the sharpness or the maximum itself is below 0.1.
 pub(super) fn estimated(
     intensity: &Field<f32>,
     mask: &Field<bool>,
@@ -292,7 +287,7 @@ fn across(intensity: &Field<f32>, mask: &Field<bool>, along: [f64; 2]) -> Vec<f6
 }
 
 /// Detail of the intensity and 1 in the passage, zeros elsewhere: the difference of a narrow and a
-/// wide mean, neither of which looks beyond the passage.
+/// wide mean, and both stay within the passage.
 fn detail(upright: &Field<Option<f32>>) -> Field<[f32; 2]> {
     let width = upright.width();
     let height = upright.height();
@@ -308,7 +303,6 @@ fn detail(upright: &Field<Option<f32>>) -> Field<[f32; 2]> {
     Field::from_values(width, height, detail.collect())
 }
 
-/// Correlation of the detail with itself `lag` pixels to the right.
 fn correlation(detail: &Field<[f32; 2]>, lag: usize) -> f64 {
     let width = detail.width();
     let mut product = 0.0;
@@ -327,8 +321,8 @@ fn correlation(detail: &Field<[f32; 2]>, lag: usize) -> f64 {
     if norm > 1e-12 { product / norm } else { 0.0 }
 }
 
-/// The first maximum after the first minimum, each of which stands out by [`RIPPLE`], `None` if it
-/// is not clear.
+/// The first maximum after the first minimum. Each must stand out by [`RIPPLE`]. `None` if there
+/// is no clear one.
 fn first_peak(correlation: &[f64]) -> Option<Estimate> {
     let mut valley = 0;
     let mut peak = None;
@@ -362,7 +356,6 @@ mod tests {
     use pigment::library::PigmentLibrary;
     use std::sync::Arc;
 
-    /// A picture of all channels, with other values inside of a disc than outside.
     fn disc() -> (SourcePicture, Field<bool>) {
         fn inside(i: usize) -> bool {
             let x = (i % 60) as f64 - 30.0;
@@ -391,7 +384,6 @@ mod tests {
         (source, mask)
     }
 
-    /// Gives pixels the values that the disc has inside.
     fn spur_like_disc(mut source: SourcePicture, pixels: &[usize]) -> SourcePicture {
         let middle = 25 * 60 + 30;
         for &pixel in pixels {
@@ -409,7 +401,7 @@ mod tests {
     #[test]
     fn nothing_bleeds_in_and_heights_stay_mm() {
         let (source, mut mask) = disc();
-        // A thin spur of the passage, which is lost where the sample is made smaller.
+        // This thin spur of the passage is lost where we make the sample smaller.
         let spur: Vec<usize> = (2..10).map(|x| 25 * 60 + x).collect();
         for &pixel in &spur {
             mask.values_mut()[pixel] = true;

@@ -1,7 +1,7 @@
 //! Files of samples: OpenEXR, format `impasto-samples`, version 1.
 //!
-//! One file has a part per sample, `sample.000`, `sample.001` .. in the order of the set, with scan
-//! lines of 32-bit float channels, so that any program that reads OpenEXR shows them.
+//! One file has a part per sample: `sample.000`, `sample.001` .. in the order of the set. It has
+//! scan lines of 32-bit float channels, so you can look at it with any program that reads OpenEXR.
 //!
 //! | channels | content |
 //! | --- | --- |
@@ -10,9 +10,9 @@
 //! | `height` | height over the ground in mm, left out without relief |
 //! | one per pigment, `vehicle` | paint in mm, left out without pigments |
 //!
-//! Attribute `impasto` of the first part is JSON in ASCII: format and version, provenance, names,
-//! sizes and spacing of the samples, the channel of each pigment, and the pigment library.
-//! Everything comes back bit for bit.
+//! Attribute `impasto` of the first part is JSON in ASCII. It holds format and version,
+//! provenance, names, sizes and spacing of the samples, the channel of each pigment, and the
+//! pigment library. You get everything back bit for bit.
 
 use std::path::Path;
 
@@ -38,8 +38,8 @@ impl SampleSet {
         read(&path.display().to_string(), &documents::file::read(path)?)
     }
 
-    /// Writes samples to a file (OpenEXR, see [`crate::sample::file`]), which is replaced as a
-    /// whole or not at all.
+    /// Writes samples to a file (OpenEXR, see [`crate::sample::file`]). This replaces the file as
+    /// a whole or not at all.
     ///
     /// # Errors
     /// [`TexelFileError`] if the set is inconsistent or the file cannot be written.
@@ -48,10 +48,8 @@ impl SampleSet {
     }
 }
 
-/// Channel that marks the texels of the sample.
 const MASK: &str = "mask";
 
-/// Files of samples.
 const KIND: TexelFileKind = TexelFileKind {
     format: "impasto-samples",
     version: 1,
@@ -59,7 +57,6 @@ const KIND: TexelFileKind = TexelFileKind {
     reserved: &[COLOR[0], COLOR[1], COLOR[2], MASK, HEIGHT, VEHICLE],
 };
 
-/// Content of the attribute.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FileHeader {
@@ -67,7 +64,6 @@ struct FileHeader {
     version: u64,
     provenance: String,
     samples: Vec<SampleHeader>,
-    /// Pigments in use, with their channels, `None` for samples without paint.
     pigments: Option<Vec<PigmentChannel>>,
     library: Option<Value>,
 }
@@ -81,18 +77,15 @@ struct SampleHeader {
     height: usize,
     spacing: f64,
     mm_per_texel: Option<f64>,
-    /// Whether the part has a channel of heights.
     relief: bool,
     guessed_relief: bool,
 }
 
-/// Name of the part of the sample number `index`.
 fn header_part(index: usize) -> String {
     format!("sample.{index:03}")
 }
 
 impl FileHeader {
-    /// Description of `set`.
     fn of(set: &SampleSet) -> Result<Self, TexelFileError> {
         let samples = set.samples.iter().enumerate().map(|(index, sample)| SampleHeader {
             part: header_part(index),
@@ -124,12 +117,11 @@ impl FileHeader {
         proven(&KIND, header, set.paint.as_ref(), back)
     }
 
-    /// Encodes the description as JSON in ASCII.
     fn to_json(&self) -> Result<String, TexelFileError> {
         encoded(&KIND, self)
     }
 
-    /// Parses and checks a description. Returns it with the library and slots that it holds.
+    /// Parses and checks a description. Returns it with the library and slots in it.
     fn from_json(
         origin: Origin<'_>,
         json: &str,
@@ -142,7 +134,6 @@ impl FileHeader {
         Ok((header, paint))
     }
 
-    /// The parts of the samples.
     fn plans(&self) -> Vec<PartPlan> {
         self.samples
             .iter()
@@ -182,7 +173,6 @@ impl SampleHeader {
     }
 }
 
-/// Texels of a sample.
 fn texels(sample: &Sample) -> Texels<'_> {
     Texels {
         color: &sample.color,
@@ -191,7 +181,6 @@ fn texels(sample: &Sample) -> Texels<'_> {
     }
 }
 
-/// The part of a sample.
 fn part(sample: &Sample, plan: PartPlan, pigments: Option<&[PigmentChannel]>) -> PartPlanes {
     plan.with(|channel| match channel {
         MASK => sample.mask.values().iter().map(|inside| f32::from(u8::from(*inside))).collect(),
@@ -209,7 +198,6 @@ fn check(part: &PartPlanes, pigments: Option<&[PigmentChannel]>) -> Result<(), (
     part.check_texels(pigments, |index| mask[index] == 1.0)
 }
 
-/// The sample of a part that passed the check.
 fn sample(header: &SampleHeader, part: &PartPlanes, pigments: Option<&[PigmentChannel]>) -> Sample {
     Sample {
         name: header.name.clone(),
@@ -223,7 +211,7 @@ fn sample(header: &SampleHeader, part: &PartPlanes, pigments: Option<&[PigmentCh
     }
 }
 
-/// Decodes samples from `bytes`, the content of `file`. The name is used in errors only.
+/// Decodes samples from `bytes`, the content of `file`. We use the name in errors only.
 ///
 /// # Errors
 /// [`TexelFileError`] if the content is not OpenEXR, holds no samples, is of a newer version,
@@ -244,7 +232,7 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<SampleSet, TexelFileError> {
     Ok(SampleSet { samples, paint, provenance: header.provenance })
 }
 
-/// Encodes samples as a file. The same samples always give the same bytes.
+/// Encodes samples as a file. If you pass equal samples, you get equal bytes.
 ///
 /// # Errors
 /// [`TexelFileError::Unwritable`] for a set without samples or with fields of different sizes,
@@ -287,7 +275,7 @@ mod tests {
     use pigment::{PigmentId, PigmentLibrary};
     use std::sync::Arc;
 
-    /// Numbers that lose bits in anything but lossless storage.
+    /// A number that loses bits in anything but lossless storage.
     fn number(index: usize) -> f32 {
         0.001 + (index as f32 * 0.618_034).fract() / 3.0
     }
@@ -410,18 +398,18 @@ mod tests {
         for at in (0..bytes.len()).step_by(61) {
             let mut bytes = bytes.clone();
             bytes[at] ^= 0x55;
-            // A flipped number may be possible. It must only not panic.
+            // The flipped number may be a valid one. This must only not panic.
             let _ = read("a.exr", &bytes);
         }
     }
 
     #[test]
     fn inconsistent_sets_are_not_written() {
-        let refused = |change: &dyn Fn(&mut SampleSet)| {
+        fn refused(change: &dyn Fn(&mut SampleSet)) -> String {
             let mut set = set();
             change(&mut set);
             write(&set).unwrap_err().to_string()
-        };
+        }
         assert!(refused(&|set| set.samples.clear()).contains("there are none"));
         let sizes = refused(&|set| set.samples[0].mask = Field::filled(3, 3, true));
         assert!(sizes.contains("fields of sample `tone 1` differ in size"), "{sizes}");

@@ -1,4 +1,4 @@
-//! A painting as one large sample: all its layers summed into one table of pigments.
+//! Takes a painting as one large sample. This sums all its layers into one table of pigments.
 
 use std::sync::Arc;
 
@@ -18,10 +18,10 @@ use spectra::color::{Lab, delta_e_ciede2000};
 
 use crate::texel_file::{PaintOfSamples, TexelPaint};
 
-/// Share of a painting's pigment below which a pigment counts as minor.
+/// A pigment is minor if it has less than this share of a painting's pigment.
 pub const MINOR: f64 = 0.01;
 
-/// Fields of a whole painting, one texel a cell, to be cut into samples.
+/// Fields of a whole painting, one texel per cell. You cut samples from this.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WholePainting {
     /// Title of the painting.
@@ -37,17 +37,17 @@ pub struct WholePainting {
     pub mm_per_texel: f64,
     /// Library and pigments of the paint.
     pub pigments: PaintOfSamples,
-    /// Minor pigments that were merged, each with the pigment that it counts as now.
+    /// Minor pigments that were merged, each with the pigment that it now counts as.
     pub merged: Vec<[String; 2]>,
 }
 
 impl WholePainting {
-    /// Sums the layers of a painting. Optical thickness counts: the pigments of a dry layer are
-    /// multiplied by its opacity, its height is not.
+    /// Sums the layers of a painting. Optical thickness counts: we multiply the pigments of a dry
+    /// layer by its opacity, but not its height.
     ///
-    /// With `merge_minor`, pigments below [`MINOR`] of all pigment count as the remaining pigment
-    /// with the nearest masstone by CIEDE2000, if the painting has more pigments than a table
-    /// holds.
+    /// A table holds a limited number of pigments. If the painting has more and you pass
+    /// `merge_minor`, pigments below [`MINOR`] of all pigment count as the remaining pigment with
+    /// the nearest masstone by CIEDE2000.
     ///
     /// # Errors
     /// [`FromPaintingError`] for more than eight pigments, and a library without visible
@@ -82,14 +82,13 @@ impl WholePainting {
     }
 }
 
-/// Layers of a painting, the wet one last, each with its pigments and opacity.
 fn layers(document: &Document) -> Vec<(&Slots, f64, &Layer)> {
     let dry = document.dry.iter().map(|layer| (&layer.slots, layer.shown_opacity(), &layer.paint));
     dry.chain([(&document.slots, 1.0, &document.wet)]).collect()
 }
 
-/// Pigments that the painting holds, by their place in the library, each with its share of all
-/// pigment.
+/// Pigments that the painting holds, by their index in the library. Each comes with its share of
+/// all pigment.
 fn used_pigments(document: &Document) -> Vec<(PigmentId, f64)> {
     let mut sums = vec![0.0; document.library.pigments.len()];
     for (slots, opacity, layer) in layers(document) {
@@ -106,7 +105,7 @@ fn used_pigments(document: &Document) -> Vec<(PigmentId, f64)> {
 
 type Merged = Vec<(PigmentId, PigmentId)>;
 
-/// Pigments of the table, and the minor ones with those that they are merged into.
+/// Pigments of the table, and the minor ones with the pigments that replace them.
 fn table(
     document: &Document,
     used: &[(PigmentId, f64)],
@@ -140,18 +139,19 @@ fn table(
     Ok((ids(&kept), merged))
 }
 
-/// Colours of all paints of a library as opaque films.
 fn masstones(library: &PigmentLibrary) -> Vec<Lab> {
     let viewing = Viewing::default();
     let palette = Palette::new(library, &viewing, Cards::standard(library.grid));
-    let color = |id| {
-        let palette = palette.as_ref().ok()?;
-        Some(palette.color(&Recipe::single(id)).lab)
-    };
-    library.ids().map(|id| color(id).unwrap_or_default()).collect()
+    library
+        .ids()
+        .map(|id| {
+            let palette = palette.as_ref().ok()?;
+            Some(palette.color(&Recipe::single(id)).lab)
+        })
+        .map(Option::unwrap_or_default)
+        .collect()
 }
 
-/// Colours of a painting under `light`, level and without gloss.
 pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
     let dry: Vec<_> =
         document.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect();
@@ -175,7 +175,7 @@ pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
     Field::from_values(shown.width(), shown.height(), colors.collect())
 }
 
-/// Paint of all layers in mm, with each pigment in the slot that `place` names.
+/// Paint of all layers in mm. `place` names the slot of each pigment.
 pub(crate) fn summed_paint(
     document: &Document,
     place: impl Fn(PigmentId) -> Option<usize>,
@@ -187,28 +187,30 @@ pub(crate) fn summed_paint(
     let width = document.wet.width();
     let height = document.wet.height();
     let quantum_mm = mm_from_quanta(1, document.cell_mm);
-    let texel = |index: usize| {
-        let mut sums = [0.0; SLOTS];
-        let mut vehicle = 0_u64;
-        for (places, opacity, layer) in &layers {
-            let cell = layer.cell(index);
-            vehicle += u64::from(cell.vehicle);
-            for (place, amount) in places.iter().zip(cell.pigments) {
-                if let Some(place) = *place {
-                    sums[place] += opacity * f64::from(amount);
+    let texels = (0..width * height)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|index: usize| {
+            let mut sums = [0.0; SLOTS];
+            let mut vehicle = 0_u64;
+            for (places, opacity, layer) in &layers {
+                let cell = layer.cell(index);
+                vehicle += u64::from(cell.vehicle);
+                for (place, amount) in places.iter().zip(cell.pigments) {
+                    if let Some(place) = *place {
+                        sums[place] += opacity * f64::from(amount);
+                    }
                 }
             }
-        }
-        TexelPaint {
-            pigments_mm: sums.map(|sum| (sum * quantum_mm) as f32),
-            vehicle_mm: (vehicle as f64 * quantum_mm) as f32,
-        }
-    };
-    let texels = (0..width * height).into_par_iter().with_min_len(4096).map(texel).collect();
+            TexelPaint {
+                pigments_mm: sums.map(|sum| (sum * quantum_mm) as f32),
+                vehicle_mm: (vehicle as f64 * quantum_mm) as f32,
+            }
+        })
+        .collect();
     Field::from_values(width, height, texels)
 }
 
-/// Height of all paint over the ground in mm.
 pub(crate) fn summed_height(document: &Document) -> Field<f32> {
     let layers = layers(document);
     let width = document.wet.width();
@@ -240,7 +242,7 @@ pub enum FromPaintingError {
         title: String,
         /// Names of its pigments.
         names: Vec<String>,
-        /// Number of minor pigments that are worth merging, 0 if it would not.
+        /// Number of minor pigments. If merging them does not help, this is 0.
         minor: usize,
     },
     /// The painting's library has no wavelengths in common with daylight.
@@ -259,7 +261,6 @@ mod tests {
 
     use super::*;
 
-    /// A painting of two strokes in different pigments. The first is dry.
     fn painting() -> Document {
         let oils = PigmentLibrary::van_gogh_oils();
         let ground = GroundKind::Panel.spec(1);
@@ -323,7 +324,7 @@ mod tests {
         }
     }
 
-    /// The painting with layers of a quantum or more of further pigments.
+    /// The painting with layers of further pigments, each of a quantum or more.
     fn crowded(amounts: &[u32]) -> Document {
         let mut document = painting();
         for (index, &amount) in amounts.iter().enumerate() {

@@ -7,7 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use super::Sample;
 
 /// A sample of `size` x `size` texels covered by upright strokes `spacing` texels wide and about
-/// four times as long, around a linear grey of `tone`. Equal seeds give strokes at equal places.
+/// four times as long, around a linear grey of `tone`. If you pass equal seeds, you get strokes at
+/// equal places.
 pub(crate) fn strokes(name: &str, size: usize, spacing: usize, tone: f32, seed: u64) -> Sample {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut color = Field::filled(size, size, [tone; 3]);

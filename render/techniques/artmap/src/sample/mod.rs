@@ -1,12 +1,12 @@
-//! Samples: passages of a painting with the brushwork of one tone each, joined from several files
-//! and with relief guessed from the lightness of a photograph.
+//! Samples: passages of a painting, each with the brushwork of one tone. You can join samples from
+//! several files, and guess relief from the lightness of a photograph.
 //!
-//! Under light from all sides deep places see less of it: dark is deep (Langer and Zucker 1994,
+//! Under light from all sides deep places see less of it, so dark is deep (Langer and Zucker 1994,
 //! "Shape-from-shading on a cloudy day"; Khan, Reinhard, Fleming and Buelthoff 2006, "Image-based
-//! material editing", section 3). So the guess is the detail of lightness within a stroke. Strokes
-//! of a lighter paint come out higher, and light from one side is taken for relief, so nothing can
-//! be measured from it. The strokes of the test below, each of another shade, come out with a
-//! correlation of 0.45 to their true relief.
+//! material editing", section 3). So we guess from the detail of lightness within a stroke.
+//! Strokes of a lighter paint come out higher, and the guess takes light from one side for relief.
+//! So you cannot measure anything from it. For example, the strokes of the test below, each of
+//! another shade, come out with a correlation of 0.45 to their true relief.
 
 #[cfg(test)]
 mod made_up;
@@ -27,13 +27,13 @@ pub(crate) use made_up::strokes;
 /// A passage of a painting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
-    /// Name that the painter gave it.
+    /// Name that the painter gave this sample.
     pub name: String,
     /// Colour of each texel under a level surface, in linear sRGB with white at 1.
     pub color: Picture,
-    /// Paint of each texel, `None` for pictures without pigments.
+    /// Paint of each texel. `None` for pictures without pigments.
     pub paint: Option<Field<TexelPaint>>,
-    /// Height of the surface above the ground in mm, `None` without relief.
+    /// Height of the surface above the ground in mm. `None` without relief.
     pub height_mm: Option<Field<f32>>,
     /// Whether each texel belongs to the passage. Other texels hold no information.
     pub mask: Field<bool>,
@@ -58,19 +58,19 @@ impl Sample {
         self.mask.values().iter().filter(|inside| **inside).count()
     }
 
-    /// Mean CIELAB lightness of the passage, 0 to 100, 0 without texels.
+    /// Mean CIELAB lightness of the passage, 0 to 100. If it has no texels, this is 0.
     #[must_use]
     pub fn mean_lightness(&self) -> f64 {
         self.mean(&lab_from_linear(&self.color))[0]
     }
 
-    /// Mean colour of the passage in linear sRGB with white at 1, black without texels.
+    /// Mean colour of the passage in linear sRGB with white at 1. If it has no texels, this is
+    /// black.
     #[must_use]
     pub fn mean_color(&self) -> [f64; 3] {
         self.mean(&self.color)
     }
 
-    /// Mean of three values over the texels of the passage.
     fn mean(&self, values: &Field<[f32; 3]>) -> [f64; 3] {
         let mut sum = [0.0; 3];
         let inside = values.values().iter().zip(self.mask.values()).filter(|(_, inside)| **inside);
@@ -87,9 +87,9 @@ impl Sample {
 pub struct SampleSet {
     /// The samples. All or none have paint.
     pub samples: Vec<Sample>,
-    /// Pigments of their paint, `None` where no sample has any.
+    /// Pigments of their paint. `None` if no sample has paint.
     pub paint: Option<PaintOfSamples>,
-    /// Where the samples come from, in words, for the file.
+    /// Where the samples come from, in words. The file states this.
     pub provenance: String,
 }
 
@@ -117,7 +117,8 @@ pub enum JoinError {
 }
 
 impl SampleSet {
-    /// All samples of `sets` in one set, from dark to light. A name that is taken gets a number.
+    /// Puts all samples of `sets` into one set, from dark to light. If a name is taken, the sample
+    /// gets a number.
     ///
     /// # Errors
     /// [`JoinError`] if the sets do not have the same pigments.
@@ -142,10 +143,9 @@ impl SampleSet {
                 }
             }
             for mut sample in set.samples {
-                let taken = |name: &str| joined.samples.iter().any(|other| other.name == name);
                 let plain = sample.name.clone();
                 let mut number = 2;
-                while taken(&sample.name) {
+                while joined.samples.iter().any(|other| other.name == sample.name) {
                     sample.name = format!("{plain} ({number})");
                     number += 1;
                 }
@@ -158,24 +158,24 @@ impl SampleSet {
     }
 }
 
-/// Deviation of the blur that takes away the grain of a photograph, in distances of strokes.
+/// We blur away the grain of a photograph by this deviation, in distances of strokes.
 const GRAIN: f64 = 0.04;
 
-/// Deviation of the blur that gives the level of the paint, in distances of strokes.
+/// We blur by this deviation, in distances of strokes, to get the level of the paint.
 const LEVEL: f64 = 0.35;
 
-/// Deviations of the detail between the mean and the highest ridge.
+/// The highest ridge is this many deviations of the detail above the mean.
 const DEVIATIONS: f64 = 2.0;
 
-/// Weight of texels of the passage around a texel below which its level is unknown.
+/// If the texels around a texel weigh less than this, its level is unknown.
 const LEAST: f32 = 1e-4;
 
 impl SampleSet {
-    /// Greatest relief that can be asked for, in mm.
+    /// You can ask for a relief up to this, in mm.
     pub const MOST_RELIEF_MM: f64 = 10.0;
 
-    /// Gives samples without relief a guessed one: 0 to `relief_mm`, half of that at the mean. True
-    /// relief stays. Guessed samples are marked.
+    /// Gives samples without relief a guessed one. It goes from 0 to `relief_mm`, with half of
+    /// this at the mean. This keeps true relief, and marks guessed samples.
     ///
     /// # Errors
     /// [`GuessError`] for a relief that is not above 0 and at most [`Self::MOST_RELIEF_MM`].
@@ -191,7 +191,7 @@ impl SampleSet {
     }
 }
 
-/// Heights in mm, 0 beyond the passage.
+/// Heights in mm. They are 0 beyond the passage.
 fn guessed(sample: &Sample, relief_mm: f64) -> Field<f32> {
     let fine = lightness(sample, GRAIN * sample.spacing);
     let level = lightness(sample, LEVEL * sample.spacing);
@@ -386,7 +386,9 @@ mod tests {
 
     #[test]
     fn sets_of_other_pigments_are_refused() {
-        let refused = |sets| SampleSet::joined(sets).unwrap_err().to_string();
+        fn refused(sets: Vec<SampleSet>) -> String {
+            SampleSet::joined(sets).unwrap_err().to_string()
+        }
         let [a, b] = [|| painted(set(&[0.1], "a"), 0), || painted(set(&[0.2], "b"), 1)];
         assert!(refused(vec![a(), b()]).contains("`a` and `b`"));
         assert!(refused(vec![a(), set(&[0.2], "c")]).contains("`c` has colours only"));

@@ -1,15 +1,15 @@
-//! A map while it is synthesised: for every texel the texel of the sample that it shows.
+//! A map while it is synthesised. It holds for every texel the texel of the sample that this
+//! shows.
 //!
-//! Overlapping patches are joined along the cheapest cut, found by dynamic programming (Efros and
-//! Freeman 2001). Texels at the seams are then synthesised again, after Lee and Yan (2005) as far
-//! as Yan and others (2008, section 4.3) describe it: worst texels first, each once. The use of
-//! each part of the sample is counted, so that none is repeated too often.
+//! We join overlapping patches along the cheapest cut, which dynamic programming finds (Efros and
+//! Freeman 2001). Then we synthesise texels at the seams again, after Lee and Yan (2005) as far as
+//! Yan and others (2008, section 4.3) describe it: worst texels first, each once. We count how
+//! often each part of the sample is used, so that none repeats too often.
 
 use graphics::field::Field;
 
 use super::level::{LOOKS, Level, PatchGrid, difference};
 
-/// Source of a texel that is not synthesised yet.
 const NONE: [u16; 2] = [u16::MAX; 2];
 
 /// Sources of a map that tiles, made of patches.
@@ -20,7 +20,7 @@ pub(crate) struct SourceCanvas<'a> {
     pub(crate) sources: Field<[u16; 2]>,
 }
 
-/// The texels that are already there and that a new patch has to agree with.
+/// The texels that are already there. A new patch has to agree with these.
 #[derive(Debug)]
 pub(crate) struct Overlap {
     /// Column and row within the patch, colour and height, weight.
@@ -40,7 +40,6 @@ impl<'a> SourceCanvas<'a> {
         ((x + column) % size, (y + row) % size)
     }
 
-    /// The texels of the patch of a cell that are already there.
     pub(crate) fn overlap(&self, cell: [usize; 2]) -> Overlap {
         let mut texels = Vec::new();
         for row in 0..self.grid.patch {
@@ -57,8 +56,8 @@ impl<'a> SourceCanvas<'a> {
         Overlap { texels, weights }
     }
 
-    /// Weighted mean of the squared differences between the patch that starts at `place` of the
-    /// sample and what is there.
+    /// Weighted mean of the squared differences between what is there and the patch that starts at
+    /// `place` of the sample.
     pub(crate) fn cost(&self, overlap: &Overlap, [x, y]: [u16; 2]) -> f32 {
         let mut sum = 0.0;
         for &([column, row], there, weight) in &overlap.texels {
@@ -75,7 +74,7 @@ impl<'a> SourceCanvas<'a> {
             [place[0] + column as u16, place[1] + row as u16]
         }
         let mut takes = vec![true; patch * patch];
-        // `at(along, across)`: a texel of the strip, `across` counted from the patch's border.
+        // `at(along, across)` is a texel of the strip. `across` counts from the patch's border.
         let mut cut = |width: usize, at: &dyn Fn(usize, usize) -> (usize, usize)| {
             if width == 0 {
                 return;
@@ -114,21 +113,19 @@ impl<'a> SourceCanvas<'a> {
         }
     }
 
-    /// Source of the texel at the middle of a cell's patch.
     pub(crate) fn middle(&self, cell: [usize; 2]) -> (usize, usize) {
         self.texel(cell, self.grid.patch / 2, self.grid.patch / 2)
     }
 }
 
-/// A source as an index of a field.
 #[inline]
 pub(crate) fn as_texel([x, y]: [u16; 2]) -> (usize, usize) {
     (usize::from(x), usize::from(y))
 }
 
 /// Column of the cut in every row of a strip with `width` errors a row. Columns of neighbouring
-/// rows differ by one at most. The sum of errors along the cut is the least possible. Of equal ones
-/// the leftmost is taken.
+/// rows differ by one at most. The sum of errors along the cut is the least possible. Among equal
+/// ones, this takes the leftmost.
 pub(crate) fn cheapest_cut(errors: &[f32], width: usize) -> Vec<usize> {
     let rows = errors.len() / width;
     let mut sums = errors.to_vec();
@@ -155,13 +152,13 @@ pub(crate) fn cheapest_cut(errors: &[f32], width: usize) -> Vec<usize> {
     cut
 }
 
-/// Texels on either side of a seam that are synthesised anew.
+/// We synthesise this many texels on either side of a seam anew.
 const REACH: isize = 2;
 /// Half the width of the neighbourhood that a texel has to fit.
 const NEAR: isize = 3;
 
 /// Synthesises the texels at seams anew. Candidates are the sources of the texels around, shifted
-/// (k-coherence, Tong and others 2002). The one that fits its neighbourhood best is taken.
+/// (k-coherence, Tong and others 2002). We take the one that fits its neighbourhood best.
 pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
     let mut seams = seam_texels(level, sources);
     // Worst first, ties in the order of rows.
@@ -178,10 +175,9 @@ pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
                 candidates.push(place);
             }
         }
-        let misfit = |&place: &(isize, isize)| misfit(level, sources, texel, place);
         let mut best: Option<(f32, (isize, isize))> = None;
         for place in candidates {
-            let found = misfit(&place);
+            let found = misfit(level, sources, texel, place);
             if best.is_none_or(|(least, _)| found < least) {
                 best = Some((found, place));
             }
@@ -192,8 +188,8 @@ pub(crate) fn mend(level: &Level, sources: &mut Field<[u16; 2]>) {
     }
 }
 
-/// Mean squared difference between the neighbourhoods of a place in the sample and of a texel of
-/// the map.
+/// Mean squared difference between the neighbourhoods of a place in the sample and a texel of the
+/// map.
 fn misfit(
     level: &Level,
     sources: &Field<[u16; 2]>,
@@ -211,7 +207,7 @@ fn misfit(
             count += 1.0;
         }
     }
-    // Places at the border of the sample are judged by fewer texels. Half of them must be there.
+    // We judge places at the border of the sample by fewer texels. Half of them must be there.
     if count < 25.0 { f32::INFINITY } else { sum / count }
 }
 
@@ -264,19 +260,19 @@ fn is_inside(level: &Level, (x, y): (isize, isize)) -> bool {
     x >= 0 && y >= 0 && x < width && y < height && level.mask[(x as usize, y as usize)]
 }
 
-/// Number of patches laid from each block of a sample.
 #[derive(Debug)]
 pub(crate) struct Usage {
     counts: Field<u32>,
     block: usize,
     patch: usize,
-    /// Number of patches that a block would give if all were used alike.
+    /// A block gives this many patches if all are used alike.
     fair: f32,
     uniformity: f32,
 }
 
 impl Usage {
-    /// Of a sample from which `patches` patches of `patch` x `patch` texels will be laid.
+    /// Counts the use of a sample from which you will lay `patches` patches of `patch` x `patch`
+    /// texels.
     pub(crate) fn new(level: &Level, patch: usize, patches: usize, uniformity: f32) -> Self {
         let block = (patch / 2).max(1);
         let width = level.mask.width();
@@ -287,13 +283,12 @@ impl Usage {
         Self { counts, block, patch, fair, uniformity }
     }
 
-    /// Factor on the cost of a patch: 1 for an unused one, growing with its use.
+    /// Factor on the cost of a patch. It is 1 for an unused one and grows with its use.
     pub(crate) fn penalty(&self, place: [u16; 2]) -> f32 {
         let [x, y] = place.map(|first| (usize::from(first) + self.patch / 2) / self.block);
         1.0 + self.uniformity * self.counts[(x, y)] as f32 / self.fair.max(1.0)
     }
 
-    /// Notes that a patch was laid.
     pub(crate) fn note(&mut self, place: [u16; 2]) {
         let blocks = |first: u16| {
             let first = usize::from(first);

@@ -1,10 +1,10 @@
-//! Samples made ready for synthesis: pyramids, grids of patches, patches described by few numbers,
-//! and the patches most like a given one: the coherence search space of Yan and others (2008,
-//! section 4.2), kept as nearest neighbours.
+//! Prepares samples for synthesis: pyramids, grids of patches, and patches described by few
+//! numbers. For a given patch you can find the patches most like it. This is the coherence search
+//! space of Yan and others (2008, section 4.2), stored as nearest neighbours.
 //!
-//! A patch is sampled at up to 7 x 7 places after smoothing, and projected onto the principal
-//! components of the patches of all samples. Neighbours are found by comparing all descriptors:
-//! with some 30 components, comparing all is exact and as fast as a tree.
+//! We sample a patch at up to 7 x 7 places after smoothing, and project it onto the principal
+//! components of the patches of all samples. To find neighbours we compare all descriptors. With
+//! about 30 components, this is exact and as fast as a tree.
 
 use graphics::blurred;
 use graphics::field::Field;
@@ -14,13 +14,12 @@ use rayon::prelude::*;
 use super::level::{Channels, FEATURES, Level, PatchGrid, SynthesisError, SynthesisSettings};
 use crate::sample::{Sample, SampleSet};
 
-/// Places along a side at which a patch is sampled.
+/// We sample a patch at this many places along a side.
 const SAMPLES: usize = 7;
-/// Numbers of a sampled patch.
 const NUMBERS: usize = SAMPLES * SAMPLES * FEATURES;
-/// Share of the variance that the components keep.
+/// The components keep this share of the variance.
 const KEPT: f64 = 0.97;
-/// Patches of each sample from which the components are found.
+/// We find the components from this many patches of each sample.
 const TRAINED: usize = 600;
 
 /// Principal components of patches of one size.
@@ -28,7 +27,6 @@ const TRAINED: usize = 600;
 pub(crate) struct PatchSpace {
     patch: usize,
     mean: Vec<f32>,
-    /// One unit vector after the other.
     components: Vec<f32>,
 }
 
@@ -37,16 +35,14 @@ pub(crate) struct PatchSpace {
 pub(crate) struct Descriptors {
     /// First texel of each patch.
     pub(crate) places: Vec<[u16; 2]>,
-    /// Index of the patch at each texel, `u32::MAX` where there is none.
+    /// Index of the patch at each texel. `u32::MAX` means that there is none.
     index: Field<u32>,
     dimensions: usize,
     values: Vec<f32>,
 }
 
-/// A patch that resembles another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Link {
-    /// First texel of the patch.
     pub(crate) place: [u16; 2],
     /// Mean squared difference of the features of both patches, which have deviation 1.
     pub(crate) distance: f32,
@@ -66,7 +62,7 @@ impl PatchSpace {
         let mean: Vec<f64> = (0..NUMBERS)
             .map(|i| rows.iter().map(|row| f64::from(row[i])).sum::<f64>() / count)
             .collect();
-        // Summed by our own loops: a library's product may round differently on other machines.
+        // We sum in our own loops: a library's product may round differently on other machines.
         let covariance: Vec<Vec<f64>> = (0..NUMBERS)
             .into_par_iter()
             .map(|i| {
@@ -98,7 +94,6 @@ impl PatchSpace {
         Self { patch, mean: mean.iter().map(|mean| *mean as f32).collect(), components }
     }
 
-    /// Describes all patches of a sample.
     pub(crate) fn describe(&self, level: &Level) -> Descriptors {
         let smooth = smoothed(level, self.patch);
         let places = level.places(self.patch);
@@ -137,19 +132,22 @@ impl Descriptors {
         (index != u32::MAX).then(|| self.of(index as usize))
     }
 
-    /// The `count` patches most like the one described by `wanted`, nearest first, of equal ones
-    /// the first in the sample.
+    /// The `count` patches most like the one described by `wanted`, nearest first. Among equal
+    /// ones, the first in the sample comes first.
     pub(crate) fn nearest(&self, wanted: &[f32], count: usize) -> Vec<Link> {
         let mut all: Vec<(f32, u32)> = (0..self.places.len())
             .map(|index| (distance(wanted, self.of(index)), index as u32))
             .collect();
-        let order = |a: &(f32, u32), b: &(f32, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        fn order(a: &(f32, u32), b: &(f32, u32)) -> std::cmp::Ordering {
+            a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+        }
         if count < all.len() {
             all.select_nth_unstable_by(count, order);
             all.truncate(count);
         }
         all.sort_unstable_by(order);
-        // By reference: collected from the list itself, links would keep the memory of all patches.
+        // We go by reference. Links collected from the list itself would keep the memory of all
+        // patches.
         all.iter()
             .map(|&(distance, index): &(f32, u32)| Link {
                 place: self.places[index as usize],
@@ -188,7 +186,6 @@ fn product(a: &[f32; NUMBERS], b: &[f32]) -> f32 {
     lanes.iter().sum()
 }
 
-/// Distance of the places at which a patch is sampled, in texels.
 fn stride(patch: usize) -> f64 {
     patch as f64 / SAMPLES.min(patch) as f64
 }
@@ -210,32 +207,28 @@ fn sampled(smooth: &Field<[f32; FEATURES]>, [x, y]: [u16; 2], patch: usize) -> [
     numbers
 }
 
-/// Texels of a patch at the finest level.
+/// A patch may have this many texels at the finest level.
 const PATCHES: std::ops::RangeInclusive<usize> = 16..=64;
-/// Least side of a patch at a coarser level.
 const LEAST_PATCH: usize = 8;
-/// Least size of the coarsest map.
 const LEAST_SIZE: usize = 32;
-/// Least number of places for patches in a sample at a level but the finest.
+/// A sample needs this many places for patches at each level but the finest.
 const LEAST_PLACES: usize = 64;
-/// Least number of strokes beside each other on a map.
+/// A map must have this many strokes beside each other.
 const LEAST_STROKES: f64 = 4.0;
-/// Largest ratio of the spacings of two samples.
+/// Spacings of two samples may differ by at most this factor.
 const UNLIKE: f64 = 1.1;
 
-/// Samples ready for synthesis. Levels are in order from the coarsest to the finest.
+/// Samples ready for synthesis. Levels go from the coarsest to the finest.
 #[derive(Debug)]
 pub(crate) struct Prepared {
-    /// Patches of the maps, by level.
     pub(crate) grids: Vec<PatchGrid>,
-    /// Levels of each sample.
     pub(crate) pyramids: Vec<Vec<Level>>,
     /// Index of the sample that gets the first map.
     pub(crate) first: usize,
-    /// Its described patches, by level. The patches of the others are described as they are needed:
-    /// they take the most memory.
+    /// The described patches of the first sample, by level. We describe the patches of the others
+    /// when we need them, because they take the most memory.
     pub(crate) of_first: Vec<Descriptors>,
-    /// Channels that describe patches, for each level.
+    /// Channels that describe patches at each level.
     spaces: Vec<PatchSpace>,
     /// Width and height of a patch at the finest level, in texels.
     pub(crate) patch: usize,
@@ -264,23 +257,23 @@ impl Prepared {
             Some(name) => named(samples, name)?,
             None => strongest(&pyramids),
         };
-        let space = |index: usize| {
-            let levels: Vec<&Level> = pyramids.iter().map(|pyramid| &pyramid[index]).collect();
-            PatchSpace::of(&levels, grids[index].patch)
-        };
-        let spaces: Vec<PatchSpace> = (0..grids.len()).map(space).collect();
+        let spaces: Vec<PatchSpace> = (0..grids.len())
+            .map(|index: usize| {
+                let levels: Vec<&Level> = pyramids.iter().map(|pyramid| &pyramid[index]).collect();
+                PatchSpace::of(&levels, grids[index].patch)
+            })
+            .collect();
         let of_first =
             spaces.iter().zip(&pyramids[first]).map(|(space, level)| space.describe(level));
         let of_first = of_first.collect();
         Ok(Self { grids, pyramids, first, of_first, spaces, patch })
     }
 
-    /// Describes the patches of a sample at a level.
     pub(crate) fn described(&self, sample: usize, level: usize) -> Descriptors {
         self.spaces[level].describe(&self.pyramids[sample][level])
     }
 
-    /// Channels by which patches of a sample are compared, at the finest level.
+    /// Channels by which you compare patches of a sample, at the finest level.
     pub(crate) fn features(&self, sample: usize) -> Option<&Field<[f32; FEATURES]>> {
         self.pyramids[sample].last().map(|level| &level.features)
     }
@@ -302,7 +295,7 @@ fn check_settings(settings: &SynthesisSettings) -> Result<(), SynthesisError> {
     check("uniformity", f64::from(settings.uniformity), 0.0, 16.0)
 }
 
-/// The spacing of all samples, which may differ a little.
+/// The spacing of all samples. They may differ a little.
 fn common_spacing(samples: &[Sample], size: usize) -> Result<f64, SynthesisError> {
     let first = samples.first().ok_or(SynthesisError::NoSample)?;
     let most = size as f64 / LEAST_STROKES;
@@ -325,7 +318,7 @@ fn common_spacing(samples: &[Sample], size: usize) -> Result<f64, SynthesisError
     Ok(first.spacing)
 }
 
-/// Grids of the levels, coarsest first: as many as map and samples have room for.
+/// Grids of the levels, coarsest first. There are as many as map and samples have room for.
 fn grids(size: usize, patch: usize, samples: &[Sample]) -> Vec<PatchGrid> {
     let sides = samples.iter().map(|sample| sample.size().0.min(sample.size().1));
     let least_side = sides.min().unwrap_or(0);
@@ -334,7 +327,7 @@ fn grids(size: usize, patch: usize, samples: &[Sample]) -> Vec<PatchGrid> {
         let halvings = grids.len();
         let size = size >> halvings;
         let patch = (patch >> halvings).max(LEAST_PATCH);
-        // A coarse level with few places to choose from would repeat them.
+        // A coarse level with few places to choose from would repeat these.
         if size < LEAST_SIZE || least_side >> halvings < 2 * patch {
             break;
         }
@@ -344,8 +337,8 @@ fn grids(size: usize, patch: usize, samples: &[Sample]) -> Vec<PatchGrid> {
     grids
 }
 
-/// Leaves out coarse levels at which some sample has too few places for patches, as a passage of
-/// irregular outline may have. The finest level stays.
+/// Leaves out coarse levels at which some sample has too few places for patches. For example, a
+/// passage of irregular outline may have too few. This keeps the finest level.
 fn leave_out_crowded(grids: &mut Vec<PatchGrid>, pyramids: &mut [Vec<Level>]) {
     let first = (0..grids.len() - 1)
         .find(|index: &usize| {
@@ -357,7 +350,6 @@ fn leave_out_crowded(grids: &mut Vec<PatchGrid>, pyramids: &mut [Vec<Level>]) {
     pyramids.iter_mut().for_each(|pyramid| drop(pyramid.drain(..first)));
 }
 
-/// Levels of a sample, coarsest first.
 fn pyramid(
     sample: &Sample,
     spacing: f64,
@@ -403,7 +395,8 @@ fn named(samples: &[Sample], name: &str) -> Result<usize, SynthesisError> {
     })
 }
 
-/// Index of the sample with the strongest contrast of lightness. Of equal ones the first.
+/// Index of the sample with the strongest contrast of lightness. If several are equal, this is the
+/// first.
 fn strongest(pyramids: &[Vec<Level>]) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for (index, pyramid) in pyramids.iter().enumerate() {

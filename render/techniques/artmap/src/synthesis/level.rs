@@ -1,8 +1,8 @@
-//! One level of a sample's Gaussian pyramid with the values that patches are compared by, the grid
-//! of patches on a map that tiles, and the settings and errors of the synthesis.
+//! One level of a sample's Gaussian pyramid with the values by which we compare patches. Also the
+//! grid of patches on a map that tiles, and the settings and errors of the synthesis.
 //!
-//! Samples may be nested: their strokes stand at the places of another sample's strokes, as in
-//! painted tones with the same strokes.
+//! Samples may be nested. This means that their strokes stand at the places of another sample's
+//! strokes, e.g. in painted tones with the same strokes.
 
 use documents::hint::Explain;
 use graphics::blurred;
@@ -12,15 +12,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::sample::Sample;
 
-/// Number of channels that patches of different samples are compared by.
+/// We compare patches of different samples by this many channels.
 pub(crate) const FEATURES: usize = 5;
-/// Number of channels that overlaps within a sample are compared by.
+/// We compare overlaps within a sample by this many channels.
 pub(crate) const LOOKS: usize = 4;
-/// Deviation of the blur before a level is halved, in texels.
+/// We blur by this deviation before we halve a level, in texels.
 const BEFORE_HALVING: f64 = 0.8;
-/// Weight of height beside colour where overlaps are compared.
+/// Weight of height beside colour when we compare overlaps.
 const HEIGHT: f32 = 0.7;
-/// Deviation of a* or b* in CIELAB below which a sample counts as grey.
+/// If the deviation of a* or b* in CIELAB is below this, a sample counts as grey.
 const GREY: f64 = 1.0;
 
 /// L*, a*, b* and height in mm of a sample at one resolution.
@@ -30,18 +30,15 @@ pub(crate) struct Channels {
     mask: Field<bool>,
 }
 
-/// A level of the pyramid of a sample.
 #[derive(Debug, Clone)]
 pub(crate) struct Level {
-    /// Colour and height, scaled by their deviation, for comparing texels of this sample.
+    /// Colour and height, scaled by their deviation. Use this to compare texels of this sample.
     pub(crate) look: Field<[f32; LOOKS]>,
-    /// Channels of deviation 1, for comparing patches of different samples.
+    /// Channels of deviation 1. Use this to compare patches of different samples.
     pub(crate) features: Field<[f32; FEATURES]>,
-    /// Weight of a texel in overlaps, 1 and up: more at edges.
+    /// Weight of a texel in overlaps. It is 1, and more at edges.
     pub(crate) weight: Field<f32>,
-    /// Texels that belong to the sample.
     pub(crate) mask: Field<bool>,
-    /// Deviation of L*.
     pub(crate) contrast: f64,
 }
 
@@ -81,7 +78,7 @@ impl Channels {
         Self { values, mask: Field::from_values(width, height, mask) }
     }
 
-    /// Blurs the channels. Texels outside the mask give nothing and take their neighbours'.
+    /// Blurs the channels. This fills texels outside the mask from their neighbours.
     fn smooth(&self, sigma: f64) -> Field<[f32; LOOKS]> {
         let weighed = self
             .values
@@ -112,7 +109,7 @@ impl Channels {
         )
     }
 
-    /// Slope of a channel of `fine` over its L*, over the mask, 0 where L* is even.
+    /// Slope of a channel of `fine` over its L*, over the mask. This is 0 where L* is even.
     fn slope_over_lightness(&self, fine: &Field<[f32; LOOKS]>, channel: usize) -> f32 {
         let (mean, deviation) = self.moments(|index| fine.values()[index][0]);
         let covariance = self
@@ -124,7 +121,7 @@ impl Channels {
         if deviation > 0.0 { (covariance / (deviation * deviation)) as f32 } else { 0.0 }
     }
 
-    /// Mean and deviation of a channel over the mask, with its values given by `value`.
+    /// Mean and deviation of a channel over the mask. `value` gives its values.
     fn moments(&self, value: impl Fn(usize) -> f32) -> (f64, f64) {
         let inside = || (0..self.mask.values().len()).filter(|&index| self.mask.values()[index]);
         let count = inside().count().max(1) as f64;
@@ -135,15 +132,15 @@ impl Channels {
 }
 
 impl Level {
-    /// The level of `channels`, with strokes `spacing` texels apart.
+    /// Builds a level from `channels`, with strokes `spacing` texels apart.
     pub(crate) fn new(channels: &Channels, spacing: f64, features: Features) -> Self {
         let values = &channels.values;
         let width = values.width();
         let height = values.height();
         let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
         let edges = edge_strength(&fine);
-        // Across the tones of one paint, a* and b* may rise or fall with L*. What follows from L*
-        // is left to L*.
+        // Across the tones of one paint, a* and b* may rise or fall with L*. We leave to L* what
+        // follows from L*.
         let slopes = [1, 2].map(|channel| channels.slope_over_lightness(&fine, channel));
         let raw = |index: usize| {
             let [l, a, b, height] = fine.values()[index];
@@ -158,10 +155,6 @@ impl Level {
             };
             (mean as f32, if used { (1.0 / deviation) as f32 } else { 0.0 })
         });
-        let scaled = |index: usize| {
-            let raw = raw(index);
-            std::array::from_fn(|feature| (raw[feature] - scales[feature].0) * scales[feature].1)
-        };
         let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
         let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
         fn per(deviation: f64) -> f32 {
@@ -169,17 +162,37 @@ impl Level {
         }
         let per_color = per(color);
         let per_height = HEIGHT * per(deviation(3));
-        let look = |&[l, a, b, height]: &[f32; LOOKS]| {
-            [l * per_color, a * per_color, b * per_color, height * per_height]
-        };
         let mean_edge = channels.moments(|index| edges[index]).0 as f32;
-        let weight = |edge: &f32| if mean_edge > 0.0 { 1.0 + 2.0 * edge / mean_edge } else { 1.0 };
-        let looks = values.values().iter().map(look).collect();
-        let scaled = (0..width * height).map(scaled).collect();
+        let looks = values
+            .values()
+            .iter()
+            .map(|&[l, a, b, height]: &[f32; LOOKS]| {
+                [l * per_color, a * per_color, b * per_color, height * per_height]
+            })
+            .collect();
+        let scaled = (0..width * height)
+            .map(|index: usize| {
+                let raw = raw(index);
+                std::array::from_fn(|feature| {
+                    (raw[feature] - scales[feature].0) * scales[feature].1
+                })
+            })
+            .collect();
         Self {
             look: Field::from_values(width, height, looks),
             features: Field::from_values(width, height, scaled),
-            weight: Field::from_values(width, height, edges.iter().map(weight).collect()),
+            weight: Field::from_values(
+                width,
+                height,
+                edges
+                    .iter()
+                    .map(
+                        |edge: &f32| {
+                            if mean_edge > 0.0 { 1.0 + 2.0 * edge / mean_edge } else { 1.0 }
+                        },
+                    )
+                    .collect(),
+            ),
             mask: channels.mask.clone(),
             contrast: channels.moments(|index| fine.values()[index][0]).1,
         }
@@ -190,8 +203,8 @@ impl Level {
         self.features.values().iter().all(|features| features.iter().all(|value| *value == 0.0))
     }
 
-    /// Places whose patch of `patch` x `patch` texels, from there to the right and down, lies in
-    /// the mask, row by row.
+    /// Places at which you can put a patch of `patch` x `patch` texels. It goes from there to the
+    /// right and down, and must lie in the mask. The places come row by row.
     pub(crate) fn places(&self, patch: usize) -> Vec<[u16; 2]> {
         let width = self.mask.width();
         let height = self.mask.height();
@@ -223,7 +236,6 @@ impl Level {
     }
 }
 
-/// Length of the gradient of L* at every texel.
 fn edge_strength(fine: &Field<[f32; LOOKS]>) -> Vec<f32> {
     let width = fine.width();
     let height = fine.height();
@@ -394,12 +406,10 @@ pub enum SynthesisError {
     },
 }
 
-/// Patches of one size in equal distances on a torus, overlapping by a third or more.
+/// Patches of one size at equal distances on a torus. They overlap by a third or more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PatchGrid {
-    /// Width and height of the map in texels.
     pub(crate) size: usize,
-    /// Width and height of a patch in texels.
     pub(crate) patch: usize,
     /// Number of patches in a row and in a column, at least 3.
     pub(crate) count: usize,
@@ -411,13 +421,12 @@ impl PatchGrid {
         Self { size, patch, count: size.div_ceil(step).max(3) }
     }
 
-    /// First texel of the patches of a row or column.
     pub(crate) fn origin(&self, index: usize) -> usize {
         index * self.size / self.count
     }
 
-    /// Number of texels that a patch shares with the one before it and, for the last one, with the
-    /// first one behind the border.
+    /// Number of texels that a patch shares with the one before it. The last one also shares some
+    /// with the first one behind the border.
     pub(crate) fn overlaps(&self, index: usize) -> [usize; 2] {
         let end = |index: usize| self.origin(index) + self.patch;
         let before = if index > 0 { end(index - 1).saturating_sub(self.origin(index)) } else { 0 };
@@ -426,14 +435,13 @@ impl PatchGrid {
         [before, after]
     }
 
-    /// All patches in rows from the top: column and row.
     pub(crate) fn cells(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
         let count = self.count;
         (0..count * count).map(move |index| [index % count, index / count])
     }
 }
 
-/// Correlation of lightness from which on two samples count as nested. Samples of different
+/// From this correlation of lightness on, two samples count as nested. Samples of different
 /// strokes have less than 0.2, painted tones of the same strokes more than 0.4.
 const NESTED: f64 = 0.3;
 
@@ -443,7 +451,6 @@ pub(crate) fn is_nested(first: &Level, other: &Level) -> bool {
     first.mask == other.mask && correlation(first, other) >= NESTED
 }
 
-/// Correlation of the smoothed L* of two samples, texel by texel.
 fn correlation(first: &Level, other: &Level) -> f64 {
     let inside = first.mask.values();
     fn lightness(level: &Level, at: usize) -> f64 {

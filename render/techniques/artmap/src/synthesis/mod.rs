@@ -1,5 +1,5 @@
-//! Textures that tile, synthesised from samples: each texel is a place in its sample. Maps of all
-//! samples of a set, and pictures of how they are made, step by step.
+//! Textures that tile, synthesised from samples. Each texel is a place in its sample. You get maps
+//! of all samples of a set, and if you like, pictures of how they are made, step by step.
 
 mod level;
 mod descriptors;
@@ -20,13 +20,14 @@ use patches::{Following, LevelMap, first_level};
 
 pub use level::{Features, SynthesisError, SynthesisSettings};
 
-/// Tileable maps, one of each sample. Their strokes stand at the places of the first map's strokes.
+/// Maps that tile, one of each sample. Their strokes stand at the places of the first map's
+/// strokes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeyMaps {
     /// Index of the sample that got the first map.
     pub first: usize,
-    /// For every map, in the order of the samples: the texel (column and row) of the sample that
-    /// each texel of the map shows.
+    /// For every map, in the order of the samples: each texel has the column and row of the texel
+    /// in the sample that this shows.
     pub sources: Vec<Field<[u16; 2]>>,
     /// Width and height of a patch at the finest level, in texels.
     pub patch: usize,
@@ -36,10 +37,10 @@ pub struct KeyMaps {
 
 /// Synthesises a map of each sample (Yan and others 2008, section 4.3).
 ///
-/// The first map is made freely. The others take, patch by patch, what in their own sample is most
-/// like the first map there and agrees with their patches already laid. A sample that has its
-/// strokes at the places of the first one shows the same places. The same input gives the same maps
-/// with any number of threads.
+/// We make the first map freely. For the others we take, patch by patch, what in their own sample
+/// is most like the first map there and agrees with their patches already laid. If a sample has
+/// its strokes at the places of the first one, it shows the same places. You get the same maps for
+/// the same input with any number of threads.
 ///
 /// # Errors
 /// [`SynthesisError`] for settings out of range, and for samples that are too small, flat, or of
@@ -50,7 +51,6 @@ pub fn key_maps(set: &SampleSet, settings: &SynthesisSettings) -> Result<KeyMaps
 }
 
 impl KeyMaps {
-    /// The finest of the levels of all maps.
     pub(crate) fn of(prepared: &Prepared, maps: Vec<Vec<LevelMap>>) -> Self {
         let Prepared { first, patch, ref grids, .. } = *prepared;
         let sources = maps
@@ -63,7 +63,6 @@ impl KeyMaps {
     }
 }
 
-/// All levels of the map of each sample, coarsest first.
 pub(crate) fn level_maps(prepared: &Prepared, settings: &SynthesisSettings) -> Vec<Vec<LevelMap>> {
     let Prepared { grids, pyramids, first, of_first, .. } = prepared;
     let first = *first;
@@ -95,16 +94,15 @@ pub(crate) fn level_maps(prepared: &Prepared, settings: &SynthesisSettings) -> V
         .collect()
 }
 
-/// Encoded grey of what has no information, and of a feature of its mean value.
+/// Encoded grey of texels without information. A feature of its mean value has this grey too.
 const GREY: f64 = 0.5;
 
-/// Deviations of a feature from grey to white.
+/// A feature goes from grey to white over this many deviations.
 const DEVIATIONS: f64 = 3.0;
 
-/// Texels between features.
 const GAP: usize = 4;
 
-/// A picture of one step of a synthesis.
+/// A picture of one step of a synthesis. You can use this to see why a map came out as it did.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
     /// Name in letters, digits and hyphens. Samples and levels count from 1, coarse to fine.
@@ -113,7 +111,7 @@ pub struct Stage {
     pub picture: Picture,
 }
 
-/// Synthesises maps as [`key_maps`] does, to the bit, with pictures of the steps in their
+/// Synthesises maps as [`key_maps`] does, to the bit. You also get pictures of the steps in their
 /// order:
 ///
 /// - `sample-1` and on: the samples, dark to light,
@@ -144,7 +142,7 @@ pub fn key_maps_with_stages(
     let levels = prepared.grids.len();
     let all: Vec<(usize, usize)> =
         (0..count).flat_map(|at| (0..levels).map(move |level| (at, level))).collect();
-    // One after the other, so that the patches of one sample are in memory at a time.
+    // We go one after the other, so that the patches of only one sample are in memory at a time.
     stages.extend(all.iter().map(|&(at, level): &(usize, usize)| {
         let sources = linked(&prepared, &maps[prepared.first][level], (at, level));
         let shown = shown(&set.samples[at], levels - 1 - level, &sources);
@@ -165,7 +163,7 @@ fn stage(name: String, picture: Picture) -> Stage {
     Stage { name, picture }
 }
 
-/// A sample with its sides halved so many times, grey where it has no texel.
+/// A sample with its sides halved this many times. It is grey where it has no texel.
 fn shrunk(sample: &Sample, halvings: usize) -> Picture {
     let (width, height) = sample.size();
     let side = 1 << halvings;
@@ -191,7 +189,6 @@ fn shrunk(sample: &Sample, halvings: usize) -> Picture {
     )
 }
 
-/// Colours of a sample at a level, at the places of `sources`.
 fn shown(sample: &Sample, halvings: usize, sources: &Field<[u16; 2]>) -> Picture {
     let small = shrunk(sample, halvings);
     let last = (small.width() - 1, small.height() - 1);
@@ -203,8 +200,8 @@ fn shown(sample: &Sample, halvings: usize, sources: &Field<[u16; 2]>) -> Picture
     Field::from_values(sources.width(), sources.height(), colors)
 }
 
-/// Places of the patches of a sample that are most like the patches of the first map, laid without
-/// seams being cut.
+/// Places of the patches of a sample that are most like the patches of the first map. This lays
+/// them without cutting seams.
 fn linked(
     prepared: &Prepared,
     first: &LevelMap,
@@ -233,7 +230,7 @@ fn linked(
     sources
 }
 
-/// The channels of features as greys beside each other: the mean is grey, lower is darker.
+/// The channels of features as greys beside each other. The mean is grey, lower is darker.
 fn beside(features: &Field<[f32; FEATURES]>, mask: &Field<bool>) -> Picture {
     let width = features.width();
     let height = features.height();
@@ -249,7 +246,6 @@ fn beside(features: &Field<[f32; FEATURES]>, mask: &Field<bool>) -> Picture {
     picture
 }
 
-/// Linear value of an encoded grey.
 fn grey(encoded: f64) -> f32 {
     Rgb([encoded.clamp(0.0, 1.0); 3]).linear().0[0] as f32
 }
@@ -356,7 +352,6 @@ mod tests {
         SynthesisSettings { size: 128, ..SynthesisSettings::default() }
     }
 
-    /// Colour of a map.
     fn color(sample: &Sample, sources: &Field<[u16; 2]>) -> Picture {
         Field::from_values(
             sources.width(),
@@ -457,8 +452,8 @@ mod tests {
                 seams.push(wrap_ratio(&map));
             }
         }
-        // Both figures scatter by 0.15 even over crops of one sample of this size, so their means are
-        // held to the bounds.
+        // Both figures scatter by 0.15 even over crops of one sample of this size, so we bound
+        // their means.
         fn mean(values: &[f64]) -> f64 {
             values.iter().sum::<f64>() / values.len() as f64
         }
@@ -556,7 +551,6 @@ mod tests {
         for index in 0..240 * 240 {
             let x = index % 240;
             let y = index / 240;
-            // Bars 26 texels wide.
             mask[(x, y)] = (x + y / 3) % 60 < 26;
         }
         let maps = key_maps(&samples, &small()).unwrap();

@@ -1,7 +1,7 @@
-//! Patch by patch synthesis: places that continue what the coarser level or neighbouring patches
-//! show.
+//! Synthesis patch by patch. It looks for places that continue what the coarser level or
+//! neighbouring patches show.
 //!
-//! The first map is made after Wei and Levoy (2000), at several resolutions. The others follow it
+//! We make the first map after Wei and Levoy (2000), at several resolutions. The others follow it
 //! by equations 4 to 6 of Yan and others (2008).
 
 use graphics::field::Field;
@@ -13,7 +13,6 @@ use super::canvas::{SourceCanvas, Usage, as_texel, mend};
 use super::descriptors::{Descriptors, Link, distance};
 use super::level::{Level, PatchGrid, difference};
 
-/// A finished level of a map.
 #[derive(Debug, Clone)]
 pub(crate) struct LevelMap {
     /// Texel of the sample's level that each texel of the map shows.
@@ -22,8 +21,8 @@ pub(crate) struct LevelMap {
     pub(crate) places: Vec<[u16; 2]>,
 }
 
-/// Place from which a patch shows, `into` texels into it, what the coarser level shows at a texel
-/// of the map.
+/// Finds the place for a patch so that it shows, `into` texels into it, what the coarser level
+/// shows at a texel of the map.
 pub(crate) fn from_coarser(
     coarser: &LevelMap,
     texel: (usize, usize),
@@ -37,7 +36,6 @@ pub(crate) fn from_coarser(
     [fine(x, texel.0, into[0]), fine(y, texel.1, into[1])]
 }
 
-/// Places of the sample within `reach` texels of `middle`.
 pub(crate) fn around(
     middle: [isize; 2],
     reach: isize,
@@ -48,14 +46,13 @@ pub(crate) fn around(
         .filter_map(|place| existing(place, described))
 }
 
-/// A place as whole numbers, if a patch of the sample starts there.
+/// The place as whole numbers. `None` if no patch of the sample starts there.
 pub(crate) fn existing(place: [isize; 2], described: &Descriptors) -> Option<[u16; 2]> {
     let [x, y] = place.map(u16::try_from);
     let place = [x.ok()?, y.ok()?];
     described.at(place).map(|_| place)
 }
 
-/// Places that continue the patches to the left of and above a cell.
 pub(crate) fn continuations(
     canvas: &SourceCanvas<'_>,
     places: &[[u16; 2]],
@@ -81,14 +78,14 @@ pub(crate) fn continuations(
     found
 }
 
-/// Costs up to this factor of the least are equal, and chance decides (Efros and Freeman 2001).
+/// If costs are up to this factor of the least, they count as equal, and chance decides (Efros and
+/// Freeman 2001).
 const TOLERANCE: f32 = 1.1;
-/// Texels around the place of the coarser level that are tried.
+/// We try texels this far around the place of the coarser level.
 const REACH: isize = 2;
-/// Weight of the coarser level beside the overlap.
 const COARSER: f32 = 1.0;
 
-/// Synthesises one level of the first map from the coarser one, if there is one.
+/// Synthesises one level of the first map. It starts from the coarser level, if there is one.
 pub(crate) fn first_level(
     (level, described): (&Level, &Descriptors),
     grid: PatchGrid,
@@ -111,13 +108,15 @@ pub(crate) fn first_level(
             candidates.clone_from(&described.places);
         }
         let overlap = canvas.overlap(cell);
-        let cost = |&place: &[u16; 2]| {
-            let coarse = coarser.map_or(0.0, |(level, map)| {
-                COARSER * coarse_difference(level, map, &canvas, cell, place)
-            });
-            (canvas.cost(&overlap, place) + coarse) * usage.penalty(place)
-        };
-        let costs: Vec<f32> = candidates.iter().map(cost).collect();
+        let costs: Vec<f32> = candidates
+            .iter()
+            .map(|&place: &[u16; 2]| {
+                let coarse = coarser.map_or(0.0, |(level, map)| {
+                    COARSER * coarse_difference(level, map, &canvas, cell, place)
+                });
+                (canvas.cost(&overlap, place) + coarse) * usage.penalty(place)
+            })
+            .collect();
         let least = costs.iter().copied().fold(f32::INFINITY, f32::min);
         let good = candidates.iter().zip(&costs).filter(|(_, cost)| **cost <= TOLERANCE * least);
         let good: Vec<[u16; 2]> = good.map(|(place, _)| *place).collect();
@@ -131,7 +130,6 @@ pub(crate) fn first_level(
     LevelMap { sources, places }
 }
 
-/// Places near those that the coarser level shows at five texels of a cell's patch.
 fn placed_as(
     coarser: &LevelMap,
     canvas: &SourceCanvas<'_>,
@@ -155,7 +153,6 @@ fn placed_as(
         .collect()
 }
 
-/// Mean squared difference between the coarser map and the coarser level of a patch.
 fn coarse_difference(
     level: &Level,
     map: &LevelMap,
@@ -180,19 +177,17 @@ fn coarse_difference(
     sum / count
 }
 
-/// Data that the levels of one map share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Following {
-    /// Number of links of each patch.
     pub(crate) links: usize,
-    /// Weight of the distance of a link beside the error of the overlap.
+    /// Weight of a link's distance relative to the error of the overlap.
     pub(crate) follow: f32,
     pub(crate) uniformity: f32,
 }
 
 impl Following {
-    /// Synthesises level `number` (1 is the coarsest) of a map from the same level of the first map
-    /// and its own coarser level, if there is one.
+    /// Synthesises level `number` (1 is the coarsest) of a map from the same level of the first
+    /// map and its own coarser level, if there is one.
     ///
     /// Equation 6 weighs pixel values as it is printed. Here the weights belong to the costs.
     pub(crate) fn level(

@@ -1,5 +1,5 @@
-//! Kinds of files of texels, their description (JSON in attribute `impasto`, with the pigment
-//! library), and the errors of reading them.
+//! Kinds of files of texels. This has their description (JSON in attribute `impasto`, with the
+//! pigment library), and the errors that you get when you read them.
 
 use std::sync::Arc;
 
@@ -13,16 +13,14 @@ use serde_json::Value;
 
 use crate::texel_file::PaintOfSamples;
 
-/// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TexelFileKind {
-    /// Value of `format` in the description.
     pub(crate) format: &'static str,
-    /// Newest version, which is the one that is written.
+    /// Newest version. We write this one.
     pub(crate) version: u64,
     /// Content in words, for messages.
     pub(crate) content: &'static str,
-    /// Channels that no pigment's channel can be called.
+    /// You cannot give these names to a pigment's channel.
     pub(crate) reserved: &'static [&'static str],
 }
 
@@ -32,11 +30,9 @@ impl TexelFileKind {
     }
 }
 
-/// The file that is read.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Origin<'a> {
     pub(crate) kind: &'a TexelFileKind,
-    /// Path of the file.
     pub(crate) file: &'a str,
 }
 
@@ -71,7 +67,7 @@ impl Origin<'_> {
         TexelFileError::Part { file, part, reason: reason.into() }
     }
 
-    /// Fault of a channel, the first of the pair, for the reason that is the second.
+    /// Makes an error of a fault. The pair has the channel and the reason.
     pub(crate) fn channel(&self, part: &str, fault: (String, String)) -> TexelFileError {
         let file = self.file.to_owned();
         let part = part.to_owned();
@@ -85,7 +81,7 @@ impl Origin<'_> {
     }
 }
 
-/// The way out for parts and channels that are not as they were written.
+/// The hint for parts and channels that are not as we wrote them.
 const OTHER_PROGRAM: &str =
     "another program changed the file: keep parts, sizes and channels as they were";
 
@@ -201,7 +197,7 @@ pub(crate) fn encoded(
     ascii_json(description).map_err(|error| kind.unwritable(error.to_string()))
 }
 
-/// Parses a description after its keys `format` and `version` were found to match the kind.
+/// Parses a description. This first checks that its keys `format` and `version` match the kind.
 ///
 /// # Errors
 /// [`TexelFileError`] for another format or version, and for text that is not such a description.
@@ -235,7 +231,7 @@ pub(crate) fn encoded_library(
     library.map_err(|error| kind.unwritable(error.to_string()))
 }
 
-/// The paint that the values `pigments` and `library` of a description stand for.
+/// The paint that a description holds in its values `pigments` and `library`.
 ///
 /// # Errors
 /// [`TexelFileError`] if one of them is missing, if the library is invalid, and if the channels
@@ -258,8 +254,8 @@ pub(crate) fn paint_of(
     }
 }
 
-/// Returns the description if `back`, which was read from its text, equals it. JSON has no
-/// notation for NaN and infinity, and libraries are written in six digits.
+/// Returns the description if it equals `back`, which you read from its text. For example, JSON
+/// has no notation for NaN and infinity, and libraries are written in six digits.
 ///
 /// # Errors
 /// [`TexelFileError::Unwritable`] if it does not come back, with the reason.

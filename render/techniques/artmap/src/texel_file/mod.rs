@@ -1,10 +1,10 @@
-//! OpenEXR files of texels: parts of scan lines with named channels of 32-bit floats, compressed by
-//! PIZ, which is lossless, and a description in JSON.
+//! OpenEXR files of texels: parts of scan lines with named channels of 32-bit floats, compressed
+//! by PIZ, which is lossless, and a description in JSON.
 //!
-//! Samples and art maps are stored in such files. Their modules name the parts and channels, and
-//! this module encodes, checks and decodes them. The description stands in attribute `impasto` of
-//! the first part, in ASCII, and begins with the keys `format` and `version`. Parts are in the
-//! order of the description. Memory is allocated only after all parts were found to match it.
+//! We store samples and art maps in such files. Their modules name the parts and channels, and
+//! this module encodes, checks and decodes them. The description is in attribute `impasto` of the
+//! first part, in ASCII. It begins with the keys `format` and `version`. Parts are in the order of
+//! the description. We allocate memory only after all parts match the description.
 
 mod texels;
 mod kind;
@@ -29,11 +29,10 @@ pub(crate) use kind::{Origin, TexelFileKind, decoded, encoded, encoded_library, 
 pub(crate) use texels::{COLOR, HEIGHT, PartPlan, PartPlanes, Texels, VEHICLE, of_planes, of_text};
 pub use texels::{PaintOfSamples, TexelPaint};
 
-/// A part of the file that passed the checks.
 #[derive(Debug)]
 struct PartLayout {
     plan: PartPlan,
-    /// For each channel in the order of the file its place in the plan.
+    /// For each channel, in the order of the file, its index in the plan.
     places: Vec<usize>,
 }
 
@@ -116,10 +115,9 @@ fn check_part(
     }
 }
 
-/// Number of blocks that are read as a batch and then decompressed in parallel.
+/// We read this many blocks as a batch and then decompress them in parallel.
 const BATCH: usize = 64;
 
-/// A file with its headers read.
 pub(crate) struct Opened<'a> {
     origin: Origin<'a>,
     reader: Reader<Cursor<&'a [u8]>>,
@@ -180,10 +178,8 @@ impl<'a> Opened<'a> {
     }
 }
 
-/// A part that is filled row by row.
 struct Filling {
     layout: PartLayout,
-    /// Numbers of the channels in the order of the plan.
     planes: Vec<Vec<f32>>,
     rows: Vec<bool>,
 }
@@ -196,7 +192,6 @@ impl Filling {
         Self { layout, planes, rows: vec![false; height] }
     }
 
-    /// Takes over the rows of a block.
     fn fill(
         &mut self,
         origin: Origin<'_>,
@@ -217,7 +212,7 @@ impl Filling {
         Ok(())
     }
 
-    /// The part, if no row is missing.
+    /// The part. This fails if a row is missing.
     fn whole(self, origin: Origin<'_>) -> Result<PartPlanes, TexelFileError> {
         let plan = self.layout.plan;
         match self.rows.iter().position(|filled| !filled) {
@@ -250,14 +245,13 @@ fn block(
     Ok(block)
 }
 
-/// PIZ is lossless.
 const ENCODING: Encoding = Encoding {
     compression: Compression::PIZ,
     blocks: Blocks::ScanLines,
     line_order: LineOrder::Increasing,
 };
 
-/// Encodes parts as a file with their description. Equal parts always give equal bytes.
+/// Encodes parts as a file with their description. If you pass equal parts, you get equal bytes.
 ///
 /// # Errors
 /// [`TexelFileError::Unwritable`] if the encoder refuses the parts.
@@ -272,7 +266,7 @@ pub(crate) fn write(
     for PartPlanes { plan, planes } in parts {
         let mut own = LayerAttributes::named(plan.name.as_str());
         if layers.is_empty() {
-            // The encoder does not keep the order of several custom attributes.
+            // The encoder may change the order of several custom attributes.
             let text = AttributeValue::Text(description.into());
             own.other.extend([(Text::from(ATTRIBUTE), text)]);
         }
@@ -309,7 +303,7 @@ mod tests {
         vec![PartPlan::new("p.000", (5, 64), &["b", "a"]), PartPlan::new("p.001", (7, 3), &["a"])]
     }
 
-    /// Two parts, each number of which is another.
+    /// Two parts in which all numbers differ.
     fn parts() -> Vec<PartPlanes> {
         plans()
             .into_iter()
@@ -333,7 +327,6 @@ mod tests {
         error.to_string()
     }
 
-    /// Place of `wanted` in the bytes.
     fn place(bytes: &[u8], wanted: &[u8]) -> usize {
         bytes.windows(wanted.len()).position(|window| window == wanted).unwrap()
     }
@@ -391,8 +384,8 @@ mod tests {
     #[test]
     fn channels_of_other_numbers_are_refused() {
         let mut whole = bytes();
-        // A channel is its name, a zero, the type of its numbers (0 whole, 1 half, 2 float), a byte
-        // and three for its use, and its steps in x and y.
+        // A channel has these parts: its name, a zero, the type of its numbers (0 whole, 1 half, 2
+        // float), a byte and three for its use, and its steps in x and y.
         let at = place(&whole, b"\0b\0\x02\0\0\0");
         whole[at + 3] = 0;
         let error = refused(&whole, plans());

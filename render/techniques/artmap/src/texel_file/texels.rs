@@ -1,5 +1,5 @@
-//! Colour, paint and height of texels as the channels of a part, and digests that show whether a
-//! file still holds what was written.
+//! Colour, paint and height of texels as the channels of a part. Digests tell you whether a file
+//! still holds what was written.
 
 use std::sync::Arc;
 
@@ -10,14 +10,10 @@ use paint::layer::{SLOTS, Slots};
 use pigment::library::PigmentLibrary;
 use sha2::{Digest, Sha256};
 
-/// Channels of the colour, linear sRGB.
 pub(crate) const COLOR: [&str; 3] = ["R", "G", "B"];
-/// Channel of the height above the ground in mm.
 pub(crate) const HEIGHT: &str = "height";
-/// Channel of the transparent vehicle in mm.
 pub(crate) const VEHICLE: &str = "vehicle";
 
-/// Texels of a part.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Texels<'a> {
     pub(crate) color: &'a Picture,
@@ -26,7 +22,6 @@ pub(crate) struct Texels<'a> {
 }
 
 impl Texels<'_> {
-    /// Channels of texels with and without relief and pigments.
     pub(crate) fn channels(relief: bool, pigments: Option<&[PigmentChannel]>) -> Vec<&str> {
         let mut names = COLOR.to_vec();
         names.extend(relief.then_some(HEIGHT));
@@ -37,7 +32,8 @@ impl Texels<'_> {
         names
     }
 
-    /// Numbers of a channel, row by row. That of no colour, height or pigment is the vehicle.
+    /// Numbers of a channel, row by row. If the channel is not a colour, a height or a pigment, it
+    /// is the vehicle.
     pub(crate) fn plane(&self, channel: &str, pigments: Option<&[PigmentChannel]>) -> Vec<f32> {
         if let Some(color) = COLOR.iter().position(|name| *name == channel) {
             return self.color.values().iter().map(|rgb| rgb[color]).collect();
@@ -60,7 +56,7 @@ impl Texels<'_> {
     }
 
     /// Checks that all fields have one size, that there is paint where there is a library, and
-    /// that each slot with paint has a pigment. `whose` names the sample or tile.
+    /// that each slot with paint has a pigment. `whose` names the sample or tile in the reason.
     ///
     /// # Errors
     /// The reason in words.
@@ -89,8 +85,8 @@ impl Texels<'_> {
 }
 
 impl PartPlanes {
-    /// Checks that the numbers of colour, height and paint are possible where `inside` says so.
-    /// Colours outside the gamut of sRGB may be below 0. Heights and amounts are not.
+    /// Checks that the numbers of colour, height and paint are possible where `inside` is true.
+    /// Colours may be below 0 outside the gamut of sRGB. Heights and amounts may not.
     ///
     /// # Errors
     /// Channel and reason.
@@ -114,14 +110,12 @@ impl PartPlanes {
         Ok(())
     }
 
-    /// Colour of the texels.
     pub(crate) fn color(&self) -> Picture {
         let [red, green, blue] = COLOR.map(|name| self.of(name));
         let texels = red.iter().zip(green).zip(blue);
         self.field(texels.map(|((red, green), blue)| [*red, *green, *blue]).collect())
     }
 
-    /// Paint of the texels.
     pub(crate) fn paint(&self, pigments: &[PigmentChannel]) -> Field<TexelPaint> {
         let vehicle = self.of(VEHICLE).iter();
         fn texel(&vehicle_mm: &f32) -> TexelPaint {
@@ -136,19 +130,17 @@ impl PartPlanes {
         self.field(paint)
     }
 
-    /// Height of the texels, `None` if the part has no channel of heights.
+    /// Height of the texels. `None` if the part has no channel of heights.
     pub(crate) fn height_mm(&self) -> Option<Field<f32>> {
         let relief = self.plan.channels.iter().any(|channel| channel == HEIGHT);
         relief.then(|| self.field(self.of(HEIGHT).to_vec()))
     }
 
-    /// A field of the size of the part.
     pub(crate) fn field<T: Clone>(&self, values: Vec<T>) -> Field<T> {
         Field::from_values(self.plan.width, self.plan.height, values)
     }
 }
 
-/// Name, size and channels that a part must have.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct PartPlan {
     pub(crate) name: String,
@@ -166,30 +158,27 @@ impl PartPlan {
         Self { name: name.to_owned(), width, height, channels }
     }
 
-    /// The part with the numbers that `plane` gives for the name of each channel.
     pub(crate) fn with(self, plane: impl Fn(&str) -> Vec<f32>) -> PartPlanes {
         let planes = self.channels.iter().map(|channel| plane(channel)).collect();
         PartPlanes { plan: self, planes }
     }
 }
 
-/// A part with its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PartPlanes {
     pub(crate) plan: PartPlan,
-    /// Numbers of each channel, row by row.
     pub(crate) planes: Vec<Vec<f32>>,
 }
 
 impl PartPlanes {
-    /// Numbers of a channel, none if the part has no such channel.
+    /// Numbers of a channel. If the part has no such channel, this is empty.
     pub(crate) fn of(&self, channel: &str) -> &[f32] {
         let place = self.plan.channels.iter().position(|name| name == channel);
         place.map_or(&[], |place| &self.planes[place])
     }
 
-    /// The first number of a channel that `possible` refuses, with its place: the channel and the
-    /// reason `wanted`.
+    /// Looks for the first number of a channel that `possible` refuses. The reason is `wanted`
+    /// with the place of this number.
     ///
     /// # Errors
     /// Channel and reason, continuing a sentence that starts with the channel.
@@ -211,8 +200,8 @@ impl PartPlanes {
     }
 }
 
-/// SHA-256 of the numbers of a part, in hexadecimal digits: the channels sorted by name, each row
-/// by row, four bytes a number, least first.
+/// SHA-256 of the numbers of a part, in hexadecimal digits. It covers the channels sorted by name,
+/// each row by row, with four bytes per number, least first.
 pub(crate) fn of_planes(part: &PartPlanes) -> String {
     let mut digest = Sha256::new();
     let mut bytes = Vec::with_capacity(size_of::<f32>() * part.plan.width);
@@ -224,7 +213,6 @@ pub(crate) fn of_planes(part: &PartPlanes) -> String {
     hexadecimal(&digest.finalize())
 }
 
-/// SHA-256 of a text, in hexadecimal digits.
 pub(crate) fn of_text(text: &str) -> String {
     hexadecimal(&Sha256::digest(text))
 }
@@ -266,7 +254,7 @@ mod tests {
 
     #[test]
     fn digests_are_sha_256_of_the_bytes() {
-        // The example of FIPS 180-4, "abc", as text and as the bytes of a number after it.
+        // This is the example of FIPS 180-4, "abc", as text and as the bytes of a number after it.
         let wanted = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(of_text("abc"), wanted);
         let numbers = vec![f32::from_le_bytes(*b"abcd"), f32::from_le_bytes(*b"efgh")];

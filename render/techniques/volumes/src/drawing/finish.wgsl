@@ -1,4 +1,4 @@
-// The samples of a pixel averaged, over paper; twin of reveal.rs.
+// Averages the samples of a pixel over paper. This is the twin of reveal.rs.
 
 struct FinishParams {
     paper: vec3<f32>,

@@ -1,8 +1,4 @@
-//! How surfaces are lit and drawn.
-//!
-//! Reasons why a picture cannot be drawn.
-//!
-//! The grey of a colour.
+//! How surfaces are lit, drawn and turned into grey, and the reasons why we cannot draw a picture.
 
 use std::sync::OnceLock;
 
@@ -16,7 +12,6 @@ use spectra::color::Rgb;
 
 use crate::hatching::HatchingLook;
 
-/// Most samples along each side of a pixel.
 const MOST_SAMPLES: f32 = 8.0;
 
 /// How surfaces are lit and drawn.
@@ -24,28 +19,30 @@ const MOST_SAMPLES: f32 = 8.0;
 pub struct DrawingLook {
     /// Direction of the light.
     pub light: DistantLight,
-    /// Tone by the cosine between light and surface.
+    /// The tone for each cosine between light and surface.
     pub tones: ToneRamp,
-    /// Whether light falls on surfaces. If not, as for a photograph on a plane, colours stay as
-    /// they are and the tones of hatching are those of the colours' own grey, lifted between
-    /// black and white: what is seen of a colour between the strokes is dark itself.
+    /// Whether light falls on surfaces. If not, e.g. for a photograph on a plane, colours stay as
+    /// they are, and the tones of hatching come from the grey of the colours. We lift this grey
+    /// between black and white, because the colour that you see between the strokes is dark
+    /// itself.
     pub lit: bool,
-    /// Share of its colour that a surface loses in full shade, 0 to 1, beside the hatching.
+    /// Share of its colour that a surface loses in full shade, 0 to 1. Hatching comes on top of
+    /// this.
     pub shade: f32,
-    /// Share by which greys outside of volumes are lifted towards white paper before they are
-    /// hatched, 0 to 1. At 0 the grey is exactly as light as the colour.
+    /// Share by which greys outside of volumes are lifted towards white paper before we hatch
+    /// them, 0 to 1. If you pass 0, the grey is exactly as light as the colour.
     pub pale: f32,
     /// How a colour becomes grey.
     pub weights: GreyWeights,
     /// How hatching looks.
     pub hatching: HatchingLook,
-    /// Samples along each side of a pixel, 1 to 8. What is seen and counted is this many times as
-    /// wide and high as the picture.
+    /// Samples along each side of a pixel, 1 to 8. We draw and count at this many times the width
+    /// and height of the picture.
     pub samples: usize,
 }
 
 impl Default for DrawingLook {
-    /// Six tones, lit from the upper left, pencil hatching, one sample a pixel.
+    /// Six tones, lit from the upper left, pencil hatching, one sample per pixel.
     fn default() -> Self {
         Self {
             light: DistantLight::with_camera(315.0, 45.0),
@@ -129,14 +126,14 @@ pub(super) fn check_range(
     Err(DrawingError::Setting { name, least, most, found })
 }
 
-/// How the grey of a colour is weighed.
+/// How to weigh a colour for its grey.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum GreyWeights {
-    /// The luminance Y of linear sRGB, encoded again: as light as the colour.
+    /// The luminance Y of linear sRGB, encoded again. This is as light as the colour.
     #[default]
     Luminance,
-    /// 0.299, 0.587 and 0.114 of the encoded values (ITU-R BT.601), as was usual in 2005.
+    /// 0.299, 0.587 and 0.114 of the encoded values (ITU-R BT.601). This was common in 2005.
     Rec601,
 }
 
@@ -146,10 +143,8 @@ const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 /// Share of encoded red, green and blue in luma (ITU-R BT.601).
 const LUMA: [f32; 3] = [0.299, 0.587, 0.114];
 
-/// Steps of the tables.
 const STEPS: usize = 1024;
 
-/// The transfer function of sRGB and its inverse at equal steps over 0 to 1.
 #[derive(Debug)]
 pub(super) struct Transfer {
     linear: Vec<f32>,
@@ -189,7 +184,7 @@ fn between(table: &[f32], value: f32) -> f32 {
     table[below] + (table[below + 1] - table[below]) * (at - below as f32)
 }
 
-/// The grey of an encoded sRGB colour, 0..1; values outside are clipped.
+/// The grey of an encoded sRGB colour, 0..1. This clips values outside.
 #[must_use]
 pub fn grey_of(color: [f32; 3], weights: GreyWeights) -> f32 {
     Transfer::get().grey(Vec3::from(color).clamp(Vec3::ZERO, Vec3::ONE), weights)
@@ -203,11 +198,11 @@ mod tests {
     #[test]
     fn numbers_that_are_none_are_refused_by_name() {
         assert_eq!(DrawingLook::default().check(), Ok(()));
-        let refused = |change: &dyn Fn(&mut DrawingLook)| {
+        fn refused(change: &dyn Fn(&mut DrawingLook)) -> String {
             let mut look = DrawingLook::default();
             change(&mut look);
             look.check().unwrap_err().to_string()
-        };
+        }
         let found = refused(&|look| look.hatching.pencil = f32::NAN);
         assert_eq!(found, "pencil is 0 to 1, found `NaN`");
         assert!(refused(&|look| look.shade = 1.5).starts_with("shade"));

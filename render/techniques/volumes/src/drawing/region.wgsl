@@ -1,4 +1,5 @@
-// The colour of a region over what is there, by the tint of its count; twin of reveal.rs.
+// Lays the colour of a region over what is there, by the tint of its count. This is the twin of
+// reveal.rs.
 
 struct RegionParams {
     size: vec2<u32>,

@@ -1,10 +1,10 @@
-//! The picture from shaded samples: grey outside of all volumes, the colours of regions inside.
+//! Composes the picture from shaded samples. It is grey outside of all volumes, and shows the
+//! colours of regions inside.
 //!
 //! ten Bosch 2005 copies alpha over the colour where the stencil is 0. Here the count of each
-//! region selects a tint t, and its colour is laid over what is there: (1 - t) under + t inside.
-//! A region may stain what is there first: under times one colour.
-//!
-//! Regions: volumes that are counted together and bring one colour.
+//! region selects a tint t, and we lay its colour over what is there: (1 - t) under + t inside. A
+//! region may first stain what is there, which multiplies it by one colour. A region is a set of
+//! volumes that we count together and that bring one colour.
 
 use graphics::compute::{ColorImage, Compute, GpuCompute, Image, Plane, assert_size};
 use graphics::field::Field;
@@ -15,14 +15,14 @@ use rayon::prelude::*;
 use super::look::{DrawingError, check_range};
 use super::shells::TintTable;
 
-/// Composes shaded samples to a picture. Every sample starts as its grey; each region, in the
-/// order given, mixes its colour over it by the tint of its count. The samples of a pixel are
-/// then averaged.
+/// Composes shaded samples to a picture. Every sample starts as its grey. Each region, in the
+/// order given, mixes its colour over it by the tint of its count. Then we average the samples of
+/// a pixel.
 ///
-/// `shaded` is what [`super::shade`] made of `visible`. The result is encoded sRGB, `samples`
-/// times smaller each way. With a `paper` colour (encoded sRGB in 0..1) that stands where nothing
-/// is seen and the fourth value is 1; without, the fourth value is the share of the pixel that
-/// surfaces cover, and bare pixels are (1, 1, 1, 0).
+/// `shaded` is what [`super::shade`] made of `visible`. You get encoded sRGB, `samples` times
+/// smaller each way. If you pass a `paper` colour (encoded sRGB in 0..1), you see it where the
+/// scene is not, and the fourth value is 1. Without paper, the fourth value is the share of the
+/// pixel that surfaces cover, and bare pixels are (1, 1, 1, 0).
 ///
 /// # Errors
 /// [`DrawingError::Regions`] and [`DrawingError::Setting`] for regions or paper that cannot be
@@ -107,19 +107,18 @@ fn reveal_on_cpu(
     picture
 }
 
-/// Exact at tints of 0 and 1.
+/// This is exact at tints of 0 and 1.
 #[inline(always)]
 fn mixed(under: [f32; 3], inside: [f32; 3], tint: f32) -> [f32; 3] {
     std::array::from_fn(|i| under[i] * (1.0 - tint) + inside[i] * tint)
 }
 
-/// Exact for a stain of 1.
+/// This is exact for a stain of 1.
 #[inline(always)]
 fn stained(under: [f32; 3], stain: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|i| under[i] * stain[i])
 }
 
-/// How the samples of a pixel become its colour.
 struct Finish {
     paper: Option<[f32; 3]>,
     samples: usize,
@@ -152,7 +151,7 @@ impl Finish {
     }
 }
 
-/// Places for tints in the parameters of the kernel.
+/// Number of tints in the parameters of the kernel.
 const TINTS: usize = super::shells::MOST_SHELLS + 1;
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -241,36 +240,36 @@ fn packed(table: &TintTable) -> [[f32; 4]; TINTS / 4] {
     bytemuck::cast(tints)
 }
 
-/// Most regions of a picture.
+/// A picture has at most this many regions.
 pub const MOST_REGIONS: usize = 64;
 
-/// Colours that are seen inside of the volumes of a region.
+/// Colours that you see inside of the volumes of a region.
 #[derive(Debug, Clone)]
 pub enum Inside {
     /// The surface's own colour.
     OwnColors,
-    /// A picture of the size of the shaded one, encoded sRGB; its fourth value is not used. This
-    /// is where films of pigment come in.
+    /// A picture of the size of the shaded one, encoded sRGB. We do not use its fourth value. Use
+    /// this for films of pigment.
     Picture(ColorImage),
 }
 
 /// A region of a picture.
 #[derive(Debug, Clone)]
 pub struct Region {
-    /// Volumes and shells that hold what each sample shows, as many as the shaded picture has
-    /// pixels.
+    /// Volumes and shells that hold what each sample shows. There are as many samples as pixels in
+    /// the shaded picture.
     pub counts: Image<i32>,
     /// Share of the colour inside, by count.
     pub table: TintTable,
     /// Colours inside.
     pub inside: Inside,
-    /// Colour that what lies below is multiplied by where the count is above 0, encoded sRGB in
-    /// 0..1: [`Region::UNSTAINED`], or the one colour of a stained drawing.
+    /// Where the count is above 0, we multiply what lies below by this colour, encoded sRGB in
+    /// 0..1. Use [`Region::UNSTAINED`], or the one colour of a stained drawing.
     pub stain: [f32; 3],
 }
 
 impl Region {
-    /// The stain that leaves everything as it is.
+    /// This stain leaves everything as it is.
     pub const UNSTAINED: [f32; 3] = [1.0; 3];
 }
 
@@ -300,12 +299,14 @@ mod tests {
 
     #[test]
     fn too_many_regions_and_colours_that_are_none_are_refused() {
-        let region = |stain| Region {
-            counts: Field::filled(1, 1, 0).into(),
-            table: TintTable::hard(),
-            inside: Inside::OwnColors,
-            stain,
-        };
+        fn region(stain: [f32; 3]) -> Region {
+            Region {
+                counts: Field::filled(1, 1, 0).into(),
+                table: TintTable::hard(),
+                inside: Inside::OwnColors,
+                stain,
+            }
+        }
         let own = region(Region::UNSTAINED);
         assert_eq!(checked_regions(&vec![own.clone(); 64]), Ok(()));
         let error = checked_regions(&vec![own; 65]).unwrap_err();
@@ -322,7 +323,6 @@ mod tests {
         )
     }
 
-    /// Colours without a pattern that repeats soon.
     fn shaded(width: usize, height: usize) -> Field<[f32; 4]> {
         field(width, height, |x, y| {
             let share = |step: usize| ((x * step + y * 17) % 101) as f32 / 101.0;
@@ -330,7 +330,7 @@ mod tests {
         })
     }
 
-    /// Surfaces but for a band of columns.
+    /// A surface everywhere except for a band of columns.
     fn visible(width: usize, height: usize) -> VisibilityBuffer {
         field(width, height, |x, _| match x % 5 {
             4 => Fragment::EMPTY,
@@ -397,10 +397,10 @@ mod tests {
 
     #[test]
     fn later_regions_lie_over_earlier_ones() {
-        let everywhere = |tints: &[f32], color: [f32; 3]| {
+        fn everywhere(tints: &[f32], color: [f32; 3]) -> Region {
             let inside = field(5, 1, |_, _| [color[0], color[1], color[2], 0.0]).into();
             region(Field::filled(5, 1, 1), tints, Inside::Picture(inside))
-        };
+        }
         let red = [0.9, 0.1, 0.1];
         let blue = [0.1, 0.2, 0.8];
         let over = |first: Region, second: Region| picture((5, 1), &[first, second], None)[(0, 0)];
@@ -425,7 +425,7 @@ mod tests {
             let wanted = [0, 1, 2].map(|i| under[i] * (1.0 - share) + [r, g, b][i] * share);
             assert_eq!(found[(x, 0)][..3], wanted, "{x}");
         }
-        // Where a region was before, its colours are stained.
+        // Where a region was before, this stains its colours.
         let colored = region(Field::filled(4, 1, 1), &[0.0, 1.0], Inside::OwnColors);
         let over = Region { stain, ..region(counts, &[0.0, 0.0, 0.0], Inside::OwnColors) };
         let found = picture((4, 1), &[colored, over], None);
@@ -437,7 +437,7 @@ mod tests {
     #[test]
     fn the_samples_of_a_pixel_are_averaged() {
         let shaded = field(4, 2, |x, _| if x < 2 { [1.0, 0.0, 0.0, 0.2] } else { [0.5; 4] });
-        // The left pixel is half inside; the right one shows its surface in a single sample.
+        // The left pixel is half inside. The right one shows its surface in a single sample.
         let counts = field(4, 2, |x, y| i32::from(x < 2 && y == 0));
         let visible = field(4, 2, |x, y| match (x, y) {
             (3, _) | (2, 0) => Fragment::EMPTY,
@@ -477,9 +477,9 @@ mod tests {
         for (samples, width, height) in
             [(1, 1, 1), (1, 8, 8), (1, 67, 33), (2, 34, 18), (3, 201, 99)]
         {
-            let inside = || shaded(height, width).values().to_vec();
             let regions = |compute: &mut Compute| {
-                let inside = Field::from_values(width, height, inside());
+                let inside =
+                    Field::from_values(width, height, shaded(height, width).values().to_vec());
                 let mut region = |step, tints: &[f32], inside| Region {
                     counts: compute.upload(&counts(width, height, step)).unwrap(),
                     table: TintTable::new(tints.to_vec()).unwrap(),

@@ -1,4 +1,4 @@
-//! Light, texture and hatching: the colour of every sample, with its grey beside it.
+//! Light, texture and hatching. You get the colour of every sample, with its grey beside it.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -15,10 +15,10 @@ use rayon::prelude::*;
 use super::look::{DrawingError, DrawingLook, GreyWeights, Transfer};
 use crate::hatching::{Coordinates, DIRECTIONS_MEET, Hatching, Inking, Placing};
 
-/// Shades what `camera` sees of `model`, which was drawn into `visible`: for each sample its
-/// encoded sRGB in 0..1, lit, textured and hatched, and as the fourth value the grey of that
-/// colour, both in one pass (ten Bosch 2005). Where no surface is seen all four are 1; coverage
-/// is told by `visible`.
+/// Shades what `camera` sees of `model`. You must have drawn the model into `visible`. Each sample
+/// has its encoded sRGB in 0..1, lit, textured and hatched, and as the fourth value the grey of
+/// this colour. We compute both in one pass (ten Bosch 2005). Where you see no surface, all four
+/// are 1. Use `visible` for the coverage.
 ///
 /// # Errors
 /// [`DrawingError::Setting`] for a setting out of range; [`DrawingError::Device`] if a device has
@@ -52,10 +52,10 @@ pub fn shade(
     }
 }
 
-/// Shades like [`shade`], but keeps colour and hatching apart, for pictures that lay them in paint:
-/// for each sample its colour, lit and textured, with the grey of that colour as the fourth value;
-/// and the ink of the strokes at full strength, 0 to 1. On the processor. Where no surface is seen
-/// the colour is white, without ink.
+/// Shades like [`shade`], but keeps colour and hatching apart. Use this for pictures that lay both
+/// in paint. It works on the processor. You get for each sample its colour, lit and textured, with
+/// the grey of this colour as the fourth value. You also get the ink of the strokes at full
+/// strength, 0 to 1. Where you see no surface, the colour is white and has no ink.
 ///
 /// # Errors
 /// [`DrawingError::Setting`] for a setting out of range.
@@ -91,7 +91,6 @@ pub fn shade_apart(
     Ok((colors, inks))
 }
 
-/// Shades single fragments on the processor.
 struct Shader<'a> {
     mesh: &'a PackedMesh,
     look: &'a DrawingLook,
@@ -146,7 +145,6 @@ impl<'a> Shader<'a> {
         inside.extend(grey).into()
     }
 
-    /// The colour, with its grey, and the ink at full strength.
     fn apart(&self, fragment: Fragment) -> ([f32; 4], f32) {
         let look = self.look;
         let (color, ink) = self.lit(fragment, true);
@@ -154,7 +152,7 @@ impl<'a> Shader<'a> {
         (color.extend(grey + (1.0 - grey) * look.pale).into(), ink)
     }
 
-    /// Colour under the light, and the ink of the strokes there if these are wanted.
+    /// Colour under the light. If `hatched` is set, also the ink of the strokes there.
     #[inline(always)]
     fn lit(&self, fragment: Fragment, hatched: bool) -> (Vec3, f32) {
         let point = SurfacePoint::new(self.mesh, fragment);
@@ -193,8 +191,8 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// Light by the grey of a colour that is not lit: lighter between black and white, as the colour
-/// that is seen between the strokes is dark itself.
+/// Light by the grey of a colour that is not lit. We make it lighter between black and white,
+/// because the colour that you see between the strokes is dark itself.
 #[inline(always)]
 pub(super) fn lifted(grey: f32) -> f32 {
     grey * (2.0 - grey)
@@ -308,9 +306,8 @@ fn shade_on_gpu(
 
 #[cfg(test)]
 mod tests {
-    //! Tests of shading: grey, light, hatching on a turntable, and the twin on a device.
-    //!
-    //! Tests of the width of strokes on pictures of models.
+    //! Tests of shading: grey, light, hatching on a turntable, the twin on a device, and the width
+    //! of strokes on pictures of models.
 
     use super::*;
     use crate::drawing::{grey_of, reveal};
@@ -349,7 +346,6 @@ mod tests {
     }
 
     impl Scene {
-        /// The grey picture of two by two samples a pixel.
         fn grey(
             &mut self,
             camera: &Camera,
@@ -452,8 +448,9 @@ mod tests {
         assert!(matches!(refused, Err(DrawingError::Setting { name: "shade", .. })));
     }
 
-    /// Root mean square change of the grey at the same point of a model between frames of a turntable
-    /// of 60, by that of the same picture standing still.
+    /// How strongly strokes pop on a turntable of 60 frames: the root mean square change of the
+    /// grey at the same point of a model between frames. We divide it by the change when the same
+    /// picture stands still.
     fn popping(mesh: &Mesh, look: &DrawingLook, steps: usize) -> f64 {
         let size = (400, 300);
         let mut scene = Scene::new(Compute::cpu(), mesh);
@@ -472,7 +469,7 @@ mod tests {
         for step in 0..steps {
             let first = step * 60 / steps;
             let [before, mut after] = [first, (first + 1) % 60].map(&mut frame);
-            // Where the picture that stands still shows no model it cannot be compared.
+            // We cannot compare where the picture that stands still shows no model.
             let pairs = after.1.values_mut().iter_mut().zip(before.1.values());
             pairs.filter(|(_, before)| **before == 1.0).for_each(|(after, _)| *after = 1.0);
             let last = NoiseFrame { projection: &before.0, depth: &before.1, noise: &before.2 };
@@ -487,8 +484,8 @@ mod tests {
     fn strokes_stay_on_a_turning_model() {
         let light = DistantLight::WithModel(Vec3::new(-0.5, 0.7, 0.5));
         let mut look = DrawingLook { light, shade: 0.0, ..DrawingLook::default() };
-        // On the sphere's own coordinates strokes run along the turn and hardly differ from those that
-        // stand still, against which they are measured.
+        // On the sphere's own coordinates strokes run along the turn. They hardly differ from the
+        // still strokes that we compare them with.
         for (shape, coordinates, most) in [
             (SampleModel::Sphere, Coordinates::Own, 0.28),
             (SampleModel::Sphere, Coordinates::ThreePlanes, 0.25),
@@ -497,7 +494,8 @@ mod tests {
             (SampleModel::TorusKnot, Coordinates::Own, 0.25),
         ] {
             let mut mesh = shape.mesh(8000);
-            // Strokes alone: colours that stay where they are would flatter the measure.
+            // We measure strokes alone: colours that stay where they are would flatter the
+            // measure.
             mesh.colors.iter_mut().for_each(|color| *color = [1.0; 3]);
             mesh.materials.iter_mut().for_each(|material| {
                 material.color = [1.0; 3];
@@ -518,9 +516,9 @@ mod tests {
                 Scene::new(Compute::cpu(), &mesh).grey(&camera, (75, 50), &DrawingLook::default())
             })
         });
-        let bits = |picture: &Field<[f32; 4]>| -> Vec<u32> {
+        fn bits(picture: &Field<[f32; 4]>) -> Vec<u32> {
             picture.values().iter().flatten().map(|value| value.to_bits()).collect()
-        };
+        }
         assert!(pictures.iter().all(|picture| bits(picture) == bits(&pictures[0])));
     }
 
@@ -539,9 +537,9 @@ mod tests {
             assert_eq!(plain[..3], pale[..3]);
             assert!((0.0..=1.0).contains(&pale[3]), "{pale:?}");
         }
-        let dark = |field: &Field<[f32; 4]>| -> f32 {
+        fn dark(field: &Field<[f32; 4]>) -> f32 {
             field.values().iter().map(|pixel| 1.0 - pixel[3]).sum()
-        };
+        }
         assert!(dark(&pale) < 0.8 * dark(&plain), "{} {}", dark(&pale), dark(&plain));
     }
 
@@ -558,7 +556,7 @@ mod tests {
                 look.hatching.outside = 0.7;
                 look.pale = if lit { 0.5 } else { 0.0 };
                 let camera = camera(&mesh, width as f32 / height as f32);
-                // One visibility buffer for both, since rasterisers differ at edges.
+                // We use one visibility buffer for both, since rasterisers differ at edges.
                 let [cpu, gpu] = &mut scenes;
                 let seen = cpu.model.visible(&mut cpu.compute, &camera, width, height).unwrap();
                 let draw = |scene: &mut Scene| {
@@ -575,9 +573,9 @@ mod tests {
         }
     }
 
-    /// Mean width of the dark strips of a picture: twice their area by the length of their outline,
-    /// which is the mean number of dark runs along parallel lines a pixel apart, over all directions,
-    /// times pi (Crofton's formula); here over four directions.
+    /// Mean width of the dark strips of a picture: twice their area over the length of their
+    /// outline. This length is the mean number of dark runs along parallel lines a pixel apart,
+    /// over all directions, times pi (Crofton's formula). We take four directions.
     fn width_of_strips((width, height): (i32, i32), dark: impl Fn(i32, i32) -> bool) -> f32 {
         let mut area = 0.0;
         let mut crossings = 0.0;
@@ -612,7 +610,7 @@ mod tests {
     #[test]
     fn strokes_on_a_village_are_2_to_4_pixels_wide_from_near_and_far() {
         let mut mesh = SampleModel::Village.mesh(8000);
-        // Without light black has the darkest tone, here the same on all surfaces.
+        // Without light, black has the darkest tone. In this scene all surfaces are black.
         mesh.colors.iter_mut().for_each(|color| *color = [0.0; 3]);
         let packed = PackedMesh::new(&mesh);
         let mut compute = Compute::cpu();
@@ -637,7 +635,9 @@ mod tests {
             let visible = model.visible(&mut compute, &camera, width, height).unwrap();
             let mesh = model.host().mesh();
             let (_, ink) = shade_apart(mesh, visible.host(), &camera, &look, &hatching).unwrap();
-            let within = |at: i32, end: usize| usize::try_from(at).is_ok_and(|at| at < end);
+            fn within(at: i32, end: usize) -> bool {
+                usize::try_from(at).is_ok_and(|at| at < end)
+            }
             let found = width_of_strips((width as i32, height as i32), |x: i32, y: i32| {
                 within(x, width) && within(y, height) && ink[(x as usize, y as usize)] > 0.5
             });

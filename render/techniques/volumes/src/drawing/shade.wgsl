@@ -1,4 +1,4 @@
-// Light, texture and hatching of each sample; twin of shade.rs. It follows ink.wgsl.
+// Light, texture and hatching of each sample. This is the twin of shade.rs and follows ink.wgsl.
 
 struct ShadeParams {
     eye: vec3<f32>,

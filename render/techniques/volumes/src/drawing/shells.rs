@@ -80,7 +80,7 @@ pub struct TintTable {
 }
 
 impl TintTable {
-    /// A table of tints at counts of 0, 1, 2 and so on.
+    /// A table of tints. You give the tints at counts of 0, 1, 2 and so on.
     ///
     /// # Errors
     /// [`ShellError`] if there are fewer than 2 or more than 64, the first is not 0, one is not
@@ -109,8 +109,8 @@ impl TintTable {
         Self { tints: vec![0.0, 1.0] }
     }
 
-    /// The tint at a count; higher counts than the table has take the last tint, negative ones
-    /// the first.
+    /// The tint at a count. If the count is higher than the table, you get the last tint, and for
+    /// a negative count the first.
     #[must_use]
     #[inline(always)]
     pub fn tint(&self, count: i32) -> f32 {
@@ -125,7 +125,7 @@ impl TintTable {
     }
 }
 
-/// Concentric copies of a volume's mesh, scaled about its centre, whose counts add up to softer
+/// Concentric copies of a volume's mesh, scaled about its centre. Their counts add up to softer
 /// edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shells {
@@ -134,7 +134,7 @@ pub struct Shells {
 }
 
 impl Shells {
-    /// Shells of falling `scales` (above 0, at most 1) with one tint for outside and one for each
+    /// Shells of falling `scales` (above 0, at most 1). Pass one tint for outside and one for each
     /// count of shells.
     ///
     /// # Errors
@@ -157,13 +157,13 @@ impl Shells {
         Ok(Self { scales, table: TintTable::new(tints)? })
     }
 
-    /// One shell: a hard edge.
+    /// One shell. This gives a hard edge.
     #[must_use]
     pub fn hard() -> Self {
         Self { scales: vec![1.0], table: TintTable::hard() }
     }
 
-    /// Four shells, 7 % of the radius apart, that bring a quarter of the colour each.
+    /// Four shells, 7 % of the radius apart. Each brings a quarter of the colour.
     #[must_use]
     pub fn washed() -> Self {
         let tints = vec![0.0, 0.25, 0.5, 0.75, 1.0];
@@ -199,14 +199,18 @@ mod tests {
 
     #[test]
     fn lists_out_of_order_are_refused_with_their_place() {
-        let scales = |scales: &[f32]| Shells::new(scales.to_vec(), vec![0.0, 0.5, 1.0]);
+        fn scales(scales: &[f32]) -> Result<Shells, ShellError> {
+            Shells::new(scales.to_vec(), vec![0.0, 0.5, 1.0])
+        }
         assert_eq!(scales(&[1.0, 0.9]).map(|shells| shells.scales().len()), Ok(2));
         assert_eq!(scales(&[0.9, 1.0]), Err(ShellError::NotFalling { index: 1, found: 1.0 }));
         assert_eq!(scales(&[1.0, 0.0]), Err(ShellError::Scale { index: 1, found: 0.0 }));
         assert!(matches!(scales(&[f32::NAN, 0.5]), Err(ShellError::Scale { index: 0, .. })));
         assert_eq!(scales(&[1.0]), Err(ShellError::Lengths { shells: 1, tints: 3 }));
         assert_eq!(scales(&[]), Err(ShellError::Count { found: 0 }));
-        let tints = |tints: &[f32]| TintTable::new(tints.to_vec());
+        fn tints(tints: &[f32]) -> Result<TintTable, ShellError> {
+            TintTable::new(tints.to_vec())
+        }
         assert_eq!(tints(&[0.0, 0.6, 0.5]), Err(ShellError::NotRising { index: 2, found: 0.5 }));
         assert_eq!(tints(&[0.2, 0.6]), Err(ShellError::Outside { found: 0.2 }));
         assert_eq!(tints(&[0.0, 1.5]), Err(ShellError::Tint { index: 1, found: 1.5 }));

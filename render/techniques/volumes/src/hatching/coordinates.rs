@@ -1,25 +1,26 @@
-//! Where strokes lie on a surface: the model's own texture coordinates, or three planes.
-//!
-//! How hatching looks.
+//! Places strokes on a surface, along the model's own texture coordinates or on three planes. Also
+//! how hatching looks.
 
 use glam::{Vec2, Vec3};
 use graphics::camera::Camera;
 use graphics::surface::{Fragment, PackedMesh};
 
-/// Tiles of strokes along the longest side of a model, for the three planes.
+/// A model has this many tiles of strokes along its longest side, for the three planes.
 const TILES: f32 = 2.0;
 
-/// Share of the greatest component of a normal at which a plane begins to count.
+/// A plane begins to count if its component of the normal reaches this share of the greatest one.
 const PLANE_FROM: f32 = 0.8;
 
-/// Least cosine between sight and surface that strokes follow. Beyond they lie closer together, as
-/// a draughtsman's do towards an outline, and do not change fast while a model turns.
+/// Strokes follow the surface down to this cosine between sight and surface. Beyond this they lie
+/// closer together, as a draughtsman's do towards an outline. They also do not change fast while
+/// you turn the model.
 const LEAST_COSINE: f32 = 0.58;
 
-/// Greatest stretch of coordinates, length along u to that along v or back, that is useful.
+/// Coordinates are useful up to this stretch, which is length along u over length along v or the
+/// reverse.
 const MOST_STRETCH: f32 = 4.0;
 
-/// Share of a model's area whose coordinates must be useful.
+/// This share of a model's area must have useful coordinates.
 const USEFUL_SHARE: f32 = 0.9;
 
 /// A place on the tile of strokes, and how much one plane counts there.
@@ -27,16 +28,15 @@ const USEFUL_SHARE: f32 = 0.9;
 pub(crate) struct Patch {
     pub(crate) u: f32,
     pub(crate) v: f32,
-    /// Change of 2 u + v from pixel to pixel, at most: the strokes across lie along its contours,
-    /// turned by 63 degrees from those along, so that the tile still repeats.
+    /// Change of 2 u + v from pixel to pixel, at most. The strokes across lie along its contours.
+    /// This turns them by 63 degrees from those along, so that the tile still repeats.
     pub(crate) across_per_px: f32,
     /// Change of v from pixel to pixel, at most.
     pub(crate) v_per_px: f32,
-    /// 0 to 1.
     pub(crate) weight: f32,
 }
 
-/// How places of a model are laid on the tile, seen by a camera.
+/// Lays places of a model on the tile, as a camera sees them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placing {
     pub(crate) coordinates: Coordinates,
@@ -45,14 +45,14 @@ pub(crate) struct Placing {
     pub(crate) pixel: f32,
     /// Tiles per unit of the model.
     pub(crate) tiles: f32,
-    /// Where the tiles of the three planes begin: the lowest corner of the model.
+    /// Lowest corner of the model. The tiles of the three planes begin there.
     pub(crate) origin: Vec3,
     /// Cosine and sine of the strokes' angle in the planes.
     pub(crate) turn: Vec2,
 }
 
 impl Placing {
-    /// Places for a picture `height_px` pixels high.
+    /// Lays places for a picture `height_px` pixels high.
     pub(crate) fn new(
         look: &HatchingLook,
         (mesh_is_useful, bounds): (bool, [Vec3; 2]),
@@ -72,8 +72,8 @@ impl Placing {
         }
     }
 
-    /// The patches of a point with a unit normal towards the eye; unused ones weigh 0. The change
-    /// across is told only if strokes are `crossed`.
+    /// The patches of a point with a unit normal towards the eye. Unused ones weigh 0. You get the
+    /// change across only if strokes are `crossed`.
     #[inline(always)]
     pub(crate) fn patches(
         &self,
@@ -98,7 +98,7 @@ impl Placing {
         let weights = (facing - least).max(Vec3::ZERO);
         let weights = weights / (weights.x + weights.y + weights.z).max(f32::MIN_POSITIVE);
         let at = (position - self.origin) * self.tiles;
-        // Strokes fall from right to left on every side of a model that stands upright.
+        // Strokes fall from right to left on every side of an upright model.
         let plane = |weight: f32, right: Vec3, up: Vec3| {
             if weight <= 0.0 {
                 return Patch::default();
@@ -130,13 +130,12 @@ fn side(component: f32) -> f32 {
     if component < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// How a pixel grows on the surface that it shows.
 struct Sight {
     ray: Vec3,
     normal: Vec3,
-    /// Cosine between ray and normal, negative.
+    /// Cosine between ray and normal. It is negative.
     cosine: f32,
-    /// Size of the pixel at the surface, if that faced the eye.
+    /// Size of the pixel at the surface, if the surface faced the eye.
     pixel: f32,
 }
 
@@ -149,8 +148,8 @@ impl Sight {
         Self { ray, normal, cosine, pixel: pixel * distance }
     }
 
-    /// Change from pixel to pixel, at most, of a value with this gradient: along the surface,
-    /// across the ray.
+    /// How much a value with this gradient changes from pixel to pixel, at most: along the
+    /// surface, across the ray.
     #[inline(always)]
     fn per_px(&self, gradient: Vec3) -> f32 {
         let seen = gradient - self.normal * (gradient.dot(self.ray) / self.cosine);
@@ -158,7 +157,6 @@ impl Sight {
     }
 }
 
-/// The place in the model's own coordinates.
 #[inline(always)]
 fn own(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool) -> Patch {
     let [a, b, c] = mesh.triangles[fragment.triangle as usize]
@@ -176,8 +174,8 @@ fn own(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool) -> P
     }
 }
 
-/// Gradients in the plane of a triangle of values that change along two of its edges; 0 on a
-/// triangle without area.
+/// Gradients in the plane of a triangle. You give the changes of the values along two of its
+/// edges. This is 0 on a triangle without area.
 #[inline(always)]
 fn gradients([to_b, to_c]: [Vec3; 2], changes: [[f32; 2]; 2]) -> [Vec3; 2] {
     let normal = to_b.cross(to_c);
@@ -187,8 +185,8 @@ fn gradients([to_b, to_c]: [Vec3; 2], changes: [[f32; 2]; 2]) -> [Vec3; 2] {
     changes.map(|[second, third]| of_b * second + of_c * third)
 }
 
-/// Whether texture coordinates lie on the surface without much stretch nearly everywhere, so that
-/// strokes can follow them.
+/// Whether strokes can follow the texture coordinates. For this they must lie on the surface
+/// without much stretch nearly everywhere.
 #[must_use]
 pub fn has_useful_coordinates(mesh: &PackedMesh) -> bool {
     let mut useful = 0.0;
@@ -214,36 +212,37 @@ pub fn has_useful_coordinates(mesh: &PackedMesh) -> bool {
 /// Where strokes lie on surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coordinates {
-    /// Along the model's own texture coordinate u, one tile of strokes a tile of texture.
+    /// Along the model's own texture coordinate u. One tile of strokes takes one tile of texture.
     Own,
-    /// Projected along the three axes, each where the surface faces it.
+    /// Projected along the three axes. Each counts where the surface faces it.
     ThreePlanes,
 }
 
 /// How hatching looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HatchingLook {
-    /// Where strokes lie on surfaces; `None` takes the model's own texture coordinates if they
-    /// are useful ([`super::has_useful_coordinates`]).
+    /// Where strokes lie on surfaces. If you leave this at `None`, we take the model's own texture
+    /// coordinates if they are useful ([`super::has_useful_coordinates`]).
     pub coordinates: Option<Coordinates>,
-    /// Share of the strokes that is shown inside of volumes, 0 to 1; 0 is no hatching.
+    /// Share of the strokes inside of volumes, 0 to 1. If you pass 0, you see no hatching there.
     pub inside: f32,
-    /// Share of the strokes that is shown outside of volumes, 0 to 1.
+    /// Share of the strokes outside of volumes, 0 to 1.
     pub outside: f32,
     /// Factor of the colour under full ink, 0 to 1.
     pub pencil: f32,
-    /// Width of a stroke in pixels, 1 to 16; it varies by a third either way.
+    /// Width of a stroke in pixels, 1 to 16. It varies by a third either way.
     pub width_px: f32,
-    /// Half the range of tone over which a texel takes ink, 0.01 to 0.15; greater is softer.
+    /// Half the range of tone over which a texel takes ink, 0.01 to 0.15. A greater value is
+    /// softer.
     pub softness: f32,
-    /// Tone of the darkest shade, 0 to 1: 0 leaves no paper between the strokes.
+    /// Tone of the darkest shade, 0 to 1. If you pass 0, no paper stays between the strokes.
     pub darkest: f32,
     /// Angle of the strokes in the three planes, in degrees from the horizontal.
     pub angle_deg: f32,
 }
 
 impl Default for HatchingLook {
-    /// Pencil strokes 2.8 pixels wide that slant like those of a right hand.
+    /// Pencil strokes 2.8 pixels wide that slant like a right hand's.
     fn default() -> Self {
         Self {
             coordinates: None,
@@ -283,7 +282,6 @@ mod tests {
         let fragment = Fragment::EMPTY;
         let [_, _, facing] = placing.patches(&mesh, fragment, (Vec3::ZERO, Vec3::Z), true);
         assert_eq!(facing.weight, 1.0);
-        // A tile is one unit, 10 away: its pixels by the lens.
         let wanted = 10.0 * 2.0 * 15.0_f32.to_radians().tan() / 570.0;
         assert!((facing.across_per_px / wanted - 5.0_f32.sqrt()).abs() < 1e-4);
         assert!((facing.v_per_px / wanted - 1.0).abs() < 1e-5);

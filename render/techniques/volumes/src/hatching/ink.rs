@@ -1,6 +1,5 @@
-//! The ink that hatching puts on a point; the twin in WGSL is `ink.wgsl`.
-//!
-//! Hatching in the memory of whatever draws it.
+//! The ink that hatching puts on a point, and hatching in the memory that draws it. `ink.wgsl` is
+//! the twin of this file in WGSL.
 
 use glam::Vec3;
 use graphics::compute::{Compute, Image};
@@ -12,20 +11,21 @@ use super::coordinates::{Patch, has_useful_coordinates};
 use super::strokes::{SIDE, WIDTH_TEXELS};
 use super::threshold::{SLICES, ThresholdTexture};
 
-/// Tone below which strokes across are laid over those along: the two darkest of six tones.
+/// Below this tone, we lay strokes across over the strokes along. These are the two darkest of six
+/// tones.
 pub const DIRECTIONS_MEET: f32 = 0.4;
 
-/// Octaves of the density beyond which coordinates are no longer scaled.
+/// We scale coordinates within these octaves of the density.
 const OCTAVES: [i32; 2] = [-8, 14];
 
-/// Magnification of the second slice.
 const SECOND: f32 = std::f32::consts::SQRT_2;
 
-/// Where the strokes across are taken from the texture, so that they are not those along again.
+/// We take the strokes across from here in the texture, so that they differ from the strokes
+/// along.
 const ACROSS_FROM: f32 = 0.37;
 
-/// Tones of the strokes along and across that together leave the share `tone` of bare paper:
-/// the product of what each leaves. Both rise with the tone.
+/// Tones of the strokes along and across. Together they leave the share `tone` of bare paper,
+/// which is the product of what each leaves. Both rise with the tone.
 #[must_use]
 #[inline(always)]
 pub fn crossed_tones(tone: f32) -> [f32; 2] {
@@ -38,14 +38,10 @@ pub fn crossed_tones(tone: f32) -> [f32; 2] {
     [DIRECTIONS_MEET * fourth, root * fourth]
 }
 
-/// Strokes and figures that ink a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inking<'a> {
-    /// [`super::ThresholdTexture::quads`].
     quads: &'a [u32],
-    /// Inverse of the range of tone over which a texel takes ink.
     sharpness: f32,
-    /// [`Inking::scale`].
     scale: f32,
 }
 
@@ -57,7 +53,7 @@ impl<'a> Inking<'a> {
         Self { quads, sharpness: 0.5 / softness, scale: Self::scale(width_px) }
     }
 
-    /// Tiles per pixel where strokes of the first slice are `width_px` wide.
+    /// Tiles per pixel at which strokes of the first slice are `width_px` wide.
     pub(crate) fn scale(width_px: f32) -> f32 {
         WIDTH_TEXELS / (width_px * SIDE as f32)
     }
@@ -81,15 +77,15 @@ impl<'a> Inking<'a> {
         1.0 - (1.0 - ink) * (1.0 - crossed)
     }
 
-    /// Ink of strokes along the first coordinate, where the second changes by `per_px` from
-    /// pixel to pixel.
+    /// Ink of strokes along the first coordinate. The second one changes by `per_px` from pixel to
+    /// pixel.
     #[inline(always)]
     fn strokes(&self, at: [f32; 2], per_px: f32, tone: f32) -> f32 {
-        // Density of strokes, 1 in the first slice and with coordinates as they are.
+        // Density of strokes. It is 1 in the first slice with unscaled coordinates.
         let density = (self.scale / per_px.max(1e-12)).to_bits();
         let octave = (density >> 23) as i32 - 127;
         let part = f32::from_bits((density & 0x7f_ffff) | 0x3f80_0000);
-        // A slice gives way to the next all the time: slow change is not seen.
+        // A slice gives way to the next all the time, because you do not see slow change.
         let (slice, passed) = match part < SECOND {
             true => (0, (part - 1.0) / (SECOND - 1.0)),
             false => (1, (part - SECOND) / (2.0 - SECOND)),
@@ -97,7 +93,7 @@ impl<'a> Inking<'a> {
         let ink = self.inked(self.threshold(at, octave, slice), tone);
         let next = self.inked(self.threshold(at, octave + slice as i32, 1 - slice), tone);
         let ink = ink + (next - ink) * passed;
-        // The lightest tones fade, so that light itself is bare paper.
+        // We fade the lightest tones, so that light itself is bare paper.
         ink * ((1.0 - tone) * self.sharpness * 4.0).min(1.0)
     }
 
@@ -119,7 +115,7 @@ impl<'a> Inking<'a> {
         (above + (below - above) * down) * (1.0 / 255.0)
     }
 
-    /// Webb et al. 2002: a texel takes ink while the tone falls past its threshold.
+    /// A texel takes ink while the tone falls past its threshold (Webb et al. 2002).
     #[inline(always)]
     fn inked(&self, threshold: f32, tone: f32) -> f32 {
         let at = ((tone - threshold) * self.sharpness + 0.5).clamp(0.0, 1.0);
@@ -127,19 +123,19 @@ impl<'a> Inking<'a> {
     }
 }
 
-/// The largest whole number that is not greater; far numbers end at the range of i32.
+/// The largest whole number that is not greater. Far numbers end at the range of i32.
 #[inline(always)]
 fn floor(value: f32) -> i32 {
     let whole = value as i32;
     whole.wrapping_sub(i32::from(whole as f32 > value))
 }
 
-/// Strokes in the memory of a [`Compute`], and how they lie on one model. Made once for a model.
+/// Strokes in the memory of a [`Compute`], and how they lie on one model. You make this once for a
+/// model.
 #[derive(Debug, Clone)]
 pub struct Hatching {
     pub(crate) quads: Image<u32>,
     pub(crate) mesh_is_useful: bool,
-    /// Lowest and highest corner of the model.
     pub(crate) bounds: [Vec3; 2],
 }
 
@@ -177,7 +173,7 @@ mod tests {
         Inking::new(texture.quads(), SOFTNESS, 2.8)
     }
 
-    /// The patch at (x, y) of a tile whose side is shown in `side_px` pixels.
+    /// The patch at (x, y) of a tile. You see the side of the tile in `side_px` pixels.
     fn patch([x, y]: [f32; 2], side_px: f32) -> Patch {
         let [u, v] = [x, y].map(|at| at / side_px);
         let per_px = 1.0 / side_px;
@@ -206,7 +202,8 @@ mod tests {
         let inking = inking(sample_texture());
         for side_px in [32.0, 45.0, 100.0, 256.0, 300.0, 700.0, 1500.0] {
             let pixels = 160;
-            // All of the texture, of which a tile of the model is a part or many.
+            // We take all of the texture. A tile of the model is a part of it, or contains it many
+            // times.
             let whole = side_px * (TEXTURE_PX / side_px).log2().ceil().exp2();
             for tone in 0..=64 {
                 let tone = tone as f32 / 64.0;

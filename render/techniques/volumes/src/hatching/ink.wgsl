@@ -1,4 +1,4 @@
-// The ink that hatching puts on a point; twin of ink.rs. It reads the array `quads`.
+// The ink that hatching puts on a point. This is the twin of ink.rs and reads the array `quads`.
 
 const SIDE: i32 = 512;
 const DIRECTIONS_MEET: f32 = 0.4;

@@ -1,10 +1,10 @@
-//! Real-time hatching that conveys light: a texture of pencil strokes, and how much ink it puts
-//! on a point of a surface.
+//! Real-time hatching that conveys light: a texture of pencil strokes, and how much ink it puts on
+//! a point of a surface.
 //!
-//! Praun, Hoppe, Webb and Finkelstein, "Real-time hatching" (2001): strokes of a lighter tone are
-//! in all darker ones, strokes of a coarser level in all finer ones. Webb, Praun, Finkelstein and
-//! Hoppe, "Fine tone control in hardware hatching" (2002): a texture of thresholds holds all tones
-//! at once.
+//! We follow Praun, Hoppe, Webb and Finkelstein, "Real-time hatching" (2001): strokes of a lighter
+//! tone are in all darker ones, strokes of a coarser level in all finer ones. As in Webb, Praun,
+//! Finkelstein and Hoppe, "Fine tone control in hardware hatching" (2002), a texture of thresholds
+//! holds all tones at once.
 
 mod strokes;
 mod threshold;

@@ -1,6 +1,5 @@
-//! Pencil strokes on a tile that repeats.
-//!
-//! What strokes cover of a tile, and the choice of the one that fills the widest gap.
+//! Pencil strokes on a tile that repeats. This knows what strokes cover of a tile, and chooses the
+//! one that fills the widest gap.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -8,23 +7,24 @@ use rand_chacha::ChaCha8Rng;
 /// Texels along the side of a tile.
 pub const SIDE: usize = 512;
 
-/// Width of a stroke of size 1 in texels, as it is seen at middle tones.
+/// Width of a stroke of size 1 in texels, as you see it at middle tones.
 pub(super) const WIDTH_TEXELS: f32 = 4.0;
 
 /// Half the width of a stroke of size 1 at full pressure, as a share of the tile's side.
 const HALF_WIDTH: f32 = 2.02 / SIDE as f32;
 
-/// How far the tone of a stroke's rim lies below that of its middle: a stroke grows from a thin
-/// line to its full width while the tone falls by about as much.
+/// How far the tone of a stroke's rim lies below the tone of its middle. A stroke grows from a
+/// thin line to its full width while the tone falls by about as much.
 const RIM: f32 = 0.05;
 
-/// Tone lost from the rim on, for each half width.
+/// A stroke loses this much tone per half width beyond its rim.
 const BEYOND: f32 = 1.6;
 
-/// Distance from the middle, in half widths, up to which a stroke says anything about a texel.
+/// A stroke reaches this far from its middle, in half widths. It does not affect texels beyond
+/// this.
 const REACH: f32 = 2.0;
 
-/// Points of the hand's wobble along a stroke.
+/// The hand wobbles at this many points along a stroke.
 const KNOTS: usize = 6;
 
 /// Lengths of strokes, as shares of the tile's side.
@@ -35,12 +35,11 @@ const LENGTHS: [f32; 2] = [44.0 / SIDE as f32, 128.0 / SIDE as f32];
 pub(super) struct Stroke {
     pub(super) middle: [f32; 2],
     length: f32,
-    /// Fall from start to end.
     slope: f32,
-    /// Deviation of the middle line from the straight one.
+    /// How far the middle line bends away from the straight one.
     bow: f32,
     wobble: [f32; KNOTS],
-    /// Loss of tone by pressure, at each knot.
+    /// Tone that pressure takes away at each knot.
     pressure: [f32; KNOTS],
     /// Shares of the length over which the stroke begins and ends.
     ends: [f32; 2],
@@ -61,17 +60,17 @@ impl Stroke {
         }
     }
 
-    /// The same stroke elsewhere.
     pub(super) fn at(&self, middle: [f32; 2]) -> Self {
         Self { middle, ..self.clone() }
     }
 
-    /// A stroke half-way between this one and another.
     pub(super) fn half_way(&self, other: &Self) -> Self {
-        let mean = |from: f32, to: f32| 0.5 * (from + to);
-        let knots = |from: &[f32; KNOTS], to: &[f32; KNOTS]| {
+        fn mean(from: f32, to: f32) -> f32 {
+            0.5 * (from + to)
+        }
+        fn knots(from: &[f32; KNOTS], to: &[f32; KNOTS]) -> [f32; KNOTS] {
             std::array::from_fn(|knot| mean(from[knot], to[knot]))
-        };
+        }
         Self {
             middle: [0, 1].map(|axis| mean(self.middle[axis], other.middle[axis])),
             length: mean(self.length, other.length),
@@ -83,8 +82,8 @@ impl Stroke {
         }
     }
 
-    /// Calls `visit` with the index of each texel that the stroke touches when it is drawn at a
-    /// `size`, and how far its tone lies below that of the stroke's middle.
+    /// Calls `visit` for each texel that the stroke touches if you draw it at a `size`. It gets
+    /// the index of the texel, and how far its tone lies below the tone of the stroke's middle.
     pub(super) fn texels(&self, size: f32, mut visit: impl FnMut(usize, f32)) {
         let texels = SIDE as f32;
         let [left, right] = [0.0, 1.0].map(|along| self.place(along, size)[0] * texels);
@@ -105,7 +104,7 @@ impl Stroke {
         }
     }
 
-    /// The middle line of the stroke at `along` 0 to 1 of its length, drawn at a `size`.
+    /// The middle line of the stroke at `along` 0 to 1 of its length, at a `size`.
     pub(super) fn place(&self, along: f32, size: f32) -> [f32; 2] {
         let arc = self.bow * (4.0 * along * (1.0 - along) - 0.67);
         let down = self.slope * (along - 0.5) + arc + between(&self.wobble, along);
@@ -121,7 +120,7 @@ impl Stroke {
         })
     }
 
-    /// Tone lost by pressure and at the ends: it starts firmly and ends in a light flick.
+    /// Tone lost by pressure and at the ends. The stroke starts firmly and ends in a light flick.
     fn lost(&self, along: f32) -> f32 {
         let [start, end] = self.ends;
         let from_start = (1.0 - along / start).max(0.0);
@@ -131,13 +130,12 @@ impl Stroke {
     }
 }
 
-/// Tone lost at a distance from the middle, in half widths: slowly within the stroke, fast beyond
-/// its rim, so that dark tones are many strokes and not wide ones.
+/// Tone lost at a distance from the middle, in half widths. It falls slowly within the stroke and
+/// fast beyond its rim. This makes dark tones many strokes instead of wide ones.
 fn rim(away: f32) -> f32 {
     if away < 1.0 { RIM * away * away } else { RIM + BEYOND * (away - 1.0) }
 }
 
-/// Smooth values between knots at equal distances.
 fn between(knots: &[f32; KNOTS], along: f32) -> f32 {
     let at = along * (KNOTS - 1) as f32;
     let below = (at as usize).min(KNOTS - 2);
@@ -146,31 +144,29 @@ fn between(knots: &[f32; KNOTS], along: f32) -> f32 {
     knots[below] + (knots[below + 1] - knots[below]) * smooth
 }
 
-/// Sides of the windows through which the tile is seen, as powers of two.
+/// We look at the tile through this many windows. Their sides are powers of two.
 const WINDOWS: usize = 7;
 
-/// Loss of tone up to which a texel of a stroke counts as covered.
+/// A texel of a stroke counts as covered up to this loss of tone.
 const COUNTS_TO: f32 = 0.4;
 
-/// Most texels by which a stroke is moved into the middle of its gap.
+/// We move a stroke by at most this many texels into the middle of its gap.
 const NUDGE: i32 = 8;
 
-/// Texels to either side of a stroke that ought to be free.
+/// We want this many texels free to either side of a stroke.
 const FREE: i32 = 7;
 
-/// Share of a tile that is covered, seen through windows of rising size.
+/// Share of a tile that is covered. You see it through windows of rising size.
 #[derive(Debug)]
 pub(super) struct Coverage {
-    /// Size at which strokes are drawn.
     size: f32,
     covered: Vec<bool>,
     count: usize,
-    /// Covered texels of each window of 1, 2, 4, ... texels a side.
+    /// Covered texels of each window of 1, 2, 4, ... texels per side.
     windows: Vec<Vec<u16>>,
 }
 
 impl Coverage {
-    /// An empty tile for strokes of one size.
     pub(super) fn new(size: f32) -> Self {
         let windows = (0..WINDOWS).map(|size| vec![0; (SIDE >> size) * (SIDE >> size)]).collect();
         Self { size, covered: vec![false; SIDE * SIDE], count: 0, windows }
@@ -214,7 +210,7 @@ impl Coverage {
         best
     }
 
-    /// Mean share of what is covered around the middle of a stroke, over windows of all sizes.
+    /// Mean share that is covered around the middle of a stroke, over windows of all sizes.
     fn around(&self, stroke: &Stroke) -> f32 {
         let mask = SIDE as i32 - 1;
         let mut sum = 0.0;
@@ -231,7 +227,7 @@ impl Coverage {
         sum / points
     }
 
-    /// The stroke moved across, by a few texels at most, into the middle of the gap it lies in.
+    /// Moves the stroke across, by a few texels at most, into the middle of its gap.
     pub(super) fn nudged(&self, stroke: Stroke) -> Stroke {
         let mask = SIDE as i32 - 1;
         // Covered texels at every distance across.
@@ -303,7 +299,7 @@ mod tests {
     #[test]
     fn the_best_stroke_lies_in_the_gap_and_is_moved_to_its_middle() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
-        // All but the rows 192 to 320 are covered.
+        // All rows are covered except 192 to 320.
         let mut coverage = Coverage::new(1.0);
         (0..SIDE * SIDE)
             .filter(|texel| !(192..320).contains(&(texel / SIDE)))
@@ -315,7 +311,7 @@ mod tests {
             let middle = best.middle[1] * SIDE as f32;
             assert!((190.0..322.0).contains(&middle), "{middle}");
         }
-        // Nothing but rows 250 to 262 is free.
+        // Only rows 250 to 262 are free.
         for row in (192..250).chain(262..320) {
             (0..SIDE).for_each(|column| coverage.cover(row * SIDE + column));
         }

@@ -1,11 +1,10 @@
-//! A texture of thresholds: every texel holds the lightest tone at which it is inked.
+//! A texture of thresholds. Every texel holds the lightest tone at which we ink it. This also
+//! draws the strokes for a tile at its whole size, and half-way to half of it.
 //!
-//! Strokes for a tile at its whole size, and half-way to half of it.
-//!
-//! Over the octave from one size to half of it a tile has to become four copies of itself, so
-//! that magnification has no end. Strokes keep their width on the screen: each slides by less
-//! than its length to a stroke of the four copies like it, and into the gaps that open the other
-//! strokes of the copies are born, one part of them half-way.
+//! Over the octave from one size to half of it a tile has to become four copies of itself, so that
+//! you can magnify without end. Strokes keep their width on the screen. Each slides by less than
+//! its length to a similar stroke of the four copies. The other strokes of the copies are born in
+//! the gaps that open, one part of them half-way.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -13,36 +12,37 @@ use rayon::prelude::*;
 
 use super::strokes::{Coverage, SIDE, Stroke, WIDTH_TEXELS};
 
-/// Tone that the grain of the paper takes from all texels, at most.
+/// The grain of the paper takes at most this tone from all texels.
 const GRAIN: f32 = 0.12;
 
-/// Height of the grain, 0 to 1, over which a valley of the paper begins that takes little lead.
+/// A valley of the paper takes little lead. It begins at this height of the grain, 0 to 1.
 const VALLEY: f32 = 0.6;
 
-/// Tone that a valley takes for each square of its depth.
+/// A valley takes this much tone for each square of its depth.
 const DEPTH: f32 = 4.0;
 
-/// Parts of the range of thresholds that are counted.
+/// We count thresholds in this many parts of their range.
 const BINS: usize = 1024;
 
-/// Times that thresholds are spread anew by the values between them.
+/// We spread thresholds anew this many times, by the values between them.
 const ROUNDS: usize = 3;
 
-/// Thresholds of pencil strokes along u on a tile that repeats, in [`SLICES`](super::SLICES) slices: for
-/// the tile magnified 1 and 2^(1/2) times; at 2 its four quarters are the tile at 1 again.
+/// Thresholds of pencil strokes along u on a tile that repeats, in [`SLICES`](super::SLICES)
+/// slices. These are for the tile magnified 1 and 2^(1/2) times. At 2, its four quarters are the
+/// tile at 1 again.
 ///
-/// A texel is inked at all tones below its threshold (tone 0 is black, 1 is white), so the ink of
-/// a lighter tone is part of that of every darker one. The strokes of a slice are kept in the
-/// next, narrower as the magnification is greater, with others in the gaps between them. The
-/// thresholds of a slice are spread evenly over 0 to 1, so the share of inked texels at tone t is
-/// 1 - t.
+/// We ink a texel at all tones below its threshold (tone 0 is black, 1 is white). So the ink of a
+/// lighter tone is part of the ink of every darker one. The strokes of a slice stay in the next
+/// one. They are narrower as the magnification is greater, with others in the gaps between them.
+/// The thresholds of a slice are spread evenly over 0 to 1. So the share of inked texels at tone t
+/// is 1 - t.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThresholdTexture {
     quads: Vec<u32>,
 }
 
 impl ThresholdTexture {
-    /// Draws the strokes of a seed.
+    /// Draws the strokes. `seed` decides where they are.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let grain = grain(seed);
@@ -54,7 +54,7 @@ impl ThresholdTexture {
         Self { quads: quads.concat() }
     }
 
-    /// Threshold of a texel, in 1/255; coordinates wrap around.
+    /// Threshold of a texel, in 1/255. Coordinates wrap around.
     ///
     /// # Panics
     /// If `slice` is not below [`SLICES`](super::SLICES).
@@ -65,16 +65,16 @@ impl ThresholdTexture {
         own
     }
 
-    /// For each texel of all slices, row by row: its threshold in the lowest byte, then those of
-    /// the texels to the right, below, and below to the right. One number holds what an
-    /// interpolated value needs.
+    /// For each texel of all slices, row by row: its threshold in the lowest byte, then the
+    /// thresholds to the right, below, and below to the right. One number holds what you need to
+    /// interpolate.
     #[must_use]
     pub fn quads(&self) -> &[u32] {
         &self.quads
     }
 }
 
-/// Tones of all texels, before they are spread evenly; greater is lighter.
+/// Tones of all texels, before we spread them evenly. Greater is lighter.
 fn raw(slice: usize, drawn: &[Drawn]) -> Vec<f32> {
     let mut raw = vec![f32::NEG_INFINITY; SIDE * SIDE];
     for Drawn { stroke, tone } in drawn {
@@ -83,7 +83,7 @@ fn raw(slice: usize, drawn: &[Drawn]) -> Vec<f32> {
     raw
 }
 
-/// Tone that the grain of the paper takes from each texel, in all slices alike.
+/// Tone that the grain of the paper takes from each texel. All slices have the same grain.
 fn grain(seed: u64) -> Vec<f32> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(1);
@@ -99,8 +99,8 @@ fn grain(seed: u64) -> Vec<f32> {
         .collect()
 }
 
-/// Thresholds in the order of the raw tones, which the grain of the paper roughens, spread evenly
-/// over 0 to 1.
+/// Thresholds in the order of the raw tones, spread evenly over 0 to 1. The grain of the paper
+/// roughens them.
 fn evenly_spread(raw: &[f32], grain: &[f32], seed: u64) -> Vec<u8> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(2);
@@ -120,8 +120,8 @@ fn evenly_spread(raw: &[f32], grain: &[f32], seed: u64) -> Vec<u8> {
     thresholds.into_iter().map(|threshold| (threshold * 255.0 + 0.5) as u8).collect()
 }
 
-/// Spreads thresholds so that the values interpolated between the texels are nearer to even:
-/// those alone are seen, and there are fewer at the ends of the range.
+/// Spreads thresholds so that the values interpolated between the texels are more even. You only
+/// see these values, and there are fewer of them at the ends of the range.
 fn spread_between(thresholds: &mut [f32]) {
     let at = |x: usize, y: usize| thresholds[(y % SIDE) * SIDE + x % SIDE];
     let mut below = vec![0_u32; BINS + 1];
@@ -156,7 +156,7 @@ fn quads_of(thresholds: &[u8]) -> Vec<u32> {
         .collect()
 }
 
-/// One texture for all tests that only need any.
+/// One texture for all tests that need any texture.
 #[cfg(test)]
 pub(crate) fn sample_texture() -> &'static ThresholdTexture {
     static TEXTURE: std::sync::LazyLock<ThresholdTexture> =
@@ -167,32 +167,32 @@ pub(crate) fn sample_texture() -> &'static ThresholdTexture {
 /// Magnifications in an octave.
 pub const SLICES: usize = 2;
 
-/// Share of a tile that strokes cover in the end. What is left between them comes last.
+/// Strokes cover this share of a tile in the end. What is left between them comes last.
 const COVERED: f32 = 0.95;
 
-/// Strokes that are tried for each that is drawn.
+/// We try this many strokes for each that we draw.
 const CANDIDATES: usize = 20;
 
-/// Strokes not yet born, next by tone, of which one is chosen.
+/// We choose among this many strokes that are not yet born, next by tone.
 const NEXT: usize = 160;
 
-/// Most difference in tone between a stroke and that which it becomes.
+/// The tone of a stroke may differ by this much from the one that it becomes.
 const LIKE: f32 = 0.08;
 
-/// Length, in its widths, by which a stroke would rather slide along than by one width across.
+/// We prefer to slide a stroke along by up to this length, in its widths, rather than across by
+/// one width.
 const ALONG: f32 = 16.0;
 
-/// A stroke, and the tone below which it is drawn.
+/// A stroke, which we draw below this tone.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drawn {
     pub(super) stroke: Stroke,
     pub(super) tone: f32,
 }
 
-/// Factors of the size of strokes on the tiles of the slices: 2 to the power of minus 0 and 1/2.
+/// Factors of the size of strokes on the tiles of the slices: 2 to the power of 0 and -1/2.
 pub(super) const SIZES: [f32; SLICES] = [1.0, std::f32::consts::FRAC_1_SQRT_2];
 
-/// The strokes of every slice, from a seed.
 pub(super) fn slices(seed: u64) -> [Vec<Drawn>; SLICES] {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let first = first_slice(&mut random);
@@ -202,7 +202,7 @@ pub(super) fn slices(seed: u64) -> [Vec<Drawn>; SLICES] {
     [first, second]
 }
 
-/// Strokes from light to dark, each in the widest gap that is found.
+/// Strokes from light to dark. Each lies in the widest gap that we find.
 fn first_slice(random: &mut ChaCha8Rng) -> Vec<Drawn> {
     let mut coverage = Coverage::new(1.0);
     let mut drawn = Vec::new();
@@ -217,8 +217,8 @@ fn first_slice(random: &mut ChaCha8Rng) -> Vec<Drawn> {
     drawn
 }
 
-/// The strokes of the first slice half-way to those they become, and as many others of the four
-/// copies as fill the gaps between them, all falling by tone.
+/// The strokes of the first slice half-way to those they become. We fill the gaps between them
+/// with others of the four copies. All are in order of falling tone.
 fn second_slice(
     first: &[Drawn],
     four: &[Drawn],
@@ -237,7 +237,7 @@ fn second_slice(
     let mut older = older.peekable();
     while coverage.share() < COVERED {
         let tone = 1.0 - coverage.share();
-        // Lighter ones wait, so that there are some of every tone for the rest of the octave.
+        // Lighter ones wait, so that some of every tone are left for the rest of the octave.
         let from = unborn.partition_point(|&index| four[index].tone > tone);
         let to = (from + NEXT).min(unborn.len());
         let next = match older.next_if(|older| older.tone >= tone || from == to) {
@@ -258,46 +258,50 @@ fn second_slice(
     drawn
 }
 
-/// The strokes of four tiles of half the size side by side, falling by tone as those of one.
+/// The strokes of four tiles of half the size side by side, in order of falling tone.
 fn four_copies(first: &[Drawn]) -> Vec<Drawn> {
-    let copies = |own: &Drawn| {
-        let stroke = own.stroke.clone();
-        let tone = own.tone;
-        [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|tile| {
-            let [x, y] = stroke.middle.map(|at| at - at.floor());
-            let middle = [0.5 * (x + tile[0]), 0.5 * (y + tile[1])];
-            Drawn { stroke: stroke.at(middle), tone }
+    first
+        .iter()
+        .flat_map(|own: &Drawn| {
+            let stroke = own.stroke.clone();
+            let tone = own.tone;
+            [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|tile| {
+                let [x, y] = stroke.middle.map(|at| at - at.floor());
+                let middle = [0.5 * (x + tile[0]), 0.5 * (y + tile[1])];
+                Drawn { stroke: stroke.at(middle), tone }
+            })
         })
-    };
-    first.iter().flat_map(copies).collect()
+        .collect()
 }
 
-/// For each stroke the one of the copies that it becomes: the nearest of about its tone that is
-/// not taken by a lighter one.
+/// For each stroke, the stroke of the copies that it becomes. This is the nearest of about its
+/// tone that no lighter one has taken.
 fn like_strokes(first: &[Drawn], four: &[Drawn]) -> Vec<Option<usize>> {
     let mut taken = vec![false; four.len()];
     let across = WIDTH_TEXELS / SIDE as f32;
-    let choose = |own: &Drawn| {
-        let from = four.partition_point(|other| other.tone > own.tone + LIKE);
-        let to = four.partition_point(|other| other.tone >= own.tone - LIKE);
-        let mut nearest = None;
-        let mut least = f32::INFINITY;
-        for index in (from..to).filter(|&index| !taken[index]) {
-            let [x, y] = [0, 1].map(|axis| {
-                let way = four[index].stroke.middle[axis] - own.stroke.middle[axis];
-                (way - way.round()) / across
-            });
-            let far = (x / ALONG).powi(2) + y * y;
-            if far < least {
-                (nearest, least) = (Some(index), far);
+    first
+        .iter()
+        .map(|own: &Drawn| {
+            let from = four.partition_point(|other| other.tone > own.tone + LIKE);
+            let to = four.partition_point(|other| other.tone >= own.tone - LIKE);
+            let mut nearest = None;
+            let mut least = f32::INFINITY;
+            for index in (from..to).filter(|&index| !taken[index]) {
+                let [x, y] = [0, 1].map(|axis| {
+                    let way = four[index].stroke.middle[axis] - own.stroke.middle[axis];
+                    (way - way.round()) / across
+                });
+                let far = (x / ALONG).powi(2) + y * y;
+                if far < least {
+                    (nearest, least) = (Some(index), far);
+                }
             }
-        }
-        nearest.inspect(|&index| taken[index] = true)
-    };
-    first.iter().map(choose).collect()
+            nearest.inspect(|&index| taken[index] = true)
+        })
+        .collect()
 }
 
-/// The stroke of `other` with its middle where the repeating tile brings it nearest to `own`.
+/// The stroke of `other`, moved to where the repeating tile brings its middle nearest to `own`.
 fn nearest_copy(own: &Drawn, other: &Drawn) -> Stroke {
     let middle = [0, 1].map(|axis| {
         let from = own.stroke.middle[axis];
@@ -319,14 +323,15 @@ mod tests {
     fn the_share_of_inked_places_is_the_tone() {
         let texture = sample_texture();
         for slice in 0..SLICES {
-            // Places between the texels, each nearest to another corner of theirs.
-            let between = |texel: usize| {
-                let quad = texture.quads()[slice * SIDE * SIDE + texel].to_le_bytes();
-                let [a, b, c, d] = quad.map(|at| f32::from(at) / 255.0 / 16.0);
-                [(a, b, c, d), (b, a, d, c), (c, a, d, b), (d, b, c, a)]
-                    .map(|(own, next, other, far)| 9.0 * own + 3.0 * (next + other) + far)
-            };
-            let mut all: Vec<f32> = (0..SIDE * SIDE).flat_map(between).collect();
+            // Places between the texels. Each is nearest to another of their corners.
+            let mut all: Vec<f32> = (0..SIDE * SIDE)
+                .flat_map(|texel: usize| {
+                    let quad = texture.quads()[slice * SIDE * SIDE + texel].to_le_bytes();
+                    let [a, b, c, d] = quad.map(|at| f32::from(at) / 255.0 / 16.0);
+                    [(a, b, c, d), (b, a, d, c), (c, a, d, b), (d, b, c, a)]
+                        .map(|(own, next, other, far)| 9.0 * own + 3.0 * (next + other) + far)
+                })
+                .collect();
             all.sort_unstable_by(f32::total_cmp);
             for tone in 0..=64 {
                 let tone = tone as f32 / 64.0;
@@ -364,8 +369,8 @@ mod tests {
                     kept += usize::from(next > 180);
                 }
             }
-            // The next is narrower and shorter by 2^(1/2) and slides by a part of its length. A
-            // quarter of the texels would agree by chance.
+            // The next one is narrower and shorter by 2^(1/2) and slides by a part of its length.
+            // A quarter of the texels would agree by chance.
             assert!(kept * 100 > all * 45, "{slice}: {kept} of {all}");
         }
     }
@@ -389,14 +394,16 @@ mod tests {
             }
             runs
         };
-        let mean = |runs: &[usize]| runs.iter().sum::<usize>() as f32 / runs.len() as f32;
+        fn mean(runs: &[usize]) -> f32 {
+            runs.iter().sum::<usize>() as f32 / runs.len() as f32
+        }
         let wide = runs(true);
         let long = runs(false);
         assert!((1.2..3.5).contains(&mean(&wide)), "{}", mean(&wide));
         assert!(mean(&long) > 3.0 * mean(&wide), "{}", mean(&long));
         let spread = long.iter().map(|&run| (run as f32 - mean(&long)).powi(2)).sum::<f32>();
         assert!((spread / long.len() as f32).sqrt() > 0.5 * mean(&long), "equal lengths");
-        // No row is inked from end to end: these are strokes, not stripes.
+        // No row is inked from end to end, so these are strokes and not stripes.
         for row in 0..SIDE {
             let share = (0..SIDE).filter(|&x| inked(x, row)).count();
             assert!(share < 430, "{row}: {share}");

@@ -1,6 +1,5 @@
-//! Motion as a whole against theory: rest, energy, growth, microstructure, walls.
-//!
-//! Motion under extreme forces, pushes and times, and on any number of threads.
+//! Compares motion as a whole with theory: rest, energy, growth, microstructure, walls. Also tries
+//! extreme forces, pushes and times, and any number of threads.
 
 use std::sync::Arc;
 
@@ -16,7 +15,7 @@ use crate::volume::Volume;
 
 const STEP: f32 = 1.0 / 120.0;
 
-/// Moves volumes by single steps, looking at them after each.
+/// Moves volumes by single steps, and looks at them after each.
 fn run(
     volumes: &mut [Volume],
     settings: &MotionSettings,
@@ -30,13 +29,11 @@ fn run(
     }
 }
 
-/// Places of the particles from the centre.
 fn places(volume: &Volume) -> Vec<DVec3> {
     let [x, y, z] = &volume.particles.places;
     (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i]).as_dvec3()).collect()
 }
 
-/// Distances from the centre over that of a resting ball.
 fn distances(volume: &Volume) -> Vec<f64> {
     let rest = f64::from(volume.radius / volume.mesh().inradius);
     places(volume).iter().map(|place| place.length() / rest).collect()
@@ -70,8 +67,8 @@ fn a_kicked_ball_comes_to_rest_as_a_ball() {
     assert!(roughest > 1e-3, "the kick moved it by {roughest} only");
 }
 
-/// Kinetic energy and that of all springs. Particles weigh as much as they have neighbours, so that
-/// cohesion is the same from both sides.
+/// Kinetic energy plus the energy of all springs. A particle weighs as much as it has neighbours,
+/// so that cohesion is the same from both sides.
 fn energy(volume: &Volume, settings: &MotionSettings) -> f64 {
     let [kp, ke, ks] = [settings.pressure, settings.elastic, settings.cohesion].map(f64::from);
     let mesh = volume.mesh();
@@ -146,12 +143,13 @@ fn growth_lags_by_friction_over_pressure() {
 fn the_microstructure_stays_and_is_as_rough_as_it_says() {
     let settings = MotionSettings::default();
     let surroundings = Surroundings::new(1.0, 7);
-    let ball = |i: usize| Volume::ball(Vec3::new(2.3 * i as f32, 0.4, -1.1), 0.7, 3, i as u64);
-    let mut volumes: Vec<Volume> = (0..8).map(ball).collect();
+    let mut volumes: Vec<Volume> = (0..8)
+        .map(|i: usize| Volume::ball(Vec3::new(2.3 * i as f32, 0.4, -1.1), 0.7, 3, i as u64))
+        .collect();
     volumes.iter_mut().for_each(|volume| kick(volume, 0.3, 0));
     advance(&mut volumes, &settings, &surroundings, 10.0).unwrap();
-    let share = |volume| mean_and_deviation(&distances(volume)).1 / 0.18;
-    let shares: Vec<f64> = volumes.iter().map(share).collect();
+    let shares: Vec<f64> =
+        volumes.iter().map(|volume| mean_and_deviation(&distances(volume)).1 / 0.18).collect();
     assert!(shares.iter().all(|share| (0.2..0.6).contains(share)), "{shares:?}");
 }
 
@@ -174,8 +172,8 @@ fn volumes_at_one_place_share_the_microstructure() {
     }
 }
 
-/// Energy of each degree of the spherical harmonics of values on a sphere, by their addition
-/// theorem: the sum over pairs of values times the Legendre polynomial of the angle between.
+/// Energy of each degree of the spherical harmonics of values on a sphere. We use their addition
+/// theorem: the sum over pairs of values times the Legendre polynomial of the angle between them.
 fn degrees(directions: &[[f32; 3]], values: &[f64], most: usize) -> Vec<f64> {
     let directions: Vec<DVec3> =
         directions.iter().map(|at| Vec3::from(*at).as_dvec3().normalize()).collect();
@@ -202,8 +200,9 @@ fn bumps_are_strongest_at_the_grain() {
     for grain in [0.5, 0.8] {
         let settings = MotionSettings { grain, ..MotionSettings::default() };
         let mut sums = vec![0.0; 25];
-        let ball = |i: u8| Volume::ball(Vec3::new(3.7 * f32::from(i), 0.4, -1.1), 1.0, 3, 1);
-        let mut volumes: Vec<Volume> = (0..16).map(ball).collect();
+        let mut volumes: Vec<Volume> = (0..16)
+            .map(|i: u8| Volume::ball(Vec3::new(3.7 * f32::from(i), 0.4, -1.1), 1.0, 3, 1))
+            .collect();
         advance(&mut volumes, &settings, &Surroundings::new(1.0, 3), 4.0).unwrap();
         for volume in &volumes {
             let distances = distances(volume);
@@ -214,7 +213,7 @@ fn bumps_are_strongest_at_the_grain() {
                 *sum += energy;
             }
         }
-        // The middle of what is above half of the peak, which single degrees move less.
+        // We take the middle of what is above half of the peak, which single degrees move less.
         let peak = sums.iter().copied().fold(0.0, f64::max);
         let strong = sums.iter().enumerate().filter(|(_, sum)| **sum > 0.5 * peak);
         let (weighed, all) = strong.fold((0.0, 0.0), |(weighed, all), (degree, sum)| {
@@ -254,16 +253,16 @@ fn no_particle_leaves_a_region() {
     assert!(touching > 100, "volumes must reach the wall");
 }
 
-/// A plane of samples, a tenth of a cell apart.
 fn floor() -> Arc<SurfaceLattice> {
-    let at = |i: i32| Vec3::new((i % 60 - 30) as f32, 0.0, (i / 60 - 30) as f32) * 0.1;
-    let places: Vec<Vec3> = (0..3600).map(at).collect();
+    let places: Vec<Vec3> = (0..3600)
+        .map(|i: i32| Vec3::new((i % 60 - 30) as f32, 0.0, (i / 60 - 30) as f32) * 0.1)
+        .collect();
     Arc::new(SurfaceLattice::of(&places, 1.0).unwrap())
 }
 
 #[test]
 fn the_surface_gravity_and_pushes_draw_particles_their_way() {
-    let low = |settings: &MotionSettings, surroundings: &Surroundings| {
+    fn low(settings: &MotionSettings, surroundings: &Surroundings) -> (DVec3, f64) {
         let mut volumes = [Volume::ball(Vec3::ZERO, 0.6, 3, 1)];
         volumes[0].normal = Vec3::new(0.6, 0.8, 0.0);
         advance(&mut volumes, settings, surroundings, 2.0).unwrap();
@@ -271,7 +270,7 @@ fn the_surface_gravity_and_pushes_draw_particles_their_way() {
         let mean = places.iter().sum::<DVec3>() / places.len() as f64;
         let height = places.iter().map(|place| place.y.abs()).sum::<f64>() / places.len() as f64;
         (mean, height)
-    };
+    }
     let free = Surroundings::new(1.0, 1);
     let (still, height) = low(&smooth(), &free);
     assert!(still.length() < 1e-5, "{still}");
@@ -313,7 +312,8 @@ fn volumes_at_rest_sleep_until_something_changes() {
 
 const EXTREMES_STEP: f32 = 1.0 / 120.0;
 
-/// The least determinant over a face of a volume, in unit vectors to the places of its particles.
+/// The least determinant over a face of a volume. It takes unit vectors to the places of its
+/// particles.
 fn least_cone(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
     let units: Vec<DVec3> =
@@ -363,7 +363,7 @@ fn unit(random: &mut ChaCha8Rng) -> Vec3 {
     Vec3::new(along(), along(), along()).normalize_or(Vec3::X)
 }
 
-/// A number from 0 to `most`: 0, or even in its logarithm over seven decades.
+/// A number from 0 to `most`. It is 0, or even in its logarithm over seven decades.
 fn spread(random: &mut ChaCha8Rng, most: f32) -> f32 {
     if random.random::<f32>() < 0.1 {
         return 0.0;
@@ -371,8 +371,8 @@ fn spread(random: &mut ChaCha8Rng, most: f32) -> f32 {
     most * 10_f32.powf(-7.0 * random.random::<f32>())
 }
 
-/// Steps of volumes of some details under random settings, times and pushes: all stay finite and
-/// near the centre, or the step is refused as too stiff. Returns how many were refused.
+/// Moves volumes of some details under random settings, times and pushes. All stay finite and near
+/// the centre, or we refuse the step as too stiff. Returns how many steps were refused.
 fn survives(steps: usize, details: &[u8], seed: u64) -> usize {
     let mut random = random(9, seed);
     let random = &mut random;
@@ -380,8 +380,10 @@ fn survives(steps: usize, details: &[u8], seed: u64) -> usize {
     let floor: Vec<Vec3> =
         (0..400).map(|_| 2.0 * unit(random) * Vec3::new(1.0, 0.0, 1.0)).collect();
     let floor = Arc::new(SurfaceLattice::of(&floor, 1.0).unwrap());
-    let ball = |&detail: &u8| Volume::ball(Vec3::splat(detail.into()), 0.5, detail, 1);
-    let mut volumes: Vec<Volume> = details.iter().map(ball).collect();
+    let mut volumes: Vec<Volume> = details
+        .iter()
+        .map(|&detail: &u8| Volume::ball(Vec3::splat(detail.into()), 0.5, detail, 1))
+        .collect();
     let mut settings = MotionSettings::default();
     let mut surroundings = Surroundings::new(1.0, 2);
     for step in 0..steps {
@@ -443,15 +445,15 @@ fn extreme_settings_keep_volumes_whole_for_100_000_steps() {
     assert!((20..50_000).contains(&refused), "{refused} of 100000 steps refused");
 }
 
-/// Plain explicit Euler under the same forces of a smooth ball, the form that the step avoids.
-/// Returns the greatest deviation from rest, in radii.
+/// Plain explicit Euler under the same forces of a smooth ball. The step avoids this form. Returns
+/// the greatest deviation from rest, in radii.
 fn explicit_euler(settings: &MotionSettings, seconds: f32, steps: usize) -> f32 {
     let mut ball = Volume::ball(Vec3::ZERO, 1.0, 3, 1);
     kick(&mut ball, 0.3, 0);
     let mesh = ball.mesh();
-    let vectors = |[x, y, z]: &[Vec<f32>; 3]| -> Vec<Vec3> {
+    fn vectors([x, y, z]: &[Vec<f32>; 3]) -> Vec<Vec3> {
         (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect()
-    };
+    }
     let rest: Vec<Vec3> = vectors(&mesh.axes).iter().map(|at| *at / mesh.inradius).collect();
     let mut places = vectors(&ball.particles.places);
     let mut velocities = vectors(&ball.particles.velocities);
@@ -514,10 +516,11 @@ fn explicit_euler_diverges_where_the_step_does_not() {
 
 #[test]
 fn the_number_of_threads_does_not_change_a_bit() {
-    let moved = |threads: usize| {
+    fn moved(threads: usize) -> Vec<Volume> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let ball = |i: u8| Volume::ball(Vec3::splat(0.4 * f32::from(i)), 0.5, i % 5, i.into());
-        let mut volumes: Vec<Volume> = (0..30).map(ball).collect();
+        let mut volumes: Vec<Volume> = (0..30)
+            .map(|i: u8| Volume::ball(Vec3::splat(0.4 * f32::from(i)), 0.5, i % 5, i.into()))
+            .collect();
         let push = Push { center: Vec3::ONE, direction: Vec3::X, radius: 3.0, strength: 50.0 };
         let surroundings = Surroundings { pushes: vec![push], ..Surroundings::new(1.0, 1) };
         for volume in &mut volumes {
@@ -531,7 +534,7 @@ fn the_number_of_threads_does_not_change_a_bit() {
             });
         }
         volumes
-    };
+    }
     let one = moved(1);
     assert_eq!(one, moved(2));
     assert_eq!(one, moved(8));

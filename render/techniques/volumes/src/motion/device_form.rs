@@ -1,4 +1,4 @@
-//! Volumes, their meshes and the forces on them in the form of the kernel of a step.
+//! Converts volumes, their meshes and the forces on them for the kernel of a step.
 
 use glam::Vec3;
 use graphics::gpu::{Kernel, Storage, layout};
@@ -9,7 +9,6 @@ use super::step::{Acting, Conditions};
 use super::surface_lattice::{BOXES, SurfaceLattice};
 use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 
-/// The parameters of a step.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(super) struct StepParams {
@@ -39,7 +38,6 @@ pub(super) struct StepParams {
 }
 
 impl StepParams {
-    /// The parameters for this many particles.
     pub(super) fn new(
         conditions: Conditions<'_>,
         lattice: Option<&PackedLattice>,
@@ -78,7 +76,6 @@ impl StepParams {
     }
 }
 
-/// One volume in a step.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(super) struct MovedVolume {
@@ -99,9 +96,9 @@ pub(super) struct MovedVolume {
 }
 
 impl MovedVolume {
-    /// A volume whose particles begin at `first`. Its centres and radii in all sub-steps, its
-    /// pushes and its regions are appended to `numbers`. Centres and radii are decided here and not
-    /// on the device, so that volumes vanish in the same step as without one.
+    /// The particles of `volume` begin at `first`. This appends its centres and radii in all
+    /// sub-steps, its pushes and its regions to `numbers`. We compute centres and radii here and
+    /// not on the device, so that volumes vanish in the same step as without a device.
     pub(super) fn new(
         (volume, acting): (&Volume, &Acting),
         conditions: Conditions<'_>,
@@ -147,19 +144,16 @@ impl MovedVolume {
         }
     }
 
-    /// The centre and the radius at the end of the step.
     pub(super) fn last_ball(&self, numbers: &[f32]) -> Option<(Vec3, f32)> {
         let balls = numbers[self.balls as usize..self.pushes as usize].as_chunks().0;
         balls.last().map(|&[x, y, z, radius]| (Vec3::new(x, y, z), radius))
     }
 
-    /// Indices of its particles.
     pub(super) fn particles(&self) -> std::ops::Range<usize> {
         self.first as usize..(self.first + self.count) as usize
     }
 }
 
-/// One particle.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(super) struct MovedParticle {
@@ -169,7 +163,6 @@ pub(super) struct MovedParticle {
     sample: u32,
 }
 
-/// Writes the particles of a volume in the form of the kernel.
 pub(super) fn pack(volume: &Volume, moved: &mut [MovedParticle]) {
     let [px, py, pz] = &volume.particles.places;
     let [vx, vy, vz] = &volume.particles.velocities;
@@ -181,7 +174,6 @@ pub(super) fn pack(volume: &Volume, moved: &mut [MovedParticle]) {
     }
 }
 
-/// Reads the particles of a volume back.
 pub(super) fn unpack(moved: &[MovedParticle], volume: &mut Volume) {
     let particles = &mut volume.particles;
     particles.samples.resize(moved.len(), u32::MAX);
@@ -194,8 +186,8 @@ pub(super) fn unpack(moved: &[MovedParticle], volume: &mut Volume) {
     }
 }
 
-/// Directions of the finest sphere as bits, three each, which are also those of all others; then six
-/// neighbours a vertex and three corners a face of every sphere.
+/// Directions of the finest sphere as bits, three each, which all other spheres share. Then six
+/// neighbours per vertex and three corners per face of every sphere.
 pub(super) fn words_of_spheres() -> Vec<u32> {
     let finest = SphereMesh::of_detail(MOST_DETAIL);
     let mut words: Vec<u32> =
@@ -207,19 +199,17 @@ pub(super) fn words_of_spheres() -> Vec<u32> {
     words
 }
 
-/// Where the neighbours and the faces of a sphere begin in [`words_of_spheres`].
 fn places_of_sphere(detail: u8) -> (u32, u32) {
-    let sizes = |detail: u8| {
+    fn sizes(detail: u8) -> (u32, u32) {
         let fours = 4_u32.pow(detail.into());
         (6 * (10 * fours + 2), 60 * fours)
-    };
+    }
     let before = (0..detail).map(sizes).map(|(neighbours, faces)| neighbours + faces);
     let directions = sizes(MOST_DETAIL).0 / 2;
     let neighbours = directions + before.sum::<u32>();
     (neighbours, neighbours + sizes(detail).0)
 }
 
-/// Where the parts of the look-up of samples begin in its words.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct PackedLattice {
     low: [f32; 3],
@@ -231,7 +221,6 @@ pub(super) struct PackedLattice {
 }
 
 impl PackedLattice {
-    /// The look-up of samples, and its words.
     pub(super) fn new(lattice: &SurfaceLattice) -> (Self, Vec<u32>) {
         let SurfaceLattice { cell, low, counts, tables, boxes, places, .. } = lattice;
         let mut words = Vec::with_capacity(tables.len() + boxes.len() + 3 * places.len());

@@ -1,4 +1,4 @@
-//! Motion on a device against that on the processor.
+//! Compares motion on a device with motion on the processor.
 
 use std::sync::Arc;
 
@@ -15,22 +15,25 @@ fn opened() -> Option<Device> {
     device()?.into_device()
 }
 
-/// Kicked volumes of these levels of detail that grow, side by side, the first at the origin. Every
-/// second one goes to another place.
+/// Kicked volumes of these levels of detail, which grow side by side. The first is at the origin.
+/// Every second one goes to another place.
 fn row(details: &[u8]) -> Vec<Volume> {
-    let ball = |(i, &detail): (usize, &u8)| {
-        let center = Vec3::new(i as f32, 0.1 * i as f32, 0.0);
-        let mut ball = Volume::ball(center, 0.4, detail, 7 + i as u64);
-        ball.target_radius = 0.6;
-        ball.target_center += Vec3::new(0.1, 0.0, -0.2) * (i % 2) as f32;
-        ball.normal = Vec3::Y;
-        kick(&mut ball, 0.3, 0);
-        ball
-    };
-    details.iter().enumerate().map(ball).collect()
+    details
+        .iter()
+        .enumerate()
+        .map(|(i, &detail): (usize, &u8)| {
+            let center = Vec3::new(i as f32, 0.1 * i as f32, 0.0);
+            let mut ball = Volume::ball(center, 0.4, detail, 7 + i as u64);
+            ball.target_radius = 0.6;
+            ball.target_center += Vec3::new(0.1, 0.0, -0.2) * (i % 2) as f32;
+            ball.normal = Vec3::Y;
+            kick(&mut ball, 0.3, 0);
+            ball
+        })
+        .collect()
 }
 
-/// Surroundings with gravity's way down a slope, three regions that cut into the row, and a push.
+/// Surroundings with gravity down a slope, three regions that cut into the row, and a push.
 fn busy() -> Surroundings {
     let low = Vec3::new(-0.35, -0.4, -0.5);
     Surroundings {
@@ -50,7 +53,6 @@ fn busy() -> Surroundings {
     }
 }
 
-/// Distances between the particles of two volumes, in radii.
 fn distances(one: &Volume, other: &Volume) -> Vec<f32> {
     let pairs = one.vertices().zip(other.vertices());
     pairs.map(|(a, b)| Vec3::from(a).distance(Vec3::from(b)) / one.radius).collect()
@@ -60,7 +62,8 @@ fn farthest(one: &Volume, other: &Volume) -> f32 {
     distances(one, other).into_iter().fold(0.0, f32::max)
 }
 
-/// Both crowds after these many steps; `at` sees them and may change the surroundings before each.
+/// Both crowds after this many steps. `at` sees them before each step and may change the
+/// surroundings.
 fn both(
     device: &mut Device,
     volumes: &[Volume],
@@ -93,13 +96,19 @@ fn a_device_agrees_with_the_processor_after_1000_steps() {
             assert!(step == 0 || farthest(before, other) > 1e-4, "{step}, {}", own.detail);
         }
     };
-    let change = |step: usize, around: &mut Surroundings, found: [&[Volume]; 2]| {
-        check(step, found);
-        if step == 400 {
-            around.pushes.clear();
-        }
-    };
-    let found = both(&mut device, &volumes, &settings, busy(), (1000, STEP), change);
+    let found = both(
+        &mut device,
+        &volumes,
+        &settings,
+        busy(),
+        (1000, STEP),
+        |step: usize, around: &mut Surroundings, found: [&[Volume]; 2]| {
+            check(step, found);
+            if step == 400 {
+                around.pushes.clear();
+            }
+        },
+    );
     check(1000, [&found[0], &found[1]]);
 }
 
@@ -125,8 +134,9 @@ fn the_finest_sphere_and_many_sub_steps_agree_too() {
 #[test]
 fn a_surface_pulls_alike_but_for_particles_between_two_samples() {
     let Some(mut device) = opened() else { return };
-    let at = |i: usize| Vec3::new((i % 32) as f32, 0.0, (i / 32) as f32) / 8.0 - 0.9;
-    let floor: Vec<Vec3> = (0..1024).map(at).collect();
+    let floor: Vec<Vec3> = (0..1024)
+        .map(|i: usize| Vec3::new((i % 32) as f32, 0.0, (i / 32) as f32) / 8.0 - 0.9)
+        .collect();
     let surface = Some(Arc::new(SurfaceLattice::of(&floor, 1.0).unwrap()));
     let surroundings = Surroundings { surface, ..Surroundings::new(1.0, 5) };
     let settings = MotionSettings::default();
@@ -182,7 +192,7 @@ fn the_guard_keeps_stars_on_a_device() {
     for (moment, volume) in volumes.iter_mut().enumerate() {
         kick(volume, 100.0, moment as u64);
     }
-    // No number and no direction go to their places of rest.
+    // What is not a number or has no direction goes to its place of rest.
     volumes[1].particles.places[0][5] = f32::NAN;
     volumes[1].particles.velocities[2][9] = f32::INFINITY;
     (0..3).for_each(|axis| volumes[2].particles.places[axis][7] = 0.0);
@@ -192,11 +202,12 @@ fn the_guard_keeps_stars_on_a_device() {
     for step in 0..40 {
         motion.advance(&mut device, &mut volumes, &settings, &surroundings, STEP).unwrap();
         for volume in &volumes {
-            let corner = |i: usize| {
-                let [x, y, z] = volume.particles.places.each_ref().map(|along| along[i]);
-                Vec3::new(x, y, z)
-            };
-            let corners: Vec<_> = (0..volume.mesh().directions.len()).map(corner).collect();
+            let corners: Vec<_> = (0..volume.mesh().directions.len())
+                .map(|i: usize| {
+                    let [x, y, z] = volume.particles.places.each_ref().map(|along| along[i]);
+                    Vec3::new(x, y, z)
+                })
+                .collect();
             assert!(corners.iter().all(|corner| corner.is_finite()));
             let mut cones = volume.mesh().faces.iter().map(|face| {
                 let [a, b, c] = face.map(|i| corners[i as usize]);

@@ -1,12 +1,6 @@
-//! The forces on one particle, per unit of mass.
-//!
-//! Pushes, such as by blown air.
-//!
-//! The random velocities that volumes are born with.
-//!
-//! The resting radius and the centre follow their targets.
-//!
-//! Regions that volumes are kept in.
+//! The forces on one particle, per unit of mass. Also pushes (e.g. by blown air), the random
+//! velocities that volumes are born with, how radius and centre follow their targets, and the
+//! regions that volumes must stay in.
 
 use glam::Vec3;
 use graphics::noise::random;
@@ -15,31 +9,31 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::volume::Volume;
 
-/// Pressure, which brings a particle to its resting radius along the ray from the centre (ten Bosch
-/// 2005; the formula is ours).
+/// Pressure. It brings a particle to its resting radius along the ray from the centre (ten Bosch
+/// 2005, but this formula is ours).
 #[inline(always)]
 pub(super) fn pressure(stiffness: f32, resting: f32, radius: f32, outward: Vec3) -> Vec3 {
     outward * (stiffness * (resting - radius))
 }
 
 /// The elastic force, which brings a particle back to its original direction (ten Bosch 2005). It
-/// acts across the ray only, so that it does not hinder growth. `deviation` is the place less the
-/// resting place.
+/// acts across the ray only, so that it does not hinder growth. You get the `deviation` if you
+/// subtract the resting place from the place.
 #[inline(always)]
 pub(super) fn elastic(stiffness: f32, deviation: Vec3, outward: Vec3) -> Vec3 {
     (outward * deviation.dot(outward) - deviation) * stiffness
 }
 
 /// Cohesion, which makes the deviation of a particle like the mean of its neighbours' deviations.
-/// `sum` is the sum over six neighbours, in which a particle with five of them counts itself;
-/// `stiffness` is that of cohesion over the number of neighbours.
+/// `sum` is the sum over six neighbours. If a particle has five of them, it counts itself too.
+/// `stiffness` is the stiffness of cohesion over the number of neighbours.
 #[inline(always)]
 pub(super) fn cohesion(stiffness: f32, deviation: Vec3, sum: Vec3) -> Vec3 {
     (sum - deviation * 6.0) * stiffness
 }
 
-/// The pull of a sample of the surface, which is `way` from the particle and less than a cell. From
-/// farther than the radius it does not grow, so that it does not tear small volumes.
+/// The pull of a sample of the surface. The sample is `way` from the particle and less than a cell
+/// away. Beyond the radius the pull does not grow, so that it does not tear small volumes.
 #[inline(always)]
 pub(super) fn surface_pull(way: Vec3, stiffness: f32, radius: f32, cell: f32) -> Vec3 {
     let square = way.dot(way);
@@ -50,12 +44,12 @@ pub(super) fn surface_pull(way: Vec3, stiffness: f32, radius: f32, cell: f32) ->
     way * if far { stiffness * radius / square.sqrt() } else { stiffness }
 }
 
-/// Gravity along a surface of unit normal `normal`, or all of it where that is zero.
+/// Gravity along a surface with this unit normal. If the normal is zero, you get all of it.
 pub(super) fn gravity(acceleration: f32, down: Vec3, normal: Vec3) -> Vec3 {
     (down - normal * down.dot(normal)) * acceleration
 }
 
-/// The velocity after a step of `seconds` with friction: implicit in the friction, so that any
+/// The velocity after a step of `seconds` with friction. We treat friction implicitly, so that any
 /// friction is stable.
 #[inline(always)]
 pub(super) fn velocity(before: Vec3, force: Vec3, seconds: f32, damping: f32) -> Vec3 {
@@ -72,16 +66,15 @@ pub(super) fn damping(friction: f32, seconds: f32) -> f32 {
 pub struct Push {
     /// Centre of the ball, in the unit of the scene.
     pub center: Vec3,
-    /// Unit direction in which it pushes.
+    /// Unit direction of the push.
     pub direction: Vec3,
     /// Radius of the ball, above 0, in the unit of the scene.
     pub radius: f32,
-    /// Acceleration at the centre in cells/s^2, at most 1e6; it falls to 0 at the radius.
+    /// Acceleration at the centre in cells/s^2, at most 1e6. It falls to 0 at the radius.
     pub strength: f32,
 }
 
 impl Push {
-    /// Greatest strength, in cells/s^2.
     pub(super) const STRONGEST: f32 = 1e6;
 
     /// The acceleration of a particle at `place`, for cells of size `cell`.
@@ -99,12 +92,12 @@ impl Push {
     }
 }
 
-/// Distance from the mean at which normal numbers are cut, in standard deviations.
+/// We cut normal numbers at this distance from the mean, in standard deviations.
 const MOST: f32 = 3.0;
 
-/// Adds a random velocity to every particle: normal numbers along x, y and z, cut at 3, times `kick`
-/// radii a second. To be called once at birth, and again wherever paint is poured; `moment` tells
-/// the kicks of one volume apart.
+/// Adds a random velocity to every particle: normal numbers along x, y and z, cut at 3, times
+/// `kick` radii per second. Call this once at birth, and again wherever you pour paint. Pass
+/// another `moment` for each kick of one volume.
 pub fn kick(volume: &mut Volume, kick: f32, moment: u64) {
     let mut random = random(volume.seed, moment);
     let speed = kick * volume.radius;
@@ -117,8 +110,9 @@ pub fn kick(volume: &mut Volume, kick: f32, moment: u64) {
     volume.rests_under = 0;
 }
 
-/// A normal number of mean 0 and deviation 1, cut at [`MOST`]. Chosen by comparisons alone, so that
-/// it is the same on every machine: a uniform number x is kept with probability exp(-x^2 / 2).
+/// A normal number of mean 0 and deviation 1, cut at [`MOST`]. We choose it by comparisons alone,
+/// so that it is the same on every machine: we keep a uniform number x with probability exp(-x^2 /
+/// 2).
 fn normal(random: &mut ChaCha8Rng) -> f32 {
     loop {
         let x = MOST * (2.0 * random.random::<f32>() - 1.0);
@@ -130,8 +124,9 @@ fn normal(random: &mut ChaCha8Rng) -> f32 {
     }
 }
 
-/// True with probability exp(-decay), for a decay of 0 to 1 (von Neumann 1951): the length of the
-/// run in which each uniform number is below the one before, the first below `decay`, is even.
+/// True with probability exp(-decay), for a decay of 0 to 1 (von Neumann 1951). In a run, each
+/// uniform number is below the one before, the first below `decay`. This is true if the length of
+/// the run is even.
 fn survives(random: &mut ChaCha8Rng, decay: f32) -> bool {
     let mut last = decay;
     let mut even = true;
@@ -144,15 +139,15 @@ fn survives(random: &mut ChaCha8Rng, decay: f32) -> bool {
     }
 }
 
-/// Time in which the radius comes near to its target, in seconds.
+/// The radius takes about this time to come near to its target, in seconds.
 const DELAY: f32 = 0.15;
 
-/// Share of the target from which the radius takes it on, once rounding stops its growth; share of
-/// the radius from which the centre does.
+/// The radius jumps to the target from this share of the target on, once rounding stops its
+/// growth. The centre does so at this share of the radius.
 const NEAR: f32 = 1e-4;
 
-/// The radius after `seconds`: it goes to its `target` at the speed `(target - radius) / 0.15 s`, at
-/// most `fastest` (per second), by implicit Euler, which never goes past the target.
+/// The radius after `seconds`. It goes to its `target` at the speed `(target - radius) / 0.15 s`,
+/// at most `fastest` (per second). Implicit Euler never goes past the target.
 pub(super) fn grown(radius: f32, target: f32, fastest: f32, seconds: f32) -> f32 {
     let missing = target - radius;
     let most = fastest * seconds;
@@ -160,13 +155,13 @@ pub(super) fn grown(radius: f32, target: f32, fastest: f32, seconds: f32) -> f32
     if next == radius && missing.abs() <= NEAR * target { target } else { next }
 }
 
-/// Greatest speed of the centre of a small volume, in that of its growth. Dents of the skin then do
-/// not bare the place where it began.
+/// Greatest speed of the centre of a small volume, relative to the speed of its growth. This keeps
+/// dents of the skin from baring the place where the volume began.
 const KEEPING: f32 = 0.6;
 
-/// Centre and radius after `seconds`, both on their way to their targets as [`grown`] has it. The
-/// place of the skin that gets ahead most is no faster than `fastest`. The centre of a volume that
-/// is small beside a `cell` moves more slowly than the volume grows, so that it keeps what it held.
+/// Centre and radius after `seconds`. Both go to their targets as in [`grown`]. No place of the
+/// skin gets ahead faster than `fastest`. If a volume is small beside a `cell`, its centre moves
+/// more slowly than it grows, so that it keeps what it held.
 pub(super) fn moved(
     (center, radius): (Vec3, f32),
     (target_center, target): (Vec3, f32),
@@ -189,7 +184,8 @@ pub(super) fn moved(
     (if moved == center { target_center } else { moved }, next)
 }
 
-/// A convex region that holds every volume: its walls push particles back, and none passes them.
+/// A convex region that holds every volume. Its walls push particles back, and no particle passes
+/// them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeepIn {
     /// A box along the axes.
@@ -210,14 +206,14 @@ pub enum KeepIn {
     Above {
         /// A point of the plane.
         point: Vec3,
-        /// The unit normal of the plane, towards the region.
+        /// The unit normal of the plane. It points into the region.
         normal: Vec3,
     },
 }
 
 impl KeepIn {
-    /// The way from `place` to the nearest point that is at least `inset` inside; zero for places
-    /// farther inside.
+    /// The way from `place` to the nearest point that is at least `inset` inside. This is zero if
+    /// you are farther inside.
     #[must_use]
     pub fn way_back(&self, place: Vec3, inset: f32) -> Vec3 {
         match *self {
@@ -239,8 +235,8 @@ impl KeepIn {
         }
     }
 
-    /// The greatest share, 0 to 1, of the way from `center` to `center + offset` that lies inside; 0
-    /// if `center` lies outside.
+    /// The greatest share, 0 to 1, of the way from `center` to `center + offset` that lies inside.
+    /// If `center` lies outside, this is 0.
     #[must_use]
     pub fn share_inside(&self, center: Vec3, offset: Vec3) -> f32 {
         match *self {
@@ -265,7 +261,8 @@ impl KeepIn {
                 if square + 2.0 * along <= room {
                     return 1.0;
                 }
-                // The positive root of `square t^2 + 2 along t = room`, without cancellation.
+                // This takes the positive root of `square t^2 + 2 along t = room` without
+                // cancellation.
                 let root = (along * along + square * room).sqrt();
                 if along > 0.0 { room / (along + root) } else { (root - along) / square }
             }
@@ -290,7 +287,7 @@ impl KeepIn {
         }
     }
 
-    /// Its numbers, which tell two regions apart.
+    /// Its numbers. Two different regions differ in these.
     pub(super) fn numbers(&self) -> [f32; 7] {
         let (kind, [a, b, c], [d, e, f]) = match *self {
             Self::Box { low, high } => (0.0, low.to_array(), high.to_array()),
@@ -301,7 +298,7 @@ impl KeepIn {
     }
 }
 
-/// The share of a way of `length` towards a wall that `room` allows, at most `share`.
+/// The share of a way of `length` towards a wall that `room` allows. You get at most `share`.
 fn within(room: f32, length: f32, share: f32) -> f32 {
     if room <= 0.0 {
         0.0
@@ -338,7 +335,9 @@ mod tests {
 
     #[test]
     fn the_surface_pulls_within_a_cell_and_small_volumes_gently() {
-        let pull = |x: f32, radius: f32| surface_pull(Vec3::X * x, 50.0, radius, 1.0).x;
+        fn pull(x: f32, radius: f32) -> f32 {
+            surface_pull(Vec3::X * x, 50.0, radius, 1.0).x
+        }
         assert_eq!([pull(0.25, 0.5), pull(-0.5, 0.5)], [12.5, -25.0]);
         assert_eq!([pull(0.75, 0.5), pull(-0.5, 0.125)], [25.0, -6.25]);
         assert_eq!([pull(1.0, 0.5), pull(0.0, 0.5)], [0.0, 0.0]);
@@ -366,8 +365,8 @@ mod tests {
         let mut random = random(7, 0);
         let numbers: Vec<f64> = (0..200_000).map(|_| normal(&mut random).into()).collect();
         let mean = |power: i32| numbers.iter().map(|x| x.powi(power)).sum::<f64>() / 200_000.0;
-        // Moments between -3 and 3: 1 - 2 3 phi(3) / 0.9973 = 0.97334, and 3 of that less
-        // 2 27 phi(3) / 0.9973 = 2.68005.
+        // Moments between -3 and 3: 1 - 2 3 phi(3) / 0.9973 = 0.97334, and 3 times this, less 2 27
+        // phi(3) / 0.9973, is 2.68005.
         assert!(mean(1).abs() < 0.01 && mean(3).abs() < 0.03, "{} {}", mean(1), mean(3));
         assert!(
             (mean(2) - 0.97334).abs() < 0.01 && (mean(4) - 2.68005).abs() < 0.06,
@@ -379,11 +378,11 @@ mod tests {
 
     #[test]
     fn kicks_of_one_volume_differ_by_moment_only() {
-        let kicked = |moment| {
+        fn kicked(moment: u64) -> Volume {
             let mut ball = Volume::ball(Vec3::ZERO, 2.0, 2, 5);
             kick(&mut ball, 0.3, moment);
             ball
-        };
+        }
         assert_eq!(kicked(1), kicked(1));
         assert_ne!(kicked(1), kicked(2));
         let squares = kicked(1).particles.velocities.concat().iter().map(|v| v * v).sum::<f32>();
@@ -397,7 +396,7 @@ mod tests {
 
     #[test]
     fn a_radius_comes_to_its_target_and_stays() {
-        // exp(-0.3 / 0.15) of the way is left; the implicit form lags by a third of a step in ten.
+        // exp(-0.3 / 0.15) of the way is left. The implicit form lags by a third of a step in ten.
         let left = 2.0 - after(0.3, 1e-3, 2.0, 100.0);
         assert!((left - (-2.0_f32).exp()).abs() < 2e-3, "{left}");
         assert_eq!(after(4.0, 1.0 / 120.0, 2.0, 100.0), 2.0);

@@ -1,4 +1,4 @@
-// Resting radii of particles over the hills of the surfaces; twin of microstructure.rs, and of
+// Resting radii of particles over the hills of the surfaces. This is the twin of star.rs, and of
 // `SolidHills` in graphics.
 
 const STEEPEST: f32 = 1.746;

@@ -6,9 +6,10 @@
 //!                                 keep-in regions <- star-shape guard <-------+
 //! ```
 //!
-//! The kinds of forces are those of ten Bosch (2005): pressure, elastic, friction, and those of the
-//! surroundings; cohesion and the guard are ours. All is f32 with + - * / and square roots in a
-//! fixed order, so that places are the same bytes on every machine and number of threads.
+//! We take these kinds of forces from ten Bosch (2005): pressure, elastic, friction, and forces of
+//! the surroundings. Cohesion and the guard are ours. We use only f32 with + - * / and square
+//! roots in a fixed order. So you get the same bytes on every machine and for any number of
+//! threads.
 mod settings;
 mod forces;
 mod surface_lattice;

@@ -1,4 +1,4 @@
-//! All volumes over one step on a graphics device.
+//! Moves all volumes over one step on a graphics device.
 
 use std::sync::Arc;
 
@@ -15,11 +15,11 @@ use super::surroundings::Surroundings;
 use crate::device_memory::DeviceMemory;
 use crate::volume::Volume;
 
-/// The motion of volumes on a graphics device, with the memory that it keeps there from step to
-/// step. A workgroup moves a volume.
+/// The motion of volumes on a graphics device. It keeps its memory there from step to step. A
+/// workgroup moves a volume.
 ///
-/// The state of all volumes goes to the device and comes back in every step, so that it is whole on
-/// the processor between steps.
+/// The state of all volumes goes to the device and comes back in every step. So you have it whole
+/// on the processor between steps.
 #[derive(Debug, Default)]
 pub struct DeviceMotion {
     spheres: Option<Buffer>,
@@ -31,13 +31,10 @@ pub struct DeviceMotion {
     marks: DeviceMemory,
 }
 
-/// All volumes that move in a step, in the form of the kernel.
 struct Moving {
-    /// Their indices, and all that acts on them.
     acting: Vec<(usize, Acting)>,
     moved: Vec<MovedVolume>,
     numbers: Vec<f32>,
-    /// Number of particles.
     count: usize,
 }
 
@@ -55,7 +52,6 @@ impl Moving {
         moving
     }
 
-    /// The particles of all these volumes, one after another.
     fn particles(&self, volumes: &[Volume]) -> Vec<MovedParticle> {
         let mut particles = vec![bytemuck::Zeroable::zeroed(); self.count];
         let mut rest = particles.as_mut_slice();
@@ -69,7 +65,6 @@ impl Moving {
         particles
     }
 
-    /// Takes over the state after the step.
     fn end(
         &self,
         volumes: &mut [Volume],
@@ -94,12 +89,12 @@ impl Moving {
 }
 
 impl DeviceMotion {
-    /// Moves all volumes like [`super::advance`], on a graphics device. Centres and radii are the
-    /// same to the bit; particles agree with those of the processor to rounding, which friction damps. The same
-    /// device gives the same bits.
+    /// Moves all volumes like [`super::advance`], but on a graphics device. Centres and radii are
+    /// the same to the bit. Particles agree with the processor's to rounding, which friction
+    /// damps. You get the same bits on the same device.
     ///
     /// # Errors
-    /// Those of [`super::advance`], and [`MotionError::Device`] for a device that has no room, or
+    /// As [`super::advance`], and [`MotionError::Device`] for a device that has no room, or
     /// failed. No volume has moved then.
     pub fn advance(
         &mut self,
@@ -122,7 +117,7 @@ impl DeviceMotion {
         Ok(conditions.count)
     }
 
-    /// Particles after the step, and 1 for each volume that is still.
+    /// Returns the particles after the step, and 1 for each volume that is still.
     fn run(
         &mut self,
         device: &mut Device,
@@ -160,7 +155,6 @@ impl DeviceMotion {
         Ok((device.read(&own, Rows::start(count))?, device.read(&marks, stills)?))
     }
 
-    /// The samples of the surface that pulls, if one does.
     fn surface(
         &mut self,
         device: &mut Device,

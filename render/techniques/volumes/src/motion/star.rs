@@ -1,29 +1,28 @@
-//! The guard that keeps volumes star-shaped: every face is seen from the centre on its inside.
+//! The guard that keeps volumes star-shaped: from the centre you see every face on its inside. A
+//! mesh of such cones does not cut itself, so it holds a point once or not at all.
 //!
-//! A mesh of such cones does not cut itself, so that it holds a point once or not at all.
-//!
-//! The microstructure of surfaces: the resting radius varies with the place in the world.
+//! Also the microstructure of surfaces, which varies the resting radius with the place in the
+//! world.
 
 use graphics::noise::{SolidHills, random};
 
 use super::settings::MotionSettings;
 use crate::volume::SphereMesh;
 
-/// Share of the least cone at rest that every cone keeps at least. It leaves room for the rounding
-/// of places in the scene.
+/// Every cone keeps at least this share of the least cone at rest. This leaves room for the
+/// rounding of places in the scene.
 pub(super) const LEAST_SHARE: f32 = 1.0 / 64.0;
 
-/// Rounds in which corners of failing faces go half-way to their rays; from then on they go all the
-/// way.
+/// In this many rounds, corners of failing faces go half-way to their rays. After that they go all
+/// the way.
 const HALF_WAY_ROUNDS: usize = 8;
 
-/// Rounds after which all corners go to their rays.
+/// After this many rounds all corners go to their rays.
 const MOST_ROUNDS: usize = 16;
 
-/// A corner: its place from the centre, and its distance.
+/// The place of a corner relative to the centre, and its distance.
 pub(super) type Corner = [f32; 4];
 
-/// Whether the cone over a face is wide enough.
 #[inline(always)]
 fn is_open([a, b, c]: [Corner; 3], least: f32) -> bool {
     let x = a[0] * (b[1] * c[2] - b[2] * c[1]);
@@ -32,7 +31,6 @@ fn is_open([a, b, c]: [Corner; 3], least: f32) -> bool {
     x + y + z > least * (a[3] * b[3] * c[3])
 }
 
-/// Whether all cones of a mesh are wide enough.
 #[inline(always)]
 pub(super) fn is_star(mesh: &SphereMesh, corners: &[Corner]) -> bool {
     let least = LEAST_SHARE * mesh.least_cone;
@@ -43,8 +41,9 @@ pub(super) fn is_star(mesh: &SphereMesh, corners: &[Corner]) -> bool {
     all
 }
 
-/// Moves corners of faces whose cones fail: half-way to the ray through their original direction, at
-/// their own distance, at most 8 times; then onto it. Their velocities are halved each time.
+/// Mends faces if their cones fail. Their corners go half-way to the ray through their original
+/// direction, at their own distance, at most 8 times. Then they go onto it. This halves their
+/// velocities each time.
 pub(super) fn mend(mesh: &SphereMesh, corners: &mut [Corner], velocities: [&mut [f32]; 3]) {
     let least = LEAST_SHARE * mesh.least_cone;
     let mut failing = vec![false; corners.len()];
@@ -75,7 +74,8 @@ pub(super) fn mend(mesh: &SphereMesh, corners: &mut [Corner], velocities: [&mut 
     }
 }
 
-/// The place between `corner` and `ray` at the distance of both; `ray` if they are opposite.
+/// The place between `corner` and `ray` at the distance of both. If they are opposite, this is
+/// `ray`.
 fn half_way([x, y, z, distance]: Corner, ray: [f32; 3]) -> Corner {
     let middle = [x + ray[0], y + ray[1], z + ray[2]];
     let length = middle.iter().fold(0.0, |sum, along| sum + along * along).sqrt();
@@ -87,39 +87,36 @@ fn half_way([x, y, z, distance]: Corner, ray: [f32; 3]) -> Corner {
     }
 }
 
-/// Hills in the whole scene, by which the resting radius of every particle varies. Volumes at one
-/// place share them.
+/// Hills in the whole scene. They vary the resting radius of every particle. Volumes at one place
+/// share these hills.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Microstructure {
     hills: SolidHills,
 }
 
 impl Microstructure {
-    /// The microstructure that `seed` decides.
+    /// The microstructure for a `seed`.
     #[must_use]
     pub fn of_seed(seed: u64) -> Self {
-        // A stream of its own among the random numbers of a seed.
+        // The random numbers of this seed have a separate stream for it.
         const STREAM: u64 = 0x6772_6169;
         Self { hills: SolidHills::new(&mut random(seed, STREAM)) }
     }
 
-    /// Its hills, which tell two microstructures apart.
+    /// Its hills. Two different microstructures differ in these.
     pub(super) fn hills(self) -> SolidHills {
         self.hills
     }
 }
 
-/// Resting radii of the particles of one volume.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RestingRadii {
     pub(super) hills: SolidHills,
-    /// Greatest share of the radius that the hills add.
+    /// The hills add at most this share of the radius.
     pub(super) height: f32,
-    /// Units of the hills in one unit of the scene.
     pub(super) units: f32,
     pub(super) center: [f32; 3],
     pub(super) radius: f32,
-    /// Factor that keeps a resting mesh outside of its nominal ball.
     pub(super) scale: f32,
 }
 

@@ -1,8 +1,5 @@
-//! One volume over the sub-steps of a step.
-//!
-//! The forces that act on one volume in a step, and the bounds of its particles.
-//!
-//! All volumes over one step.
+//! Moves all volumes over one step, and each of them over its sub-steps. Also the forces that act
+//! on one volume in a step, and the bounds of its particles.
 
 use std::ops::RangeInclusive;
 
@@ -17,7 +14,7 @@ use super::star::{Corner, RestingRadii, is_star, mend};
 use super::surroundings::Surroundings;
 use crate::volume::{Particles, SphereMesh, Volume};
 
-/// Memory for the steps of volumes, one after another.
+/// Memory for the steps of volumes. You can use it for one volume after another.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     resting: Vec<f32>,
@@ -37,7 +34,8 @@ impl Scratch {
     }
 }
 
-/// Moves one volume over all sub-steps. A volume that rested under the same forces stays as it is.
+/// Moves one volume over all sub-steps. If a volume rested under the same forces, it stays as it
+/// is.
 pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratch: &mut Scratch) {
     let Some(acting) = Acting::on(volume, conditions) else { return };
     let mesh = SphereMesh::of_detail(volume.detail);
@@ -75,13 +73,11 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
     acting.end(volume, still, conditions);
 }
 
-/// One sub-step of one volume.
 struct SubStep<'a> {
     conditions: Conditions<'a>,
     mesh: &'a SphereMesh,
     resting_radii: RestingRadii,
     center: Vec3,
-    /// The acceleration of all particles alike.
     constant: Vec3,
     pushes: &'a [Push],
     regions: &'a [KeepIn],
@@ -90,7 +86,6 @@ struct SubStep<'a> {
 }
 
 impl pulp::WithSimd for SubStep<'_> {
-    /// Whether all particles are still.
     type Output = bool;
 
     #[inline(always)]
@@ -117,7 +112,6 @@ impl pulp::WithSimd for SubStep<'_> {
 }
 
 impl SubStep<'_> {
-    /// Writes the deviation of every particle from its resting place.
     #[inline(always)]
     fn deviate(&mut self) {
         let count = self.scratch.resting.len();
@@ -131,7 +125,6 @@ impl SubStep<'_> {
         }
     }
 
-    /// Writes the force of cohesion, which gathers from neighbours.
     #[inline(always)]
     fn cohere(&mut self) {
         let count = self.scratch.resting.len();
@@ -144,7 +137,7 @@ impl SubStep<'_> {
                 let other = deviations[other as usize];
                 [0, 1, 2, 3].map(|axis| sum[axis] + other[axis])
             });
-            // The first 12 vertices have five neighbours.
+            // The first 12 vertices have only five neighbours.
             let stiffness = stiffness / if i < 12 { 5.0 } else { 6.0 };
             let own = Vec3::from_slice(&deviations[i]);
             let force = cohesion(stiffness, own, Vec3::from_slice(&sum));
@@ -152,7 +145,6 @@ impl SubStep<'_> {
         }
     }
 
-    /// Adds the forces of the surroundings.
     #[inline(always)]
     fn press(&mut self) {
         let Conditions { settings, surroundings, .. } = self.conditions;
@@ -175,7 +167,8 @@ impl SubStep<'_> {
             if let Some(surface) = surface {
                 let (index, sample) = surface.pulling(place, samples[i]);
                 samples[i] = index;
-                // From the centre, as places in the scene are too coarse for small volumes.
+                // We go from the centre, because places in the scene are too coarse for small
+                // volumes.
                 let way = sample.map_or(Vec3::ZERO, |at| (at - self.center) - from_center);
                 force += surface_pull(way, pull, radius, cell);
             }
@@ -191,7 +184,7 @@ impl SubStep<'_> {
         }
     }
 
-    /// Moves all particles and writes their distances. Returns whether all are still.
+    /// Moves all particles and writes their distances. Returns whether all of them are still.
     #[inline(always)]
     fn integrate(&mut self) -> bool {
         let Conditions { settings, seconds, .. } = self.conditions;
@@ -245,8 +238,9 @@ impl SubStep<'_> {
     }
 }
 
-/// A place and velocity between `nearest` and `farthest` from the centre, and that distance. What
-/// is not a number, or has no direction, goes to its place of rest.
+/// Brings a place and velocity to between `nearest` and `farthest` from the centre, and returns
+/// this distance too. If a place is not a number or has no direction, it goes to its place of
+/// rest.
 #[inline(always)]
 fn bounded(
     place: Vec3,
@@ -276,8 +270,8 @@ fn bounded(
     (place, velocity, choose(bounded, rest))
 }
 
-/// Brings particles that passed a wall back to it along the ray to the centre, which keeps cones as
-/// they are, and takes their outward velocity.
+/// Brings particles that passed a wall back to it, and takes their outward velocity. They go along
+/// the ray to the centre, so that cones stay as they are.
 fn keep_inside(regions: &[KeepIn], center: Vec3, least: f32, particles: &mut Particles) {
     let [px, py, pz] = &mut particles.places;
     let [vx, vy, vz] = &mut particles.velocities;
@@ -291,7 +285,7 @@ fn keep_inside(regions: &[KeepIn], center: Vec3, least: f32, particles: &mut Par
             continue;
         }
         let distance = place.dot(place).sqrt();
-        // Slightly inside of the wall, so that rounding does not pass it.
+        // We stay a little inside of the wall, so that rounding does not pass it.
         let to = (distance * share * (1.0 - 1e-5)).max(least / 1024.0);
         let outward = place * (1.0 / distance);
         let velocity = Vec3::new(vx[i], vy[i], vz[i]);
@@ -301,36 +295,31 @@ fn keep_inside(regions: &[KeepIn], center: Vec3, least: f32, particles: &mut Par
     }
 }
 
-/// Nearest and farthest that particles come to the centre, in resting radii.
+/// Particles come at least this near and at most this far from the centre, in resting radii.
 pub(super) const NEAREST: f32 = 1.0 / 32.0;
 pub(super) const FARTHEST: f32 = 6.0;
 
-/// Least radius that a volume shrinks to, in cells.
+/// A volume shrinks down to this radius, in cells.
 const LEAST_RADIUS: f32 = 1.0 / 1024.0;
 
-/// Width of the wall of a region before which it pushes back, in cells.
+/// A region's wall pushes back within this width, in cells.
 const WALL: f32 = 1.0 / 16.0;
 
-/// Way to its place of rest, in radii, below which a particle rests; and the most that rounding,
-/// which stops a slow particle early, adds to it.
+/// A particle rests if its way to its place of rest, in radii, is below this. Rounding stops a
+/// slow particle early and adds at most as much again.
 const STILL: f32 = 2e-6;
 const STILL_ROUNDED: f32 = 1e-5;
 
-/// All that is the same for every volume in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Conditions<'a> {
     pub(super) settings: &'a MotionSettings,
     pub(super) surroundings: &'a Surroundings,
-    /// Fingerprint of both.
     pub(super) fingerprint: u64,
-    /// Number of sub-steps.
     pub(super) count: u32,
-    /// Length of a sub-step in seconds.
     pub(super) seconds: f32,
 }
 
 impl Conditions<'_> {
-    /// Width of the wall of a region, in the unit of the scene.
     pub(super) fn inset(&self) -> f32 {
         WALL * self.surroundings.cell
     }
@@ -340,37 +329,38 @@ impl Conditions<'_> {
         self.settings.pressure.min(self.settings.elastic)
     }
 
-    /// Way to its place of rest, in radii, below which a particle rests.
+    /// A particle rests if its way to its place of rest, in radii, is below this.
     pub(super) fn still(&self) -> f32 {
-        // Friction lets a force move a particle by h F / k_f a step, which rounding may swallow.
+        // Friction lets a force move a particle by h F / k_f per step, which rounding may swallow.
         let swallowed = f32::EPSILON * self.settings.friction / (self.seconds * self.weakest());
         (STILL + swallowed).min(STILL_ROUNDED)
     }
 }
 
-/// The growth of one volume in a step, and those forces of the surroundings that reach it.
+/// The growth of one volume in a step, and the forces of the surroundings that reach it.
 #[derive(Debug, Clone)]
 pub(super) struct Acting {
-    /// Radius that it grows or shrinks to.
     target: f32,
-    /// Radius that it does not shrink below.
     least: f32,
-    /// The acceleration of all particles alike.
     pub(super) constant: Vec3,
     pub(super) pushes: Vec<Push>,
     pub(super) regions: Vec<KeepIn>,
 }
 
 impl Acting {
-    /// All that moves a volume; none for one that is dry, or that rested under the same forces.
+    /// All that moves a volume. `None` for one that is dry, or that rested under the same forces.
     pub(super) fn on(volume: &Volume, conditions: Conditions<'_>) -> Option<Self> {
         let Conditions { settings, surroundings, .. } = conditions;
         let least = LEAST_RADIUS * surroundings.cell;
         let target = volume.target_radius.max(least);
         let way = volume.center.distance(volume.target_center);
         let reach = FARTHEST * volume.radius.max(target) / volume.mesh().inradius + way;
-        let reaches = |push: &&Push| push.reaches(volume.center, reach);
-        let pushes: Vec<Push> = surroundings.pushes.iter().filter(reaches).copied().collect();
+        let pushes: Vec<Push> = surroundings
+            .pushes
+            .iter()
+            .filter(|push: &&Push| push.reaches(volume.center, reach))
+            .copied()
+            .collect();
         let rests = volume.rests_under == conditions.fingerprint;
         if volume.dry || (rests && has_arrived(volume, target) && pushes.is_empty()) {
             return None;
@@ -387,7 +377,6 @@ impl Acting {
         Some(Self { target, least, constant, pushes, regions })
     }
 
-    /// The centre and the resting radius of a volume after a sub-step from `now`.
     pub(super) fn moved(
         &self,
         now: (Vec3, f32),
@@ -401,8 +390,8 @@ impl Acting {
         (center, radius.max(self.least))
     }
 
-    /// Ends a step: a volume whose particles are all still, and that nothing else changes, rests
-    /// under these forces.
+    /// Ends a step. A volume rests under these forces if all its particles are still and nothing
+    /// else changes.
     pub(super) fn end(&self, volume: &mut Volume, still: bool, conditions: Conditions<'_>) {
         volume.rests_under = 0;
         if still && has_arrived(volume, self.target) && self.pushes.is_empty() {
@@ -417,20 +406,20 @@ fn has_arrived(volume: &Volume, target: f32) -> bool {
     volume.radius == target && volume.center == volume.target_center
 }
 
-/// Greatest number of sub-steps of one step.
 const MOST_SUB_STEPS: u32 = 1000;
 
-/// Moves all volumes by `seconds`, 0 to 1000, in as many equal sub-steps as the forces need, whose
-/// number it returns: `ceil(seconds sqrt(k))`, with k the stiffness of all forces. Semi-implicit
-/// Euler with implicit friction is stable while `h^2 k < 4 + 2 h k_f`; this keeps `h^2 k <= 1`.
+/// Moves all volumes by `seconds`, 0 to 1000. The forces decide how many equal sub-steps we need,
+/// and you get this number: `ceil(seconds sqrt(k))`, with k the stiffness of all forces.
+/// Semi-implicit Euler with implicit friction is stable while `h^2 k < 4 + 2 h k_f`. We keep `h^2
+/// k <= 1`.
 ///
-/// Dry volumes do not move. Volumes that rest stay as they are until a force changes. The result
+/// Dry volumes do not move. If a volume rests, it stays as it is until a force changes. The result
 /// does not depend on the number of threads.
 ///
 /// # Errors
 /// [`MotionError::OutOfRange`] for a setting, surroundings or a time out of range,
-/// [`MotionError::TooStiff`] for more than 1000 sub-steps, [`MotionError::Volume`] for a volume
-/// whose centres or radii are not finite, or whose radius is not above 0. No volume has moved then.
+/// [`MotionError::TooStiff`] for more than 1000 sub-steps, [`MotionError::Volume`] for a volume if
+/// its centres or radii are not finite, or its radius is not above 0. No volume has moved then.
 pub fn advance(
     volumes: &mut [Volume],
     settings: &MotionSettings,
@@ -446,10 +435,10 @@ pub fn advance(
     Ok(conditions.count)
 }
 
-/// The conditions of a step; none for one of 0 seconds.
+/// The conditions of a step. `None` for a step of 0 seconds.
 ///
 /// # Errors
-/// Those of [`advance`].
+/// As [`advance`].
 pub(super) fn conditions<'a>(
     volumes: &[Volume],
     settings: &'a MotionSettings,
@@ -471,14 +460,13 @@ pub(super) fn conditions<'a>(
     Ok(Some(Conditions { settings, surroundings, fingerprint, count, seconds }))
 }
 
-/// Number of sub-steps of a step.
 fn sub_steps(stiffness: f32, seconds: f32) -> Result<u32, MotionError> {
     let needed = (seconds * stiffness.sqrt()).ceil().max(1.0);
     if needed <= MOST_SUB_STEPS as f32 {
         return Ok(needed as u32);
     }
     let most = MOST_SUB_STEPS;
-    // A little less than fits, as both are rounded for the message.
+    // This is a little less than fits, because we round both for the message.
     let fitting_seconds = 0.999 * most as f32 / stiffness.sqrt();
     let fitting = 0.999 * most as f32 / seconds;
     let fitting_stiffness = fitting * fitting;

@@ -1,5 +1,5 @@
-// All sub-steps of a volume by one workgroup, whose threads stride over its particles; twin of
-// step.rs, forces.rs and star.rs.
+// Moves a volume over all sub-steps by one workgroup. Its threads stride over the particles. This
+// is the twin of step.rs, forces.rs and star.rs.
 
 struct StepParams {
     // Corner of the first cell of the surface, and boxes in one unit of the scene.
@@ -60,7 +60,7 @@ struct MovedParticle {
 
 @group(0) @binding(0) var<uniform> params: StepParams;
 @group(0) @binding(1) var<storage, read> volumes: array<MovedVolume>;
-// Directions of the finest sphere, three words each; then neighbours and faces of all spheres.
+// Directions of the finest sphere, three words each. Then neighbours and faces of all spheres.
 @group(0) @binding(2) var<storage, read> mesh: array<u32>;
 @group(0) @binding(3) var<storage, read> numbers: array<f32>;
 // Cells, boxes and places of the samples of the surface.
@@ -125,7 +125,7 @@ fn around(volume: MovedVolume, from_center: vec3<f32>, sample: u32, radius: f32)
     return force;
 }
 
-// A particle within its bounds. One that is no number, or without direction, goes to its place of
+// A particle within its bounds. If it is not a number or has no direction, it goes to its place of
 // rest.
 fn bounded(moved: MovedParticle, nearest: f32, farthest: f32, rest: vec3<f32>) -> MovedParticle {
     let far = sqrt(dot(moved.place, moved.place));

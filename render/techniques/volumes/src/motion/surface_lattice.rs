@@ -1,4 +1,4 @@
-//! Which sample of the surface is nearest, looked up in constant time.
+//! Looks up in constant time which sample of the surface is nearest.
 
 use std::ops::Range;
 
@@ -7,29 +7,25 @@ use rayon::prelude::*;
 
 use super::settings::{MotionError, in_range};
 
-/// Boxes along each side of a cell.
 pub(super) const BOXES: usize = 4;
 
-/// Boxes in a cell.
 const BOXES_OF_CELL: usize = BOXES * BOXES * BOXES;
 
-/// Greatest number of cells in the box around the surface.
+/// The box around the surface may have at most this many cells.
 const MOST_CELLS: usize = 1 << 24;
 
-/// No cell of the look-up, or no sample near a box.
+/// Marks a cell outside the look-up, or a box without a sample near it.
 const NONE: u32 = u32::MAX;
 
-/// Samples of the scene's surface, with the nearest one for every box of a quarter of a cell that is
-/// less than a cell from the surface.
+/// Samples of the scene's surface. Every box of a quarter of a cell that is less than a cell from
+/// the surface knows its nearest sample.
 ///
-/// The sample of a place is the one nearest to the middle of its box: it is farther from the place
+/// For a place you get the sample nearest to the middle of its box. It is farther from the place
 /// than the nearest of all by at most the diagonal of a box, 0.43 cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceLattice {
     pub(super) cell: f32,
-    /// Corner of the first cell.
     pub(super) low: Vec3,
-    /// Cells along x, y and z.
     pub(super) counts: [usize; 3],
     /// For every cell, the index of its boxes, or [`NONE`].
     pub(super) tables: Vec<u32>,
@@ -40,7 +36,7 @@ pub struct SurfaceLattice {
 }
 
 impl SurfaceLattice {
-    /// The look-up of samples at `places`, for cells of size `cell`.
+    /// Builds the look-up of samples at `places`, for cells of size `cell`.
     ///
     /// # Errors
     /// [`MotionError::OutOfRange`] for a cell size that is not finite and above 0,
@@ -53,7 +49,7 @@ impl SurfaceLattice {
         }
         let low = places.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let high = places.iter().copied().reduce(Vec3::max).unwrap_or_default();
-        // A layer of cells all around, as places outside of the box are pulled too.
+        // We add a layer of cells all around, because places outside of the box are pulled too.
         let sides = ((high - low) / cell).floor() + 3.0;
         let blocks = sides.x * sides.y * sides.z;
         if blocks > MOST_CELLS as f32 || !blocks.is_finite() {
@@ -73,16 +69,16 @@ impl SurfaceLattice {
         Ok(lattice)
     }
 
-    /// The sample for `place`; none if the surface is farther than about a cell.
+    /// The sample for `place`. `None` if the surface is farther away than about a cell.
     #[inline]
     #[must_use]
     pub fn nearest(&self, place: Vec3) -> Option<Vec3> {
         self.places.get(self.sample_of(place) as usize).copied()
     }
 
-    /// The sample that pulls a particle at `place`, which `last` pulled before; both are indices, or
-    /// [`u32::MAX`] for none. A particle goes over to the sample of its place only where that is
-    /// nearer, so it cannot swing between two samples for ever: the energy of the pull falls.
+    /// The sample that pulls a particle at `place`. `last` pulled it before. Both are indices, or
+    /// [`u32::MAX`] for none. A particle changes to the sample of its place only if this is
+    /// nearer. So it cannot swing between two samples for ever: the energy of the pull falls.
     #[inline]
     #[must_use]
     pub fn pulling(&self, place: Vec3, last: u32) -> (u32, Option<Vec3>) {
@@ -101,7 +97,6 @@ impl SurfaceLattice {
         }
     }
 
-    /// Index of the sample for `place`, or [`NONE`].
     #[inline]
     fn sample_of(&self, place: Vec3) -> u32 {
         let at = (place - self.low) * (BOXES as f32 / self.cell);
@@ -128,19 +123,22 @@ impl SurfaceLattice {
         self.cell
     }
 
-    /// Two numbers that tell its samples from those of others.
+    /// Two numbers that distinguish its samples from others.
     pub(super) fn print(&self) -> [u32; 2] {
         self.print
     }
 
     fn fill(&mut self) {
         let cells = self.counts.iter().product();
-        let cell_of = |place: Vec3| {
-            let at = ((place - self.low) / self.cell).to_array().map(|along| along as usize);
-            (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
-        };
         // Samples by cell, in each by index.
-        let of_samples: Vec<usize> = self.places.iter().map(|&place| cell_of(place)).collect();
+        let of_samples: Vec<usize> = self
+            .places
+            .iter()
+            .map(|&place: &Vec3| {
+                let at = ((place - self.low) / self.cell).to_array().map(|along| along as usize);
+                (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
+            })
+            .collect();
         let mut first = vec![0_u32; cells + 1];
         for &cell in &of_samples {
             first[cell + 1] += 1;
@@ -154,9 +152,11 @@ impl SurfaceLattice {
             sorted[next[cell] as usize] = sample as u32;
             next[cell] += 1;
         }
-        let is_near =
-            |cell: &usize| self.rows_around(*cell).any(|row| first[row.start] < first[row.end]);
-        let near: Vec<usize> = (0..cells).filter(is_near).collect();
+        let near: Vec<usize> = (0..cells)
+            .filter(|cell: &usize| {
+                self.rows_around(*cell).any(|row| first[row.start] < first[row.end])
+            })
+            .collect();
         self.tables = vec![NONE; cells];
         for (&cell, table) in near.iter().zip(0..) {
             self.tables[cell] = table;
@@ -175,7 +175,9 @@ impl SurfaceLattice {
     fn rows_around(&self, cell: usize) -> impl Iterator<Item = Range<usize>> + use<> {
         let [columns, rows, layers] = self.counts;
         let [x, y, z] = [cell % columns, cell / columns % rows, cell / columns / rows];
-        let side = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        fn side(at: usize, count: usize) -> Range<usize> {
+            at.saturating_sub(1)..(at + 2).min(count)
+        }
         let along = side(x, columns);
         let across = side(y, rows);
         side(z, layers).flat_map(move |layer| {
@@ -187,7 +189,6 @@ impl SurfaceLattice {
         })
     }
 
-    /// The nearest of `samples` for every box of a cell.
     fn boxes_of(&self, cell: usize, samples: &[(u32, Vec3)]) -> Vec<u32> {
         const HALF: usize = BOXES / 2;
         let [columns, rows, _] = self.counts;
@@ -198,14 +199,15 @@ impl SurfaceLattice {
         let mut found = vec![NONE; BOXES_OF_CELL];
         let mut few = Vec::new();
         let mut squares = Vec::new();
-        // An eighth of the cell at a time: few samples can be nearest to any of its boxes.
+        // We take an eighth of the cell at a time, because few samples can be nearest to any of
+        // its boxes.
         for eighth in 0..8 {
             let from = [eighth % 2, eighth / 2 % 2, eighth / 4].map(|half| half * HALF);
             let middle = corner + Vec3::from(from.map(|along| (along + HALF / 2) as f32)) * side;
             squares.clear();
             squares.extend(samples.iter().map(|(_, place)| (*place - middle).length_squared()));
             let least = squares.iter().copied().fold(f32::MAX, f32::min);
-            // Middles of boxes are at most half of this from the middle of the eighth.
+            // The middle of a box is at most half of this from the middle of the eighth.
             let far = least.sqrt() + ((HALF - 1) as f32 + 0.01) * diagonal;
             let near = samples.iter().zip(&squares).filter(|(_, square)| **square <= far * far);
             few.clear();
@@ -218,7 +220,7 @@ impl SurfaceLattice {
                 let mut nearest = (reach * reach, NONE);
                 for &(sample, place) in &few {
                     let square = (place - middle).length_squared();
-                    // Of equally near samples the first one is taken.
+                    // Among equally near samples we take the first.
                     if square < nearest.0 || (square == nearest.0 && sample < nearest.1) {
                         nearest = (square, sample);
                     }

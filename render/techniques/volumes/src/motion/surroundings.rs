@@ -12,23 +12,24 @@ use super::surface_lattice::SurfaceLattice;
 /// The surroundings of all volumes at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
-    /// Size of a cell, the length in which settings are given, in the unit of the scene.
+    /// Size of a cell in the unit of the scene. You give lengths in settings in cells.
     pub cell: f32,
     /// Unit vector downwards.
     pub down: Vec3,
     /// The microstructure of all surfaces.
     pub microstructure: Microstructure,
-    /// Samples of the surface that particles within one cell are pulled to; none for no pull.
+    /// Samples of the surface. They pull particles within one cell. If you pass `None`, nothing
+    /// pulls.
     pub surface: Option<Arc<SurfaceLattice>>,
-    /// Regions all of which hold every volume. A volume whose centre lies outside of one shrinks
-    /// to a dot.
+    /// Every volume must stay in all these regions. If its centre lies outside of one, the volume
+    /// shrinks to a dot.
     pub regions: Vec<KeepIn>,
     /// The pushes at this time.
     pub pushes: Vec<Push>,
 }
 
 impl Surroundings {
-    /// Empty surroundings with the y axis upwards.
+    /// Empty surroundings. The y axis points upwards.
     #[must_use]
     pub fn new(cell: f32, seed: u64) -> Self {
         Self {
@@ -46,12 +47,12 @@ impl Surroundings {
     /// # Errors
     /// [`MotionError::OutOfRange`] for the first number out of range.
     pub fn check(&self) -> Result<(), MotionError> {
-        /// Places and radii are finite and leave room for their squares.
+        /// Places and radii must be finite and leave room for their squares.
         const FARTHEST: f32 = 1e15;
-        let place = |key, place: Vec3| {
+        fn place(key: &'static str, place: Vec3) -> Result<(), MotionError> {
             let mut along = place.to_array().into_iter();
             along.try_for_each(|along| in_range(key, along, -FARTHEST, FARTHEST))
-        };
+        }
         in_range("cell", self.cell, 1e-15, FARTHEST)?;
         place("down", self.down)?;
         for region in &self.regions {
@@ -75,8 +76,8 @@ impl Surroundings {
         own + pull + keep
     }
 
-    /// A number above 0 that tells all lasting forces apart: settings and surroundings without
-    /// pushes.
+    /// A number above 0 for all lasting forces, which are settings and surroundings without
+    /// pushes. If you change a force, this number changes.
     pub(crate) fn fingerprint(&self, settings: &MotionSettings) -> u64 {
         // FNV-1a (Fowler, Noll, Vo 1991) over words.
         let mut print = 0xcbf2_9ce4_8422_2325_u64;
@@ -87,7 +88,7 @@ impl Surroundings {
         for value in self.down.to_array().into_iter().chain([self.cell]) {
             add(value.to_bits());
         }
-        // Its height at one place is as good as its seed.
+        // We add the height at one place instead of the seed, which does as well.
         add(self.microstructure.hills().at([0.3, 0.4, 0.6]).to_bits());
         for value in self.regions.iter().flat_map(KeepIn::numbers) {
             add(value.to_bits());
@@ -117,7 +118,9 @@ mod tests {
     fn every_lasting_force_changes_the_fingerprint() {
         let settings = MotionSettings::default();
         let plain = Surroundings::new(1.0, 1);
-        let lattice = |x: f32| Some(Arc::new(SurfaceLattice::of(&[Vec3::X * x], 1.0).unwrap()));
+        fn lattice(x: f32) -> Option<Arc<SurfaceLattice>> {
+            Some(Arc::new(SurfaceLattice::of(&[Vec3::X * x], 1.0).unwrap()))
+        }
         let wall = KeepIn::Ball { center: Vec3::ZERO, radius: 1.0 };
         let others = [
             plain.clone(),

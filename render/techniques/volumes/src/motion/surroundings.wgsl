@@ -1,5 +1,5 @@
-// The pushes, regions and samples of the surface around a particle; twin of push.rs, keep_in.rs and
-// surface_lattice.rs. They stand in `numbers`, eight to a push or region, and in `surface`.
+// The pushes, regions and samples of the surface around a particle. This is the twin of forces.rs
+// and surface_lattice.rs. You find them in `numbers`, eight to a push or region, and in `surface`.
 
 const NONE: u32 = 0xffffffffu;
 const BOXES: u32 = 4u;

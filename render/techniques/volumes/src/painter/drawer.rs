@@ -1,8 +1,6 @@
-//! The scene before a camera and the volumes that hold it, before a picture is composed.
-//!
-//! Values of samples averaged to pixels.
-//!
-//! The parts of a painting of a scene with its volumes.
+//! Draws the scene before a camera with the volumes that hold it, before we compose a picture.
+//! Samples are averaged to pixels here, and you get the parts of a painting of the scene with its
+//! volumes.
 
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
@@ -21,18 +19,17 @@ use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
 
-/// Most samples of a picture.
+/// A picture has at most this many samples.
 const MOST_SAMPLES: usize = 1 << 28;
 
-/// Samples that share the work of one thread at least.
+/// A thread works on at least this many samples.
 const SAMPLES: usize = 8192;
 
-/// Draws one scene with its volumes.
 #[derive(Debug)]
 pub(super) struct Drawer {
-    /// The scene where pictures are made.
+    /// The scene on the device that makes pictures.
     pub(super) scene: LoadedScene,
-    /// The scene on the processor, where paintings are made, if pictures are made elsewhere.
+    /// The scene on the processor, which makes paintings. `None` if pictures are made there too.
     pub(super) host: Option<LoadedScene>,
     pub(super) packed: PackedMesh,
     pub(super) facets: Facets,
@@ -46,9 +43,7 @@ pub(super) struct Drawer {
 /// The view of a camera, before volumes bring colour.
 pub(super) struct Sight {
     pub(super) visible: Image<Fragment>,
-    /// Colours lit, textured and hatched, each with its grey.
     pub(super) shaded: ColorImage,
-    /// Volumes and shells that hold each sample, by region.
     pub(super) counts: Vec<Image<i32>>,
 }
 
@@ -79,7 +74,6 @@ impl Drawer {
         })
     }
 
-    /// Draws on another device.
     pub(super) fn on(self, compute: Compute) -> Result<Self, PaintingError> {
         let scene = LoadedScene::new(compute, &self.packed, &self.facets, &self.texture)?;
         let host = [Some(self.scene), self.host].into_iter().flatten().find(LoadedScene::is_host);
@@ -90,7 +84,6 @@ impl Drawer {
         self.scene.compute.name()
     }
 
-    /// Draws with other settings of light, grey, hatching, paper and gate.
     pub(super) fn set(&mut self, settings: &Settings) -> Result<(), PaintingError> {
         let look = in_sight::drawing_look(settings);
         look.check()?;
@@ -98,7 +91,6 @@ impl Drawer {
         Ok(())
     }
 
-    /// The view of `camera` in a picture of `size`.
     pub(super) fn sight(
         &mut self,
         world: &World,
@@ -113,13 +105,13 @@ impl Drawer {
         Ok(Sight { visible, shaded, counts })
     }
 
-    /// Whether gated surfaces are counted on the processor, though pictures are made elsewhere.
+    /// Whether the processor counts gated surfaces, though another device makes the pictures.
     pub(super) fn counts_elsewhere(&self) -> bool {
         !self.scene.gates
     }
 
-    /// The counts of all regions. What the device of the scene cannot count the processor counts,
-    /// for the same samples.
+    /// The counts of all regions. If the device of the scene cannot count something, the processor
+    /// counts it for the same samples.
     fn counts(
         &mut self,
         world: &World,
@@ -157,7 +149,6 @@ impl Drawer {
         Ok(counts)
     }
 
-    /// The picture of a sight, with the volumes of `regions`.
     pub(super) fn revealed(
         &mut self,
         sight: &Sight,
@@ -171,7 +162,6 @@ impl Drawer {
         Ok(compute.take(picture)?)
     }
 
-    /// The regions of a sight.
     pub(super) fn regions_of(&self, sight: &Sight) -> Vec<Region> {
         let regions = self.regions.iter().zip(&sight.counts);
         regions
@@ -184,7 +174,6 @@ impl Drawer {
             .collect()
     }
 
-    /// The parts of a painting with `films`, on the processor.
     pub(super) fn parts(
         &mut self,
         films: &mut Films,
@@ -240,7 +229,7 @@ impl Drawer {
         })
     }
 
-    /// Copies the scene to the processor's memory, if pictures are made elsewhere.
+    /// Copies the scene to the processor's memory, unless it is there already.
     pub(super) fn load_on_host(&mut self) -> Result<(), PaintingError> {
         if !self.scene.is_host() && self.host.is_none() {
             let host = Compute::cpu();
@@ -249,7 +238,6 @@ impl Drawer {
         Ok(())
     }
 
-    /// Width and height in samples.
     pub(super) fn samples(
         &self,
         (width, height): (usize, usize),
@@ -265,7 +253,6 @@ impl Drawer {
     }
 }
 
-/// Checks that every volume is of one of these many regions.
 fn check_regions(all: Volumes<'_>, regions: usize) -> Result<(), PaintingError> {
     let mut indices = all.volumes.iter().map(|volume| usize::from(volume.region));
     match indices.find(|&region| region >= regions) {
@@ -274,22 +261,20 @@ fn check_regions(all: Volumes<'_>, regions: usize) -> Result<(), PaintingError> 
     }
 }
 
-/// Lays the tint of a region over those before it.
 fn lay_tint(tint: &mut Field<f32>, counts: &Field<i32>, table: &TintTable) {
     each(tint, |below, sample| {
         *below += (1.0 - *below) * table.tint(counts.values()[sample]);
     });
 }
 
-/// Changes each sample, which has an index.
+/// Changes each sample. `change` gets its index.
 fn each(field: &mut Field<f32>, change: impl Fn(&mut f32, usize) + Sync) {
     let samples = field.values_mut().par_iter_mut().with_min_len(SAMPLES).enumerate();
     samples.for_each(|(index, sample)| change(sample, index));
 }
 
-/// A value of which a pixel has the mean over its samples.
+/// A value that a pixel averages over its samples.
 pub(super) trait Averaged: Copy + Send + Sync {
-    /// The mean of `count` values.
     fn mean(values: impl Iterator<Item = Self>, count: usize) -> Self;
 }
 
@@ -319,7 +304,8 @@ impl Averaged for FilmHeights {
     }
 }
 
-/// The mean over `samples` x `samples` values, for a field whose sides are multiples of them.
+/// Averages over `samples` x `samples` values. The sides of the field must be multiples of
+/// `samples`.
 pub(super) fn averaged<T: Averaged>(field: Field<T>, samples: usize) -> Field<T> {
     if samples == 1 {
         return field;
@@ -339,13 +325,11 @@ pub(super) fn averaged<T: Averaged>(field: Field<T>, samples: usize) -> Field<T>
     Field::from_values(width, height, values)
 }
 
-/// A painting's parts, one value for each pixel.
 pub(super) struct Parts {
-    /// Colours lit and textured but not hatched, each with its grey.
     pub(super) color: Field<[f32; 4]>,
     pub(super) cover: Field<f32>,
     pub(super) ink: Field<f32>,
-    /// Share of the scene's own colours, if any region shows them.
+    /// Share of the scene's own colours. `None` if no region shows them.
     pub(super) tint: Option<Field<f32>>,
     pub(super) heights: Field<FilmHeights>,
 }

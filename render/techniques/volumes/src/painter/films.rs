@@ -1,4 +1,4 @@
-//! Volumes in measured pigments: what is prepared once for all pictures.
+//! Volumes in measured pigments. This prepares once what all pictures need.
 
 use std::sync::Arc;
 
@@ -31,21 +31,21 @@ pub struct VolumePigments {
     pub library: Arc<PigmentLibrary>,
     /// Pigments of the volumes by slot.
     pub slots: Slots,
-    /// Pigments for the colours of the scene; those of the volumes if left out.
+    /// Pigments for the colours of the scene. If you leave them out, these are the pigments of the
+    /// volumes.
     pub own_colors: Option<Slots>,
     /// The ground under all films.
     pub ground: GroundSpec,
-    /// Light that the painting is viewed under. Without relief ([`Lighting::relief`] 0) pictures
-    /// are made at the speed of frames.
+    /// Light under which you view the painting. Without relief ([`Lighting::relief`] 0) pictures
+    /// come at the speed of frames.
     pub lighting: Lighting,
 }
 
-/// Films of all volumes for one painter.
 #[derive(Debug)]
 pub(super) struct Films {
     pub(super) painter: FilmPainter,
     pub(super) view: FilmView,
-    /// With the grid that it was made for.
+    /// The counter, with the grid for which it was made.
     counter: Option<(Arc<Grid>, FilmCounter)>,
 }
 
@@ -70,8 +70,8 @@ impl Films {
         Ok(Self { painter, view, counter: None })
     }
 
-    /// Heights of the films at what each pixel shows of `scene`. Volumes of regions without films
-    /// have none.
+    /// Heights of the films at what each pixel shows of `scene`. If regions have no films, their
+    /// volumes have none.
     pub(super) fn heights(
         &mut self,
         world: &World,
@@ -96,15 +96,16 @@ impl Films {
         let kind = settings.drawing.film;
         let wanted = |volume: &Volume| {
             let region = regions.get(usize::from(volume.region));
-            // Films through volumes are seen before surfaces too.
+            // You see films through volumes before surfaces too.
             region.is_some_and(|region| region.inside.has_films())
                 && (kind == FilmKind::Through || in_sight.may_hold(volume))
         };
         let volumes = world.volumes().iter().zip(world.facing());
         let volumes = volumes.filter(|(volume, _)| wanted(volume));
-        // Films keep to what the cells of their volumes face, as colours do.
-        let facing = |(volume, normal): (&Volume, Vec3)| Volume { normal, ..volume.clone() };
-        let volumes: Vec<Volume> = volumes.map(facing).collect();
+        // Films stay on what the cells of their volumes face, as colours do.
+        let volumes: Vec<Volume> = volumes
+            .map(|(volume, normal): (&Volume, Vec3)| Volume { normal, ..volume.clone() })
+            .collect();
         counter.heights((scene, &surface), &volumes, kind, camera, visible)
     }
 }

@@ -1,10 +1,6 @@
-//! Which volumes may hold something that a picture shows.
-//!
-//! A scene in the memory of what draws it.
-//!
-//! Settings of a file as looks of a drawing.
-//!
-//! Volumes and their shells that hold each visible point, region by region.
+//! Which volumes may hold something that a picture shows. This also loads a scene into the memory
+//! of what draws it, turns the settings of a file into looks of a drawing, and counts volumes and
+//! their shells at each visible point, region by region.
 
 use glam::{Mat4, Vec3};
 use graphics::camera::Camera;
@@ -27,26 +23,22 @@ use crate::settings::{DrawingTable, LightWith, Settings, StrokesAlong};
 use crate::surfaces::VolumeSurfaces;
 use crate::volume::Volume;
 
-/// Sides of a tile in samples.
 const TILE: usize = 16;
 
-/// Depths this much apart may be equal but for rounding.
+/// We treat depths this close as equal, because of rounding.
 const MARGIN: f32 = 1e-5;
 
-/// The depths that a picture shows, in tiles of samples.
 #[derive(Debug)]
 pub(super) struct InSight {
     clip_from_model: Mat4,
-    /// Width and height in samples.
     size: [f32; 2],
-    /// Tiles in a row.
     columns: usize,
-    /// Least and greatest seen depth of each tile; none for a picture on a device.
+    /// Least and greatest seen depth of each tile. `None` for a picture on a device.
     depths: Option<Vec<[f32; 2]>>,
 }
 
 impl InSight {
-    /// Of what `camera` sees. The depths of a picture on a device are not looked at.
+    /// Takes what `camera` sees. This does not look at the depths of a picture on a device.
     pub(super) fn new(camera: &Camera, visible: &Image<Fragment>) -> Self {
         let (width, height) = visible.size();
         let depths = match visible {
@@ -61,8 +53,8 @@ impl InSight {
         }
     }
 
-    /// Whether a volume may hold something that is seen. It is false only if the box around the
-    /// volume meets no tile in which something at its depth is seen.
+    /// Whether a volume may hold something that you see. This is false only if the box around the
+    /// volume meets no tile in which you see something at its depth.
     pub(super) fn may_hold(&self, volume: &Volume) -> bool {
         let [low, high] = bounds(volume);
         let mut least = Vec3::INFINITY;
@@ -73,7 +65,7 @@ impl InSight {
                     if corner >> axis & 1 == 0 { low[axis] } else { high[axis] }
                 }));
             let clip = self.clip_from_model * at.extend(1.0);
-            // Behind the eye there is no place in the picture.
+            // What is behind the eye has no place in the picture.
             let before = clip.w > f32::MIN_POSITIVE && clip.is_finite();
             if !before {
                 return true;
@@ -82,17 +74,17 @@ impl InSight {
             (least, most) = (least.min(at), most.max(at));
         }
         let [width, height] = self.size;
-        // A sample more on each side, for corners that are rounded.
+        // We add a sample on each side, for corners that are rounded.
         let columns = [(0.5 + 0.5 * least.x) * width - 1.0, (0.5 + 0.5 * most.x) * width + 1.0];
         let rows = [(0.5 - 0.5 * most.y) * height - 1.0, (0.5 - 0.5 * least.y) * height + 1.0];
         if columns[1] < 0.0 || rows[1] < 0.0 || columns[0] > width || rows[0] > height {
             return false;
         }
         let Some(depths) = &self.depths else { return true };
-        let range = |[from, to]: [f32; 2], side: f32| {
+        fn range([from, to]: [f32; 2], side: f32) -> std::ops::RangeInclusive<usize> {
             let last = (side as usize).saturating_sub(1) / TILE;
             from as usize / TILE..=(to as usize / TILE).min(last)
-        };
+        }
         let across = range(columns, width);
         let depths_of_row = depths.chunks(self.columns);
         let rows = range(rows, height);
@@ -103,7 +95,6 @@ impl InSight {
     }
 }
 
-/// The box around a volume.
 fn bounds(volume: &Volume) -> [Vec3; 2] {
     let along = |axis: usize, start: f32, choose: fn(f32, f32) -> f32| {
         volume.particles.places[axis].iter().copied().fold(start, choose)
@@ -113,7 +104,8 @@ fn bounds(volume: &Volume) -> [Vec3; 2] {
     [low, high].map(|corner| volume.center + Vec3::from(corner))
 }
 
-/// Least and greatest seen depth of each tile; infinite and minus infinite where nothing is seen.
+/// Least and greatest seen depth of each tile. They are infinite and minus infinite where nothing
+/// is seen.
 fn tiles(visible: &VisibilityBuffer) -> Vec<[f32; 2]> {
     let width = visible.width();
     let rows = visible.values().par_chunks(width.max(1) * TILE);
@@ -131,18 +123,16 @@ fn tiles(visible: &VisibilityBuffer) -> Vec<[f32; 2]> {
     tiles.collect()
 }
 
-/// A scene in the memory of a [`Compute`], ready for pictures.
 #[derive(Debug)]
 pub(super) struct LoadedScene {
     pub(super) compute: Compute,
     pub(super) model: Model,
     pub(super) hatching: Hatching,
-    /// Normals of the triangles, and the body of each.
     pub(super) normals: Image<[f32; 4]>,
     bodies: Vec<u32>,
     pub(super) counter: InsideCounter,
-    /// Whether it counts volumes with gates: only a device whose fragments can write to buffers
-    /// does, and the processor.
+    /// Whether it can count volumes with gates. The processor can, and so can a device if its
+    /// fragments can write to buffers.
     pub(super) gates: bool,
 }
 
@@ -164,7 +154,7 @@ impl LoadedScene {
         })
     }
 
-    /// Tells the bodies of the triangles, 0 for those that volumes of any body may hold.
+    /// Sets the bodies of the triangles. Use 0 for triangles that volumes of any body may hold.
     pub(super) fn tell_bodies(
         &mut self,
         facets: &Facets,
@@ -177,13 +167,11 @@ impl LoadedScene {
         Ok(())
     }
 
-    /// Whether it is in the processor's memory.
     pub(super) fn is_host(&self) -> bool {
         matches!(self.compute, Compute::Cpu)
     }
 }
 
-/// The normal and the body of each triangle, for gates.
 fn gated(facets: &Facets, bodies: &[u32]) -> Field<[f32; 4]> {
     let bodies = bodies.iter().copied().chain(std::iter::repeat(0));
     let own = facets.normals().iter().zip(bodies);
@@ -191,13 +179,11 @@ fn gated(facets: &Facets, bodies: &[u32]) -> Field<[f32; 4]> {
     Field::from_values(own.len(), 1, own)
 }
 
-/// How a region shows what its volumes hold.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RegionLook {
     pub(super) name: String,
     pub(super) inside: InsidePaint,
     pub(super) shells: Shells,
-    /// Colour that the drawing is multiplied by inside, encoded sRGB.
     pub(super) stain: [f32; 3],
 }
 
@@ -212,7 +198,6 @@ impl RegionLook {
     }
 }
 
-/// How surfaces are lit, made grey and hatched.
 pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
     let light = &settings.light;
     let hatching = &settings.hatching;
@@ -245,23 +230,20 @@ pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
     }
 }
 
-/// Colour of the paper, encoded sRGB.
 pub(super) fn paper(settings: &Settings) -> [f32; 3] {
     encoded(&settings.picture.paper)
 }
 
-/// A colour written `#rrggbb`; white if it is none.
+/// A colour written `#rrggbb`. If the text is not a colour, you get white.
 fn encoded(text: &str) -> [f32; 3] {
     Rgb::from_hex(text).unwrap_or(Rgb([1.0; 3])).0.map(|value| value as f32)
 }
 
-/// How films stand over their rims.
 pub(super) fn profile(settings: &Settings) -> FilmProfile {
     let DrawingTable { rim, edge, gate, .. } = settings.drawing;
     FilmProfile { rim, edge, gate }
 }
 
-/// The insides of the volumes of all regions together.
 pub(super) fn inside(regions: &[RegionLook]) -> InsidePaint {
     let any = |wanted: fn(InsidePaint) -> bool| regions.iter().any(|own| wanted(own.inside));
     match (any(InsidePaint::has_own_colors), any(InsidePaint::has_films)) {
@@ -271,29 +253,27 @@ pub(super) fn inside(regions: &[RegionLook]) -> InsidePaint {
     }
 }
 
-/// The gate of a surface that holds what faces any way, of any body.
+/// This gate lets everything pass: any direction, any body.
 const OPEN: [f32; 8] = [0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 0.0];
 
-/// All volumes at one time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Volumes<'a> {
     pub(super) volumes: &'a [Volume],
-    /// Mean normal of each volume's cell; zero for a single volume.
+    /// Mean normal of each volume's cell. A single volume has zero.
     pub(super) facing: &'a [Vec3],
 }
 
-/// The surfaces of a region: each volume with all its shells.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RegionSurfaces {
     surfaces: VolumeSurfaces,
-    /// Of each surface what it faces, the least cosine, and its body.
+    /// For each surface: what it faces, the least cosine, and its body.
     gates: Vec<[f32; 8]>,
 }
 
 impl RegionSurfaces {
-    /// Replaces the surfaces by those of region `number` that may hold what is seen. Volumes of the
-    /// grid hold only what is of the body of their cell and faces as it does, by a cosine of `gate`
-    /// at least.
+    /// Replaces the surfaces by the surfaces of region `number` that may hold something you see.
+    /// Volumes of the grid hold only what belongs to the body of their cell and faces the same
+    /// way, by a cosine of at least `gate`.
     pub(super) fn update(
         &mut self,
         all: Volumes<'_>,
@@ -319,12 +299,12 @@ impl RegionSurfaces {
         }
     }
 
-    /// Whether a surface has a gate.
     pub(super) fn gated(&self) -> bool {
         self.gates.iter().any(|gate| *gate != OPEN)
     }
 
-    /// The count of each sample, by a scene that counts with gates if a surface has one.
+    /// The count of each sample. If a surface has a gate, `scene` must be able to count with
+    /// gates.
     pub(super) fn counts(
         &self,
         scene: &mut LoadedScene,
@@ -383,7 +363,9 @@ mod tests {
         let seen = visible(&plane(4), &camera, 97, 61);
         let whole = InSight::new(&camera, &Image::from(seen));
         let without = InSight { depths: None, ..whole };
-        let ball = |x: f32, z: f32| Volume::ball(Vec3::new(x, 2.0, z), 0.3, 1, 1);
+        fn ball(x: f32, z: f32) -> Volume {
+            Volume::ball(Vec3::new(x, 2.0, z), 0.3, 1, 1)
+        }
         assert!(without.may_hold(&ball(2.0, -1.0)) && !without.may_hold(&ball(12.0, 0.0)));
     }
 }

@@ -1,4 +1,4 @@
-//! The front door: pictures and paintings of a scene with its volumes.
+//! Start here: pictures and paintings of a scene with its volumes.
 
 mod error;
 mod in_sight;

@@ -1,4 +1,4 @@
-//! Single parts of a picture, made on the processor.
+//! Single parts of a picture. The processor makes them.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -13,7 +13,7 @@ use crate::drawing::{TintTable, shade_apart};
 use crate::pigments::SeenPlaces;
 
 impl Drawer {
-    /// Name of a region; its number from 1 if it has none.
+    /// Name of a region. If it has none, this is its number from 1.
     pub(super) fn region_name(&self, index: usize) -> String {
         match self.regions[index].name.as_str() {
             "" => (index + 1).to_string(),
@@ -21,22 +21,18 @@ impl Drawer {
         }
     }
 
-    /// The tints of a region.
     pub(super) fn tints(&self, index: usize) -> TintTable {
         self.regions[index].shells.table().clone()
     }
 
-    /// Colour of the paper, encoded sRGB.
     pub(super) fn paper(&self) -> [f32; 3] {
         in_sight::paper(&self.settings)
     }
 
-    /// Samples along each side of a pixel.
     pub(super) fn samples_a_pixel(&self) -> usize {
         self.look.samples
     }
 
-    /// An image in the memory of whatever draws.
     pub(super) fn uploaded<T: bytemuck::Pod>(
         &mut self,
         field: &Field<T>,
@@ -44,7 +40,6 @@ impl Drawer {
         Ok(self.scene.compute.upload(field)?)
     }
 
-    /// The values of an image.
     pub(super) fn downloaded<T: bytemuck::Pod>(
         &mut self,
         image: &Image<T>,
@@ -52,7 +47,7 @@ impl Drawer {
         Ok(self.scene.compute.download(image)?)
     }
 
-    /// A value of the counts of each pixel's samples, in the mean.
+    /// Applies `value` to the counts of a pixel's samples, and averages the results.
     pub(super) fn of_counts(
         &mut self,
         counts: &Image<i32>,
@@ -75,7 +70,6 @@ impl Drawer {
         Ok(host.model.visible(&mut host.compute, camera, width, height)?)
     }
 
-    /// The ink of the strokes at each sample, at full strength, 0 to 1.
     pub(super) fn ink(
         &mut self,
         camera: &Camera,
@@ -86,7 +80,6 @@ impl Drawer {
         Ok(shade_apart(&self.packed, visible.host(), camera, &self.look, hatching)?.1)
     }
 
-    /// A picture of the strokes alone, in the grey of the pencil on white.
     pub(super) fn strokes(
         &mut self,
         camera: &Camera,
@@ -105,7 +98,7 @@ impl Drawer {
         Ok(Field::from_values(ink.width(), ink.height(), values))
     }
 
-    /// Place and normal that each sample shows; zeros where nothing is seen.
+    /// Place and normal that each sample shows. They are zeros where nothing is seen.
     pub(super) fn surfaces_seen(
         &mut self,
         camera: &Camera,
@@ -123,7 +116,7 @@ impl Drawer {
         Ok([of(&|point| point.position()), of(&|point| point.normal(camera.eye))])
     }
 
-    /// The fragment and the place that each pixel shows; no numbers where nothing is seen.
+    /// The fragment and the place that each pixel shows. The place is NaN where nothing is seen.
     pub(super) fn places(
         &mut self,
         camera: &Camera,

@@ -1,8 +1,5 @@
-//! The steps to a picture, one by one.
-//!
-//! Pictures of the result, or of one of its parts.
-//!
-//! The parts of a picture for compositing, in one OpenEXR file.
+//! The steps to a picture, one by one, and pictures of the result or of one of its parts. You can
+//! also write the parts into one OpenEXR file for compositing.
 
 use std::str::FromStr;
 
@@ -30,7 +27,7 @@ impl VolumePainter {
     /// letters, digits and dashes, and the fourth value of all pictures is 1.
     ///
     /// # Errors
-    /// Those of [`Self::paint`].
+    /// As [`Self::paint`].
     pub fn stages(
         &mut self,
         world: &World,
@@ -54,7 +51,7 @@ impl VolumePainter {
 }
 
 impl Drawer {
-    /// Colours without light, and the light alone in grey; white where nothing is seen.
+    /// Colours without light, and the light alone in grey. Both are white where nothing is seen.
     fn seen_and_light(
         &mut self,
         camera: &Camera,
@@ -81,8 +78,8 @@ impl Drawer {
         Ok([averaged(colors, look.samples), greys(&averaged(light, look.samples))])
     }
 
-    /// Count and tint of each region: black where no volume holds what is seen, white in all shells
-    /// and at full tint.
+    /// Count and tint of each region. They are black where no volume holds what you see, and white
+    /// in all shells and at full tint.
     fn region_stages(
         &mut self,
         world: &World,
@@ -108,24 +105,23 @@ fn stage(name: &str, picture: Field<[f32; 4]>) -> Stage {
     Stage { name: name.to_owned(), picture }
 }
 
-/// A field as greys.
 fn greys(field: &Field<f32>) -> Field<[f32; 4]> {
     let values = field.values().iter().map(|&grey| [grey, grey, grey, 1.0]);
     Field::from_values(field.width(), field.height(), values.collect())
 }
 
-/// A name whose other characters than letters and digits are dashes.
+/// Replaces all characters except letters and digits by dashes.
 fn plain(name: &str) -> String {
     name.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '-' }).collect()
 }
 
-/// The subject of a picture.
+/// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Show {
     /// The result.
     #[default]
     Final,
-    /// The volumes themselves, as coloured glass over the grey drawing.
+    /// The volumes themselves. They look like coloured glass over the grey drawing.
     Volumes,
     /// White where volumes bring colour, black elsewhere.
     Mask,
@@ -143,7 +139,7 @@ pub enum Show {
 #[hint(verbatim, "{}", way_to_show(name))]
 #[fault(Setting)]
 pub struct ShowError {
-    /// Name that was asked for.
+    /// Name that you asked for.
     pub name: String,
 }
 
@@ -158,7 +154,7 @@ fn way_to_show(name: &str) -> String {
 }
 
 impl Show {
-    /// All that pictures can show.
+    /// Everything that pictures can show.
     pub const ALL: [Self; 6] =
         [Self::Final, Self::Volumes, Self::Mask, Self::Grey, Self::Color, Self::Hatching];
 
@@ -186,10 +182,10 @@ impl FromStr for Show {
 }
 
 impl VolumePainter {
-    /// A picture of the scene that shows `show`, like [`Self::paint`].
+    /// A picture of the scene that shows `show`. Otherwise this is like [`Self::paint`].
     ///
     /// # Errors
-    /// Those of [`Self::paint`].
+    /// As [`Self::paint`].
     pub fn shown(
         &mut self,
         world: &World,
@@ -225,7 +221,7 @@ impl VolumePainter {
                 let mut sight = drawer.sight(world, camera, size)?;
                 let regions = drawer.regions_of(&sight);
                 let (width, height) = sight.visible.size();
-                // Black becomes white by the tint.
+                // The tint turns black into white.
                 sight.shaded =
                     drawer.uploaded(&Field::filled(width, height, [1.0, 1.0, 1.0, 0.0]))?;
                 drawer.revealed(&sight, &regions, Some([0.0; 3]))
@@ -250,13 +246,16 @@ impl VolumePainter {
 }
 
 impl VolumePainter {
-    /// An OpenEXR file of several parts of 32-bit floats, one value for each pixel of `pixel_mm`:
-    /// `colour` (encoded sRGB, hatched) and `grey` of the drawing, `count.NAME` and `tint.NAME` of
-    /// each region, `ink`, `place` and `normal` in the unit of the scene (0 where nothing is seen),
-    /// and with pigments `heights` of the volumes' films in mm by pigment. Made on the processor.
+    /// Encodes the parts of a picture as an OpenEXR file of several parts, each of 32-bit floats
+    /// with one value per pixel of `pixel_mm`. The processor makes them.
+    ///
+    /// You get `colour` (encoded sRGB, hatched) and `grey` of the drawing, `count.NAME` and
+    /// `tint.NAME` of each region, `ink`, and `place` and `normal` in the unit of the scene (0
+    /// where nothing is seen). If you use pigments, there is also `heights` of the volumes' films
+    /// in mm by pigment.
     ///
     /// # Errors
-    /// Those of [`Self::paint`]; [`PaintingError::Export`].
+    /// As [`Self::paint`]; [`PaintingError::Export`].
     pub fn passes(
         &mut self,
         world: &World,
@@ -308,7 +307,6 @@ impl VolumePainter {
     }
 }
 
-/// The first channels of a field by name.
 fn channels<const N: usize, const M: usize>(
     field: &Field<[f32; N]>,
     names: [&str; M],

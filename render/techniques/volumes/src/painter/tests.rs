@@ -1,6 +1,4 @@
-//! Pictures and paintings of scenes with their volumes.
-//!
-//! Pictures of bodies that lie on one another.
+//! Pictures and paintings of scenes with their volumes, also of bodies that lie on one another.
 
 use std::sync::Arc;
 
@@ -33,7 +31,6 @@ mod acceptance;
 
 const SIZE: (usize, usize) = (150, 114);
 
-/// A scene, seen from one side, and how it is painted.
 struct Scene {
     mesh: Mesh,
     camera: Camera,
@@ -71,13 +68,12 @@ impl Scene {
         visible(&self.mesh, &self.camera, SIZE.0, SIZE.1)
     }
 
-    /// Places that are shown, if they are.
     fn place(&self, packed: &PackedMesh, seen: &VisibilityBuffer, pixel: usize) -> Option<Vec3> {
         let fragment = seen.values()[pixel];
         (fragment.triangle != NO_TRIANGLE).then(|| SurfacePoint::new(packed, fragment).position())
     }
 
-    /// The plain colour picture without paper, with its grey as the fourth value.
+    /// The plain colour picture without paper. Its fourth value is the grey.
     fn plain(&self) -> Field<[f32; 4]> {
         let mut compute = Compute::cpu();
         let packed = PackedMesh::new(&self.mesh);
@@ -89,7 +85,7 @@ impl Scene {
         shade(&mut compute, &model, &visible, &self.camera, &look, &hatching).unwrap().into_host()
     }
 
-    /// A world with paint on it in two places that are seen.
+    /// A world with paint in two places that you see.
     fn poured(&self) -> World {
         let seen = self.seen();
         let packed = PackedMesh::new(&self.mesh);
@@ -129,10 +125,12 @@ fn without_volumes_all_is_the_grey_of_the_colour_picture() {
     let painted = scene.painted(&scene.world());
     let plain = scene.plain();
     let seen = scene.seen();
-    let linear = |value: f32| match f64::from(value) {
-        value if value <= 0.040_45 => value / 12.92,
-        value => ((value + 0.055) / 1.055).powf(2.4),
-    };
+    fn linear(value: f32) -> f64 {
+        match f64::from(value) {
+            value if value <= 0.040_45 => value / 12.92,
+            value => ((value + 0.055) / 1.055).powf(2.4),
+        }
+    }
     let mut colorful = 0;
     for (pixel, found) in painted.values().iter().enumerate() {
         let [r, g, b, grey] = plain.values()[pixel];
@@ -142,7 +140,7 @@ fn without_volumes_all_is_the_grey_of_the_colour_picture() {
             continue;
         }
         assert_eq!(*found, [grey, grey, grey, 1.0]);
-        // As light as the colour: its luminance, encoded again.
+        // The grey is as light as the colour: its luminance, encoded again.
         let y = 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
         assert!((linear(grey) - y).abs() < 1.0 / 255.0, "{grey} of {r} {g} {b}");
         colorful += usize::from((r - b).abs() > 0.1);
@@ -194,7 +192,7 @@ fn colour_is_shown_where_a_volume_holds_the_surface() {
         wrong += usize::from(*found != expected);
     }
     assert!(held > all / 10 && held < all / 2, "{held} of {all}");
-    // Vertices are rounded to the 256th of a pixel.
+    // We round vertices to the 256th of a pixel.
     assert!(wrong * 500 <= all, "{wrong} of {all}");
 }
 
@@ -216,7 +214,9 @@ fn regions_are_laid_one_over_the_other() {
             continue;
         }
         let [r, g, b, grey] = plain.values()[pixel];
-        let laid = |under: f32, color: f32, tint: f32| under * (1.0 - tint) + color * tint;
+        fn laid(under: f32, color: f32, tint: f32) -> f32 {
+            under * (1.0 - tint) + color * tint
+        }
         let [r, g, b] = [r, g, b].map(|color| laid(laid(grey, color, 0.3), color, 0.6));
         assert_eq!(*found, [r, g, b, 1.0]);
     }
@@ -227,11 +227,11 @@ fn regions_are_laid_one_over_the_other() {
 
 /// A wall nearly a cell thick: two plates of 12 by 12 cells, and the side between them.
 fn plates() -> Mesh {
-    let part = |normal: [f32; 3], at: fn(f32, f32) -> [f32; 3]| {
+    fn part(normal: [f32; 3], at: fn(f32, f32) -> [f32; 3]) -> Mesh {
         let mut mesh = sheet(12, |u, v| at(12.0 * u - 6.0, 12.0 * v - 6.0));
         mesh.normals.fill(normal);
         mesh
-    };
+    }
     let top = part([0.0, 1.0, 0.0], |x, z| [x, 0.0, z]);
     let below = part([0.0, -1.0, 0.0], |x, z| [x, -0.9, z]);
     joined(joined(top, &below), &part([-1.0, 0.0, 0.0], |x, z| [-6.0, (x + 6.0) / 12.0 * -0.9, z]))
@@ -239,7 +239,7 @@ fn plates() -> Mesh {
 
 #[test]
 fn paint_on_one_side_of_a_wall_does_not_show_on_the_other() {
-    let colored = |elevation_deg: f32, gate: f32| {
+    fn colored(elevation_deg: f32, gate: f32) -> usize {
         let framing = Framing { elevation_deg, ..Framing::default() };
         let mut scene = Scene::new(plates(), framing);
         scene.mesh.colors.fill([0.8, 0.2, 0.1]);
@@ -254,7 +254,7 @@ fn paint_on_one_side_of_a_wall_does_not_show_on_the_other() {
         let pixels = picture.values().iter().zip(seen.values());
         let shown = pixels.filter(|(_, seen)| seen.triangle != NO_TRIANGLE);
         shown.filter(|(pixel, _)| !is_grey(**pixel)).count()
-    };
+    }
     assert_eq!(colored(-40.0, -0.2), 0, "from below");
     assert!(colored(40.0, -0.2) > 200, "from above");
     assert!(colored(-40.0, -1.0) > 20, "from below without a gate");
@@ -343,10 +343,9 @@ fn a_device_paints_what_the_processor_paints() {
         let found = on_device.paint(&world, &scene.camera, SIZE).unwrap();
         let on_cpu = scene.painted(&world);
         let seen = scene.seen();
-        let shown = |pixel: usize| seen.values()[pixel].triangle != NO_TRIANGLE;
         let held = |picture: &Field<[f32; 4]>, pixel: usize| {
             let [r, _, b, _] = picture.values()[pixel];
-            shown(pixel) && r - b > 0.02
+            seen.values()[pixel].triangle != NO_TRIANGLE && r - b > 0.02
         };
         let mut wet = 0;
         let mut differ = 0;
@@ -404,20 +403,20 @@ fn a_painting_is_the_picture_also_after_its_file() {
     let bytes = paint::file::write(&document).unwrap();
     let read = paint::file::read("test.exr", &bytes).unwrap();
     assert_eq!((read.title.as_str(), read.dry.len()), ("A jug", 3));
-    let most = |a: &Field<[f32; 4]>, b: &Field<[f32; 4]>| {
+    fn most(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> f32 {
         let pairs = a.values().iter().flatten().zip(b.values().iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
-    };
+    }
     assert!(most(&painted, &shown(&read)) <= 0.0002);
     let bare = painter.paint(&scene.world(), &scene.camera, SIZE).unwrap();
     let glazed = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();
     assert!(glazed > 300, "{glazed}");
 }
 
-/// Red and blue pixels after paint is poured beside a red ball on a blue sheet. The ball is sunk
-/// into the sheet by this much.
+/// Counts red and blue pixels after you pour paint beside a red ball on a blue sheet. The ball is
+/// sunk into the sheet by this much.
 fn red_and_blue(sunk: f32) -> [usize; 2] {
-    // Smaller than a cell, so that volumes on the sheet reach above its middle.
+    // The ball is smaller than a cell, so that volumes on the sheet reach above its middle.
     let mut ball = Mesh::sphere(2000);
     ball.positions.iter_mut().flatten().for_each(|along| *along *= 0.4);
     let floor = sheet(20, |u, v| [6.0 * (u - 0.5), sunk - 0.4, 6.0 * (v - 0.5)]);

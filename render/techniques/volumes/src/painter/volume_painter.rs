@@ -15,7 +15,7 @@ use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
 
-/// Paints one scene with its volumes.
+/// Paints one scene with its volumes. You can then take pictures from any camera.
 #[derive(Debug)]
 pub struct VolumePainter {
     pub(super) drawer: Drawer,
@@ -23,8 +23,8 @@ pub struct VolumePainter {
 }
 
 impl VolumePainter {
-    /// A painter of `scene`, with a style for each region of its volumes
-    /// ([`crate::script::Script::region_styles`]), on the processor.
+    /// A painter of `scene` on the processor. Pass a style for each region of its volumes
+    /// ([`crate::script::Script::region_styles`]).
     ///
     /// # Errors
     /// [`PaintingError`] for a mesh with a fault, settings out of range, and shells or tints that
@@ -37,9 +37,9 @@ impl VolumePainter {
         Ok(Self { drawer: Drawer::new(scene, settings, styles)?, films: None })
     }
 
-    /// Makes pictures on another device. They agree with those of the processor to rounding, but for
-    /// outlines within a pixel. Films of pigments stay on the processor, and so do the counts of
-    /// volumes if the device cannot count them with their gates ([`Self::counts_elsewhere`]).
+    /// Makes pictures on another device. They agree with the processor's to rounding, except for
+    /// outlines within a pixel. Films of pigments stay on the processor. If the device cannot
+    /// count volumes with their gates, the processor does this too ([`Self::counts_elsewhere`]).
     ///
     /// # Errors
     /// [`PaintingError::Device`] if the device cannot hold the scene.
@@ -47,8 +47,8 @@ impl VolumePainter {
         Ok(Self { drawer: self.drawer.on(compute)?, ..self })
     }
 
-    /// Shows the scene in measured pigments, and volumes as films where their regions ask for them.
-    /// Takes seconds.
+    /// Shows the scene in measured pigments, and volumes as films if their regions ask for this.
+    /// It takes seconds.
     ///
     /// # Errors
     /// [`PaintingError::Films`] for pigments, a ground or a light that cannot be used.
@@ -65,27 +65,28 @@ impl VolumePainter {
         self.drawer.set(settings)
     }
 
-    /// Name of the device of its pictures.
+    /// Name of the device that makes its pictures.
     #[must_use]
     pub fn compute_name(&self) -> &str {
         self.drawer.compute_name()
     }
 
-    /// Whether the processor counts the volumes though a device makes the pictures: its fragments
-    /// cannot write to buffers, and without that it would show paint on both sides of thin walls.
+    /// Whether the processor counts the volumes though a device makes the pictures. This happens
+    /// if the fragments of the device cannot write to buffers. Without it you would see paint on
+    /// both sides of thin walls.
     #[must_use]
     pub fn counts_elsewhere(&self) -> bool {
         self.drawer.counts_elsewhere()
     }
 
-    /// Whether the scene is shown in measured pigments.
+    /// Whether it shows the scene in measured pigments.
     #[must_use]
     pub fn has_pigments(&self) -> bool {
         self.films.is_some()
     }
 
-    /// The picture of the scene as `camera` sees it, in `width` x `height` pixels: encoded sRGB
-    /// whose fourth value is 1. The same input gives the same bits for any number of threads.
+    /// The picture of the scene as `camera` sees it, in `width` x `height` pixels. You get encoded
+    /// sRGB with the fourth value at 1, and the same bits for any number of threads.
     ///
     /// # Errors
     /// [`PaintingError`] for a picture without pixels or with too many, for a volume of a region
@@ -110,11 +111,10 @@ impl VolumePainter {
     }
 
     /// The painting of the scene as `camera` sees it: a ground and dry layers of whole quanta, one
-    /// cell for each pixel. It can be saved, relit and given other pigments.
+    /// cell for each pixel. You can save it, relight it and give it other pigments.
     ///
     /// # Errors
-    /// Those of [`Self::paint`]; [`PaintingError::NoPigments`] without
-    /// [`Self::with_pigments`].
+    /// As [`Self::paint`]; [`PaintingError::NoPigments`] without [`Self::with_pigments`].
     pub fn painting(
         &mut self,
         world: &World,

@@ -1,6 +1,5 @@
-//! Errors of playing a script.
-//!
-//! Settings of a file as those of a world.
+//! Errors of playing a script. This also turns the settings of a file into the settings of a
+//! world.
 
 use documents::hint::Explain;
 
@@ -63,8 +62,8 @@ pub enum PerformanceError {
 }
 
 impl PerformanceError {
-    /// This error with the file that the script was read from and the line of the event's
-    /// table in its `text`.
+    /// Adds the file from which you read the script, and the line of the event's table in its
+    /// `text`.
     #[must_use]
     pub fn located(mut self, file: &str, text: &str) -> Self {
         let Ok(source) = Source::toml(file, text) else { return self };
@@ -77,7 +76,7 @@ impl PerformanceError {
         }
     }
 
-    /// Path of the event's table in the script, if an event is at fault.
+    /// Path of the event's table in the script. `None` if no event is at fault.
     #[must_use]
     pub fn table(&self) -> Option<&KeyPath> {
         match self {
@@ -88,7 +87,7 @@ impl PerformanceError {
         }
     }
 
-    /// This error with other words for the place of the event.
+    /// Replaces the words for the place of the event.
     #[must_use]
     pub fn placed(mut self, words: String) -> Self {
         match &mut self {

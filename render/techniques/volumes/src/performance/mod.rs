@@ -1,4 +1,4 @@
-//! A script played on a world, step by step.
+//! Plays a script on a world, step by step.
 
 mod error;
 mod player;

@@ -1,8 +1,5 @@
-//! The events of a script, done to a world in their steps.
-//!
-//! Places picked in a picture.
-//!
-//! Performances as files, from which they go on to the same bytes.
+//! Applies the events of a script to a world in their steps. It picks places in a picture, and
+//! saves performances as files, from which they continue to the same bytes.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -22,23 +19,22 @@ use crate::world::{
     Lift, Pour, Recipe, Single, StepDevice, Track, World, WorldError, WorldSettings,
 };
 
-/// A script being played. A clone is a snapshot that goes on to the same bytes.
+/// A script that you play. A clone is a snapshot: it continues to the same bytes.
 #[derive(Debug, Clone)]
 pub struct Performance {
     pub(super) world: World,
     pub(super) script: Script,
     pub(super) events: Vec<Event>,
-    /// Index of the next event.
     pub(super) next: usize,
-    /// Places of events that pick one in the first picture.
+    /// Places of the events that pick one in the first picture.
     pub(super) picked: Vec<Option<Vec3>>,
-    /// Seeds of the single volumes of the script, in its order, once they are born.
+    /// Seeds of the single volumes that are born, in the order of the script.
     pub(super) singles: Vec<Option<u64>>,
 }
 
 impl Performance {
-    /// The beginning of `script` on `scene`, with these settings
-    /// ([`Script::settings`]). `view` is the first picture, in which events pick places.
+    /// Begins `script` on `scene` with these settings ([`Script::settings`]). `view` is the first
+    /// picture, in which events pick places.
     ///
     /// # Errors
     /// [`PerformanceError`] for a world that cannot be made, walls out of range, picked places
@@ -62,7 +58,6 @@ impl Performance {
         Ok(own)
     }
 
-    /// Checks that all paint is poured onto the surface.
     fn check_pours(&self) -> Result<(), PerformanceError> {
         for (index, event) in self.events.iter().enumerate() {
             let Action::Pour(pour) = &event.action else { continue };
@@ -77,31 +72,32 @@ impl Performance {
         Ok(())
     }
 
-    /// The world at present.
+    /// The world as it is now.
     #[must_use]
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// Number of steps played.
+    /// Number of steps that you have played.
     #[must_use]
     pub fn step(&self) -> u64 {
         self.world.steps()
     }
 
-    /// Plays on until `step` steps are played; nothing if they are already.
+    /// Plays on until `step` steps are played. If they are already, this does nothing.
     ///
     /// # Errors
-    /// [`PerformanceError`] for an event that cannot be done, such as paint poured off the surface.
+    /// [`PerformanceError`] for an event that cannot be done, such as paint poured off the
+    /// surface.
     pub fn advance_to(&mut self, step: u64) -> Result<(), PerformanceError> {
         self.play(step, World::step)
     }
 
-    /// Plays on like [`Self::advance_to`], large worlds on a graphics device
+    /// Plays on like [`Self::advance_to`]. A graphics device moves large worlds
     /// ([`World::step_on`]).
     ///
     /// # Errors
-    /// Those of [`Self::advance_to`], and if the device fails.
+    /// As [`Self::advance_to`], and if the device fails.
     pub fn advance_on(
         &mut self,
         device: &mut StepDevice,
@@ -129,18 +125,21 @@ impl Performance {
         Ok(())
     }
 
-    /// Adds an event that begins with the next step or later; it is the last of its kind in the
-    /// script, and its place is no pick. So a performance can be played while its script is written.
+    /// Adds an event that begins with the next step or later. It must be the last of its kind in
+    /// the script, and it cannot pick its place. This lets you play a performance while you write
+    /// its script.
     pub fn add(&mut self, event: Event) {
-        let place = |other: &Event| (other.start, other.action.rank());
+        fn place(other: &Event) -> (u32, usize) {
+            (other.start, other.action.rank())
+        }
         let at = self.events.partition_point(|other| place(other) <= place(&event));
         let at = at.max(self.next);
         self.events.insert(at, event);
         self.picked.insert(at, None);
     }
 
-    /// Goes on by another script of the same scene, settings and walls, whose events before the
-    /// present step are the same. `scene` and `view` are as in [`Performance::new`].
+    /// Continues by another script of the same scene, settings and walls. Its events before the
+    /// present step must be the same. Pass `scene` and `view` as in [`Performance::new`].
     ///
     /// # Errors
     /// [`PerformanceError`] for picked places where the first picture shows nothing.
@@ -159,7 +158,6 @@ impl Performance {
         Ok(())
     }
 
-    /// Does what an event asks for.
     fn act(&mut self, event: &Event) -> Result<(), PerformanceError> {
         let for_s = seconds_of(event.end - event.start);
         let failed = |error: WorldError| at_event(event, error);
@@ -174,7 +172,7 @@ impl Performance {
                     region: volume.region as u16,
                 });
                 let seed = self.world.volumes()[index.map_err(failed)?].seed;
-                // The table's place in the script is the number that `[[split]]` names.
+                // The index of the table in the script is the number that `[[split]]` names.
                 if let Some(KeyStep::Index(number)) = event.table.0.last() {
                     self.singles[*number] = Some(seed);
                 }
@@ -215,17 +213,15 @@ impl Performance {
         Ok(())
     }
 
-    /// Splits a single volume of the script, or all that are there.
+    /// Splits a single volume of the script. Without a `volume`, splits all that are there.
     fn split(&mut self, event: &Event, volume: Option<usize>) -> Result<(), PerformanceError> {
-        let table = || event.table.clone();
-        let place = || event.table.to_string();
         let wanted: Vec<u64> = match volume {
             None => self.singles.iter().flatten().copied().collect(),
             Some(index) => {
                 let seed = self.singles.get(index).copied().flatten();
                 vec![seed.ok_or_else(|| PerformanceError::NoVolume {
-                    place: place(),
-                    table: table(),
+                    place: event.table.to_string(),
+                    table: event.table.clone(),
                     number: index + 1,
                 })?]
             }
@@ -245,8 +241,8 @@ impl Performance {
                 None => {
                     let number = volume.map_or(0, |index| index + 1);
                     return Err(PerformanceError::NoVolume {
-                        place: place(),
-                        table: table(),
+                        place: event.table.to_string(),
+                        table: event.table.clone(),
                         number,
                     });
                 }
@@ -255,7 +251,7 @@ impl Performance {
         Ok(())
     }
 
-    /// Shares of the slots; clear vehicle for a recipe without pigments.
+    /// Shares of the slots. If a recipe has no pigments, you get clear vehicle.
     fn recipe(&self, recipe: &script::Recipe) -> Result<Recipe, WorldError> {
         let shares = self.script.shares(recipe);
         let vehicle = if shares.iter().sum::<f64>() > 0.0 { 0.0 } else { 1.0 };
@@ -264,12 +260,11 @@ impl Performance {
         Recipe::of_parts(parts)
     }
 
-    /// The track of an event with this index.
     fn track(&self, place: &Place, index: usize) -> Result<Track, WorldError> {
         match place {
             Place::At(at) => Ok(Track::at(narrow(*at))),
             Place::Picked(_) => {
-                // The place of this event was found when the performance was made.
+                // We found the place of this event when we made the performance.
                 Ok(Track::at(self.picked[index].unwrap_or_default()))
             }
             Place::Path(points) => {
@@ -279,12 +274,11 @@ impl Performance {
     }
 }
 
-/// The error of an event.
 fn at_event(event: &Event, error: WorldError) -> PerformanceError {
     PerformanceError::Event { place: event.table.to_string(), table: event.table.clone(), error }
 }
 
-/// The error of a world that cannot be made, by the setting of the file that is at fault.
+/// The error of a world that cannot be made. It names the setting of the file that is at fault.
 fn of_settings(error: WorldError, settings: &Settings, scene: &Mesh) -> PerformanceError {
     let [low, high] = scene.bounds();
     let longest = f64::from((high - low).max_element());
@@ -309,7 +303,7 @@ fn narrow(place: [f64; 3]) -> Vec3 {
     Vec3::from(place.map(|along| along as f32))
 }
 
-/// The place that an event picks in the first picture, if it picks one.
+/// The place that an event picks in the first picture. `None` if it does not pick one.
 fn picked(event: &Event, scene: &Mesh, view: &FirstView) -> Result<Option<Vec3>, PerformanceError> {
     let place = match &event.action {
         Action::Pour(pour) => &pour.place,
@@ -325,7 +319,7 @@ fn picked(event: &Event, scene: &Mesh, view: &FirstView) -> Result<Option<Vec3>,
     })
 }
 
-/// The region of a table, which has one of the three keys.
+/// The region of a table. It has one of three keys.
 fn region(keep: &KeepTable) -> KeepIn {
     match (&keep.cuboid, &keep.sphere, &keep.above) {
         (Some(cuboid), _, _) => KeepIn::Box { low: narrow(cuboid.0[0]), high: narrow(cuboid.0[1]) },
@@ -339,14 +333,14 @@ fn region(keep: &KeepTable) -> KeepIn {
     }
 }
 
-/// The first picture of a scene, in which a script picks places.
+/// The first picture of a scene. A script picks places in this.
 #[derive(Debug, Clone)]
 pub struct FirstView {
     seen: VisibilityBuffer,
 }
 
 impl FirstView {
-    /// The view of `scene` by `camera` in a picture of this size.
+    /// Draws the view of `scene` by `camera` in a picture of this size.
     ///
     /// # Panics
     /// If a triangle has a corner that the mesh does not have.
@@ -356,15 +350,15 @@ impl FirstView {
     }
 
     /// The place on `scene` at a share of the picture's width, from the left, and of its height,
-    /// from the top; none where the picture shows no surface.
+    /// from the top. `None` where the picture shows no surface.
     #[must_use]
     pub fn place(&self, scene: &Mesh, share: [f64; 2]) -> Option<Vec3> {
         place_seen(scene, &self.seen, share)
     }
 }
 
-/// The place on `scene` that `seen`, a picture of it, shows at a share of its width and height;
-/// none where it shows no surface, and outside of it.
+/// The place on `scene` that `seen`, a picture of it, shows at a share of its width and height.
+/// `None` outside, and where you see no surface.
 #[must_use]
 pub fn place_seen(scene: &Mesh, seen: &VisibilityBuffer, share: [f64; 2]) -> Option<Vec3> {
     let width = seen.width();
@@ -372,19 +366,20 @@ pub fn place_seen(scene: &Mesh, seen: &VisibilityBuffer, share: [f64; 2]) -> Opt
     if !share.iter().all(|share| (0.0..=1.0).contains(share)) || width * height == 0 {
         return None;
     }
-    let at = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+    fn at(share: f64, count: usize) -> usize {
+        ((share * count as f64) as usize).min(count - 1)
+    }
     let fragment = seen[(at(share[0], width), at(share[1], height))];
     (fragment.triangle != NO_TRIANGLE).then(|| position_at(scene, fragment))
 }
 
-/// Files with a performance.
 const PERFORMANCE: Kind =
     Kind { format: b"impasto-played\0\0", version: 1, name: "moment of a script" };
 
 impl Performance {
-    /// The present moment as the bytes of a file: the world, and which events are over. `wish` are
-    /// words for what it belongs to, such as a digest of scene and settings;
-    /// [`Performance::resumed`] wants the same.
+    /// The present moment as the bytes of a file: the world, and which events are over. As `wish`,
+    /// pass words for what it belongs to, for example a digest of scene and settings. You need the
+    /// same words for [`Performance::resumed`].
     #[must_use]
     pub fn saved(&self, wish: &str) -> Vec<u8> {
         let mut state = Vec::new();
@@ -394,8 +389,8 @@ impl Performance {
         sealed(PERFORMANCE, &self.identity(wish), &state)
     }
 
-    /// The moment that [`Performance::saved`] gave as `file`, of this performance, which plays the
-    /// same script on the same scene. It goes on to the same bytes.
+    /// Resumes the moment that [`Performance::saved`] gave as `file`. This performance must play
+    /// the same script on the same scene. It continues to the same bytes.
     ///
     /// # Errors
     /// [`SavedError`] if the file holds no such moment or one of another version, is damaged, or
@@ -417,7 +412,7 @@ impl Performance {
         Some(Self { world, next, singles, ..self.clone() })
     }
 
-    /// The digest of all that decides how it goes on, but for its state.
+    /// The digest of all that decides how it continues, except its state.
     fn identity(&self, wish: &str) -> [u8; 32] {
         let done = format!("{:?} {:?} {:?}", self.script, self.events, self.picked);
         identity([wish, &self.world.print(), &done])

@@ -1,4 +1,4 @@
-//! Scripts played on worlds.
+//! Plays scripts on worlds.
 
 use documents::hint::Explain;
 use glam::Vec3;
@@ -36,7 +36,6 @@ fn begun(tables: &str) -> Result<Performance, PerformanceError> {
     Performance::new(&script, &scene, &script.settings().unwrap(), &view)
 }
 
-/// The fault of a refused script, with its file and line.
 fn refused(tables: &str) -> PerformanceError {
     let played = begun(tables).and_then(|mut performance| performance.advance_to(480));
     played.unwrap_err().located("test.toml", &format!("{HEAD}{tables}"))
@@ -103,7 +102,7 @@ fn a_script_played_in_pieces_or_from_a_snapshot_ends_in_the_same_bytes() {
         resumed.advance_to(240).unwrap();
         assert_eq!(resumed.saved("busy"), whole.saved("busy"), "from step {played}");
     }
-    // Time that is over does not come back.
+    // You cannot go back in time.
     whole.advance_to(12).unwrap();
     assert_eq!(whole.step(), 240);
 }
@@ -123,7 +122,7 @@ fn a_script_played_on_a_device_pours_the_same_paint() {
         volumes.map(|volume| (volume.paint, volume.center, volume.radius)).collect::<Vec<_>>()
     };
     assert_eq!(paint(&own), paint(&other));
-    // Without one it is played on the processor.
+    // Without one, the processor plays it.
     let [mut small, mut usual] = [begun(BUSY).unwrap(), begun(BUSY).unwrap()];
     let mut on_device = StepDevice::beside(&Compute::cpu());
     small.advance_on(&mut on_device, 60).unwrap();
@@ -160,7 +159,7 @@ fn paint_is_poured_where_the_first_picture_was_picked() {
     let place = view.place(&scene, [0.45, 0.6]).unwrap();
     let aspect = SIZE.0 as f32 / SIZE.1 as f32;
     let at = camera(&scene).clip_from_model(aspect).project_point3(place);
-    // Places are those of the middle of a pixel.
+    // You pick the middle of a pixel.
     let [across, down] = [0.5 + 0.5 * at.x - 0.45, 0.5 - 0.5 * at.y - 0.6];
     assert!(across.abs() <= 1.0 / SIZE.0 as f32 && down.abs() <= 1.0 / SIZE.1 as f32, "{at}");
     let world = played.world();
@@ -170,7 +169,7 @@ fn paint_is_poured_where_the_first_picture_was_picked() {
     let cell = world.grid().samples.cells[sample];
     assert_eq!(world.volumes()[0].cell, Some(cell));
     assert!(world.volumes()[0].center.distance(place) < world.cell());
-    // Picked places are shares of the picture: the upper left corner shows no surface.
+    // You pick places as shares of the picture. The upper left corner shows no surface.
     assert_eq!(view.place(&scene, [0.0, 0.0]), None);
     assert_eq!(view.place(&scene, [1.1, 0.5]), None);
     assert_eq!(view.place(&scene, [f64::NAN, 0.5]), None);

@@ -1,6 +1,5 @@
-//! Heights of films at all pixels of a picture, frame after frame.
-//!
-//! Films on surfaces, counted at every pixel.
+//! Heights of films at all pixels of a picture, frame after frame. We count films on surfaces at
+//! every pixel.
 
 use graphics::camera::Camera;
 use graphics::field::Field;
@@ -18,29 +17,30 @@ use crate::volume::Volume;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FilmKind {
-    /// On the surfaces that it holds: the same from all sides, and as much as was poured.
+    /// On the surfaces that it holds. You see the same from all sides, and as much paint as you
+    /// poured.
     #[default]
     Surface,
-    /// All through it: a film is as high as the eye ray is long inside of it.
+    /// All through the volume. A film is as high as the eye ray is long inside of it.
     Through,
 }
 
-/// A scene prepared for counting films of volumes on it.
+/// A scene that is ready for counting films of volumes on it.
 #[derive(Debug, Clone)]
 pub struct FilmCounter {
     facets: Facets,
     lattice: SampleLattice,
     /// Profile of films on surfaces.
     pub profile: FilmProfile,
-    /// Lengths that paint is measured by.
+    /// Lengths by which we measure paint.
     pub scale: FilmScale,
     surfaces: VolumeSurfaces,
     crossings: Crossings,
 }
 
 impl FilmCounter {
-    /// Prepares the scene `mesh` with the samples of its surface, which are sorted into cubes with
-    /// sides of `side`, about the radius of most volumes.
+    /// Prepares the scene `mesh` with the samples of its surface. This sorts samples into cubes
+    /// with sides of `side`. Choose about the radius of most volumes.
     ///
     /// # Panics
     /// If `side` is not above 0.
@@ -59,13 +59,13 @@ impl FilmCounter {
         Self { facets, lattice, profile, scale, surfaces, crossings }
     }
 
-    /// Tells the body of each triangle, 0 for those that films of all bodies lie on.
+    /// Sets the body of each triangle. Use 0 for triangles that films of all bodies lie on.
     pub fn tell_bodies(&mut self, bodies: &[u32]) {
         self.facets.tell_bodies(bodies);
     }
 
-    /// Heights of the films of `volumes` at each pixel of `visible`, which is what `camera` sees of
-    /// `mesh`. `mesh` and `surface` are those that the counter was made with.
+    /// Heights of the films of `volumes` at each pixel of `visible`, which is what `camera` sees
+    /// of `mesh`. Pass the same `mesh` and `surface` as to [`Self::new`].
     ///
     /// # Panics
     /// If `visible` shows a triangle that the mesh does not have.
@@ -98,9 +98,9 @@ impl FilmCounter {
     }
 }
 
-/// The heights of the films at each pixel: a volume's part is added where its faces are left behind
-/// the seen place and taken away where they are entered there. The surfaces that are crossed are
-/// those of the volumes, in their order.
+/// The heights of the films at each pixel. We add a volume's part where the ray leaves its faces
+/// behind the seen place, and subtract it where the ray enters them there. Pass the surfaces of
+/// the volumes, in the order of the volumes.
 #[derive(Debug, Clone, Copy)]
 pub struct FilmOnSurface<'a> {
     /// The film of each volume.
@@ -139,12 +139,10 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Side of a cell of the grid.
     const CELL: f32 = 1.0 / 3.0;
 
     const SCALE: FilmScale = FilmScale { quantum_mm3: 3e-7, unit_mm: 20.0, cell_mm: 0.2 };
 
-    /// A plane with overlapping volumes on it.
     struct Poured {
         mesh: PackedMesh,
         samples: SurfaceSamples,
@@ -153,7 +151,6 @@ mod tests {
     }
 
     impl Poured {
-        /// Seen from these cameras in pictures of this size.
         fn new(cameras: &[Camera], (width, height): (usize, usize)) -> Self {
             let mesh = plane(24);
             let samples = SurfaceSamples::of(&mesh, CELL, SAMPLES_PER_CELL, 5).unwrap();
@@ -170,8 +167,10 @@ mod tests {
                     volume
                 })
                 .collect();
-            let sight = |camera: &Camera| (*camera, visible(&mesh, camera, width, height));
-            let visible = cameras.iter().map(sight).collect();
+            let visible = cameras
+                .iter()
+                .map(|camera: &Camera| (*camera, visible(&mesh, camera, width, height)))
+                .collect();
             Self { mesh: PackedMesh::new(&mesh), samples, visible, volumes }
         }
 
@@ -235,11 +234,12 @@ mod tests {
         let films = Film::of_volumes(&volumes, profile, (&surface, &lattice), &SCALE);
         let insides: Vec<Inside> = volumes.iter().map(Inside::of).collect();
         let sum = FilmSum { films: &films, insides: &insides };
-        // Other samples, 25 times as many.
+        // These are other samples, 25 times as many.
         let fine = SurfaceSamples::of(&mesh, 0.2 * cell, SAMPLES_PER_CELL, 6).unwrap();
         let patch_mm2 = f64::from(fine.areas[0]) * SCALE.unit_mm * SCALE.unit_mm;
-        let height = |at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]);
-        let heights: f64 = (0..fine.len()).map(height).sum();
+        let heights: f64 = (0..fine.len())
+            .map(|at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]))
+            .sum();
         let laid = heights * mm_from_quanta(1, SCALE.cell_mm) * patch_mm2;
         let ratio = laid / (40.0 * 2e6 * SCALE.quantum_mm3);
         assert!((0.98..1.02).contains(&ratio), "{ratio}");
@@ -253,7 +253,7 @@ mod tests {
             let place = Vec3::from(mesh.positions[at]);
             world.pour(Pour::at(place, 60.0, 1.0, Recipe::of_slot(slot))).unwrap();
         }
-        // Until volumes are wider than the samples are apart.
+        // We go on until volumes are wider than the samples are apart.
         (0..400).for_each(|_| world.step().unwrap());
         let samples = &world.grid().samples;
         let surface = SampledSurface::from(samples);
@@ -278,7 +278,7 @@ mod tests {
         for slot in [0, 1, 3] {
             let laid_mm3 = laid[slot] * mm_from_quanta(1, 0.2) * patch_mm2;
             let ratio = laid_mm3 / (on_scene[slot] as f64 * quantum_mm3);
-            // Both sums are over samples; those of the world are five times as far apart.
+            // Both sums are over samples. The samples of the world are five times as far apart.
             assert!((0.96..1.04).contains(&ratio), "{slot}: {ratio}");
         }
         assert!(world.volumes().len() > 20, "{}", world.volumes().len());
@@ -302,7 +302,7 @@ mod tests {
                 off += usize::from(*found != wanted);
                 covered += usize::from(wanted != FilmHeights::default());
             }
-            // Places at the skins, whose depth is that of a face to rounding.
+            // These places lie at the skins. Their depth is the depth of a face, to rounding.
             assert!(off <= 2, "{off} of {covered} in sight {sight}");
             assert!(covered > 800, "{covered}");
         }
@@ -333,7 +333,7 @@ mod tests {
             let around = [(0, 0), (1, 0), (0, 1), (1, 1)];
             let around =
                 around.map(|(right, down)| straight[(column + right, row + down)].0[SLOTS]);
-            // Where a pixel's neighbours are held by other volumes there is a step between them.
+            // If other volumes hold a pixel's neighbours, there is a step between them.
             let [least, most] = [around.iter().min(), around.iter().max()].map(|one| *one.unwrap());
             if f64::from(most - least) > 0.1 * f64::from(most) {
                 continue;

@@ -1,4 +1,4 @@
-//! The picture of the scene that films are laid over.
+//! The picture of the scene over which we lay films.
 
 use graphics::field::Field;
 use serde::{Deserialize, Serialize};
@@ -19,11 +19,11 @@ pub enum UnderPainting {
     None,
 }
 
-/// The look of the inside of volumes.
+/// How the inside of volumes looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InsidePaint {
-    /// The colours of the scene, as in the paper.
+    /// The colours of the scene, as on paper.
     #[serde(rename = "own-colours")]
     OwnColors,
     /// The film of their own pigments over what lies under it everywhere.
@@ -47,28 +47,26 @@ impl InsidePaint {
     }
 }
 
-/// A picture of the scene without its volumes, with what they do to it. All fields have the same
-/// size, one value for each cell of the painting.
+/// A picture of the scene without its volumes, with what they do to it. All fields have one value
+/// for each cell of the painting.
 #[derive(Debug, Clone, Copy)]
 pub struct Drawing<'a> {
     /// Encoded sRGB of the scene, lit and textured but not hatched, with its grey as the fourth
     /// value, 0..1.
     pub color: &'a Field<[f32; 4]>,
-    /// Share of each cell that shows the scene, 0..1; all of it if left out.
+    /// Share of each cell that shows the scene, 0..1. If you leave this out, it is all of the
+    /// cell.
     pub cover: Option<&'a Field<f32>>,
-    /// Ink of the hatching, 0..1; none if left out.
+    /// Ink of the hatching, 0..1. If you leave this out, there is none.
     pub ink: Option<&'a Field<f32>>,
-    /// Share of each cell that shows the inside of volumes, 0..1; none if left out.
+    /// Share of each cell that shows the inside of volumes, 0..1. If you leave this out, there is
+    /// none.
     pub tint: Option<&'a Field<f32>>,
-    /// Heights of the volumes' films; none if left out.
+    /// Heights of the volumes' films. If you leave this out, there are none.
     pub films: Option<&'a Field<FilmHeights>>,
 }
 
 impl Drawing<'_> {
-    /// Width and height in cells.
-    ///
-    /// # Panics
-    /// If a field differs in size.
     pub(super) fn size(&self) -> (usize, usize) {
         let bounds = self.color.bounds();
         let greys = [self.cover, self.ink, self.tint];

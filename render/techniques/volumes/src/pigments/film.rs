@@ -2,14 +2,11 @@
 //!
 //! The amount of every pigment at a point is the sum over the volumes that hold it, in whole
 //! quanta: paint that meets mixes wet in wet. A volume's part depends on the volume and the point
-//! only, so it is added where a face of the volume is left and taken away where one is entered
-//! behind the point, and everything outside cancels exactly.
+//! only. So we add it where a ray leaves a face of the volume and subtract it where the ray enters
+//! one behind the point. Everything outside cancels exactly.
 //!
-//! How high a film stands from its rim inwards.
-//!
-//! Samples of a surface by their place.
-//!
-//! The surface that a volume wets, by the samples that it holds.
+//! This also has the height of a film from its rim inwards, samples of a surface by their place,
+//! and the surface that a volume wets, by the samples that it holds.
 
 use glam::{DVec3, Vec3};
 use graphics::field::Field;
@@ -21,13 +18,13 @@ use crate::containing::Inside;
 use crate::volume::Volume;
 use crate::wetting::SurfaceSamples;
 
-/// Highest film of one volume, in quanta: 32 widths of a cell of the picture.
+/// Highest film of one volume in quanta, which are 32 widths of a cell of the picture.
 const HIGHEST: f64 = (32 * QUANTA_PER_CELL) as f64;
 
-/// Pixels that share the work of one thread at least.
+/// A thread works on at least this many pixels.
 const PIXELS: usize = 8192;
 
-/// The lengths that amounts of paint are measured by.
+/// The lengths by which we measure amounts of paint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmScale {
     /// Volume of one quantum of a volume's paint in cubic mm.
@@ -38,8 +35,8 @@ pub struct FilmScale {
     pub cell_mm: f64,
 }
 
-/// Heights of eight pigments and, last, of vehicle in quanta of the painting. Sums are modulo 2^32,
-/// so partial sums may be negative.
+/// Heights of eight pigments and, last, of vehicle in quanta of the painting. Sums are modulo
+/// 2^32, so you may see negative partial sums.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct FilmHeights(pub [i32; SLOTS + 1]);
@@ -47,16 +44,15 @@ pub struct FilmHeights(pub [i32; SLOTS + 1]);
 /// The film of one volume.
 #[derive(Debug, Clone, Copy)]
 pub struct Film {
-    /// Where it lies.
+    /// The surface on which this film lies.
     pub wetted: Wetted,
-    /// Heights far inside, in quanta of the painting, by slot and of vehicle.
     heights: [f32; SLOTS + 1],
     profile: FilmProfile,
 }
 
 impl Film {
-    /// The films of all volumes: as high as spreads each volume's paint over the surface that it
-    /// holds.
+    /// The films of all volumes. Each is as high as its volume's paint is when you spread it over
+    /// the surface that the volume holds.
     #[must_use]
     pub fn of_volumes(
         volumes: &[Volume],
@@ -76,19 +72,17 @@ impl Film {
         films.collect()
     }
 
-    /// Heights at a place on a surface with this normal, if the volume holds the place: a function
-    /// of volume and place alone. None beyond the reach of the volume, and on surfaces that face
-    /// away.
+    /// Heights at a place on a surface with this normal, if the volume holds the place. They
+    /// depend only on volume and place. `None` beyond the reach of the volume, and on surfaces
+    /// that face away.
     #[must_use]
     #[inline]
     pub fn at(&self, place: Vec3, normal: Vec3) -> Option<FilmHeights> {
         let share = self.wetted.relative_height(&self.profile, place, normal);
-        let heights = || self.heights.map(|height| (height * share + 0.5) as i32);
-        (share > 0.0).then(|| FilmHeights(heights()))
+        (share > 0.0).then(|| FilmHeights(self.heights.map(|height| (height * share + 0.5) as i32)))
     }
 }
 
-/// Heights in quanta far inside of a film that fills `area`.
 fn heights(paint: &Cell, area: f64, profile: &FilmProfile, scale: &FilmScale) -> [f32; SLOTS + 1] {
     if area <= 0.0 {
         return [0.0; SLOTS + 1];
@@ -104,7 +98,8 @@ fn heights(paint: &Cell, area: f64, profile: &FilmProfile, scale: &FilmScale) ->
 }
 
 impl FilmHeights {
-    /// Adds the heights of a volume that is left (`sign` 1) or entered (-1) behind the point.
+    /// Adds the heights of a volume that the ray leaves (`sign` 1) or enters (-1) behind the
+    /// point.
     #[inline]
     pub fn add(&mut self, heights: &Self, sign: i32) {
         for (sum, height) in self.0.iter_mut().zip(heights.0) {
@@ -112,7 +107,7 @@ impl FilmHeights {
         }
     }
 
-    /// The paint of a cell with these heights.
+    /// A cell with paint of these heights.
     #[must_use]
     #[inline]
     pub fn cell(&self) -> Cell {
@@ -131,7 +126,7 @@ impl FilmHeights {
         Cell { pigments: cell.pigments.map(share), vehicle: share(cell.vehicle) }
     }
 
-    /// The layer of these films.
+    /// Makes a layer of these films.
     #[must_use]
     pub fn layer(heights: &Field<Self>) -> Layer {
         let mut layer = Layer::empty(heights.width(), heights.height());
@@ -145,7 +140,7 @@ impl FilmHeights {
     }
 }
 
-/// Films of volumes with their insides, for points one by one.
+/// Films of volumes with their insides. Use this for single points.
 #[derive(Debug, Clone)]
 pub struct FilmSum<'a> {
     /// The films.
@@ -155,14 +150,15 @@ pub struct FilmSum<'a> {
 }
 
 impl FilmSum<'_> {
-    /// Heights at a place on a surface with this normal: the sum over all volumes that hold it.
+    /// Heights at a place on a surface with this normal. This sums over all volumes that hold the
+    /// place.
     #[must_use]
     pub fn at(&self, place: Vec3, normal: Vec3) -> FilmHeights {
         self.on_body(place, normal, 0)
     }
 
-    /// Heights at a place on a surface with this normal, of the body with this number; 0 is that of
-    /// all volumes.
+    /// Heights at a place on a surface with this normal, on the body with this number. Number 0
+    /// takes all volumes.
     #[must_use]
     pub fn on_body(&self, place: Vec3, normal: Vec3, body: u32) -> FilmHeights {
         let mut sum = FilmHeights::default();
@@ -178,16 +174,16 @@ impl FilmSum<'_> {
     }
 }
 
-/// The shape of a film across its rim: thin at the edge, with a ridge behind it, as paint that
-/// dries from its rim leaves it.
+/// The shape of a film across its rim. It is thin at the edge and has a ridge behind it, like
+/// paint that dries from its rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmProfile {
     /// Width over which the film rises, in radii of its volume, 0 to 1.
     pub rim: f32,
     /// How much higher the film is near its rim, 0 to 4.
     pub edge: f32,
-    /// Product of the normals of a point and of its volume's cell below which the film leaves the
-    /// point out, -1 to 1.
+    /// The film leaves out a point if the product of the point's normal and the normal of its
+    /// volume's cell is below this, -1 to 1.
     pub gate: f32,
 }
 
@@ -198,16 +194,16 @@ impl Default for FilmProfile {
     }
 }
 
-/// Narrowest rim in radii, which keeps divisions finite.
+/// Narrowest rim in radii. This keeps divisions finite.
 const NARROWEST: f32 = 1e-4;
 
-/// Height at the very edge of a film whose rim is not wider than usual.
+/// Height at the very edge of a film if its rim is not wider than usual.
 const LEAST: f32 = 0.25;
 
 impl FilmProfile {
-    /// Height relative to that of a film without rim, at a depth of `depth` radii inside of the
-    /// farthest reach of the volume: a quarter at its very edge, less for rims wider than usual, and
-    /// 1 far inside.
+    /// Height at a depth of `depth` radii inside of the farthest reach of the volume, relative to
+    /// a film without rim. It is a quarter at the very edge (less if the rim is wider than usual)
+    /// and 1 far inside.
     #[must_use]
     #[inline]
     pub fn height(&self, depth: f32) -> f32 {
@@ -229,14 +225,13 @@ impl FilmProfile {
     }
 }
 
-/// Rises from 0 to 1 where `at` does, with slopes of 0 at both ends.
 #[inline]
 pub(super) fn smooth_step(at: f32) -> f32 {
     let at = at.clamp(0.0, 1.0);
     at * at * (3.0 - 2.0 * at)
 }
 
-/// Even samples of the surface of a scene. All slices have the same length.
+/// Samples spread evenly over the surface of a scene. All slices have the same length.
 #[derive(Debug, Clone, Copy)]
 pub struct SampledSurface<'a> {
     /// Places in the unit of the scene.
@@ -245,7 +240,7 @@ pub struct SampledSurface<'a> {
     pub normals: &'a [Vec3],
     /// Area that each sample stands for, in the unit of the scene squared.
     pub areas: &'a [f32],
-    /// Numbers of the bodies that they lie on, 0 where volumes of all bodies have films.
+    /// Numbers of the bodies on which they lie. On 0, volumes of all bodies have films.
     pub bodies: &'a [u32],
 }
 
@@ -256,21 +251,20 @@ impl<'a> From<&'a SurfaceSamples> for SampledSurface<'a> {
     }
 }
 
-/// The samples of a surface sorted into cubes, so that those near a place are found quickly.
+/// The samples of a surface sorted into cubes. This finds the samples near a place quickly.
 #[derive(Debug, Clone)]
 pub struct SampleLattice {
     side: f32,
-    /// Cube of each entry of `order`, along z, y and x, ascending.
     cubes: Vec<[i32; 3]>,
-    /// Indices of the samples; those of one cube in ascending order.
+    /// Indices of the samples. Within one cube they rise.
     order: Vec<u32>,
     lowest: [i32; 3],
     highest: [i32; 3],
 }
 
 impl SampleLattice {
-    /// Sorts samples into cubes with this side in the unit of the scene, which should be about as
-    /// long as the radius of most volumes. Places that are no numbers count as 0.
+    /// Sorts samples into cubes with this side in the unit of the scene. Choose about the radius
+    /// of most volumes. Places that are NaN count as 0.
     ///
     /// # Panics
     /// If `side` is not above 0.
@@ -289,8 +283,8 @@ impl SampleLattice {
         Self { side, cubes, order, lowest, highest }
     }
 
-    /// Indices of the samples in all cubes that the box around a ball touches, always in the
-    /// same order. They may lie outside of the ball.
+    /// Indices of the samples in all cubes that the box around a ball touches, always in the same
+    /// order. Some may lie outside of the ball.
     pub fn near(&self, center: Vec3, reach: f32) -> impl Iterator<Item = usize> + '_ {
         let low = cube(center - reach, self.side);
         let high = cube(center + reach, self.side);
@@ -306,18 +300,17 @@ impl SampleLattice {
     }
 }
 
-/// The cube of a place along z, y and x.
 fn cube(at: Vec3, side: f32) -> [i32; 3] {
     let [x, y, z] = (at / side).floor().to_array();
     [z, y, x].map(|along| along as i32)
 }
 
-/// Held samples below which the surface counts as its tangent plane, and from which the samples
-/// alone count.
+/// If a volume holds fewer samples than this, the surface counts as its tangent plane. From this
+/// number on the samples alone count.
 const FEW: f64 = 8.0;
 const MANY: f64 = 24.0;
 
-/// Rings and directions over which a tangent plane is measured.
+/// We measure a tangent plane over this many rings and directions.
 const RINGS: usize = 12;
 const DIRECTIONS: usize = 32;
 
@@ -330,15 +323,15 @@ pub struct Wetted {
     pub reach: f32,
     /// 1 / radius.
     pub per_radius: f32,
-    /// Mean normal of the surface that the volume lies on; surfaces that face away from it are not
-    /// wetted. Zero for a volume that wets all that it holds.
+    /// Mean normal of the surface that the volume lies on. It does not wet surfaces that face away
+    /// from this. Zero for a volume that wets all that it holds.
     pub facing: Vec3,
-    /// Number of the only body that it wets; 0 for all.
+    /// Number of the only body that it wets. 0 means all.
     pub body: u32,
 }
 
 impl Wetted {
-    /// The reach of `volume` whose inside is `inside`.
+    /// The reach of `volume`. Pass its inside too.
     #[must_use]
     pub fn of(volume: &Volume, inside: &Inside) -> Self {
         let reach = inside.farthest() as f32;
@@ -346,15 +339,15 @@ impl Wetted {
         Self { center, reach, per_radius: 1.0 / radius, facing: normal, body }
     }
 
-    /// Height of the film of `profile` at a place on a surface with this normal, relative to that
-    /// far inside; 0 beyond the reach of the volume and where the surface faces away. Depends on
-    /// volume and place alone, whether the volume holds the place or not.
+    /// Height of the film of `profile` at a place on a surface with this normal, relative to the
+    /// height far inside. It is 0 beyond the reach of the volume and where the surface faces away.
+    /// It depends only on volume and place, whether or not the volume holds the place.
     #[must_use]
     #[inline]
     pub fn relative_height(&self, profile: &FilmProfile, place: Vec3, normal: Vec3) -> f32 {
         let from = place - self.center;
         let distance = from.length_squared();
-        // Also false for what is no number.
+        // This is also false for NaN.
         let near = distance < self.reach * self.reach && !self.faces_away(profile, normal);
         if !near {
             return 0.0;
@@ -362,7 +355,7 @@ impl Wetted {
         profile.height((self.reach - distance.sqrt()) * self.per_radius)
     }
 
-    /// Whether surface of this body is never wetted; 0 may be any body.
+    /// Whether it never wets surface of this body. 0 may be any body.
     #[must_use]
     #[inline]
     pub fn is_foreign(&self, body: u32) -> bool {
@@ -374,9 +367,9 @@ impl Wetted {
         self.facing != Vec3::ZERO && normal.dot(self.facing) < profile.gate
     }
 
-    /// Integral of [`Self::relative_height`] over the surface that the volume holds, in the unit of
-    /// the scene squared. Volumes that hold few samples are measured on the tangent plane of the
-    /// nearest one. 0 if it holds no surface.
+    /// Integral of [`Self::relative_height`] over the surface that the volume holds, in the unit
+    /// of the scene squared. If the volume holds few samples, we measure on the tangent plane of
+    /// the nearest one. If it holds no surface, this is 0.
     #[must_use]
     pub fn film_area(
         &self,
@@ -387,8 +380,10 @@ impl Wetted {
     ) -> f64 {
         let mut count = 0.0;
         let mut area = 0.0;
-        let own = |index: &usize| !self.is_foreign(surface.bodies[*index]);
-        for index in lattice.near(self.center, self.reach).filter(own) {
+        for index in lattice
+            .near(self.center, self.reach)
+            .filter(|index: &usize| !self.is_foreign(surface.bodies[*index]))
+        {
             let place = surface.places[index];
             let normal = surface.normals[index];
             let patch = surface.areas[index];
@@ -409,8 +404,8 @@ impl Wetted {
         on_plane + share * (area - on_plane)
     }
 
-    /// The integral on the tangent plane of the nearest sample; none if no sample is near, or the
-    /// plane passes the volume.
+    /// The integral on the tangent plane of the nearest sample. `None` if no sample is near, or if
+    /// the plane passes the volume.
     fn area_on_plane(
         &self,
         inside: &Inside,
@@ -450,13 +445,13 @@ impl Wetted {
     }
 }
 
-/// How much of a patch of surface as wide as `width` a volume holds, 0 to 1: all or nothing, but
-/// for patches that the skin crosses.
+/// How much of a patch of surface as wide as `width` a volume holds, 0 to 1. This is all or
+/// nothing, except for patches that the skin crosses.
 fn held_share(inside: &Inside, place: Vec3, normal: Vec3, width: f64) -> f64 {
     let ray: DVec3 = place.as_dvec3() - inside.center();
     let distance = ray.length();
     let rest = inside.exit(place).distance - distance;
-    // The skin crosses the surface farther from the place where the ray is steep over it.
+    // If the ray is steep over the surface, the skin crosses the surface farther from the place.
     let steep = ray.dot(normal.as_dvec3()) / distance;
     let along = (1.0 - steep * steep).max(0.01).sqrt();
     let share = 0.5 + rest / (along * width);
@@ -517,10 +512,9 @@ mod tests {
 
     const SCALE: FilmScale = FilmScale { quantum_mm3: 3e-7, unit_mm: 20.0, cell_mm: 0.2 };
 
-    /// Side of a cell of the grid, of which each holds 64 samples.
     const CELL: f32 = 1.0 / 3.0;
 
-    /// A plane from 0 to 4 along x and y with a sample somewhere in each of its squares.
+    /// A plane from 0 to 4 along x and y. Each of its squares has a sample somewhere.
     struct Plane {
         places: Vec<Vec3>,
         normals: Vec<Vec3>,
@@ -561,7 +555,7 @@ mod tests {
         volumes.iter().map(Inside::of).collect()
     }
 
-    /// Quanta of all volumes by slot, and those of the film over a square of the plane.
+    /// Quanta of all volumes by slot, and quanta of the film over a square of the plane.
     fn poured_and_laid(
         volumes: &[Volume],
         plane: &Plane,
@@ -579,13 +573,15 @@ mod tests {
             laid.iter_mut().zip(heights.0).for_each(|(laid, height)| *laid += f64::from(height));
         }
         let pixel_mm = f64::from(side) / count as f64 * SCALE.unit_mm;
-        let mm3 = |quanta: f64| quanta * mm_from_quanta(1, SCALE.cell_mm) * pixel_mm * pixel_mm;
         let mut poured = [0.0; 9];
         for volume in volumes {
             let amounts = volume.paint.pigments.into_iter().chain([volume.paint.vehicle]);
             poured.iter_mut().zip(amounts).for_each(|(sum, quanta)| *sum += f64::from(quanta));
         }
-        [poured.map(|quanta| quanta * SCALE.quantum_mm3), laid.map(mm3)]
+        [
+            poured.map(|quanta| quanta * SCALE.quantum_mm3),
+            laid.map(|quanta: f64| quanta * mm_from_quanta(1, SCALE.cell_mm) * pixel_mm * pixel_mm),
+        ]
     }
 
     #[test]
@@ -607,7 +603,7 @@ mod tests {
             assert!((0.98..1.02).contains(&ratio), "{slot}: {ratio}");
         }
         assert_eq!((poured[5], laid[5]), (0.0, 0.0));
-        // A single one, which may hit more or fewer samples.
+        // This one is single, so it may hit more or fewer samples.
         for volume in &volumes {
             let alone = std::slice::from_ref(volume);
             let corner = Vec3::new(volume.center.x - 0.7, volume.center.y - 0.7, 0.0);

@@ -1,7 +1,7 @@
-//! The volumes themselves as coloured glass over the scene.
+//! Shows the volumes themselves as coloured glass over the scene.
 //!
-//! Light from the scene is absorbed along the eye ray's way through the volumes (Beer and Lambert);
-//! the faces towards the eye are shaded, more where they are seen at a grazing angle.
+//! The glass absorbs light from the scene along the eye ray's way through the volumes (Beer and
+//! Lambert). We shade the faces towards the eye, more where you see them at a grazing angle.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -16,7 +16,7 @@ use super::through::{Density, FilmThrough};
 use crate::surfaces::VolumeSurfaces;
 use crate::volume::Volume;
 
-/// How volumes look when they are shown themselves.
+/// How volumes look when you show them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glass {
     /// Radii of a volume after which white light has the colour of the volume, above 0.
@@ -34,18 +34,17 @@ impl Default for Glass {
     }
 }
 
-/// Steps of an optical thickness of 1.
 const STEPS: f32 = 65_536.0;
 
-/// Darkest channel of a colour of glass, so that it never blocks all light.
+/// Darkest channel of a colour of glass. This way it never blocks all light.
 const DARKEST: f64 = 0.03;
 
-/// Light on faces that are turned away from the lamp.
 const AMBIENT: f32 = 0.45;
 
 impl Glass {
-    /// The picture of `scene`, encoded sRGB with its fourth value kept, through volumes of these
-    /// encoded colours. `visible` is what `camera` sees of the scene, `places` where that is.
+    /// The picture of `scene` through volumes of these encoded colours. It is in encoded sRGB and
+    /// keeps its fourth value. `visible` is what `camera` sees of the scene, and `places` says
+    /// where.
     ///
     /// # Panics
     /// If the pictures differ in size, or there is not one colour for each volume.
@@ -90,7 +89,7 @@ impl Glass {
         Field::from_values(width, height, seen.collect())
     }
 
-    /// A pixel of the scene behind glass, with the colour and the light of a face before it.
+    /// A pixel of the scene behind glass. A face with this colour and light lies before it.
     fn pixel(
         &self,
         scene: [f32; 4],
@@ -112,24 +111,21 @@ impl Glass {
     }
 }
 
-/// The faces of volumes towards the eye.
 struct Faces<'a> {
     surfaces: &'a VolumeSurfaces,
     normals: &'a [Vec3],
     camera: &'a Camera,
 }
 
-/// Light of a face.
 #[derive(Clone, Copy)]
 struct FaceLight {
     diffuse: f32,
     mirrored: f32,
-    /// 0 where the face is seen straight on, 1 at its outline.
+    /// This is 0 where you see the face straight on, and 1 at its outline.
     grazing: f32,
 }
 
 impl Faces<'_> {
-    /// Volume and light of the face that a fragment shows.
     fn light(&self, front: Fragment) -> (usize, FaceLight) {
         let triangle = &self.surfaces.triangles[front.triangle as usize];
         let between = |[a, b, c]: [Vec3; 3]| a + (b - a) * front.second + (c - a) * front.third;
@@ -151,13 +147,11 @@ impl Faces<'_> {
     }
 }
 
-/// Linear values of an encoded colour of glass.
 fn decoded(color: [f32; 3]) -> Vec3 {
     let linear = Rgb(color.map(f64::from)).linear().0;
     Vec3::from(linear.map(|value| value.clamp(DARKEST, 1.0) as f32))
 }
 
-/// Linear values of an encoded colour.
 fn decoded_any([r, g, b, _]: [f32; 4]) -> Vec3 {
     let linear = Rgb([r, g, b].map(f64::from)).linear().0;
     Vec3::from(linear.map(|value| value as f32))

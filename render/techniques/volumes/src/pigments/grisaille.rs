@@ -1,8 +1,6 @@
-//! The grey drawing as a film of black and white paint, as painters lay it under colour.
-//!
-//! The colours of the scene as films of a palette's mixtures.
-//!
-//! Hatching as a film of black paint, thicker where there is more ink.
+//! The grey drawing as a film of black and white paint, as painters lay it under colour. Also the
+//! colours of the scene as films of a palette's mixtures, and hatching as a film of black paint,
+//! which is thicker where there is more ink.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -15,10 +13,10 @@ use rayon::prelude::*;
 
 use super::materials::{FilmMaterial, FilmPaintError, Tones, linear, within_one};
 
-/// Greys that differ; neighbours differ by a quarter of a step of an 8-bit picture.
+/// We distinguish this many greys. Neighbours differ by a quarter of a step of an 8-bit picture.
 const LEVELS: usize = 1024;
 
-/// Points along each side of the table of colours, of which only greys are used.
+/// Points along each side of the table of colours. We use only the greys in it.
 const LATTICE: usize = 13;
 
 /// Films of white and black paint for all greys.
@@ -26,14 +24,13 @@ const LATTICE: usize = 13;
 pub struct Grisaille {
     slots: Slots,
     film: PaintFilm,
-    /// Heights in mm by level of grey.
     heights_mm: Vec<[f32; SLOTS]>,
 }
 
 impl Grisaille {
-    /// Finds the films of `white` and `black` for all greys, with `toner` against their cast if there
-    /// is one, over the ground and under the light of `material`. `films` has the range of their
-    /// heights. Takes a good part of a second.
+    /// Finds the films of `white` and `black` for all greys, over the ground and under the light
+    /// of `material`. If you pass a `toner`, it removes their cast. `films` has the range of their
+    /// heights. This takes a good part of a second.
     ///
     /// # Errors
     /// [`FilmPaintError`] for heights out of range.
@@ -64,7 +61,8 @@ impl Grisaille {
         Ok(Self { slots, film, heights_mm })
     }
 
-    /// The white in the first slot, the black in the second, and the toner, if any, in the third.
+    /// The white in the first slot, the black in the second, and in the third the toner if you use
+    /// one.
     #[must_use]
     pub fn slots(&self) -> &Slots {
         &self.slots
@@ -82,7 +80,6 @@ impl Grisaille {
         self.heights_mm[level(grey)]
     }
 
-    /// Films of all levels in quanta, for cells `cell_mm` wide.
     pub(super) fn quanta(&self, cell_mm: f64) -> Vec<[u32; SLOTS]> {
         self.heights_mm
             .iter()
@@ -91,7 +88,7 @@ impl Grisaille {
     }
 }
 
-/// Index of the level nearest to an encoded grey; what is no number counts as 0.
+/// Index of the level nearest to an encoded grey. NaN counts as 0.
 #[inline]
 pub(super) fn level(grey: f32) -> usize {
     (within_one(grey) * (LEVELS - 1) as f32 + 0.5) as usize
@@ -107,7 +104,7 @@ pub struct OwnColors {
 
 impl OwnColors {
     /// Finds the mixtures of the pigments `slots` for all colours, over the ground and under the
-    /// light of `material`. Takes seconds.
+    /// light of `material`. This takes seconds.
     ///
     /// # Errors
     /// [`FilmPaintError`] for an empty palette or heights out of range.
@@ -124,8 +121,8 @@ impl OwnColors {
         Ok(Self { slots, separation, tones })
     }
 
-    /// Up to eight pigments that come nearest to the encoded colours of a picture, which are counted
-    /// where their fourth value is above 0. Takes seconds.
+    /// Up to eight pigments that come nearest to the encoded colours of a picture. We count the
+    /// pixels with a fourth value above 0. This takes seconds.
     ///
     /// # Errors
     /// [`FilmPaintError`] if the library has no pigment to use.
@@ -136,14 +133,20 @@ impl OwnColors {
     ) -> Result<Slots, FilmPaintError> {
         let tones = Tones::between(material.library.saunderson.floor() as f32, 1.0);
         let covered = color.values().iter().filter(|color| color[3] > 0.0);
-        let target = |[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|value| tones.target(value));
-        let colors: Vec<_> = covered.map(target).collect();
+        let colors: Vec<_> = covered
+            .map(|[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|value| tones.target(value)))
+            .collect();
         let colors = Picture::from_values(colors.len(), 1, colors);
-        let film = |materials: paint::separation::FilmMaterials<'_>| {
-            PaintFilm::at_nodes(materials, &material.light().quadrature)
-        };
         let none = Slots::default();
-        Ok(choose_palette(&colors, material.materials(&none), film, films)?.slots)
+        Ok(choose_palette(
+            &colors,
+            material.materials(&none),
+            |materials: paint::separation::FilmMaterials<'_>| {
+                PaintFilm::at_nodes(materials, &material.light().quadrature)
+            },
+            films,
+        )?
+        .slots)
     }
 
     /// Pigments of the mixtures by slot.
@@ -159,13 +162,10 @@ impl OwnColors {
     }
 }
 
-/// Steps of ink that differ.
 const STEPS: usize = 256;
 
-/// Highest film of ink in mm.
 const MOST_MM: f64 = 0.05;
 
-/// Halvings of the range in which the height of a film is sought.
 const HALVINGS: usize = 40;
 
 /// Films of black paint for all amounts of ink.
@@ -175,30 +175,33 @@ pub struct Pencil {
 }
 
 impl Pencil {
-    /// Finds the films that darken the bare ground as a pencil of the encoded `grey` would: full ink
-    /// to that grey, half of it half-way there. The black is that of `grisaille`. A film is at most
-    /// 0.05 mm high, which almost hides.
+    /// Finds the films that darken the bare ground like a pencil of the encoded `grey`. Full ink
+    /// gives this grey, half of it a tone half-way. The black is the black of `grisaille`. A film
+    /// is at most 0.05 mm high, which almost hides.
     #[must_use]
     pub fn new(grisaille: &Grisaille, grey: f32) -> Self {
         let luminance = |mm: f64| {
             let mut heights = [0.0; SLOTS];
             heights[1] = mm as f32;
             let [r, g, b] = grisaille.film().rgb(&heights);
-            // Weights of luminance of sRGB (IEC 61966-2-1).
+            // These are the weights of luminance of sRGB (IEC 61966-2-1).
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
         let bare = luminance(0.0);
-        let height = |step: usize| {
-            let left = 1.0 - step as f32 / (STEPS - 1) as f32 * (1.0 - grey);
-            let wanted = bare * linear(left);
-            let mut range = [0.0, MOST_MM];
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (range[0] + range[1]);
-                range[usize::from(luminance(middle) < wanted)] = middle;
-            }
-            if step == 0 { 0.0 } else { range[1] }
-        };
-        Self { heights_mm: (0..STEPS).map(height).collect() }
+        Self {
+            heights_mm: (0..STEPS)
+                .map(|step: usize| {
+                    let left = 1.0 - step as f32 / (STEPS - 1) as f32 * (1.0 - grey);
+                    let wanted = bare * linear(left);
+                    let mut range = [0.0, MOST_MM];
+                    for _ in 0..HALVINGS {
+                        let middle = 0.5 * (range[0] + range[1]);
+                        range[usize::from(luminance(middle) < wanted)] = middle;
+                    }
+                    if step == 0 { 0.0 } else { range[1] }
+                })
+                .collect(),
+        }
     }
 
     /// Height in mm of the film for an amount of ink, 0..1.
@@ -207,13 +210,12 @@ impl Pencil {
         self.heights_mm[step(ink)]
     }
 
-    /// Films of all steps in quanta, for cells `cell_mm` wide.
     pub(super) fn quanta(&self, cell_mm: f64) -> Vec<u32> {
         self.heights_mm.iter().map(|&mm| quanta_from_mm(mm, cell_mm)).collect()
     }
 }
 
-/// Index of the step nearest to an amount of ink; what is no number counts as 0.
+/// Index of the step nearest to an amount of ink. NaN counts as 0.
 #[inline]
 pub(super) fn step(ink: f32) -> usize {
     (within_one(ink) * (STEPS - 1) as f32 + 0.5) as usize

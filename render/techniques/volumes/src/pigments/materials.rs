@@ -1,9 +1,6 @@
-//! Materials of films: a library, the ground under them, and the light that colours are matched
-//! under.
-//!
-//! A third paint that takes the cast out of greys of white and black.
-//!
-//! Encoded values as linear ones within the reach of paint.
+//! Materials of films: a library, the ground under them, and the light under which we match
+//! colours. Also a third paint that takes the cast out of greys of white and black, and encoded
+//! values as linear ones within the reach of paint.
 
 use std::sync::Arc;
 
@@ -23,7 +20,7 @@ pub struct FilmMaterial {
     pub library: Arc<PigmentLibrary>,
     /// The ground under all films.
     pub ground: GroundSpec,
-    /// Light that the painting is viewed under, and that colours are matched under.
+    /// Light under which you view the painting and we match colours.
     pub lighting: Lighting,
     /// Binder of the paint.
     pub medium: Medium,
@@ -33,7 +30,8 @@ pub struct FilmMaterial {
 }
 
 impl FilmMaterial {
-    /// Materials for paintings over `ground`, seen under `lighting`. Takes a good part of a second.
+    /// Materials for paintings over `ground`, which you see under `lighting`. This takes a good
+    /// part of a second.
     ///
     /// # Errors
     /// [`FilmPaintError`] for a light or a ground that cannot be used with the library.
@@ -48,7 +46,7 @@ impl FilmMaterial {
         Ok(Self { library, ground, lighting, medium, reflectance, light })
     }
 
-    /// The light that colours are matched under.
+    /// The light under which we match colours.
     #[must_use]
     pub fn light(&self) -> &Light {
         &self.light
@@ -63,7 +61,7 @@ impl FilmMaterial {
         PaintFilm::at_nodes(self.materials(slots), &self.light.quadrature)
     }
 
-    /// The parts that films of these pigments are computed from.
+    /// The parts from which you compute films of these pigments.
     #[must_use]
     pub fn materials<'a>(&'a self, slots: &'a Slots) -> FilmMaterials<'a> {
         FilmMaterials {
@@ -74,12 +72,12 @@ impl FilmMaterial {
         }
     }
 
-    /// The white and the black of the library: its reference white, or its lightest paint, and its
-    /// darkest one.
+    /// The white and the black of the library. The white is its reference white, or else its
+    /// lightest paint. The black is its darkest paint.
     ///
     /// # Errors
-    /// [`FilmPaintError`] if the library has no two paints that differ, as one of absolute amounts,
-    /// in which the paper is the white.
+    /// [`FilmPaintError`] if the library has no two paints that differ, for example one of
+    /// absolute amounts, in which the paper is the white.
     pub fn white_and_black(&self) -> Result<[PigmentId; 2], FilmPaintError> {
         let cards = Cards::standard(self.library.grid);
         let palette = Palette::new(&self.library, &self.light.viewing, cards)?;
@@ -114,17 +112,16 @@ pub enum FilmPaintError {
 /// CIELAB lightness of the grey that the paint is chosen for.
 const MIDDLE: f64 = 50.0;
 
-/// Height of its film in mm.
+/// Height of the grey's film in mm.
 const GREY_MM: f64 = 0.3;
 
-/// Parts of the paint that are tried for one of black.
+/// We try this many parts of the paint for one part of black.
 const PARTS: [f64; 5] = [0.05, 0.1, 0.2, 0.4, 0.8];
 
-/// Halvings of the range in which the part of black is sought.
 const HALVINGS: usize = 20;
 
-/// The paint of the library that makes a middle grey of white and black most neutral, such as an
-/// earth against a blue cast; none if no paint improves it.
+/// The paint of the library that makes a middle grey of white and black most neutral, e.g. an
+/// earth against a blue cast. `None` if no paint improves it.
 ///
 /// # Panics
 /// If the library lacks `white` or `black`.
@@ -154,27 +151,29 @@ pub fn toner(material: &FilmMaterial, [white, black]: [PigmentId; 2]) -> Option<
     (best.0 < chroma(None, 0.0)).then_some(best.1)
 }
 
-/// Steps of the table that decodes encoded values.
 const STEPS: usize = 4096;
 
-/// The linear values that are painted for encoded ones: from the darkest tone that paint reaches to
-/// the lightest, so that differences in shadows and lights survive.
+/// The linear values that we paint for encoded ones. They go from the darkest to the lightest tone
+/// that paint reaches, so that differences in shadows and lights survive.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tones {
     black: f32,
     white: f32,
-    /// Linear values of encoded ones in even steps.
     linear: Vec<f32>,
 }
 
 impl Tones {
-    /// Tones from the linear values `black` to `white`.
     pub(super) fn between(black: f32, white: f32) -> Self {
-        let linear = |step: usize| linear(step.min(STEPS) as f32 / STEPS as f32);
-        Self { black, white, linear: (0..=STEPS + 1).map(linear).collect() }
+        Self {
+            black,
+            white,
+            linear: (0..=STEPS + 1)
+                .map(|step: usize| linear(step.min(STEPS) as f32 / STEPS as f32))
+                .collect(),
+        }
     }
 
-    /// The linear value that is painted for an encoded one; what is no number counts as 0.
+    /// The linear value that we paint for an encoded one. NaN counts as 0.
     pub(super) fn target(&self, encoded: f32) -> f32 {
         let place = within_one(encoded) * STEPS as f32;
         let step = place as usize;
@@ -184,13 +183,12 @@ impl Tones {
     }
 }
 
-/// The nearest value from 0 to 1; what is no number counts as 0.
+/// The nearest value from 0 to 1. NaN counts as 0.
 #[inline]
 pub(super) fn within_one(value: f32) -> f32 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }
 
-/// Linear value of an encoded one.
 pub(super) fn linear(encoded: f32) -> f32 {
     Rgb([f64::from(encoded); 3]).linear().0[0] as f32
 }

@@ -1,5 +1,5 @@
-//! Volumes as films of measured pigments: how high each pigment stands at a visible point, and the
-//! painting that these films make over a drawing of the scene.
+//! Volumes as films of measured pigments. You get how high each pigment stands at a visible point,
+//! and the painting that these films make over a drawing of the scene.
 //!
 //! ```text
 //! volumes, samples of the surface -> films -> heights of pigments at each pixel --+

@@ -1,5 +1,5 @@
 //! Paintings of a scene with its volumes: ground, grisaille or own colours, hatching, and the film
-//! of the volumes, as dry layers of whole quanta.
+//! of the volumes. These are dry layers of whole quanta.
 
 use graphics::field::Field;
 use paint::amount::QUANTA_PER_CELL;
@@ -20,10 +20,9 @@ pub struct FilmPainterSettings {
     pub under: UnderPainting,
     /// The look of the inside of volumes.
     pub inside: InsidePaint,
-    /// Whether the grisaille takes a third paint that makes its greys neutral
-    /// ([`toner`]).
+    /// Whether to add a third paint to the grisaille, which makes its greys neutral ([`toner`]).
     pub neutral: bool,
-    /// Encoded grey that full ink darkens the ground to, 0..1.
+    /// Full ink darkens the ground to this encoded grey, 0..1.
     pub pencil: f32,
     /// Width of a cell of the painting in mm.
     pub cell_mm: f64,
@@ -32,8 +31,8 @@ pub struct FilmPainterSettings {
 }
 
 impl Default for FilmPainterSettings {
-    /// A glaze over grisaille of white and black with a pencil of 0.15 on cells of 0.2 mm; films of
-    /// 0.03 to 0.3 mm that hide the ground.
+    /// A glaze over grisaille of white and black with a pencil of 0.15, on cells of 0.2 mm. Films
+    /// of 0.03 to 0.3 mm hide the ground.
     fn default() -> Self {
         let films = SeparationSettings { lattice: 17, refined: false, ..Default::default() };
         let under = UnderPainting::default();
@@ -42,7 +41,6 @@ impl Default for FilmPainterSettings {
     }
 }
 
-/// The layers of a painting, lowest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Coat {
     Grisaille,
@@ -56,24 +54,21 @@ pub(super) enum Coat {
 pub struct FilmPainter {
     material: FilmMaterial,
     settings: FilmPainterSettings,
-    /// Pigments of the volumes.
     slots: Slots,
     grisaille: Grisaille,
     own_colors: Option<OwnColors>,
-    /// Quanta of the grisaille by level of grey.
     greys: Vec<[u32; SLOTS]>,
-    /// Quanta of black by step of ink.
     inks: Vec<u32>,
 }
 
 impl FilmPainter {
-    /// A painter for volumes with the pigments `slots`. `own_colors` are the pigments for the
-    /// colours of the scene, which are needed where these are shown; by default those of the
-    /// volumes. Takes seconds.
+    /// A painter for volumes with the pigments `slots`. If you show the colours of the scene, pass
+    /// their pigments as `own_colors`. By default, these are the pigments of the volumes. This
+    /// takes seconds.
     ///
     /// # Errors
-    /// [`FilmPaintError`] for a library without white and black, an empty palette for the colours of
-    /// the scene, and heights out of range.
+    /// [`FilmPaintError`] for a library without white and black, an empty palette for the colours
+    /// of the scene, and heights out of range.
     ///
     /// # Panics
     /// If a slot refers to a pigment that the library lacks.
@@ -106,7 +101,7 @@ impl FilmPainter {
         &self.material
     }
 
-    /// How it paints.
+    /// How this painter paints.
     #[must_use]
     pub fn settings(&self) -> &FilmPainterSettings {
         &self.settings
@@ -118,13 +113,13 @@ impl FilmPainter {
         &self.slots
     }
 
-    /// Volumes with other pigments in their slots; all else stays.
+    /// Puts other pigments into the slots of the volumes. Everything else stays.
     #[must_use]
     pub fn with_slots(self, slots: Slots) -> Self {
         Self { slots, ..self }
     }
 
-    /// The painting of `drawing`, with one dry layer for each coat that it may have.
+    /// Paints `drawing`. You get one dry layer for each coat that it may have.
     ///
     /// # Errors
     /// [`FilmPaintError::Ground`] if the ground cannot be made at this size.
@@ -162,7 +157,6 @@ impl FilmPainter {
         layer
     }
 
-    /// The coats of its paintings, lowest first.
     pub(super) fn coats(&self) -> Vec<Coat> {
         let grisaille = self.settings.under == UnderPainting::Grisaille;
         let has = [grisaille, self.own_colors.is_some(), true, self.settings.inside.has_films()];
@@ -170,7 +164,6 @@ impl FilmPainter {
         coats.into_iter().zip(has).filter(|(_, has)| *has).map(|(coat, _)| coat).collect()
     }
 
-    /// Pigments of a coat by slot.
     pub(super) fn slots_of(&self, coat: Coat) -> Slots {
         match coat {
             Coat::Grisaille | Coat::Hatching => *self.grisaille.slots(),
@@ -179,12 +172,11 @@ impl FilmPainter {
         }
     }
 
-    /// Films of the grisaille in quanta by level of grey.
     pub(super) fn greys(&self) -> &[[u32; SLOTS]] {
         &self.greys
     }
 
-    /// Levels of grey of the cells of row `y` that have a whole film of grisaille; none for the
+    /// Levels of grey of the cells of row `y` that have a whole film of grisaille. `None` for the
     /// others.
     pub(super) fn whole_greys<'a>(
         &self,
@@ -201,7 +193,6 @@ impl FilmPainter {
         })
     }
 
-    /// Quanta of a coat in the cells of row `y`.
     pub(super) fn row(
         &self,
         coat: Coat,
@@ -237,7 +228,7 @@ impl FilmPainter {
         }
     }
 
-    /// The share of a cell's surface that is painted in its own colours, 0 to 1.
+    /// The share of a cell's surface that we paint in its own colours, 0 to 1.
     fn own_share(&self, row: &Row<'_>, x: usize) -> f32 {
         match self.own_colors {
             Some(_) if self.settings.under == UnderPainting::OwnColors => 1.0,
@@ -246,7 +237,6 @@ impl FilmPainter {
         }
     }
 
-    /// Quanta of the film of an encoded colour over a share of a cell.
     fn own(&self, [r, g, b, _]: [f32; 4], share: f32) -> [u32; SLOTS] {
         let Some(own) = self.own_colors.as_ref().filter(|_| share > 0.0) else {
             return [0; SLOTS];
@@ -257,13 +247,12 @@ impl FilmPainter {
     }
 }
 
-/// A share of an amount, rounded to the nearest quantum.
 #[inline]
 fn part(quanta: u32, share: f32) -> u32 {
     if share >= 1.0 { quanta } else { (f64::from(quanta) * f64::from(share) + 0.5) as u32 }
 }
 
-/// One row of a drawing. What it leaves out is empty.
+/// One row of a drawing. If the drawing leaves out a part, it is empty.
 struct Row<'a> {
     color: &'a [[f32; 4]],
     cover: &'a [f32],
@@ -286,13 +275,11 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The share of a cell that shows the scene.
     #[inline]
     fn cover_at(&self, x: usize) -> f32 {
         self.cover.get(x).map_or(1.0, |&cover| within_one(cover))
     }
 
-    /// The share of a cell that shows the inside of volumes.
     #[inline]
     fn tint_at(&self, x: usize) -> f32 {
         self.tint.get(x).map_or(0.0, |&tint| within_one(tint))

@@ -5,15 +5,15 @@ use graphics::field::Field;
 use graphics::surface::{NO_TRIANGLE, PackedMesh, SurfacePoint, VisibilityBuffer};
 use rayon::prelude::*;
 
-/// Pixels that share the work of one thread at least.
+/// A thread works on at least this many pixels.
 const PIXELS: usize = 8192;
 
-/// Normals of the triangles of a scene, which do not depend on the view.
+/// Normals of the triangles of a scene. They do not depend on the view, so you need them once.
 #[derive(Debug, Clone)]
 pub struct Facets {
-    /// Of length 1, on the side of the normals of the corners; zero for triangles without area.
+    /// Of length 1, on the side of the normals of the corners. Triangles without area have zero.
     normals: Vec<Vec3>,
-    /// Numbers of their bodies; 0 beyond the end.
+    /// Numbers of their bodies. Beyond the end, they are 0.
     bodies: Vec<u32>,
 }
 
@@ -21,26 +21,28 @@ impl Facets {
     /// The normals of all triangles of `mesh`.
     #[must_use]
     pub fn of(mesh: &PackedMesh) -> Self {
-        let normal = |corners: [u32; 3]| {
-            let corners = corners.map(|corner| &mesh.vertices[corner as usize]);
-            let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
-            let facet = (b - a).cross(c - a).normalize_or_zero();
-            let side: Vec3 = corners.iter().map(|corner| Vec3::from(corner.normal)).sum();
-            if side.dot(facet) < 0.0 { -facet } else { facet }
-        };
         let triangles = mesh.triangles.par_iter().with_min_len(PIXELS);
-        let normals = triangles.map(|triangle| normal(triangle.corners)).collect();
+        let normals = triangles
+            .map(|triangle| triangle.corners)
+            .map(|corners: [u32; 3]| {
+                let corners = corners.map(|corner| &mesh.vertices[corner as usize]);
+                let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
+                let facet = (b - a).cross(c - a).normalize_or_zero();
+                let side: Vec3 = corners.iter().map(|corner| Vec3::from(corner.normal)).sum();
+                if side.dot(facet) < 0.0 { -facet } else { facet }
+            })
+            .collect();
         Self { normals, bodies: Vec::new() }
     }
 
-    /// Tells the body of each triangle, 0 for those that films of all bodies lie on.
+    /// Sets the body of each triangle. Use 0 for triangles that films of all bodies lie on.
     pub fn tell_bodies(&mut self, bodies: &[u32]) {
         if self.bodies != bodies {
             self.bodies = bodies.to_vec();
         }
     }
 
-    /// The normal of each triangle: of length 1, or zero for one without area.
+    /// The normal of each triangle. It has length 1, or is zero if the triangle has no area.
     #[must_use]
     pub fn normals(&self) -> &[Vec3] {
         &self.normals
@@ -50,14 +52,14 @@ impl Facets {
 /// The place and the triangle that each pixel shows.
 #[derive(Debug, Clone)]
 pub struct SeenPlaces<'a> {
-    /// Places in the unit of the scene; no numbers where nothing is seen.
+    /// Places in the unit of the scene. They are NaN where nothing is seen.
     pub places: Field<Vec3>,
     visible: &'a VisibilityBuffer,
     facets: &'a Facets,
 }
 
 impl<'a> SeenPlaces<'a> {
-    /// The places of `mesh`, whose normals are `facets`, that `visible` shows.
+    /// Finds the places of `mesh` that `visible` shows. Pass the facets of this mesh.
     ///
     /// # Panics
     /// If `visible` shows a triangle that the mesh does not have.
@@ -76,13 +78,14 @@ impl<'a> SeenPlaces<'a> {
         Self { places, visible, facets }
     }
 
-    /// The buffer that shows them.
+    /// The buffer that shows these places.
     #[must_use]
     pub fn visible(&self) -> &'a VisibilityBuffer {
         self.visible
     }
 
-    /// The normal of the triangle that the pixel with this index shows; zero where there is none.
+    /// The normal of the triangle that the pixel with this index shows. It is zero where there is
+    /// no triangle.
     #[must_use]
     #[inline]
     pub fn normal(&self, pixel: usize) -> Vec3 {
@@ -98,8 +101,8 @@ impl<'a> SeenPlaces<'a> {
         self.facets.bodies.get(triangle).copied().unwrap_or(0)
     }
 
-    /// Place and normal of the triangle that the pixel with this index, counted row by row, shows.
-    /// The place is no number where nothing is seen.
+    /// Place and normal of the triangle that a pixel shows. Pixels count row by row. The place is
+    /// NaN where nothing is seen.
     #[must_use]
     #[inline]
     pub fn at(&self, pixel: usize) -> (Vec3, Vec3) {

@@ -1,8 +1,9 @@
-//! Films along eye rays: as high as the ray is long inside of a volume before it meets the scene.
+//! Films along eye rays. They are as high as the ray is long inside of a volume before it meets
+//! the scene.
 //!
-//! A ray that enters a closed surface at the distances `f` and leaves it at the distances `b` is
-//! inside for the sum of all `min(b, t)` less that of all `min(f, t)`, with `t` the distance of the
-//! scene. Entries before the near plane, which cuts them off, count as 0.
+//! If a ray enters a closed surface at the distances `f` and leaves it at the distances `b`, it is
+//! inside for the sum of all `min(b, t)` less the sum of all `min(f, t)`. Here `t` is the distance
+//! of the scene. Entries before the near plane, which cuts them off, count as 0.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -20,7 +21,7 @@ use crate::volume::Volume;
 pub struct Density(pub [f32; SLOTS + 1]);
 
 impl Density {
-    /// The paint of a volume spread evenly over its inside, in quanta of the painting for a unit of
+    /// The paint of a volume spread evenly over its inside, in quanta of the painting per unit of
     /// the scene.
     #[must_use]
     pub fn of(volume: &Volume, scale: &FilmScale) -> Self {
@@ -42,33 +43,33 @@ impl Density {
 #[must_use]
 pub fn enclosed(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
-    let place = |i: u32| Vec3::new(x[i as usize], y[i as usize], z[i as usize]).as_dvec3();
     volume
         .mesh()
         .faces
         .iter()
         .map(|face: &[u32; 3]| {
-            let [a, b, c] = face.map(place);
+            let [a, b, c] = face
+                .map(|i: u32| Vec3::new(x[i as usize], y[i as usize], z[i as usize]).as_dvec3());
             a.cross(b).dot(c) / 6.0
         })
         .sum()
 }
 
-/// The heights of the films along the eye ray of each pixel. The surfaces that are crossed are those
-/// of the volumes, in their order.
+/// The heights of the films along the eye ray of each pixel. Pass the surfaces of the volumes, in
+/// the order of the volumes.
 #[derive(Debug, Clone)]
 pub struct FilmThrough<'a> {
     /// The density of each volume.
     pub densities: &'a [Density],
     /// Distances from the eye at which rays end, in the unit of the scene.
     pub ends: Field<f32>,
-    /// Length of a ray for each unit along the viewing direction, by half the columns and rows.
+    /// Length of a ray per unit along the viewing direction, by half the columns and rows.
     tangents: [f32; 2],
 }
 
 impl<'a> FilmThrough<'a> {
     /// Films along the rays from `camera` to the places that pixels show. Rays that meet nothing
-    /// have no film, or go on without end if `beyond` is set.
+    /// have no film. If you set `beyond`, they go on without end.
     #[must_use]
     pub fn new(
         densities: &'a [Density],
@@ -93,14 +94,15 @@ impl<'a> FilmThrough<'a> {
         Self { densities, ends: Field::from_values(width, height, ends), tangents }
     }
 
-    /// Distance from the eye of a crossing.
     #[inline]
     fn distance(&self, crossing: &Crossing) -> f32 {
         let width = self.ends.width();
         let height = self.ends.height();
         let column = crossing.pixel % width;
         let row = crossing.pixel / width;
-        let share = |at: usize, count: usize| (2 * at + 1) as f32 / count as f32 - 1.0;
+        fn share(at: usize, count: usize) -> f32 {
+            (2 * at + 1) as f32 / count as f32 - 1.0
+        }
         let x = share(column, width) * self.tangents[0];
         let y = share(row, height) * self.tangents[1];
         crossing.view_depth() * (1.0 + x * x + y * y).sqrt()
@@ -120,7 +122,7 @@ impl CrossingSum for FilmThrough<'_> {
         }
         let length = self.distance(crossing).min(end);
         let density = &self.densities[crossing.surface as usize];
-        // Partial sums may leave the range; sums are modulo 2^32.
+        // Partial sums may leave the range, because sums are modulo 2^32.
         let heights = density.0.map(|density| match density > 0.0 {
             true => (length * density + 0.5) as i64 as i32,
             false => 0,
@@ -141,10 +143,8 @@ mod tests {
 
     const SIZE: (usize, usize) = (121, 97);
 
-    /// Fine units of length.
     const UNITS: f32 = 1e6;
 
-    /// Lengths of the eye rays inside of volumes over a plane, in the unit of the scene.
     fn lengths(volumes: &[Volume], camera: &Camera, beyond: bool) -> (Field<f32>, Field<Vec3>) {
         let mesh = plane(3);
         let seen: VisibilityBuffer = visible(&mesh, camera, SIZE.0, SIZE.1);
@@ -173,7 +173,6 @@ mod tests {
         )
     }
 
-    /// The ray of a pixel, of length 1.
     fn ray(camera: &Camera, pixel: usize) -> Vec3 {
         let [right, up, back] = camera.axes();
         let column = pixel % SIZE.0;
@@ -184,7 +183,6 @@ mod tests {
         (x * right + y * up - back).normalize()
     }
 
-    /// Length of a ray from `eye` within a ball, up to `end`.
     fn in_ball(eye: Vec3, ray: Vec3, (center, radius): (Vec3, f32), end: f32) -> f32 {
         let middle = (center - eye).dot(ray);
         let from_center = (eye + middle * ray).distance(center);
@@ -195,7 +193,7 @@ mod tests {
         (middle + half).clamp(0.0, end) - (middle - half).clamp(0.0, end)
     }
 
-    /// Sums of what is found and expected over all pixels, and of their differences.
+    /// Sums over all pixels: what we find, what we expect, and their differences.
     fn compared(ball: (Vec3, f32), camera: &Camera, beyond: bool) -> [f64; 3] {
         let volume = Volume::ball(ball.0, ball.1, 4, 0);
         let (lengths, places) = lengths(&[volume], camera, beyond);

@@ -15,7 +15,7 @@ use super::drawing::Drawing;
 use super::materials::FilmPaintError;
 use super::painter::{Coat, FilmPainter};
 
-/// Cells whose coat is composited together, unless all are bare.
+/// We composite the coat of this many cells together, unless all are bare.
 const RUN: usize = 16;
 
 /// The paint of a painter under one light.
@@ -25,13 +25,12 @@ pub struct FilmView {
     lighting: Lighting,
     coats: Vec<Coat>,
     scene: Scene,
-    /// Internal reflectance of the grisaille over the ground, by level of grey.
     greys: Vec<[f32; NODES]>,
 }
 
 impl FilmView {
-    /// The paint of `painter` under the light of `lighting`. Takes a good part of a second, unless it
-    /// is the light that the painter matches colours under.
+    /// The paint of `painter` under the light of `lighting`. This takes a good part of a second,
+    /// unless the painter matches colours under the same light.
     ///
     /// # Errors
     /// [`FilmPaintError::Light`] for a light that cannot be used with the library.
@@ -71,10 +70,10 @@ impl FilmView {
         Ok(Self { light, lighting: lighting.clone(), coats, scene, greys })
     }
 
-    /// Picture of the painting of `drawing` by the painter of this view, in linear sRGB with white
-    /// at 1; the fourth value is 1. It is the picture of [`FilmPainter::document`] under this light.
-    /// Without relief ([`Lighting::relief`] 0) it is made without that document, at the speed of
-    /// frames.
+    /// The painting of `drawing` as a picture in linear sRGB with white at 1 and the fourth value
+    /// at 1. The painter of this view paints it. You get the same picture as from
+    /// [`FilmPainter::document`] under this light. Without relief ([`Lighting::relief`] 0) we do
+    /// not need this document, so you get the picture at the speed of frames.
     ///
     /// # Errors
     /// [`FilmPaintError::Ground`] if relief is shown and the ground cannot be made at this size.
@@ -106,7 +105,6 @@ impl FilmView {
         Ok(out)
     }
 
-    /// Internal reflectance of the cells of row `y`.
     fn lay_row(
         &self,
         painter: &FilmPainter,
@@ -131,7 +129,7 @@ impl FilmView {
             }
             painter.row(coat, drawing, y, amounts);
             if coat == Coat::Grisaille {
-                // The films that are whole are there already.
+                // The whole films are there already.
                 let cells = amounts.iter_mut().zip(painter.whole_greys(drawing, y));
                 cells.filter(|(_, level)| level.is_some()).for_each(|(cell, _)| *cell = [0; SLOTS]);
             }
@@ -191,7 +189,6 @@ mod tests {
     static BOTH: LazyLock<FilmPainter> =
         LazyLock::new(|| painter(UnderPainting::Grisaille, InsidePaint::Both));
 
-    /// A drawing of greys and colours, partly hatched, with films of several pigments.
     struct Made {
         color: Field<[f32; 4]>,
         cover: Field<f32>,
@@ -313,8 +310,8 @@ mod tests {
         assert!(most_apart(&swapped, &before) > 0.02);
     }
 
-    /// The film of one cell with equal amounts of the first two pigments of a painter, laid by two
-    /// volumes.
+    /// The film of one cell with equal amounts of the first two pigments of a painter. Two volumes
+    /// lay them.
     fn laid_by_two(half_mm: f64) -> Field<FilmHeights> {
         let mut sum = FilmHeights::default();
         for slot in [0, 1] {
@@ -332,7 +329,7 @@ mod tests {
         let viewing = &bare.material().light().viewing;
         let color = Field::filled(1, 1, [0.5; 4]);
         let none = Drawing { color: &color, cover: None, ink: None, tint: None, films: None };
-        // Pictures are computed at eight wavelengths, whose error differs from mixture to mixture.
+        // We compute pictures at eight wavelengths. Their error differs from mixture to mixture.
         for (blue, in_picture) in
             [("Prussian Blue", 0.2), ("Ultramarine", 0.2), ("Cobalt Blue", 0.85)]
         {
@@ -362,14 +359,13 @@ mod tests {
                 let seen = view.picture(&painter, &drawing).unwrap();
                 let off = delta_e_ciede2000(lab(seen.values()[0]), wanted);
                 assert!(off <= in_picture, "{blue}, {half_mm} mm: {off}");
-                // Neither of the two lying over the other.
+                // Neither of the two lies over the other.
                 let alone = view.picture(&painter, &none).unwrap();
                 assert!(delta_e_ciede2000(lab(alone.values()[0]), wanted) > 5.0);
             }
         }
     }
 
-    /// CIELAB of 101 greys from black to white.
     fn greys(painter: &FilmPainter) -> Vec<Lab> {
         let view = FilmView::new(painter, &level_light()).unwrap();
         let greys = (0..=100).map(|step| [0.0, 0.0, 0.0, step as f32 / 100.0]).collect();
@@ -397,7 +393,9 @@ mod tests {
         let settings = FilmPainterSettings { neutral: true, ..GLAZES.settings().clone() };
         let material = GLAZES.material().clone();
         let painter = FilmPainter::new(material, *GLAZES.slots(), None, settings).unwrap();
-        let mean = |labs: &[Lab]| labs.iter().map(|lab| lab.a.hypot(lab.b)).sum::<f64>() / 101.0;
+        fn mean(labs: &[Lab]) -> f64 {
+            labs.iter().map(|lab| lab.a.hypot(lab.b)).sum::<f64>() / 101.0
+        }
         let [two, three] = [&*GLAZES, &painter].map(|painter| mean(&greys(painter)));
         assert!(three < 1.5 && three < 0.5 * two, "{two} {three}");
         let slots = painter.document("", &Made::new().drawing()).unwrap().dry[0].slots;
@@ -422,7 +420,7 @@ mod tests {
         };
         for at in 0..=100 {
             let wanted = 1.0 - 0.85 * at as f32 / 100.0;
-            // The darkest tones are beyond what black paint reaches.
+            // Black paint does not reach the darkest tones.
             if wanted > 0.3 {
                 assert!((encoded(at) - wanted).abs() < 0.012, "{at}: {}", encoded(at));
             }

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::rows::Ball;
 
-/// Pigments by their letters in the palette, with their parts; empty without a palette.
+/// Pigments by their letters in the palette, with their parts. Without a palette it is empty.
 pub type Recipe = BTreeMap<String, f64>;
 
-/// Something that is done to a world of volumes. Within one step, actions are done in the order
-/// of these variants, and those of a kind in the order of the script.
+/// An action on a world of volumes. Within one step, we do actions in the order of these variants,
+/// and several of one kind in the order of the script.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
     /// A single volume is born.
@@ -25,14 +25,16 @@ pub enum Action {
     Dry(Dry),
 }
 
-/// Where paint is poured or lifted.
+/// Where you pour or lift paint.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Place {
     /// At a place in the unit of the scene.
     At([f64; 3]),
-    /// At what the first picture shows, by its width from the left and its height from the top.
+    /// At what the first picture shows. You give shares of its width from the left and its height
+    /// from the top.
     Picked([f64; 2]),
-    /// Along a path: straight from point to point, resting before the first and after the last.
+    /// Along a path, straight from point to point. It rests before the first and after the last
+    /// point.
     Path(Vec<PathPoint>),
 }
 
@@ -50,11 +52,11 @@ pub struct PathPoint {
 pub enum Quantity {
     /// In mm3, evenly over the duration.
     Amount(f64),
-    /// In mm3 a second.
+    /// In mm3 per second.
     Rate(f64),
 }
 
-/// Paint that is poured.
+/// Paint that you pour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pour {
     /// Where it is poured.
@@ -82,7 +84,7 @@ pub struct NewVolume {
     pub region: usize,
 }
 
-/// Air that pushes the volumes in a ball.
+/// Air that pushes the volumes in a ball, e.g. from a straw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Push {
     /// Centre of the ball in the unit of the scene.
@@ -91,7 +93,7 @@ pub struct Push {
     pub towards: [f64; 3],
     /// Radius of the ball in the unit of the scene.
     pub radius: f64,
-    /// Acceleration in cells a square second.
+    /// Acceleration in cells per second squared.
     pub strength: f64,
 }
 
@@ -102,26 +104,25 @@ pub struct Lift {
     pub place: Place,
     /// Its radius in the unit of the scene.
     pub radius: f64,
-    /// Share of the paint below it that it takes up in a second, 0 to 120.
+    /// Share of the paint below it that it takes up per second, 0 to 120.
     pub rate: f64,
 }
 
 /// Single volumes become volumes of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Split {
-    /// Index of the single volume in the order of the script; all of them without it.
+    /// Index of the single volume in the order of the script. If you leave this out, all split.
     pub volume: Option<usize>,
 }
 
 /// Paint that dries.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dry {
-    /// The ball whose volumes dry, in the unit of the scene; all of them without it.
+    /// The volumes in this ball dry, in the unit of the scene. If you leave this out, all dry.
     pub ball: Option<Ball>,
 }
 
 impl Action {
-    /// Rank among the actions of one step.
     pub(crate) fn rank(&self) -> usize {
         match self {
             Self::Volume(_) => 0,
@@ -135,8 +136,8 @@ impl Action {
 }
 
 impl Place {
-    /// The place in the unit of the scene, `seconds` after the start of the action; none where it
-    /// is picked in a picture.
+    /// The place in the unit of the scene, `seconds` after the start of the action. `None` if you
+    /// pick it in a picture.
     #[must_use]
     pub fn at(&self, seconds: f64) -> Option<[f64; 3]> {
         let points = match self {
@@ -168,7 +169,7 @@ impl Quantity {
         }
     }
 
-    /// The amount a second in mm3/s, if paint is poured for `seconds`, above 0.
+    /// The amount per second in mm3/s, if you pour paint for `seconds`, above 0.
     #[must_use]
     pub fn rate_mm3_s(self, seconds: f64) -> f64 {
         match self {
@@ -184,7 +185,9 @@ mod tests {
 
     #[test]
     fn a_path_is_straight_between_its_points_and_rests_at_its_ends() {
-        let point = |seconds, x| PathPoint { seconds, at: [x, 0.0, 1.0] };
+        fn point(seconds: f64, x: f64) -> PathPoint {
+            PathPoint { seconds, at: [x, 0.0, 1.0] }
+        }
         let path = Place::Path(vec![point(1.0, 2.0), point(3.0, 6.0)]);
         for (seconds, x) in [(0.0, 2.0), (1.0, 2.0), (1.5, 3.0), (3.0, 6.0), (9.0, 6.0)] {
             assert_eq!(path.at(seconds), Some([x, 0.0, 1.0]), "{seconds}");

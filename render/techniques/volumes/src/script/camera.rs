@@ -6,28 +6,28 @@ use serde::{Deserialize, Serialize};
 use super::rows::{MOST_FRAMES, Row, check_range};
 use crate::toml_text::{Checked, Fault, KeyPath};
 
-/// Most keyframes of a path.
+/// A path has at most this many keyframes.
 const MOST_KEYFRAMES: usize = 10_000;
 
-/// `[camera]`: degrees of a camera that shows all of the subject, or keyframes. Of a photograph the
-/// degrees are those to the right and upwards from straight before it.
+/// `[camera]`: either degrees of a camera that shows all of the subject, or keyframes. For a
+/// photograph, degrees go to the right and upwards from straight before it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraTable {
-    /// Degrees around the subject, -360 to 360; 30 without it, of a photograph 0.
+    /// Degrees around the subject, -360 to 360. Without it, this is 30, and 0 for a photograph.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth_deg: Option<f64>,
-    /// Degrees above the horizon, -90 to 90; 20 without it, of a photograph 0.
+    /// Degrees above the horizon, -90 to 90. Without it, this is 20, and 0 for a photograph.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elevation_deg: Option<f64>,
-    /// Vertical field of view in degrees, 1 to 170; 30 without it.
+    /// Vertical field of view in degrees, 1 to 170. Without it, this is 30.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub field_of_view_deg: Option<f64>,
     /// Number of frames of one turn around the subject, or of a swing before a photograph, 1 to
-    /// 100,000; without it the camera stands still.
+    /// 100,000. Without it, the camera stands still.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turntable: Option<u32>,
-    /// Number of frames of a path, 1 to 100,000; without it a path is as long as the script.
+    /// Number of frames of a path, 1 to 100,000. Without it, a path is as long as the script.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<u32>,
     /// Whether a path leads from the last keyframe back to the first.
@@ -46,10 +46,10 @@ pub struct KeyframeTable {
     pub eye: Row<3>,
     /// Place in the centre of the picture.
     pub target: Row<3>,
-    /// Approximate upward direction; +y without it.
+    /// Approximate upward direction. Without it, this is +y.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub up: Option<Row<3>>,
-    /// Vertical field of view in degrees, 0.1 to 170; 35 without it.
+    /// Vertical field of view in degrees, 0.1 to 170. Without it, this is 35.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub field_of_view_deg: Option<f64>,
 }
@@ -64,8 +64,8 @@ pub enum ScriptCamera {
 }
 
 impl CameraTable {
-    /// The camera of an animation, of `frames` frames unless the path has a number of its own. That
-    /// of a turntable is its first.
+    /// The camera of an animation. It has `frames` frames unless you gave the path its own number.
+    /// For a turntable you get its first camera.
     #[must_use]
     pub fn camera(&self, frames: usize) -> ScriptCamera {
         if !self.keyframes.is_empty() {
@@ -74,7 +74,9 @@ impl CameraTable {
             return ScriptCamera::Path(CameraPath { frames, closed: self.closed, keyframes });
         }
         let usual = Framing::default();
-        let or = |given: Option<f64>, usual: f32| given.map_or(usual, |value| value as f32);
+        fn or(given: Option<f64>, usual: f32) -> f32 {
+            given.map_or(usual, |value| value as f32)
+        }
         ScriptCamera::Framing(Framing {
             azimuth_deg: or(self.azimuth_deg, usual.azimuth_deg),
             elevation_deg: or(self.elevation_deg, usual.elevation_deg),
@@ -129,7 +131,9 @@ impl CameraTable {
 
 impl KeyframeTable {
     fn keyframe(&self) -> Keyframe {
-        let of = |row: Row<3>| row.0.map(|value| value as f32);
+        fn of(row: Row<3>) -> [f32; 3] {
+            row.0.map(|value| value as f32)
+        }
         Keyframe {
             eye: of(self.eye),
             target: of(self.target),

@@ -1,8 +1,6 @@
-//! Checks of a whole script, and its settings and regions put together.
-//!
-//! Checks of what is done: pours, volumes, pushes, walls, lifts, splits and dryings.
-//!
-//! Regions of a script: names, and how their volumes show what they hold.
+//! Checks a whole script, and puts its settings and regions together. It checks every table that
+//! does something: pours, volumes, pushes, walls, lifts, splits and dryings. It also has the names
+//! of regions, and how their volumes show what they hold.
 
 use std::collections::BTreeMap;
 
@@ -26,7 +24,7 @@ use crate::volume::MOST_DETAIL;
 use crate::world::MOST_VOLUMES;
 
 impl Script {
-    /// Checks every value of the script. Pigments are looked up by [`Script::slots`].
+    /// Checks every value of the script. To look up pigments, use [`Script::slots`].
     ///
     /// # Errors
     /// [`Fault`] of the first wrong value, with its key and the way out.
@@ -53,15 +51,14 @@ impl Script {
         Ok(())
     }
 
-    /// The settings: those of the preset (without one [`Preset::Sketch`]), changed by the tables
-    /// `settings` and `grid` and by `unit_mm`.
+    /// The settings of the preset (by default [`Preset::Sketch`]), which the tables `settings` and
+    /// `grid` and `unit_mm` change.
     ///
     /// # Errors
     /// [`Fault`] of the first value that is out of its range, or given twice.
     pub fn settings(&self) -> Result<Settings, Box<Fault>> {
-        let own = |key: &str| self.settings.get(key).is_some();
         for (key, twice) in [("grid", !self.grid.is_empty()), ("unit_mm", self.unit_mm.is_some())] {
-            if twice && own(key) {
+            if twice && self.settings.get(key).is_some() {
                 let hint = format!("leave settings.{key} out");
                 let key = KeyPath::of("settings").key(key);
                 return Err(Fault::new(&key, "values given once", "a second place", hint));
@@ -121,16 +118,17 @@ impl Script {
     }
 }
 
-/// Largest amount in mm3, and a second.
+/// You can pour at most this much in mm3, or in mm3 per second.
 const MOST_MM3: f64 = 1e9;
 
-/// Largest acceleration of a push in cells a square second.
+/// Largest acceleration of a push in cells per second squared.
 const MOST_STRENGTH: f64 = 1e6;
 
 impl Script {
-    /// Checks every table that does something, one by one.
     pub(super) fn check_tables(&self) -> Checked {
-        let each = |name: &str, index: usize| KeyPath::of(name).index(index);
+        fn each(name: &str, index: usize) -> KeyPath {
+            KeyPath::of(name).index(index)
+        }
         for (index, keep) in self.keeps.iter().enumerate() {
             check_keep(&each("keep", index), keep)?;
         }
@@ -202,9 +200,8 @@ impl Script {
     fn check_split(&self, key: &KeyPath, split: &SplitTable) -> Checked {
         check_time(&key.key("at_s"), split.at_s)?;
         let count = self.volumes.len();
-        let fits = |number: u32| (1..=count).contains(&(number as usize));
         match split.volume {
-            Some(number) if !fits(number) => {
+            Some(number) if !(1..=count).contains(&(number as usize)) => {
                 let hint = match count {
                     0 => "add a [[volume]]".to_owned(),
                     _ => "volumes count from 1 in the order of the script".to_owned(),
@@ -279,7 +276,7 @@ fn check_keep(key: &KeyPath, keep: &KeepTable) -> Checked {
     }
 }
 
-/// The fault of a table that needs exactly one of `names`, and has `keys`.
+/// A table needs exactly one of `names`. This is its fault if it has `keys`.
 fn one_of(table: &KeyPath, names: &str, keys: &[Option<&str>]) -> Checked {
     let given: Vec<&str> = keys.iter().flatten().copied().collect();
     let (key, found, hint) = match given[..] {
@@ -350,44 +347,48 @@ fn check_quantity(key: &KeyPath, amount: Option<f64>, rate: Option<f64>, duratio
 /// How the volumes of a region show what they hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionStyle {
-    /// Its name; empty for the only region of a script that lists none.
+    /// Its name. If a script lists no regions, its only region has an empty name.
     pub name: String,
-    /// Appearance of the scene inside of its volumes.
+    /// How the scene looks inside of its volumes.
     pub inside: Inside,
     /// Sizes of the shells, falling from 1.
     pub shells: Vec<f32>,
-    /// Share of colour by the number of shells, one more than there are shells.
+    /// Share of colour by the number of shells. There is one more share than shells.
     pub tints: Vec<f32>,
-    /// Colour that the drawing is multiplied by inside, below the share of colour: `#rrggbb`, white
-    /// for a drawing that stays grey.
+    /// We multiply the drawing by this colour inside, below the share of colour: `#rrggbb`. Use
+    /// white for a drawing that stays grey.
     pub stain: String,
 }
 
 impl Script {
-    /// The regions in order, at least one. `settings` give what a region leaves out.
+    /// The regions in order, at least one. If a region leaves something out, `settings` give it.
     #[must_use]
     pub fn region_styles(&self, settings: &Settings) -> Vec<RegionStyle> {
         let unnamed = [RegionTable::default()];
         let regions = if self.regions.is_empty() { &unnamed } else { &self.regions[..] };
-        let narrow = |list: &[f64]| list.iter().map(|&value| value as f32).collect::<Vec<_>>();
-        let style = |region: &RegionTable| {
-            let drawing = &settings.drawing;
-            let shells = region.shells.as_deref().map_or(drawing.shells.clone(), narrow);
-            let tints = match (&region.tint, &region.shells) {
-                (Some(tint), _) => narrow(tint),
-                (None, Some(_)) => Vec::new(),
-                (None, None) => drawing.tint.clone(),
-            };
-            let even = || narrow(&even_tints(shells.len()));
-            let tints = if tints.is_empty() { even() } else { tints };
-            let inside = region.inside.unwrap_or(drawing.inside);
-            let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
-            RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
-        };
-        regions.iter().map(style).collect()
+        fn narrow(list: &[f64]) -> Vec<f32> {
+            list.iter().map(|&value| value as f32).collect::<Vec<_>>()
+        }
+        regions
+            .iter()
+            .map(|region: &RegionTable| {
+                let drawing = &settings.drawing;
+                let shells = region.shells.as_deref().map_or(drawing.shells.clone(), narrow);
+                let tints = match (&region.tint, &region.shells) {
+                    (Some(tint), _) => narrow(tint),
+                    (None, Some(_)) => Vec::new(),
+                    (None, None) => drawing.tint.clone(),
+                };
+                let tints =
+                    if tints.is_empty() { narrow(&even_tints(shells.len())) } else { tints };
+                let inside = region.inside.unwrap_or(drawing.inside);
+                let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
+                RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
+            })
+            .collect()
     }
 
-    /// Index of the region with this name; the first without a name.
+    /// Index of the region with this name. Without a name, this is the first.
     pub(super) fn region_index(&self, name: Option<&str>) -> Option<usize> {
         match name {
             None => Some(0),
@@ -411,7 +412,9 @@ impl Script {
     }
 
     pub(super) fn check_regions(&self, settings: &Settings) -> Checked {
-        let plain = |list: &[f32]| list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>();
+        fn plain(list: &[f32]) -> Vec<f64> {
+            list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>()
+        }
         let shells = plain(&settings.drawing.shells);
         let tints = plain(&settings.drawing.tint);
         for (index, region) in self.regions.iter().enumerate() {

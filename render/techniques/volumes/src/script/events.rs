@@ -6,20 +6,21 @@ use super::rows::{Ball, Row};
 use crate::toml_text::KeyPath;
 use crate::world::STEPS_PER_SECOND;
 
-/// An action with its time.
+/// An action, and when it happens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Event {
-    /// Step, from 0, before which it begins.
+    /// The action begins before this step. Steps count from 0.
     pub start: u32,
-    /// Step before which it ends, above `start`; actions of a moment last one step.
+    /// The action ends before this step. It is above `start`, so actions of a moment last one
+    /// step.
     pub end: u32,
-    /// The action itself.
+    /// The action.
     pub action: Action,
-    /// Path of its table in the script, for faults.
+    /// Path of its table in the script. Faults show this.
     pub table: KeyPath,
 }
 
-/// Number of steps nearest to a time of 0 s and more.
+/// Number of steps nearest to a time of at least 0 s.
 #[must_use]
 pub fn steps_of(seconds: f64) -> u32 {
     (seconds * f64::from(STEPS_PER_SECOND)).round() as u32
@@ -32,8 +33,8 @@ pub fn seconds_of(steps: u32) -> f64 {
 }
 
 impl Script {
-    /// All actions, sorted by the step in which they begin, then in the order of [`Action`], then
-    /// in that of the script. The script must have passed [`Script::check`].
+    /// All actions. We sort them by the step in which they begin, then in the order of [`Action`],
+    /// then as in the script. First [`Script::check`] the script.
     #[must_use]
     pub fn events(&self) -> Vec<Event> {
         let region = |name: &Option<String>| self.region_index(name.as_deref()).unwrap_or(0);

@@ -1,10 +1,5 @@
-//! A script as it stands in its file.
-//!
-//! The pigments of a script.
-//!
-//! The subject of a script.
-//!
-//! The library of a script, the ground under its pigments, and the light on them.
+//! A script as it stands in its file, with its subject and its pigments. Also the library of a
+//! script, the ground under its pigments, and the light on them.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
@@ -29,8 +24,8 @@ use super::tables::{
 use crate::settings::Preset;
 use crate::toml_text::{Checked, Fault, KeyPath};
 
-/// A script: the subject, its settings, and what is done to it in time. The key of each value in a
-/// file is its name here; `center` is written `centre`.
+/// A script: the subject, its settings, and what you do to it in time. The key of each value in a
+/// file is its name here, except that `center` is written `centre`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Script {
@@ -43,31 +38,30 @@ pub struct Script {
     pub title: String,
     /// `shape:NAME`, or the path of a model or photograph, relative to the script's folder.
     pub subject: String,
-    /// Length of a unit of the scene in mm, above 0 up to 1e6; without it the longest side is
-    /// 200 mm.
+    /// Length of a unit of the scene in mm, above 0 up to 1e6. Without it, the longest side is 200
+    /// mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit_mm: Option<f64>,
     /// Duration in seconds, 0 to 3600.
     pub seconds: f64,
-    /// Settings to start from; without it [`Preset::Sketch`].
+    /// Settings to start from. Without it, this is [`Preset::Sketch`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<Preset>,
-    /// Library of the pigments: its file beside the script, or the title of the one that comes with
-    /// the program.
+    /// Library of the pigments: its file beside the script, or the title of the one that we ship.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<String>,
-    /// Light that pigments are seen under, such as `A` or `5600K`; without it D65.
+    /// Light under which you see pigments, for example `A` or `5600K`. Without it, this is D65.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub illuminant: Option<String>,
-    /// File of the lamp that pigments are seen under instead, beside the script: `FILE`, or
+    /// File of the lamp under which you see pigments instead, beside the script: `FILE`, or
     /// `FILE#NAME` for one spectrum of several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lamp: Option<String>,
-    /// Pigments by their letters, at most eight; slots of paint are in the order of the letters.
+    /// Pigments by their letters, at most eight. Slots of paint are in the order of the letters.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub palette: BTreeMap<String, String>,
-    /// The ground under pigments: linen, paper or panel; without it a panel with the white of the
-    /// library.
+    /// The ground under pigments: linen, paper or panel. Without it, this is a panel with the
+    /// white of the library.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground: Option<GroundSpec>,
     /// Settings of the grid that differ from the preset's.
@@ -76,19 +70,19 @@ pub struct Script {
     /// Settings that differ from the preset's, by group.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
     pub settings: Table,
-    /// The camera; without it the subject is seen from the front and slightly above.
+    /// The camera. Without it, you see the subject from the front and slightly above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraTable>,
-    /// Regions in the order in which they are composed, later over earlier.
+    /// Regions in the order in which we compose them, later over earlier.
     #[serde(default, rename = "region", skip_serializing_if = "Vec::is_empty")]
     pub regions: Vec<RegionTable>,
-    /// Regions that volumes are kept in.
+    /// Regions in which volumes stay.
     #[serde(default, rename = "keep", skip_serializing_if = "Vec::is_empty")]
     pub keeps: Vec<KeepTable>,
     /// Single volumes, outside of the grid.
     #[serde(default, rename = "volume", skip_serializing_if = "Vec::is_empty")]
     pub volumes: Vec<VolumeTable>,
-    /// Paint that is poured.
+    /// Paint that you pour.
     #[serde(default, rename = "pour", skip_serializing_if = "Vec::is_empty")]
     pub pours: Vec<PourTable>,
     /// Air that pushes volumes.
@@ -106,7 +100,7 @@ pub struct Script {
 }
 
 impl Script {
-    /// A script in which nothing happens. See the fields for `subject` and `seconds`.
+    /// A script in which nothing happens. The fields say what to pass as `subject` and `seconds`.
     #[must_use]
     pub fn new(subject: &str, seconds: f64) -> Self {
         Self {
@@ -137,7 +131,7 @@ impl Script {
     }
 }
 
-/// The name of the format; serde refuses any other.
+/// The name of the format. serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum FormatName {
     /// Written `paint-volumes` in a file.
@@ -145,13 +139,12 @@ pub(super) enum FormatName {
     PaintVolumes,
 }
 
-/// The version that is read and written; serde refuses any other.
+/// The version that we read and write. serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u64", into = "u64")]
 pub(super) struct FormatVersion;
 
 impl FormatVersion {
-    /// Version number in a file.
     pub(super) const NUMBER: u64 = 1;
 }
 
@@ -173,11 +166,11 @@ impl TryFrom<u64> for FormatVersion {
 }
 
 impl Script {
-    /// The pigments of the palette in `library`, by slots in the order of their letters.
+    /// The pigments of the palette in `library`. Slots are in the order of their letters.
     ///
     /// # Errors
-    /// [`Fault`] of the letter whose pigment the library does not have, or has twice, and of one
-    /// that means the same pigment as another. [`super::ScriptError::located`] adds its line.
+    /// [`Fault`] of a letter if the library does not have its pigment, or has it twice, or if
+    /// another letter means the same pigment. [`super::ScriptError::located`] adds its line.
     pub fn slots(&self, library: &PigmentLibrary) -> Result<Slots, Box<Fault>> {
         let mut slots = Slots::default();
         for (slot, (letter, name)) in self.palette.iter().enumerate() {
@@ -204,8 +197,8 @@ impl Script {
         Ok(slots)
     }
 
-    /// Shares of the slots in a recipe of this script: sum 1, or all 0 for a recipe without
-    /// pigments.
+    /// Shares of the slots in a recipe of this script. They sum to 1, or are all 0 for a recipe
+    /// without pigments.
     #[must_use]
     pub fn shares(&self, recipe: &Recipe) -> [f64; SLOTS] {
         let total: f64 = recipe.values().sum();
@@ -218,24 +211,23 @@ impl Script {
     }
 }
 
-/// Longest path in bytes.
 const LONGEST: usize = 1024;
 
 /// The model or photograph that a script paints.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Subject {
-    /// A model that is made, written `shape:NAME`.
+    /// A model that we make, written `shape:NAME`.
     Shape(SampleModel),
     /// A file with a model or a photograph.
     File(PathBuf),
 }
 
 impl Script {
-    /// The subject; a path starts from `folder`, the folder of the script.
+    /// The subject. A path starts from `folder`, the folder of the script.
     ///
     /// # Errors
-    /// [`Fault`] of `subject` for an unknown shape, another script, and for a path that is empty or has control
-    /// characters.
+    /// [`Fault`] of `subject` for an unknown shape, another script, and for a path that is empty
+    /// or has control characters.
     pub fn subject_in(&self, folder: &Path) -> Result<Subject, Box<Fault>> {
         self.check_subject()?;
         match self.subject.strip_prefix("shape:").and_then(SampleModel::from_name) {
@@ -276,7 +268,6 @@ impl Script {
         }
     }
 
-    /// Checks that all paths lead to files in the script's folder or below it.
     pub(super) fn check_files_beside(&self) -> Checked {
         if !self.subject.starts_with("shape:") {
             check_beside("subject", &self.subject)?;
@@ -290,7 +281,7 @@ impl Script {
 
 fn check_beside(key: &str, path: &str) -> Checked {
     let mut parts = Path::new(path).components();
-    // Colons and backslashes lead elsewhere on Windows.
+    // Colons and backslashes lead to other folders on Windows.
     let below =
         parts.all(|part| matches!(part, Component::Normal(_))) && !path.contains(['\\', ':']);
     match below {
@@ -304,14 +295,13 @@ fn check_beside(key: &str, path: &str) -> Checked {
     }
 }
 
-/// Longest path of a library or a lamp, in bytes.
 const MATERIALS_LONGEST: usize = 1024;
 
-/// Width of the cells of a ground that is made to try it, in mm.
+/// We make a ground to try it, with cells of this width in mm.
 const TRIED_MM: f64 = 0.2;
 
-/// Whether a text is a light by its name: an illuminant or a temperature. [`light_from_text`] reads
-/// files of lamps as well, which a script names by another key.
+/// Whether a text names a light, i.e. an illuminant or a temperature. [`light_from_text`] also
+/// reads files of lamps, for which a script has another key.
 #[must_use]
 pub fn is_light(text: &str) -> bool {
     let kelvin = text.strip_suffix(['K', 'k']).map(|number| {
@@ -322,8 +312,8 @@ pub fn is_light(text: &str) -> bool {
 }
 
 impl Script {
-    /// The library that the script names; none if it names none. A path starts from `folder`, the
-    /// folder of the script.
+    /// The library that the script names. `None` if it does not name one. A path starts from
+    /// `folder`, the folder of the script.
     ///
     /// # Errors
     /// [`LibraryError`] if its file is missing, or is no library.
@@ -334,15 +324,16 @@ impl Script {
         }
     }
 
-    /// The file of the library that the script names; none if it names none, or the oils that ship.
+    /// The file of the library that the script names. `None` if it does not name one, or names the
+    /// oils that we ship.
     #[must_use]
     pub fn library_file(&self, folder: &Path) -> Option<PathBuf> {
         let name = self.library.as_ref()?;
         (*name != PigmentLibrary::van_gogh_oils().title).then(|| folder.join(name))
     }
 
-    /// The light on pigments as [`light_from_text`] takes it; none for D65. The file of a lamp starts
-    /// from `folder`, the folder of the script.
+    /// The light on pigments, which you can pass to [`light_from_text`]. `None` for D65. The file
+    /// of a lamp starts from `folder`, the folder of the script.
     #[must_use]
     pub fn light(&self, folder: &Path) -> Option<String> {
         let lamp = self.lamp.as_ref().map(|lamp| folder.join(lamp).to_string_lossy().into_owned());
@@ -352,7 +343,7 @@ impl Script {
     /// The ground under pigments of `library`.
     ///
     /// # Errors
-    /// [`Fault`] of a ground that cannot be made, such as one of a colour that is none.
+    /// [`Fault`] of a ground that cannot be made, for example because its colour is not a colour.
     /// [`super::ScriptError::located`] adds its line.
     pub fn ground_under(&self, library: &PigmentLibrary) -> Result<GroundSpec, Box<Fault>> {
         let Some(ground) = &self.ground else { return Ok(GroundKind::Panel.spec(1)) };
@@ -369,12 +360,11 @@ impl Script {
         }
     }
 
-    /// Checks the names of library and light, and the ground.
     pub(super) fn check_materials(&self) -> Checked {
         let light = self.illuminant.as_deref();
-        let fits = |path: &str| {
+        fn fits(path: &str) -> bool {
             (1..=MATERIALS_LONGEST).contains(&path.len()) && !path.contains(char::is_control)
-        };
+        }
         for (key, path, hint) in [
             ("library", &self.library, "name the file of a pigment library, or leave it out"),
             ("lamp", &self.lamp, "name the file of a lamp's spectrum, or leave it out"),

@@ -1,7 +1,7 @@
 //! Scripts of paint volumes: the file format `paint-volumes`, version 1.
 //!
-//! A script is TOML with a subject, pigments, settings and what is done to the subject in time. It
-//! is written by hand, by a program, or by a session that records. Places are in the unit of the
+//! A script is TOML with a subject, pigments, settings and what you do to the subject in time. You
+//! can write it by hand, by a program, or record it in a session. Places are in the unit of the
 //! subject, times in seconds.
 //!
 //! ```toml
@@ -83,9 +83,9 @@
 //! radius = 0.2
 //! ```
 //!
-//! Scripts are untrusted: unknown keys, numbers out of range and files that are too long are
-//! refused with line and key, and the subject lies beside the script. Written figures have six
-//! digits, times four decimals.
+//! We do not trust scripts. We refuse unknown keys, numbers out of range and files that are too
+//! long, and report line and key. The subject must lie beside the script. We write figures with
+//! six digits, and times with four decimals.
 mod rows;
 mod tables;
 mod camera;

@@ -1,11 +1,7 @@
-//! Recording of what a session does as a script.
+//! Records what you do in a session as a script, and changes the settings of a script.
 //!
-//! Rounding of a script to the digits of a file.
-//!
-//! A session rounds what it does before it does it, so that its recording, which holds the rounded
-//! numbers, plays the same.
-//!
-//! Changes of a script's settings.
+//! A session rounds what it does before it does it. The recording holds the rounded numbers, so it
+//! plays the same.
 
 use std::collections::BTreeMap;
 
@@ -24,18 +20,20 @@ use super::tables::{
 use crate::settings::SettingsError;
 use crate::toml_text::Source;
 
-/// A script that grows as a session goes on.
+/// A script that grows while a session goes on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recorder {
     script: Script,
 }
 
 impl Action {
-    /// The action with the digits of a file. A session rounds an action before it does it: so its
-    /// recording plays the same bits.
+    /// The action with the digits of a file. A session must round an action before it does it.
+    /// Then its recording plays the same bits.
     #[must_use]
     pub fn rounded(&self) -> Self {
-        let row = |row: [f64; 3]| row.map(six);
+        fn row(row: [f64; 3]) -> [f64; 3] {
+            row.map(six)
+        }
         match self {
             Self::Volume(own) => Self::Volume(NewVolume {
                 center: row(own.center),
@@ -96,24 +94,24 @@ impl Quantity {
 }
 
 impl Recorder {
-    /// A recorder that begins with `script`: its subject, palette, settings, regions and walls,
-    /// and what is done in it already.
+    /// A recorder that begins with `script`. It takes over its subject, palette, settings, regions
+    /// and walls, and what the script does already.
     #[must_use]
     pub fn new(script: &Script) -> Self {
         Self { script: script.rounded() }
     }
 
-    /// Adds an action that lasts from step `start` to before step `end`. It is recorded as
-    /// [`Action::rounded`] gives it. A region that the script does not list is its first one.
+    /// Adds an action that lasts from step `start` to before step `end`. This records it as
+    /// [`Action::rounded`] gives it. If the script does not list its region, the first one counts.
     pub fn record(&mut self, start: u32, end: u32, action: &Action) {
         let from_s = time(seconds_of(start));
         let at_s = from_s;
         let for_s = time(seconds_of(end.saturating_sub(start).max(1)));
         let script = &mut self.script;
-        let named = |regions: &[RegionTable], index: usize| {
+        fn named(regions: &[RegionTable], index: usize) -> Option<String> {
             let region = regions.get(index).filter(|_| index > 0);
             region.map(|region| region.name.clone())
-        };
+        }
         match action.rounded() {
             Action::Volume(own) => script.volumes.push(VolumeTable {
                 center: Row(own.center),
@@ -199,39 +197,35 @@ fn keys(quantity: Quantity) -> (Option<f64>, Option<f64>) {
     }
 }
 
-/// Six significant digits, and never -0, which reads like 0.
+/// Six significant digits, and never -0, because we read this as 0.
 pub(super) fn six(value: f64) -> f64 {
     digits::rounded(value) + 0.0
 }
 
-/// A time in seconds with four decimals, less than half a step of 1/120 s.
+/// A time in seconds with four decimals. These are finer than half a step of 1/120 s.
 pub(super) fn time(seconds: f64) -> f64 {
     (seconds * 1e4).round() / 1e4 + 0.0
 }
 
-/// All numbers of a row with six digits.
 pub(super) fn row<const N: usize>(row: Row<N>) -> Row<N> {
     Row(row.0.map(six))
 }
 
-/// A point of a path: its time with four decimals, its place with six digits.
 pub(super) fn point(Row([seconds, x, y, z]): Row<4>) -> Row<4> {
     Row([time(seconds), six(x), six(y), six(z)])
 }
 
-/// A ball with six digits.
 pub(super) fn ball(Ball { center, radius }: Ball) -> Ball {
     Ball { center: center.map(six), radius: six(radius) }
 }
 
-/// The parts of a recipe with six digits.
 pub(super) fn recipe(parts: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
     parts.iter().map(|(letter, part)| (letter.clone(), six(*part))).collect()
 }
 
 impl Script {
-    /// The script with its figures as a file has them: times with four decimals, everything else
-    /// with six significant digits. Writing and reading leaves such a script as it is.
+    /// The script with its figures as in a file: times with four decimals, everything else with
+    /// six significant digits. If you write and read such a script, it stays as it is.
     #[must_use]
     pub fn rounded(&self) -> Self {
         Self {
@@ -271,7 +265,6 @@ fn value(own: &Value) -> Value {
     }
 }
 
-/// A ground whose reflectance has six digits.
 fn ground(own: &GroundSpec) -> GroundSpec {
     let mut own = own.clone();
     match &mut own.reflectance {
@@ -315,7 +308,9 @@ fn region(region: &RegionTable) -> RegionTable {
 }
 
 fn keep(keep: &KeepTable) -> KeepTable {
-    let pair = |Pair(rows): Pair| Pair(rows.map(|row| row.map(six)));
+    fn pair(Pair(rows): Pair) -> Pair {
+        Pair(rows.map(|row| row.map(six)))
+    }
     KeepTable {
         cuboid: keep.cuboid.map(pair),
         sphere: keep.sphere.map(ball),
@@ -375,7 +370,7 @@ fn dry(dry: &DryTable) -> DryTable {
 }
 
 impl Script {
-    /// Replaces settings of the script by those of `text` (TOML), which errors call `name`.
+    /// Replaces settings of the script by the ones in `text` (TOML). Errors call this text `name`.
     ///
     /// # Errors
     /// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its range.
@@ -404,15 +399,15 @@ impl Script {
         Ok(())
     }
 
-    /// Leaves the light out unless the script asks for it, as for a photograph, which has light of
-    /// its own.
+    /// Leaves the light out unless the script asks for it. Use this for a photograph, which has
+    /// its own light.
     pub fn light_of_its_own(&mut self) {
         let light = group(&mut self.settings, "light");
         light.entry("lit").or_insert(Value::Boolean(false));
     }
 }
 
-/// The group of settings with this name, which is made if there is none.
+/// The group of settings with this name. Makes it if there is none.
 fn group<'t>(settings: &'t mut Table, name: &str) -> &'t mut Table {
     let group = settings.entry(name).or_insert_with(|| Value::Table(Table::new()));
     if !group.is_table() {

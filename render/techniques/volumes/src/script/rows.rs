@@ -1,8 +1,5 @@
-//! Rows of numbers in a script.
-//!
-//! Limits on what a script may ask for, and what would fit where it asks for more.
-//!
-//! Checks of single values.
+//! Rows of numbers in a script, and checks of single values. It also limits what a script may ask
+//! for, and says what would fit if you ask for more.
 
 use std::fmt;
 
@@ -16,7 +13,8 @@ use crate::volume::MOST_DETAIL;
 use crate::wetting::MOST_CELLS;
 use crate::world::MOST_PARTICLES;
 
-/// A list of exactly `N` numbers. (An array of serde takes longer lists as well.)
+/// A list of exactly `N` numbers. We need this because an array of serde takes longer lists as
+/// well.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub struct Row<const N: usize>(pub [f64; N]);
@@ -117,19 +115,21 @@ impl<'de> Deserialize<'de> for Ball {
     }
 }
 
-/// Most frames of an animation.
+/// An animation has at most this many frames.
 pub const MOST_FRAMES: u64 = 100_000;
 
-/// Most tables that do something: pours, volumes, pushes, walls, lifts, splits and dryings.
+/// A script has at most this many tables that do something: pours, volumes, pushes, walls, lifts,
+/// splits and dryings.
 pub const MOST_EVENTS: usize = 10_000;
 
 /// Longest script in seconds.
 pub const MOST_SECONDS: f64 = 3600.0;
 
-/// Most points of the paths of all pours and lifts.
+/// The paths of all pours and lifts have at most this many points.
 pub(super) const MOST_POINTS: usize = 1_000_000;
 
-/// Number of frames of `seconds` at `rate` frames a second, the first and the last included.
+/// Number of frames of `seconds` at `rate` frames per second. This includes the first and the last
+/// one.
 ///
 /// # Errors
 /// [`Fault`] of `seconds` for more than [`MOST_FRAMES`], with seconds and rate that fit.
@@ -148,8 +148,8 @@ pub fn frames_fit(seconds: f64, rate: f64) -> Result<u64, Box<Fault>> {
     Err(Fault::new(&KeyPath::of("seconds"), wanted, format!("{count} frames"), hint))
 }
 
-/// The fault of cells that are `cell` wide, by the scene's longest side, where this is too narrow
-/// and cells of `fits` would do.
+/// The fault of cells that are too narrow. `cell` is their width by the scene's longest side, and
+/// cells of `fits` would do.
 #[must_use]
 pub fn cells_too_small(cell: f64, fits: f64) -> Box<Fault> {
     let wanted = format!("a width of at most {MOST_CELLS} cells");
@@ -157,7 +157,7 @@ pub fn cells_too_small(cell: f64, fits: f64) -> Box<Fault> {
     Fault::new(&KeyPath::of("grid.cell"), wanted, cell as f32, hint)
 }
 
-/// The fault of `found` samples in a cell, where `fits` would do.
+/// The fault of too many samples in a cell: `found`, where `fits` would do.
 #[must_use]
 pub fn samples_too_many(found: usize, fits: usize) -> Box<Fault> {
     let wanted = format!("1 to {fits} for cells of this width");
@@ -165,7 +165,6 @@ pub fn samples_too_many(found: usize, fits: usize) -> Box<Fault> {
     Fault::new(&KeyPath::of("grid.samples"), wanted, found, hint)
 }
 
-/// Checks the length of the list `key`.
 pub(super) fn check_count(key: &str, count: usize, most: usize) -> Checked {
     if count <= most {
         return Ok(());
@@ -175,9 +174,10 @@ pub(super) fn check_count(key: &str, count: usize, most: usize) -> Checked {
     Err(Fault::new(&key, format!("at most {most} tables"), count, hint))
 }
 
-/// Checks the particles of volumes with these levels of detail.
 pub(super) fn check_particles(details: &[u8]) -> Checked {
-    let of = |detail: u8| 10 * 4_usize.pow(detail.into()) + 2;
+    fn of(detail: u8) -> usize {
+        10 * 4_usize.pow(detail.into()) + 2
+    }
     let mut total = 0;
     for (index, &detail) in details.iter().enumerate() {
         total += of(detail);
@@ -196,18 +196,16 @@ pub(super) fn check_particles(details: &[u8]) -> Checked {
     Ok(())
 }
 
-/// A number rounded down to one decimal.
 fn floored(number: f64) -> f64 {
     (number * 10.0).floor() / 10.0
 }
 
-/// Longest name of a region, letter of a pigment, and its name, in bytes.
+/// Names of regions, letters of pigments and names of pigments have at most this many bytes.
 const LONGEST_NAME: usize = 200;
 
 /// Greatest coordinate or length in the unit of the scene.
 pub(super) const MOST_LENGTH: f64 = 1e6;
 
-/// Checks that `value` lies in `least..=most`.
 pub(super) fn check_range(key: &KeyPath, value: f64, [least, most]: [f64; 2]) -> Checked {
     if (least..=most).contains(&value) {
         return Ok(());
@@ -220,7 +218,6 @@ pub(super) fn check_range(key: &KeyPath, value: f64, [least, most]: [f64; 2]) ->
     Err(Fault::new(key, format!("{least} to {most}"), shown(value), hint))
 }
 
-/// Checks that `value` is above 0 and at most `most`.
 pub(super) fn check_positive(key: &KeyPath, value: f64, most: f64) -> Checked {
     if value > 0.0 && value <= most {
         return Ok(());
@@ -232,12 +229,10 @@ pub(super) fn check_positive(key: &KeyPath, value: f64, most: f64) -> Checked {
     Err(Fault::new(key, format!("a number above 0, up to {most}"), shown(value), hint))
 }
 
-/// Checks a time in seconds.
 pub(super) fn check_time(key: &KeyPath, seconds: f64) -> Checked {
     check_range(key, seconds, [0.0, MOST_SECONDS])
 }
 
-/// Checks the coordinates of a place in the unit of the scene.
 pub(super) fn check_place(key: &KeyPath, place: [f64; 3]) -> Checked {
     for (axis, value) in place.into_iter().enumerate() {
         check_range(&key.index(axis), value, [-MOST_LENGTH, MOST_LENGTH])?;
@@ -245,7 +240,7 @@ pub(super) fn check_place(key: &KeyPath, place: [f64; 3]) -> Checked {
     Ok(())
 }
 
-/// Checks the coordinates of a direction, and that it is not 0.
+/// Checks the coordinates of a direction. It must not be 0.
 pub(super) fn check_direction(key: &KeyPath, direction: [f64; 3]) -> Checked {
     check_place(key, direction)?;
     if direction.iter().all(|value| value.abs() < 1e-6) {
@@ -256,12 +251,11 @@ pub(super) fn check_direction(key: &KeyPath, direction: [f64; 3]) -> Checked {
     Ok(())
 }
 
-/// A number as text: large ones have an exponent, as 1e300 would take 301 digits.
+/// A number as text. Large ones have an exponent: for example, 1e300 would take 301 digits.
 fn shown(value: f64) -> String {
     if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") }
 }
 
-/// Checks a name of a region or pigment.
 pub(super) fn check_name(key: &KeyPath, name: &str) -> Checked {
     let fits = (1..=LONGEST_NAME).contains(&name.len()) && !name.contains(char::is_control);
     match fits {

@@ -7,39 +7,39 @@ use serde::{Deserialize, Serialize};
 use super::rows::{Ball, Pair, Row};
 use crate::settings::Inside;
 
-/// `[[region]]`: volumes with a drawing of their own.
+/// `[[region]]`: volumes with their own drawing.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RegionTable {
     /// Its name, which other tables use.
     pub name: String,
-    /// Appearance of the scene inside of its volumes; the settings' own without it.
+    /// How the scene looks inside of its volumes. Without it, this comes from the settings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<Inside>,
-    /// Sizes of the shells, falling; the settings' own without it.
+    /// Sizes of the shells, falling. Without it, these come from the settings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shells: Option<Vec<f64>>,
-    /// Share of colour by the number of shells, rising; the settings' own without it, or even
-    /// steps where `shells` are given.
+    /// Share of colour by the number of shells, rising. Without it, this comes from the settings.
+    /// If you give `shells`, the steps are even.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tint: Option<Vec<f64>>,
-    /// Colour that the drawing is multiplied by inside, below its own colours; the settings' own
-    /// without it. Not in pigments.
+    /// We multiply the drawing by this colour inside, below its own colours. Without it, this
+    /// comes from the settings. You cannot use it with pigments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stain: Option<String>,
 }
 
-/// `[[keep]]`: volumes stay inside; one of the three keys.
+/// `[[keep]]`: volumes stay inside. You give one of the three keys.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeepTable {
     /// Lower and upper corner of a box.
     #[serde(default, rename = "box", skip_serializing_if = "Option::is_none")]
     pub cuboid: Option<Pair>,
-    /// A sphere that volumes stay in.
+    /// Volumes stay in this sphere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Ball>,
-    /// A point and the normal of a plane that volumes stay above.
+    /// A point and the normal of a plane. Volumes stay above it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub above: Option<Pair>,
 }
@@ -53,32 +53,33 @@ pub struct VolumeTable {
     pub center: Row<3>,
     /// Its radius in the unit of the scene, above 0 up to 1e6.
     pub radius: f64,
-    /// Level of detail of its mesh, 0 to 5; 3 without it.
+    /// Level of detail of its mesh, 0 to 5. Without it, this is 3.
     #[serde(default = "usual_detail")]
     pub detail: u8,
     /// Time at which it is born in seconds, 0 to 3600.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub from_s: f64,
-    /// Name of its region; the first without it.
+    /// Name of its region. Without it, this is the first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub region: Option<String>,
-    /// Pigments by their letters in the palette, with their parts; empty without a palette.
+    /// Pigments by their letters in the palette, with their parts. Without a palette it is empty.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub recipe: BTreeMap<String, f64>,
 }
 
-/// `[[pour]]`: paint that is poured; one of `at`, `picked` and `path`, and one of `amount_mm3` and
-/// `rate_mm3_s`. Beside a `path`, `at` may repeat its first place.
+/// `[[pour]]`: paint that you pour. You give one of `at`, `picked` and `path`, and one of
+/// `amount_mm3` and `rate_mm3_s`. Beside a `path`, `at` may repeat its first place.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PourTable {
     /// Place in the unit of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<Row<3>>,
-    /// Place in the first picture, by its width from the left and its height from the top, 0 to 1.
+    /// Place in the first picture, as shares of its width from the left and its height from the
+    /// top, 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picked: Option<Row<2>>,
-    /// Seconds since its start, then place: a moving source.
+    /// Seconds since its start, then place. Use this for a moving source.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Row<4>>,
     /// Time at which it starts in seconds, 0 to 3600.
@@ -90,13 +91,14 @@ pub struct PourTable {
     /// Amount of paint in mm3, above 0 up to 1e9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amount_mm3: Option<f64>,
-    /// Amount of paint a second in mm3/s, above 0 up to 1e9, instead of the amount.
+    /// Amount of paint per second in mm3/s, above 0 up to 1e9. You can give this instead of the
+    /// amount.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate_mm3_s: Option<f64>,
-    /// Name of its region; the first without it.
+    /// Name of its region. Without it, this is the first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub region: Option<String>,
-    /// Pigments by their letters in the palette, with their parts; empty without a palette.
+    /// Pigments by their letters in the palette, with their parts. Without a palette it is empty.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub recipe: BTreeMap<String, f64>,
 }
@@ -105,13 +107,13 @@ pub struct PourTable {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PushTable {
-    /// Centre of the ball that is pushed, in the unit of the scene.
+    /// Centre of the ball that it pushes, in the unit of the scene.
     pub at: Row<3>,
     /// Direction of the push, of any length above 0.
     pub towards: Row<3>,
     /// Radius of the ball in the unit of the scene, above 0 up to 1e6.
     pub radius: f64,
-    /// Acceleration in cells a square second, 0 to 1e6.
+    /// Acceleration in cells per second squared, 0 to 1e6.
     pub strength: f64,
     /// Time at which it starts in seconds, 0 to 3600.
     #[serde(default)]
@@ -120,7 +122,7 @@ pub struct PushTable {
     pub for_s: f64,
 }
 
-/// `[[lift]]`: a sponge that takes paint up; one of `at`, `picked` and `path`, as of
+/// `[[lift]]`: a sponge that takes paint up. You give one of `at`, `picked` and `path`, as in a
 /// [`PourTable`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -128,10 +130,11 @@ pub struct LiftTable {
     /// Place in the unit of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<Row<3>>,
-    /// Place in the first picture, by its width from the left and its height from the top, 0 to 1.
+    /// Place in the first picture, as shares of its width from the left and its height from the
+    /// top, 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picked: Option<Row<2>>,
-    /// Seconds since its start, then place: a moving source.
+    /// Seconds since its start, then place. Use this for a moving sponge.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Row<4>>,
     /// Radius of the sponge in the unit of the scene, above 0 up to 1e6.
@@ -142,8 +145,8 @@ pub struct LiftTable {
     /// Duration in seconds, 0 to 3600.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub for_s: f64,
-    /// Share of the paint below it that it takes up in a second, 0 to 120; 120, which takes all at
-    /// once, without it.
+    /// Share of the paint below it that it takes up per second, 0 to 120. Without it, this is 120,
+    /// which takes all at once.
     #[serde(default = "all_at_once")]
     pub rate: f64,
 }
@@ -154,13 +157,13 @@ pub struct LiftTable {
 pub struct SplitTable {
     /// Time in seconds, 0 to 3600.
     pub at_s: f64,
-    /// Number of the single volume in the script, from 1; all of them without it.
+    /// Number of the single volume in the script, from 1. Without it, all split.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volume: Option<u32>,
 }
 
-/// `[[dry]]`: paint on the scene dries: all of it, or that of the volumes in a ball, which `at` and
-/// `radius` give together.
+/// `[[dry]]`: paint on the scene dries. Give `at` and `radius` together to dry the volumes in a
+/// ball only.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DryTable {

@@ -1,10 +1,6 @@
-//! Scripts: reading, writing, events, recording, pigments, limits.
-//!
-//! Scripts for tests.
-//!
-//! Every fault of a script once, with its place and its way out.
-//!
-//! Random changes of scripts: nothing panics, and every fault has a place and a way out.
+//! Scripts: reading, writing, events, recording, pigments, limits. We raise every fault of a
+//! script once, and check its place and its hint. Random changes of scripts must not panic, and
+//! every fault must have a place and a hint.
 
 use std::path::Path;
 
@@ -192,7 +188,9 @@ fn every_step_of_an_hour_is_recorded_and_an_action_is_rounded_before_it_is_done(
 #[test]
 fn pigments_are_found_by_their_letters() {
     let library = PigmentLibrary::van_gogh_oils();
-    let text = |y: &str| format!("{SHORT}[palette]\nB = \"Cobalt Blue\"\nY = \"{y}\"\n");
+    fn text(y: &str) -> String {
+        format!("{SHORT}[palette]\nB = \"Cobalt Blue\"\nY = \"{y}\"\n")
+    }
     let own = script(&text("Zinc White"));
     let slots = own.slots(&library).unwrap();
     assert_eq!(slots[0], library.find("Cobalt Blue").ok());
@@ -234,7 +232,9 @@ fn a_library_is_that_of_the_program_or_a_file() {
 fn ground_and_lamp_are_those_of_the_script() {
     let library = PigmentLibrary::van_gogh_oils();
     assert_eq!(script(SHORT).ground_under(&library), Ok(GroundKind::Panel.spec(1)));
-    let text = |primer: &str| format!("{SHORT}[ground]\nkind = \"paper\"\n{primer}");
+    fn text(primer: &str) -> String {
+        format!("{SHORT}[ground]\nkind = \"paper\"\n{primer}")
+    }
     let own = script(&text("reflectance = 0.123456789")).rounded();
     let wanted =
         GroundSpec { reflectance: Some(Primer::Grey(0.123457)), ..GroundKind::Paper.spec(1) };
@@ -401,11 +401,10 @@ at = [0.1, 0.6, 0.3]
 radius = 0.25
 "##;
 
-/// The shortest script.
 pub(super) const SHORT: &str =
     "format = \"paint-volumes\"\nversion = 1\nsubject = \"shape:sphere\"\nseconds = 1\n";
 
-/// The example of the format's description, to the letter.
+/// The example in the description of the format, to the letter.
 pub(super) const DESCRIBED: &str = r#"format = "paint-volumes"
 version = 1
 title = "A jug wakes up"
@@ -426,13 +425,12 @@ recipe = { B = 2, Y = 1 }
 path = [[0.0, 0.1, 0.6, 0.3], [2.0, 0.5, 0.6, 0.2]]   # seconds, then place: a moving source
 "#;
 
-/// The error of a text and its hint.
 fn fault(text: &str) -> [String; 2] {
     let error = Script::from_text("s.toml", text).unwrap_err();
     [error.to_string(), error.hint().unwrap().to_string()]
 }
 
-/// Asserts that `text` has an error that begins with `wanted`, and its hint with `hint`.
+/// Asserts that the error of `text` begins with `wanted`, and its hint with `hint`.
 fn assert_fault(text: &str, wanted: &str, hint: &str) {
     let [error, told] = fault(text);
     assert!(error.starts_with(wanted), "{text}\n{error}\nnot {wanted}");
@@ -582,8 +580,8 @@ fn faults_of_the_header() {
     }
 }
 
-/// Every case of `faults.txt`: lines after the shortest script, then the error after `! ` and the
-/// hint after `? `, as far as they are compared.
+/// Runs every case of `faults.txt`. A case has lines after the shortest script, then the error
+/// after `! ` and the hint after `? `, as far as we compare them.
 #[test]
 fn every_fault_names_its_place_and_the_way_out() {
     let cases: Vec<&str> = include_str!("faults.txt").split("\n\n").collect();
@@ -597,7 +595,9 @@ fn every_fault_names_its_place_and_the_way_out() {
 
 #[test]
 fn limits_say_what_fits() {
-    let many = |text: &str, count: usize| format!("{SHORT}{}", text.repeat(count));
+    fn many(text: &str, count: usize) -> String {
+        format!("{SHORT}{}", text.repeat(count))
+    }
     let volume = "[[volume]]\ncentre = [0, 0, 0]\nradius = 1\ndetail = 1\n";
     let regions: String =
         (0..=MOST_REGIONS).map(|index| format!("[[region]]\nname = \"r{index}\"\n")).collect();
@@ -654,7 +654,7 @@ fn a_script_in_memory_is_checked_before_it_is_written() {
     assert_eq!(error.to_string(), "[[push]] 1, strength takes 0 to 1000000, found `inf`");
 }
 
-/// Pieces that are put into texts.
+/// We put these pieces into texts.
 const PIECES: [&str; 32] = [
     "=",
     "[",
@@ -727,7 +727,6 @@ fn changed(random: &mut ChaCha8Rng) -> String {
     letters.into_iter().collect()
 }
 
-/// Reads `count` changed scripts; returns how many were good.
 fn read(seed: u64, count: usize) -> usize {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let good = (0..count).filter(|_| {

@@ -1,6 +1,4 @@
-//! Scripts as text.
-//!
-//! Errors of scripts.
+//! Reads and writes scripts as text, and has the errors of scripts.
 
 use std::path::Path;
 
@@ -11,8 +9,8 @@ use super::file::{FormatVersion, Script};
 use crate::settings::{GridTable, Settings};
 use crate::toml_text::{Fault, KeyPath, Source, TextError, read_text};
 
-/// The settings of a script alone. A script keeps only what it changes; this finds unknown keys
-/// and wrong types with their lines.
+/// Only the settings of a script. A script keeps only what it changes. This finds unknown keys and
+/// wrong types with their lines.
 #[derive(Deserialize)]
 struct OwnSettings {
     #[serde(default, rename = "settings")]
@@ -22,7 +20,7 @@ struct OwnSettings {
 }
 
 impl Script {
-    /// Reads a script whose subject lies beside it.
+    /// Reads a script. Its subject must lie beside it.
     ///
     /// # Errors
     /// [`ScriptError`] with file, line, key and the way out.
@@ -30,7 +28,7 @@ impl Script {
         Self::from_text(&path.display().to_string(), &read_text(path)?)
     }
 
-    /// Reads a script of the user's own, whose subject may lie in any folder.
+    /// Reads a script that the user wrote. Its subject may lie in any folder.
     ///
     /// # Errors
     /// [`ScriptError`] with file, line, key and the way out.
@@ -38,7 +36,7 @@ impl Script {
         Self::from_own_text(&path.display().to_string(), &read_text(path)?)
     }
 
-    /// Parses the text of a script, which errors call `name`. The subject lies beside it.
+    /// Parses the text of a script. Errors call it `name`. The subject must lie beside it.
     ///
     /// # Errors
     /// [`ScriptError`] with line, key and the way out.
@@ -48,7 +46,7 @@ impl Script {
         Ok(script)
     }
 
-    /// Parses the text of a script of the user's own, whose files may lie in any folder.
+    /// Parses the text of a script that the user wrote. Its files may lie in any folder.
     ///
     /// # Errors
     /// [`ScriptError`] with line, key and the way out.
@@ -56,8 +54,8 @@ impl Script {
         Ok(parsed(name, text)?.0)
     }
 
-    /// The text of a script: figures with six digits, times with four decimals. Reading it gives
-    /// [`Script::rounded`] to the bit.
+    /// The text of a script: figures with six digits, times with four decimals. If you read it,
+    /// you get [`Script::rounded`] to the bit.
     ///
     /// # Errors
     /// [`ScriptError`] for the first value that is out of its range.
@@ -72,8 +70,8 @@ impl Script {
 }
 
 impl ScriptError {
-    /// The error of a fault that is found after reading, such as an unknown pigment, with its line
-    /// in the script's `text`, which it calls `name`.
+    /// Makes an error of a fault that you find after reading, such as an unknown pigment. It has
+    /// the line in the script's `text`, which it calls `name`.
     #[must_use]
     pub fn located(name: &str, text: &str, fault: Box<Fault>) -> Self {
         match Source::toml(name, text) {
@@ -93,7 +91,7 @@ fn parsed<'t>(name: &'t str, text: &'t str) -> Result<(Script, Source<'t>), Scri
     Ok((script, source))
 }
 
-/// Checks format and version before anything else: a newer version may have other keys.
+/// We check format and version before anything else, because a newer version may have other keys.
 fn check_format(name: &str, source: &Source<'_>) -> Result<(), ScriptError> {
     let file = name.to_owned();
     let line = |key: &str| source.line(&KeyPath::of(key)).max(1);

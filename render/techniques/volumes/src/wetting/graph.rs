@@ -1,57 +1,62 @@
-//! Which cells are joined by surface, so that paint can spill from one to the other.
+//! Which cells are joined by surface. Paint can spill from one such cell to the other.
 
 use rayon::prelude::*;
 
 use super::lattice::Lattice;
 use super::pieces::Pieces;
 
-/// The cells joined to each cell by surface, in ascending order: a list of links over all cells.
+/// The cells joined to each cell by surface, in ascending order. This is a list of links over all
+/// cells.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Graph {
-    /// Index of the first link of each cell, and at last the number of links.
+    /// Index of the first link of each cell. The last entry is the number of links.
     pub starts: Vec<u32>,
     /// The cell at the other end of each link.
     pub others: Vec<u32>,
-    /// Number of axes along which the two cells of each link differ: 1 across a face, 2 across an
-    /// edge, 3 across a corner.
+    /// Number of axes along which the two cells of each link differ. It is 1 across a face, 2
+    /// across an edge, 3 across a corner.
     pub axes: Vec<u8>,
     /// Index of the same link seen from the other end.
     pub back: Vec<u32>,
 }
 
 impl Graph {
-    /// The links between cells: the piece of each, in ascending order, is in `of_cells`.
+    /// The links between cells. `of_cells` has the piece of each cell, in ascending order.
     ///
-    /// Two pieces in cells with a common face, edge or corner are joined if a triangle enters both,
-    /// or one of two triangles at a common edge each, where this edge touches both cells; and if
-    /// steps through joined pieces across faces of the cells between them lead from one to the
-    /// other. The last rule makes the links the same for any cut into triangles.
+    /// We join two pieces in cells with a common face, edge or corner if they share surface: a
+    /// triangle enters both, or two triangles with a common edge enter one each, and this edge
+    /// touches both cells. There must also be steps through joined pieces, across faces of the
+    /// cells between them, that lead from one to the other. This last rule makes the links the
+    /// same for any cut into triangles.
     pub(super) fn of(pieces: &Pieces, of_cells: &[u32]) -> Self {
         let surface = Surface { keys: &pieces.keys, pairs: &pieces.pairs };
-        let onwards = |cell: usize| {
-            let piece = of_cells[cell];
-            let at = Lattice::coordinates_of(pieces.keys[piece as usize]);
-            let joined = forward_steps().flat_map(|step| {
-                let key = Lattice::key(plus(at, step));
-                let first = pieces.keys.partition_point(|other| *other < key) as u32;
-                let last = pieces.keys.partition_point(|other| *other <= key) as u32;
-                let taken = of_cells.partition_point(|other| *other < first)
-                    ..of_cells.partition_point(|other| *other < last);
-                let surface = &surface;
-                let joined =
-                    taken.filter(move |&other| surface.leads(piece, of_cells[other], step));
-                joined.map(move |other| (cell as u32, other as u32, axes_of(step)))
-            });
-            joined.collect::<Vec<_>>()
-        };
-        let onwards: Vec<_> = (0..of_cells.len()).into_par_iter().flat_map_iter(onwards).collect();
+        let onwards: Vec<_> = (0..of_cells.len())
+            .into_par_iter()
+            .flat_map_iter(|cell: usize| {
+                let piece = of_cells[cell];
+                let at = Lattice::coordinates_of(pieces.keys[piece as usize]);
+                let joined = forward_steps().flat_map(|step| {
+                    let key = Lattice::key(plus(at, step));
+                    let first = pieces.keys.partition_point(|other| *other < key) as u32;
+                    let last = pieces.keys.partition_point(|other| *other <= key) as u32;
+                    let taken = of_cells.partition_point(|other| *other < first)
+                        ..of_cells.partition_point(|other| *other < last);
+                    let surface = &surface;
+                    let joined =
+                        taken.filter(move |&other| surface.leads(piece, of_cells[other], step));
+                    joined.map(move |other| (cell as u32, other as u32, axes_of(step)))
+                });
+                joined.collect::<Vec<_>>()
+            })
+            .collect();
         Self::of_links(&onwards, of_cells.len())
     }
 
-    /// The graph with each of these links in both directions.
     fn of_links(onwards: &[(u32, u32, u8)], count: usize) -> Self {
-        let both = |&(from, to, axes): &(u32, u32, u8)| [(from, to, axes), (to, from, axes)];
-        let mut links: Vec<(u32, u32, u8)> = onwards.iter().flat_map(both).collect();
+        let mut links: Vec<(u32, u32, u8)> = onwards
+            .iter()
+            .flat_map(|&(from, to, axes): &(u32, u32, u8)| [(from, to, axes), (to, from, axes)])
+            .collect();
         links.par_sort_unstable();
         let mut starts = vec![0; count + 1];
         links.iter().for_each(|&(from, ..)| starts[from as usize + 1] += 1);
@@ -85,7 +90,7 @@ impl Graph {
         self.starts[cell] as usize..self.starts[cell + 1] as usize
     }
 
-    /// The graph without the links of cells that are not kept.
+    /// The graph without the links of other cells than those `kept`.
     #[must_use]
     pub fn cut(&self, kept: impl Fn(usize) -> bool) -> Self {
         let from = (0..self.len()).filter(|&cell| kept(cell));
@@ -99,22 +104,19 @@ impl Graph {
     }
 }
 
-/// Which pieces share surface.
 struct Surface<'a> {
     keys: &'a [u64],
-    /// Both directions, in ascending order.
     pairs: &'a [(u32, u32)],
 }
 
 impl Surface<'_> {
-    /// Pieces that share surface with one.
     fn beside(&self, piece: u32) -> impl Iterator<Item = u32> + '_ {
         let from = self.pairs.partition_point(|pair| pair.0 < piece);
         self.pairs[from..].iter().take_while(move |pair| pair.0 == piece).map(|pair| pair.1)
     }
 
-    /// Whether a piece shares surface with another at `step` from it, or steps along single axes,
-    /// in any order, lead there through pieces that do.
+    /// Whether a piece shares surface with another at `step` from it. Steps along single axes, in
+    /// any order, through pieces that share surface may also lead there.
     fn leads(&self, piece: u32, to: u32, step: [i32; 3]) -> bool {
         self.pairs.binary_search(&(piece, to)).is_ok() || self.walks(piece, to, step)
     }
@@ -144,7 +146,7 @@ fn axes_of(step: [i32; 3]) -> u8 {
     step.iter().map(|value| value.unsigned_abs() as u8).sum()
 }
 
-/// One of the two directions to each of the 26 cells around a cell.
+/// One direction of each pair of opposite ones to the 26 cells around a cell.
 fn forward_steps() -> impl Iterator<Item = [i32; 3]> {
     (14..27).map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1])
 }

@@ -1,8 +1,6 @@
 //! The grid of a scene: samples of its surface, cells, links between them and the reach of paint.
-//!
-//! The cells of the grid that hold surface: their middles, areas and room for paint.
-//!
-//! How large a volume is that holds an amount of paint: its film is as thick as any other.
+//! A cell knows its middle, its area and its room for paint. The reach says how large a volume is
+//! that holds an amount of paint. Its film is as thick as any other.
 
 use glam::Vec3;
 use graphics::mesh::Mesh;
@@ -13,7 +11,7 @@ use super::lattice::WettingError;
 use super::pieces::{Bodies, Pieces};
 use super::samples::SurfaceSamples;
 
-/// Everything that is known of the surface before paint lies on it.
+/// What we know of the surface before paint lies on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// The surface in samples.
@@ -30,7 +28,7 @@ pub struct Grid {
 
 impl Grid {
     /// The grid of a mesh with cells of width `cell`, in the unit of the scene, and `per_cell`
-    /// samples in each on average. Places are drawn from `seed`.
+    /// samples in each on average. `seed` decides the places of the samples.
     ///
     /// # Errors
     /// If the mesh has no surface, the cells have no size, or cells or samples are too many.
@@ -41,14 +39,14 @@ impl Grid {
         let cells = Cells::of(&samples);
         let graph = Graph::of(&pieces, &of_cells);
         let bodies = Bodies::of(&pieces, &of_cells);
-        let body = |&cell: &u32| bodies.of_cells[cell as usize];
-        samples.bodies = samples.cells.iter().map(body).collect();
+        samples.bodies =
+            samples.cells.iter().map(|&cell: &u32| bodies.of_cells[cell as usize]).collect();
         let reach = Reach::of(&samples, &cells);
         Ok(Self { samples, cells, graph, reach, bodies })
     }
 
-    /// The grid of the surface where `kept` is true. The numbers of cells stay; cells without
-    /// such surface have no capacity and no links.
+    /// The grid of the surface where `kept` is true. Cells keep their numbers. If a cell has no
+    /// such surface, it has no capacity and no links.
     #[must_use]
     pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
         let samples = self.samples.within(kept);
@@ -59,7 +57,7 @@ impl Grid {
     }
 
     /// The sample nearest to `place`, the first of several, and its distance in the unit of the
-    /// scene; none if no cell takes paint.
+    /// scene. `None` if no cell takes paint.
     #[must_use]
     pub fn nearest(&self, place: Vec3) -> Option<(usize, f32)> {
         // No place in a cell is farther from the middle of its surface than this.
@@ -77,13 +75,13 @@ impl Grid {
                 }
             }
         };
-        // The cell of the place comes first: few others then have nearer samples.
+        // We take the cell of the place first, because few others then have nearer samples.
         self.samples.cell_at(place).into_iter().for_each(&mut search);
         (0..self.cells.centers.len()).for_each(search);
         found.map(|sample| (sample, least))
     }
 
-    /// The place on the surface of `cell` that is nearest to the place `from`.
+    /// The place on the surface of `cell` nearest to `from`.
     #[must_use]
     pub fn entrance(&self, cell: usize, from: Vec3) -> Vec3 {
         let own = self.samples.places[self.samples.of_cell(cell)].iter().copied();
@@ -93,28 +91,28 @@ impl Grid {
     }
 }
 
-/// Quanta in a film that covers an area as large as a face of a cell.
+/// A film that covers an area as large as a face of a cell has this many quanta.
 pub const QUANTA_PER_FACE: u32 = 1 << 22;
 
-/// How many times its capacity a cell can hold.
+/// A cell can hold this many times its capacity.
 pub const MOST_FILMS: u32 = 16;
 
-/// Cosine between the mean normal of a cell and that of a sample below which the sample faces away.
-/// Surface between the samples may face away somewhat more.
+/// If the cosine between a sample's normal and the mean normal of its cell is below this, the
+/// sample faces away. Surface between the samples may face away a little more.
 const AWAY: f32 = 0.0;
 
-/// The surface in each cell. All lists have one entry a cell.
+/// The surface in each cell. All lists have one entry per cell.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cells {
     /// Mean place of the surface, in the unit of the scene.
     pub centers: Vec<Vec3>,
-    /// Mean unit normal of the surface; zero where its sides cancel out.
+    /// Mean unit normal of the surface. It is zero where its sides cancel out.
     pub normals: Vec<Vec3>,
-    /// What the surface faces: its mean normal, or zero where some of it faces away from that, as in
-    /// a cell with both sides of a thin wall.
+    /// The direction that the surface faces. This is its mean normal, or zero if some of the
+    /// surface faces away from it, e.g. in a cell with both sides of a thin wall.
     pub facing: Vec<Vec3>,
     /// Quanta of a film that covers all surface in the cell: 2^22 for an area as large as a face
-    /// of the cell. 0 for a cell that takes no paint.
+    /// of the cell. If a cell takes no paint, this is 0.
     pub capacities: Vec<u32>,
 }
 
@@ -162,19 +160,17 @@ impl Cells {
     }
 }
 
-/// The most quanta that a cell of this capacity can hold: 16 films, but no more than a column of
-/// paint.
+/// A cell of this capacity can hold at most this many quanta: 16 films, but no more than a column
+/// of paint.
 pub(super) fn room(capacity: u32) -> u32 {
     capacity.saturating_mul(MOST_FILMS).min(MAX_COLUMN)
 }
 
-/// Quanta of a film over this many samples.
 fn capacity(samples: &SurfaceSamples, count: u32) -> u32 {
     let quanta = quanta_per_sample(samples) * f64::from(count);
     if count == 0 { 0 } else { quanta.round().clamp(1.0, f64::from(MAX_COLUMN)) as u32 }
 }
 
-/// Quanta of a film over the area of one sample.
 pub(super) fn quanta_per_sample(samples: &SurfaceSamples) -> f64 {
     let cell = f64::from(samples.lattice.cell);
     let area = samples.areas.first().copied().map_or(0.0, f64::from);
@@ -186,16 +182,14 @@ pub(super) fn quanta_per_sample(samples: &SurfaceSamples) -> f64 {
 pub struct Reach {
     /// Distances of the samples of each cell from its middle, in ascending order.
     distances: Vec<f32>,
-    /// Index of the first distance of each cell, and at last their number.
+    /// Index of the first distance of each cell. The last entry is their number.
     starts: Vec<u32>,
-    /// Quanta of a film over one sample.
     per_sample: f32,
-    /// Mean distance between samples, in the unit of the scene.
     spacing: f32,
 }
 
 impl Reach {
-    /// The reach over the samples around the middles of `cells`.
+    /// Measures the reach over the samples around the middles of `cells`.
     #[must_use]
     pub fn of(samples: &SurfaceSamples, cells: &Cells) -> Self {
         let mut distances = Vec::with_capacity(samples.len());
@@ -211,8 +205,8 @@ impl Reach {
         Self { distances, starts, per_sample: quanta_per_sample(samples) as f32, spacing }
     }
 
-    /// Radius of the volume of `cell` that holds `amount` quanta: a film over the samples within
-    /// the radius has this amount, with linear steps between samples. From the capacity of the
+    /// Radius of the volume of `cell` that holds `amount` quanta. A film over the samples within
+    /// this radius has this amount, with linear steps between samples. From the capacity of the
     /// cell on, the volume reaches beyond its farthest sample by the distance between samples,
     /// even where a surface rough by `microstructure` (0 to below 1) is lowest.
     #[must_use]

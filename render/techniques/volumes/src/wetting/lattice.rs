@@ -1,25 +1,22 @@
-//! Cubes of one size that fill space, and their numbers.
-//!
-//! Why a surface cannot be wetted.
-//!
-//! Which cells of a lattice a triangle enters.
+//! Cubes of one size that fill space, and their numbers. You can find the cells that a triangle
+//! enters. This also has the reasons why we cannot wet a surface.
 
 use documents::hint::Explain;
 use glam::{DVec3, Vec3};
 use graphics::mesh::MeshFault;
 
-/// Where the middle of the model lies in its cell, along each axis. Neither 0 nor 1/2, nor their
-/// sums with round shares of a cell: faces of simple models then lie inside of cells, not on the
+/// The middle of the model lies here in its cell, along each axis. We avoid 0 and 1/2, and their
+/// sums with round shares of a cell. Then faces of simple models lie inside of cells, not on the
 /// walls between them.
 const MIDDLE: f32 = 0.37;
 
 /// Bits of a coordinate in a [`Lattice::key`].
 const BITS: u32 = 21;
 
-/// Greatest coordinate of a cell on either side of the middle.
+/// Cells may have coordinates up to this on either side of the middle.
 const FARTHEST: f32 = (1 << (BITS - 1)) as f32 - 2.0;
 
-/// Cubes of one size that fill space, laid around the middle of a model.
+/// Cubes of one size that fill space. They are laid around the middle of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lattice {
     /// A corner of the cell with the coordinates (0, 0, 0), in the unit of the scene.
@@ -29,8 +26,8 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Cubes of width `cell` around the middle of `bounds`, the lowest and the highest corner of
-    /// the model.
+    /// Lays cubes of width `cell` around the middle of `bounds`, which are the lowest and the
+    /// highest corner of the model.
     ///
     /// # Errors
     /// If the width is not above 0, or so small that the coordinates of cells have no room.
@@ -58,10 +55,12 @@ impl Lattice {
         self.origin + Vec3::from(at.map(|value| value as f32)) * self.cell
     }
 
-    /// A number of the cell with these coordinates, unique within the reach of the lattice.
+    /// A number of the cell with these coordinates. It is unique within the reach of the lattice.
     #[must_use]
     pub fn key([x, y, z]: [i32; 3]) -> u64 {
-        let bits = |value: i32| u64::from(value.wrapping_add(1 << (BITS - 1)) as u32);
+        fn bits(value: i32) -> u64 {
+            u64::from(value.wrapping_add(1 << (BITS - 1)) as u32)
+        }
         (bits(z) << (2 * BITS)) | (bits(y) << BITS) | bits(x)
     }
 
@@ -73,16 +72,17 @@ impl Lattice {
     }
 }
 
-/// The number with three digits that is `value` or the next above.
+/// Rounds `value` up to a number with three digits.
 pub(super) fn rounded_up(value: f32) -> f32 {
     let value = f64::from(value);
     let unit = 10_f64.powi(value.log10().floor() as i32 - 2);
-    // Text of the decimal number: a quotient of powers of ten would show its rounding.
+    // We go through the text of the decimal number. A quotient of powers of ten would show its
+    // rounding.
     let digits = (value / unit).ceil();
     format!("{:.2e}", digits * unit).parse().unwrap_or(value as f32)
 }
 
-/// Greatest number of cells of a grid.
+/// A grid has at most this many cells.
 pub const MOST_CELLS: usize = 1 << 20;
 
 /// A surface or a size of cells for which there is no grid.
@@ -141,11 +141,14 @@ pub enum WettingError {
 /// Distance from a wall between cells, as a share of a cell, within which an edge touches both.
 const TOUCH: f64 = 1e-4;
 
-/// The cells that the triangle between three places (in widths of a cell from the origin of the
-/// lattice) enters, in a fixed order. A triangle that lies on a wall enters the cell above.
+/// The cells that the triangle between three places enters, in a fixed order. You give places in
+/// widths of a cell from the origin of the lattice. If a triangle lies on a wall, it enters the
+/// cell above.
 pub(super) fn entered(corners: [DVec3; 3], found: &mut Vec<[i32; 3]>) {
     let [a, b, c] = corners;
-    let cell = |at: DVec3| at.floor().to_array().map(|value| value as i32);
+    fn cell(at: DVec3) -> [i32; 3] {
+        at.floor().to_array().map(|value| value as i32)
+    }
     let low = cell(a.min(b).min(c));
     let high = cell(a.max(b).max(c));
     if low == high {
@@ -155,13 +158,13 @@ pub(super) fn entered(corners: [DVec3; 3], found: &mut Vec<[i32; 3]>) {
     }
 }
 
-/// Searches the cells from `low` up to and without `high`, halving the longest side.
 fn within(corners: &[DVec3; 3], low: [i32; 3], high: [i32; 3], found: &mut Vec<[i32; 3]>) {
     let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
     let axis = (0..3).fold(0, |most, axis| if size[axis] > size[most] { axis } else { most });
     let [from, to] = [low, high].map(|at| DVec3::from(at.map(f64::from)));
     if size[axis] == 1 {
-        // The lower walls belong to the cell; a little more, as places near them are rounded.
+        // The lower walls belong to the cell. We add a little, because places near them are
+        // rounded.
         let rounding = DVec3::splat(1e-9);
         if meets(corners, from - rounding, to - DVec3::splat(TOUCH)) {
             found.push(low);
@@ -176,14 +179,12 @@ fn within(corners: &[DVec3; 3], low: [i32; 3], high: [i32; 3], found: &mut Vec<[
     }
 }
 
-/// Whether the line between two places (in widths of a cell) touches a cell.
 pub(super) fn touches([a, b]: [DVec3; 2], cell: [i32; 3]) -> bool {
     let low = DVec3::from(cell.map(f64::from));
     let margin = DVec3::splat(TOUCH);
     meets(&[a, b, b], low - margin, low + DVec3::ONE + margin)
 }
 
-/// A place in widths of a cell from the origin of the lattice.
 pub(super) fn in_cells(lattice: &Lattice, place: [f32; 3]) -> DVec3 {
     (Vec3::from(place) - lattice.origin).as_dvec3() / f64::from(lattice.cell)
 }
@@ -263,7 +264,7 @@ mod tests {
             hit.dedup();
             found.sort_unstable();
             assert!(hit.iter().all(|cell| found.binary_search(cell).is_ok()));
-            // Cells of which the triangle has less than a corner between two points.
+            // The triangle has less than a corner between two points in these cells.
             let missed = found.len() - hit.len();
             assert!(missed <= found.len() / 12 + 1, "{missed} of {}", found.len());
         }

@@ -1,5 +1,6 @@
-//! The grid that paint spreads over: the surface of the scene in samples, the cells that hold it,
-//! which of them are joined by surface, and paint that spills from one to the next.
+//! The grid over which paint spreads. It has the surface of the scene in samples, and the cells
+//! that hold this surface. It knows which cells are joined by surface, and spills paint from one
+//! to the next.
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 mod lattice;

@@ -1,7 +1,6 @@
-//! The pieces of surface in each cell: what is connected within the cell, so that a cell does not
-//! mix bodies that only come near each other.
-//!
-//! Bodies: which parts of a model are one surface for paint.
+//! The pieces of surface in each cell. A piece is connected within the cell, so that a cell does
+//! not mix bodies that only come near each other. This also finds bodies, which are the parts of a
+//! model that are one surface for paint.
 
 use glam::{DVec3, Vec3};
 use graphics::mesh::Mesh;
@@ -10,24 +9,22 @@ use rayon::prelude::*;
 use super::lattice::{Lattice, WettingError, entered, in_cells, rounded_up, touches};
 use super::samples::SurfaceSamples;
 
-/// Greatest number of cells entered by all triangles together.
+/// All triangles together may enter at most this many cells.
 const MOST_ENTERED: f64 = (1 << 26) as f64;
 
-/// Distance below which surfaces touch, in cells: that between samples.
+/// Surfaces touch if they are nearer than this in cells, which is the distance between samples.
 const NEAR: f32 = 1.0 / 8.0;
 
-/// Least cosine between the normals of surfaces that touch: a wall touches its ground, and a pane
-/// its wall, but not a fruit the cloth that it lies on, whose sides face each other.
+/// Surfaces touch only if the cosine between their normals is at least this. For example, a wall
+/// touches its ground, and a pane its wall. But a fruit does not touch the cloth on which it lies,
+/// because their sides face each other.
 const FACING: f32 = -0.2;
 
-/// The pieces of surface in all cells that triangles enter.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pieces {
-    /// Index of the first entry of each triangle, and at last the number of entries.
+    /// Index of the first entry of each triangle. The last entry is the number of entries.
     starts: Vec<u32>,
-    /// The cells that each triangle enters, in ascending order.
     cells: Vec<[i32; 3]>,
-    /// The piece that each entry belongs to.
     of_entries: Vec<u32>,
     /// [`Lattice::key`] of the cell of each piece, in ascending order.
     pub(super) keys: Vec<u64>,
@@ -37,8 +34,8 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// The pieces of the surface of `samples`. Triangles with a common edge in a cell are of one
-    /// piece, and so are surfaces that touch there.
+    /// The pieces of the surface of `samples`. Triangles with a common edge in a cell belong to
+    /// one piece, and so do surfaces that touch there.
     ///
     /// # Errors
     /// If the triangles enter too many cells.
@@ -61,24 +58,22 @@ impl Pieces {
         Ok(pieces)
     }
 
-    /// The piece of each sample.
     pub(super) fn of_samples(&self, samples: &SurfaceSamples) -> Vec<u32> {
         let mut last = 0;
-        let piece = |sample: usize| {
-            let entry = self.entry_of(samples, sample);
-            // Rounding may leave a sample outside of all cells that its triangle enters.
-            last = entry.map_or(last, |entry| self.of_entries[entry]);
-            last
-        };
-        (0..samples.len()).map(piece).collect()
+        (0..samples.len())
+            .map(|sample: usize| {
+                let entry = self.entry_of(samples, sample);
+                // Rounding may put a sample outside of all cells that its triangle enters.
+                last = entry.map_or(last, |entry| self.of_entries[entry]);
+                last
+            })
+            .collect()
     }
 
-    /// Number of triangles.
     pub(super) fn triangles(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
-    /// The piece of a triangle in each cell that it enters.
     pub(super) fn of_triangle(&self, triangle: usize) -> &[u32] {
         &self.of_entries[self.entries_of(triangle)]
     }
@@ -87,7 +82,6 @@ impl Pieces {
         self.starts[triangle] as usize..self.starts[triangle + 1] as usize
     }
 
-    /// The entry of the triangle of a sample into the cell of the sample.
     fn entry_of(&self, samples: &SurfaceSamples, sample: usize) -> Option<usize> {
         let at = samples.lattice.coordinates(samples.places[sample]);
         let own = self.entries_of(samples.triangles[sample] as usize);
@@ -110,7 +104,6 @@ impl Pieces {
         }
     }
 
-    /// Pairs of entries that touch in their cell.
     fn touching(&self, mesh: &Mesh, samples: &SurfaceSamples, roots: &[u32]) -> Vec<(u32, u32)> {
         let mut order: Vec<(u64, u32, u32)> = Vec::with_capacity(self.cells.len());
         for triangle in 0..mesh.triangles.len() {
@@ -161,7 +154,7 @@ impl Pieces {
         cells.collect()
     }
 
-    /// Numbers the pieces in the order of their cells, and in each by their first triangle.
+    /// Numbers the pieces in the order of their cells. Within a cell their first triangle decides.
     fn number(&mut self, roots: &mut [u32]) {
         for entry in 0..roots.len() {
             // Roots are the lowest entries of their pieces.
@@ -180,8 +173,8 @@ impl Pieces {
         self.keys = order.into_iter().map(|(key, _)| key).collect();
     }
 
-    /// Fills `pairs`: two pieces share surface if a triangle enters both, or one of two triangles
-    /// at a common edge each, where this edge touches both cells.
+    /// Fills `pairs`. Two pieces share surface if a triangle enters both, or if two triangles with
+    /// a common edge enter one each, and this edge touches both cells.
     fn pair(&mut self, edges: &[SharedEdge], places: &[DVec3]) {
         let mut pairs = Vec::new();
         for triangle in 0..self.starts.len() - 1 {
@@ -212,14 +205,13 @@ impl Pieces {
         self.pairs = pairs;
     }
 
-    /// Whether two entries are into neighbouring cells.
     fn adjacent(&self, one: usize, other: usize) -> bool {
         let [a, b] = [one, other].map(|entry| self.cells[entry]);
         a != b && (0..3).all(|axis| (a[axis] - b[axis]).abs() <= 1)
     }
 }
 
-/// The cells that all triangles enter; none for those without area.
+/// The cells that all triangles enter. Triangles without area enter none.
 fn entries(
     mesh: &Mesh,
     places: &[DVec3],
@@ -227,13 +219,17 @@ fn entries(
 ) -> Result<(Vec<u32>, Vec<[i32; 3]>), WettingError> {
     let at =
         |triangle: usize| mesh.triangles[triangle].corners.map(|corner| places[corner as usize]);
-    let length = |[a, b, c]: [DVec3; 3]| a.distance(b).max(b.distance(c)).max(c.distance(a));
+    fn length([a, b, c]: [DVec3; 3]) -> f64 {
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
     let most = (0..mesh.triangles.len()).map(|triangle| 1.0 + length(at(triangle))).sum::<f64>();
     if most > MOST_ENTERED {
         let fits = rounded_up(cell * (most / MOST_ENTERED) as f32);
         return Err(WettingError::TooManyCells { cell, fits });
     }
-    let flat = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length_squared() == 0.0;
+    fn flat([a, b, c]: [DVec3; 3]) -> bool {
+        (b - a).cross(c - a).length_squared() == 0.0
+    }
     let lists = (0..mesh.triangles.len()).into_par_iter().map(|triangle| {
         let mut found = Vec::new();
         if !flat(at(triangle)) {
@@ -252,15 +248,12 @@ fn entries(
     Ok((starts, lists.concat()))
 }
 
-/// A common edge of two triangles.
 struct SharedEdge {
     triangles: [u32; 2],
-    /// Vertices at its ends.
     line: [u32; 2],
 }
 
 impl SharedEdge {
-    /// Whether both triangles lie in one cell each.
     fn is_inside(&self, pieces: &Pieces) -> bool {
         self.triangles.iter().all(|&triangle| pieces.entries_of(triangle as usize).len() == 1)
     }
@@ -269,9 +262,11 @@ impl SharedEdge {
 /// The common edges of all pairs of triangles with area. Vertices at one place are the same.
 fn shared_edges(mesh: &Mesh, pieces: &Pieces) -> Vec<SharedEdge> {
     // Adding 0 turns -0 into 0.
-    let bits = |at: u32| mesh.positions[at as usize].map(|value| (value + 0.0).to_bits());
-    let mut order: Vec<([u32; 3], u32)> =
-        (0..mesh.positions.len() as u32).map(|vertex| (bits(vertex), vertex)).collect();
+    let mut order: Vec<([u32; 3], u32)> = (0..mesh.positions.len() as u32)
+        .map(|vertex| {
+            (mesh.positions[vertex as usize].map(|value| (value + 0.0).to_bits()), vertex)
+        })
+        .collect();
     order.par_sort_unstable();
     let mut first = vec![0; order.len()];
     for same in order.chunk_by(|a, b| a.0 == b.0) {
@@ -304,7 +299,6 @@ fn is_near_wall([a, b]: [DVec3; 2]) -> bool {
     (a.min(b) - margin).floor() != (a.max(b) + margin).floor()
 }
 
-/// The root of an entry.
 pub(super) fn root_of(roots: &[u32], mut entry: u32) -> u32 {
     while roots[entry as usize] != entry {
         entry = roots[entry as usize];
@@ -312,13 +306,13 @@ pub(super) fn root_of(roots: &[u32], mut entry: u32) -> u32 {
     entry
 }
 
-/// Makes two entries of one piece; its root is the lowest of them.
+/// Makes one piece of two entries. Its root is the lowest of them.
 pub(super) fn unite(roots: &mut [u32], one: u32, other: u32) {
     let [a, b] = [one, other].map(|entry| root_of(roots, entry));
     let root = a.min(b);
     for end in [one, other] {
         let mut entry = end;
-        // Shortens the way for the next search.
+        // This shortens the way for the next search.
         while roots[entry as usize] != entry {
             entry = std::mem::replace(&mut roots[entry as usize], root);
         }
@@ -326,7 +320,6 @@ pub(super) fn unite(roots: &mut [u32], one: u32, other: u32) {
     }
 }
 
-/// Distance from a place to a triangle.
 fn distance(place: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
     let normal = (b - a).cross(c - a);
     let inside = |from: Vec3, to: Vec3| (to - from).cross(place - from).dot(normal) >= 0.0;
@@ -341,8 +334,8 @@ fn distance(place: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
     to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
 }
 
-/// The bodies of a model, numbered from 1: surface that is connected or touches. 0 is any body:
-/// the number of parts too small to take paint.
+/// The bodies of a model, numbered from 1. Surface is one body if it is connected or touches.
+/// Number 0 means any body. Parts too small to take paint have this number.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Bodies {
     /// The body of each cell.
@@ -352,7 +345,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// The bodies that `pieces` are joined to; the piece of each cell is in `of_cells`.
+    /// The bodies that `pieces` form. `of_cells` has the piece of each cell.
     pub(super) fn of(pieces: &Pieces, of_cells: &[u32]) -> Self {
         let mut roots: Vec<u32> = (0..pieces.keys.len() as u32).collect();
         for &(one, other) in &pieces.pairs {
@@ -368,11 +361,13 @@ impl Bodies {
             }
         }
         let body = |piece: u32| numbers[root_of(&roots, piece) as usize];
-        let of_triangle =
-            |triangle| pieces.of_triangle(triangle).first().map_or(0, |&piece| body(piece));
         Self {
             of_cells: of_cells.iter().map(|&piece| body(piece)).collect(),
-            of_triangles: (0..pieces.triangles()).map(of_triangle).collect(),
+            of_triangles: (0..pieces.triangles())
+                .map(|triangle| {
+                    pieces.of_triangle(triangle).first().map_or(0, |&piece| body(piece))
+                })
+                .collect(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The surface of a scene in samples of one area each.
+//! The surface of a scene in samples. Each stands for the same area.
 
 use glam::Vec3;
 use graphics::mesh::Mesh;
@@ -7,43 +7,45 @@ use rand_chacha::ChaCha8Rng;
 
 use super::lattice::{Lattice, MOST_CELLS, WettingError, rounded_up};
 
-/// Usual number of samples of a flat piece of surface as large as a face of a cell.
+/// A flat piece of surface as large as a face of a cell usually has this many samples.
 pub const SAMPLES_PER_CELL: usize = 64;
 
-/// Most samples of a model: the usual number in each of as many cells as there can be.
+/// A model has at most this many samples: the usual number in each of as many cells as there can
+/// be.
 const MOST_SAMPLES: f64 = (MOST_CELLS * SAMPLES_PER_CELL) as f64;
 
-/// Halvings of a triangle until one of its parts stands for a place.
+/// We halve a triangle this often, until one of its parts stands for a place.
 const HALVINGS: u32 = 32;
 
 /// Places spread evenly over the surface of a mesh, in the order of the cells that hold them. All
-/// lists but `starts` have the same length.
+/// lists except `starts` have the same length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceSamples {
-    /// The cells that the samples are counted in.
+    /// The cells in which the samples are counted.
     pub lattice: Lattice,
     /// Places on the surface, in the unit of the scene.
     pub places: Vec<Vec3>,
     /// Unit normals of the triangles, on the side of the normals of the mesh.
     pub normals: Vec<Vec3>,
-    /// The area that each sample stands for, in square units of the scene; all are the same.
+    /// The area that each sample stands for, in square units of the scene. All samples have the
+    /// same area.
     pub areas: Vec<f32>,
     /// Index of the triangle of each sample.
     pub triangles: Vec<u32>,
-    /// The cell that holds each sample, counted from 0 in ascending order of [`Lattice::key`]. In a
-    /// grid surfaces that are not connected have cells of their own in one cube.
+    /// The cell that holds each sample, counted from 0 in ascending order of [`Lattice::key`]. In
+    /// a grid, surfaces in one cube that are not connected have separate cells.
     pub cells: Vec<u32>,
-    /// Index of the first sample of each cell, and at last the number of samples.
+    /// Index of the first sample of each cell. The last entry is the number of samples.
     pub starts: Vec<u32>,
-    /// Number of the body of each sample, see `Bodies`; 0 outside of a grid.
+    /// Number of the body of each sample, see `Bodies`. Outside of a grid it is 0.
     pub bodies: Vec<u32>,
 }
 
 impl SurfaceSamples {
-    /// Samples of a mesh, `per_cell` for an area of `cell` by `cell` (in the unit of the scene;
-    /// [`SAMPLES_PER_CELL`] is usual). The surface is cut into as many pieces of one area, along a path that winds through
-    /// each triangle, and each piece has a random place of `seed`. Triangles without area are left
-    /// out.
+    /// Samples of a mesh, `per_cell` for an area of `cell` by `cell` in the unit of the scene. Use
+    /// [`SAMPLES_PER_CELL`] if you do not need another number. We cut the surface into as many
+    /// pieces of one area, along a path that winds through each triangle. `seed` gives each piece
+    /// a random place. This leaves out triangles without area.
     ///
     /// # Errors
     /// If the mesh fails [`Mesh::check`], has no area, `cell` is not above 0 or too small, or
@@ -102,8 +104,8 @@ impl SurfaceSamples {
         }
     }
 
-    /// Cells of their own for the pieces of surface in one cube, in ascending order: `pieces` has
-    /// one for each sample. Returns the piece of each cell as well.
+    /// Gives the pieces of surface in one cube separate cells, in ascending order. `pieces` has
+    /// one entry for each sample. Also returns the piece of each cell.
     pub(super) fn by_piece(&self, pieces: &[u32]) -> (Self, Vec<u32>) {
         let mut order: Vec<(u32, u32)> = pieces.iter().copied().zip(0..).collect();
         order.sort_unstable();
@@ -115,7 +117,9 @@ impl SurfaceSamples {
             starts.push(cells.len() as u32);
             of_cells.push(members[0].0);
         }
-        let from = |at: &(u32, u32)| at.1 as usize;
+        fn from(at: &(u32, u32)) -> usize {
+            at.1 as usize
+        }
         let samples = Self {
             lattice: self.lattice,
             places: order.iter().map(|at| self.places[from(at)]).collect(),
@@ -129,11 +133,10 @@ impl SurfaceSamples {
         (samples, of_cells)
     }
 
-    /// The samples whose place is `kept`. The numbers of cells stay, so that some may be empty.
+    /// The samples at places that are `kept`. Cells keep their numbers, so some may be empty.
     #[must_use]
     pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
         let all: Vec<usize> = (0..self.len()).filter(|&sample| kept(self.places[sample])).collect();
-        let before = |&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32;
         Self {
             lattice: self.lattice,
             places: all.iter().map(|&sample| self.places[sample]).collect(),
@@ -142,7 +145,11 @@ impl SurfaceSamples {
             triangles: all.iter().map(|&sample| self.triangles[sample]).collect(),
             cells: all.iter().map(|&sample| self.cells[sample]).collect(),
             bodies: all.iter().map(|&sample| self.bodies[sample]).collect(),
-            starts: self.starts.iter().map(before).collect(),
+            starts: self
+                .starts
+                .iter()
+                .map(|&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32)
+                .collect(),
         }
     }
 
@@ -158,18 +165,19 @@ impl SurfaceSamples {
         self.places.is_empty()
     }
 
-    /// Number of cells; each held a sample before [`Self::within`].
+    /// Number of cells. Each of them held a sample before [`Self::within`].
     #[must_use]
     pub fn cell_count(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The cell that holds a place, if there is surface in it; the first of several.
+    /// The cell that holds a place. If there are several, this is the first. `None` if there is no
+    /// surface in it.
     #[must_use]
     pub fn cell_at(&self, place: Vec3) -> Option<usize> {
         let key = |place: Vec3| Lattice::key(self.lattice.coordinates(place));
         let wanted = place.is_finite().then(|| key(place))?;
-        // Samples are in the order of their cells; cells outside of all regions have none.
+        // Samples are in the order of their cells. Cells outside of all regions have none.
         let first = self.places.partition_point(|at| key(*at) < wanted);
         let found = self.places.get(first).is_some_and(|at| key(*at) == wanted);
         found.then(|| self.cells[first] as usize)
@@ -191,7 +199,6 @@ fn area(mesh: &Mesh, triangle: usize) -> f64 {
     (b - a).cross(c - a).length() / 2.0
 }
 
-/// Unit normal of a triangle, on the side of the normals of its corners.
 pub(super) fn normal(mesh: &Mesh, triangle: usize) -> Vec3 {
     let [a, b, c] = corners(mesh, triangle).map(Vec3::as_dvec3);
     let facet = (b - a).cross(c - a).normalize_or_zero().as_vec3();
@@ -200,7 +207,7 @@ pub(super) fn normal(mesh: &Mesh, triangle: usize) -> Vec3 {
     if side.dot(facet) < 0.0 { -facet } else { facet }
 }
 
-/// Triangle and place of a random point in every piece of area `step`.
+/// Picks a random point in every piece of area `step`. Returns its triangle and place.
 fn spread(mesh: &Mesh, areas: &[f64], step: f64, seed: u64) -> Vec<(u32, Vec3)> {
     let random = &mut ChaCha8Rng::seed_from_u64(seed);
     let mut found = Vec::new();
@@ -219,9 +226,9 @@ fn spread(mesh: &Mesh, areas: &[f64], step: f64, seed: u64) -> Vec<(u32, Vec3)> 
     found
 }
 
-/// The place at a share of the area along a path that winds through the whole triangle: halves of
-/// halves in an order in which neighbours touch (Sierpinski's curve), so that every stretch of the
-/// path is a compact piece.
+/// The place at a share of the area along a path that winds through the whole triangle. The path
+/// goes through halves of halves in an order in which neighbours touch (Sierpinski's curve). This
+/// makes every stretch of the path a compact piece.
 fn on_path(corners: [Vec3; 3], share: f64) -> Vec3 {
     let squared = |i: usize| corners[i].distance_squared(corners[(i + 1) % 3]);
     let longest = (1..3).fold(0, |most, i| if squared(i) > squared(most) { i } else { most });
@@ -268,7 +275,8 @@ mod tests {
 
     #[test]
     fn every_part_of_a_surface_has_its_share() {
-        // A triangle cut by lines into parts: each part has as many samples as its area wants.
+        // We cut a triangle by lines into parts. Each part must have as many samples as fit its
+        // area.
         let mesh = bare(&[[0.0; 3], [8.0, 0.0, 0.0], [0.0, 0.0, 8.0]], &[[0, 2, 1]]);
         let samples = SurfaceSamples::of(&mesh, 1.0, SAMPLES_PER_CELL, 7).unwrap();
         assert_eq!(samples.len(), 32 * SAMPLES_PER_CELL);

@@ -1,4 +1,4 @@
-//! Paint that spills from full cells to the cells joined to them, in whole quanta.
+//! Paint spills from full cells to the cells joined to them, in whole quanta.
 
 use paint::amount::{ratio_of_65536, share_of_65536};
 use paint::layer::Cell;
@@ -8,33 +8,32 @@ use super::graph::Graph;
 use super::grid::{Cells, MOST_FILMS, room};
 use super::lattice::WettingError;
 
-/// Greatest rate for which a step is stable: the shares of 6 neighbours across faces, 12 across
+/// Greatest rate for which a step is stable. The shares of 6 neighbours across faces, 12 across
 /// edges and 8 across corners then sum to less than 1.
 pub const FASTEST_RATE: f32 = 0.067;
 
-/// Greatest slope.
 const STEEPEST: f32 = 1000.0;
 
 /// One in heads and shares.
 const ONE: u64 = 1 << 16;
 
-/// Cells that one thread works on at a time.
+/// A thread works on this many cells at a time.
 const BLOCK: usize = 1 << 10;
 
-/// A cell that paint has reached for the first time.
+/// A cell that paint reaches for the first time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Birth {
     /// The cell.
     pub cell: u32,
-    /// The neighbour that gave it most paint.
+    /// The neighbour that gave it the most paint.
     pub giver: u32,
 }
 
-/// Spilling over a graph of cells: its rates, and lists that each step fills anew.
+/// Spilling over a graph of cells. It holds the rates, and lists that each step fills anew.
 #[derive(Debug, Clone)]
 pub struct Spilling {
-    /// Share of a difference of heads that crosses a face, an edge and a corner in a step, in
-    /// parts of 65536.
+    /// Share of a difference of heads that crosses a face, an edge and a corner per step, in parts
+    /// of 65536.
     pub(super) rates: [u64; 3],
     /// Height of each cell as a head, in parts of 65536.
     pub(super) lifts: Vec<u32>,
@@ -42,17 +41,17 @@ pub struct Spilling {
     pub(super) uneven: bool,
     volumes: Vec<u32>,
     heads: Vec<u32>,
-    /// Gifts of each cell along each of its links, as a share of its paint.
+    /// How much each cell gives along each of its links, as a share of its paint.
     shares: Vec<u32>,
-    /// The share of what is offered to each cell that it has room for.
+    /// Each cell has room for this share of what it is offered.
     accepted: Vec<u32>,
     next: Vec<Cell>,
 }
 
 impl Spilling {
-    /// Spilling between `cells` of width `cell` (in the unit of the scene). `rate` is the share of
-    /// a difference of heads that crosses a face in a step, 0 to [`FASTEST_RATE`]; a cell that is
-    /// higher by one width has its head raised by `slope`, 0 to 1000.
+    /// Spilling between `cells` of width `cell` in the unit of the scene. `rate` is the share of a
+    /// difference of heads that crosses a face per step, 0 to [`FASTEST_RATE`]. If a cell is
+    /// higher by one width, this raises its head by `slope`, 0 to 1000.
     ///
     /// # Errors
     /// If the rate or the slope is out of its range.
@@ -62,15 +61,17 @@ impl Spilling {
                 return Err(WettingError::Spilling { what, found });
             }
         }
-        let wet = |i: &usize| cells.capacities[*i] > 0;
-        let heights = (0..cells.len()).filter(wet).map(|i| cells.centers[i].y);
+        let heights =
+            (0..cells.len()).filter(|i| cells.capacities[*i] > 0).map(|i| cells.centers[i].y);
         let lowest = heights.fold(f32::INFINITY, f32::min);
-        let lift = |i: usize| {
-            let height = if wet(&i) { cells.centers[i].y - lowest } else { 0.0 };
-            (slope * height / cell * ONE as f32).clamp(0.0, (1 << 30) as f32) as u32
-        };
         let rate = |axes: f32| (rate * ONE as f32 / axes) as u64;
-        let lifts: Vec<u32> = (0..cells.len()).map(lift).collect();
+        let lifts: Vec<u32> = (0..cells.len())
+            .map(|i: usize| {
+                let height =
+                    if cells.capacities[i] > 0 { cells.centers[i].y - lowest } else { 0.0 };
+                (slope * height / cell * ONE as f32).clamp(0.0, (1 << 30) as f32) as u32
+            })
+            .collect();
         Ok(Self {
             rates: [rate(1.0), rate(2.0), rate(3.0)],
             uneven: lifts.iter().any(|lift| *lift > 0)
@@ -87,13 +88,14 @@ impl Spilling {
         })
     }
 
-    /// One step: moves what is over the capacity of cells in `paint` to joined cells with a lower
-    /// head, and returns the cells that were dry before, in ascending order. Without `births` no
-    /// paint enters dry cells.
+    /// Takes one step. This moves what is over the capacity of cells in `paint` to joined cells
+    /// with a lower head. You get the cells that were dry before, in ascending order. If `births`
+    /// is false, no paint enters dry cells.
     ///
-    /// Whole quanta move: sums are exact, and the result does not depend on threads. A cell gives
-    /// `(H_i - H_j) rate C` quanta to each lower neighbour, with the smaller of both capacities
-    /// for C, scaled down together to what is over its own capacity, and to the room of the taker.
+    /// Whole quanta move, so sums are exact and the result does not depend on threads. A cell
+    /// gives `(H_i - H_j) rate C` quanta to each lower neighbour. C is the smaller of both
+    /// capacities. All gifts together are scaled down to what is over the cell's own capacity, and
+    /// to the room of the taker.
     ///
     /// # Panics
     /// If `paint`, `cells` and `graph` are not of the same number of cells.
@@ -112,7 +114,7 @@ impl Spilling {
         self.next.resize(count, Cell::default());
         let most = self.measure(cells, paint);
         self.offer(graph, cells, births);
-        // A level cell never rises above its highest neighbour, but for rounding.
+        // A level cell never rises above its highest neighbour, except for rounding.
         match self.uneven || u64::from(most) >= u64::from(MOST_FILMS - 1) * ONE {
             true => self.accept(graph, cells),
             false => self.accepted.fill(ONE as u32),
@@ -130,7 +132,7 @@ impl Spilling {
             for (cell, (volume, head)) in (block * BLOCK..).zip(volumes.iter_mut().zip(heads)) {
                 *volume = paint[cell].volume();
                 let films = (u64::from(*volume) << 16) / u64::from(cells.capacities[cell].max(1));
-                // Cells that were cut may hold more than they could now.
+                // We may have cut cells, so that they hold more than they could now.
                 *head = self.lifts[cell] + films.min(1 << 30) as u32;
                 most = most.max(*head);
             }
@@ -139,7 +141,6 @@ impl Spilling {
         most.into_iter().max().unwrap_or(0)
     }
 
-    /// Fills `shares`.
     fn offer(&mut self, graph: &Graph, cells: &Cells, births: bool) {
         let volumes = &self.volumes;
         let heads = &self.heads;
@@ -177,7 +178,6 @@ impl Spilling {
         });
     }
 
-    /// Fills `accepted`.
     fn accept(&mut self, graph: &Graph, cells: &Cells) {
         let volumes = &self.volumes;
         let shares = &self.shares;
@@ -186,7 +186,6 @@ impl Spilling {
             for (cell, accepted) in (block * BLOCK..).zip(all) {
                 let offers = graph.links(cell).map(|link| {
                     let share = shares[graph.back[link] as usize];
-                    // Rounded up.
                     let offer = share_of_65536(volumes[graph.others[link] as usize], share);
                     u64::from(offer) + u64::from(share > 0)
                 });
@@ -197,7 +196,6 @@ impl Spilling {
         });
     }
 
-    /// Fills `next`.
     fn gather(&mut self, graph: &Graph, paint: &[Cell]) -> Vec<Birth> {
         let volumes = &self.volumes;
         let shares = &self.shares;
@@ -212,15 +210,14 @@ impl Spilling {
     }
 }
 
-/// The cells of a block that gather what their neighbours give; compiled for every instruction
-/// set.
+/// The cells of a block. They gather what their neighbours give. We compile this for every
+/// instruction set.
 struct Gathering<'a> {
     graph: &'a Graph,
     paint: &'a [Cell],
     volumes: &'a [u32],
     shares: &'a [u32],
     accepted: &'a [u32],
-    /// The first cell of the block.
     first: usize,
     next: &'a mut [Cell],
 }
@@ -260,7 +257,8 @@ impl pulp::WithSimd for Gathering<'_> {
     }
 }
 
-/// The results of `act` for all blocks, in their order; a single block needs no other thread.
+/// Runs `act` for all blocks and returns the results in their order. A single block needs no other
+/// thread.
 fn each<T: Send, R: Send>(blocks: Vec<T>, act: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
     match blocks.len() {
         0 | 1 => blocks.into_iter().map(act).collect(),
@@ -268,7 +266,7 @@ fn each<T: Send, R: Send>(blocks: Vec<T>, act: impl Fn(T) -> R + Sync + Send) ->
     }
 }
 
-/// The first cell of each block and the part of a list over all links that belongs to the block.
+/// The first cell of each block, with its part of a list over all links.
 fn blocks_of<'a>(graph: &Graph, mut links: &'a mut [u32]) -> Vec<(usize, &'a mut [u32])> {
     let firsts = (0..graph.len()).step_by(BLOCK);
     let cut = firsts.map(|first| {

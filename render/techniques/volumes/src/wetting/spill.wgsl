@@ -1,5 +1,5 @@
-// One step of spilling in whole quanta; twin of spill.rs. Products of 64 bits are two words, the
-// high one first.
+// One step of spilling in whole quanta. This is the twin of spill.rs. Products of 64 bits are two
+// words, the high one first.
 
 struct SpillParams {
     // Shares that cross a face, an edge and a corner, in parts of 65536.
@@ -12,8 +12,9 @@ struct SpillParams {
 }
 
 @group(0) @binding(0) var<uniform> params: SpillParams;
-// Index of the first link of each cell, and at last the number of links; then for each link the
-// cell at its other end, with its axes in the two highest bits, and the same link from there.
+// Index of the first link of each cell, and at the end the number of links. Then two words for
+// each link: the cell at its other end, with its axes in the two highest bits, and the same link
+// from there.
 @group(0) @binding(1) var<storage, read> graph: array<u32>;
 // Capacity and lift of each cell.
 @group(0) @binding(2) var<storage, read> cells: array<vec2<u32>>;
@@ -21,8 +22,8 @@ struct SpillParams {
 @group(0) @binding(3) var<storage, read> paint: array<u32>;
 // Volume and head of each cell.
 @group(0) @binding(4) var<storage, read_write> measured: array<vec2<u32>>;
-// Gifts along each link as a share of the giver's paint; then, for each cell, the share of what is
-// offered to it that it has room for.
+// Gifts along each link as a share of the giver's paint. Then, for each cell, the share of what it
+// is offered that it has room for.
 @group(0) @binding(5) var<storage, read_write> shares: array<u32>;
 // Paint of each cell after the step, and as a tenth word the neighbour that gave a dry one most.
 @group(0) @binding(6) var<storage, read_write> next: array<u32>;
@@ -166,7 +167,7 @@ fn volumes_spill_accept(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var accepted = ONE;
-    // A level cell never rises above its highest neighbour, but for rounding.
+    // A level cell never rises above its highest neighbour, except for rounding.
     if params.uneven == 1u || atomicLoad(&highest[0]) >= (MOST_FILMS - 1u) * ONE {
         var offered = vec2(0u);
         for (var link = first_link(cell); link < first_link(cell + 1u); link++) {

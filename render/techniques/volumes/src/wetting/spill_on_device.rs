@@ -1,4 +1,4 @@
-//! One step of spilling on a graphics device.
+//! Takes one step of spilling on a graphics device.
 
 use std::sync::Arc;
 
@@ -13,10 +13,8 @@ use crate::device_memory::DeviceMemory;
 /// Amounts of a cell: pigments by slot, then vehicle.
 const AMOUNTS: usize = SLOTS + 1;
 
-/// Cells of a workgroup.
 const GROUP: u32 = 64;
 
-/// In place of a giver, none.
 const NONE: u32 = u32::MAX;
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -58,8 +56,8 @@ static GATHER: Kernel = kernel("volumes_spill_gather");
 /// The kernels of a step of spilling, in their order.
 pub(crate) static SPILL: [&Kernel; 4] = [&MEASURE, &OFFER, &ACCEPT, &GATHER];
 
-/// Spilling on a graphics device, with the memory that it keeps there from step to step. Paint
-/// goes to the device and comes back in every step.
+/// Spilling on a graphics device. It keeps its memory there from step to step. Paint goes to the
+/// device and comes back in every step.
 #[derive(Debug, Default)]
 pub struct DeviceSpilling {
     graph: Option<(Arc<Grid>, Buffer)>,
@@ -72,8 +70,8 @@ pub struct DeviceSpilling {
 }
 
 impl DeviceSpilling {
-    /// One step like [`Spilling::step`], on a graphics device: the same quanta to the bit. The
-    /// device is the same in all calls.
+    /// Takes one step like [`Spilling::step`] on a graphics device. You get the same quanta to the
+    /// bit. Pass the same device in all calls.
     ///
     /// # Errors
     /// [`DeviceError`] for a device that has no room, or failed. No paint has moved then.
@@ -97,7 +95,9 @@ impl DeviceSpilling {
         let capacities = grid.cells.capacities.iter().zip(&spilling.lifts);
         let cells: Vec<[u32; 2]> = capacities.map(|(&capacity, &lift)| [capacity, lift]).collect();
         let amounts: Vec<[u32; AMOUNTS]> = paint.iter().map(amounts_of).collect();
-        let words = |count: usize| count * size_of::<u32>();
+        fn words(count: usize) -> usize {
+            count * size_of::<u32>()
+        }
         let next = self.next.of_bytes(device, "paint", words((AMOUNTS + 1) * count))?;
         let buffers = [
             &graph,
@@ -130,7 +130,7 @@ impl DeviceSpilling {
         Ok(born)
     }
 
-    /// The links of a grid, which are written once.
+    /// The links of a grid. We write them once.
     fn graph(&mut self, device: &mut Device, grid: &Arc<Grid>) -> Result<Buffer, DeviceError> {
         if let Some((own, buffer)) = &self.graph
             && Arc::ptr_eq(own, grid)
@@ -150,7 +150,7 @@ fn amounts_of(paint: &Cell) -> [u32; AMOUNTS] {
     amounts
 }
 
-/// The graph in the form of the kernels: starts, then two words a link.
+/// The graph in the form of the kernels: starts, then two words per link.
 fn words_of(graph: &Graph) -> Vec<u32> {
     let links = (0..graph.others.len()).flat_map(|link| {
         let axes = u32::from(graph.axes[link]);
@@ -172,7 +172,6 @@ mod tests {
         device()?.into_device()
     }
 
-    /// An amount up to `most`, of any magnitude.
     fn amount(random: &mut ChaCha8Rng, most: u32) -> u32 {
         let most = (most >> random.random_range(0..24)).max(1);
         random.random_range(0..=most)
@@ -189,12 +188,16 @@ mod tests {
     }
 
     fn grids() -> Vec<Grid> {
-        let level = |side: f32, y: f32| sheet(3, move |u, v| [side * u, y, side * v]);
+        fn level(side: f32, y: f32) -> Mesh {
+            sheet(3, move |u, v| [side * u, y, side * v])
+        }
         let plates = joined(level(5.0, 0.0), &level(4.0, 3.0));
         let slope = sheet(4, |u, v| [7.0 * u, 3.0 * u + v, 6.0 * v]);
         let small = sheet(1, |u, v| [0.1 * u + 0.3, 0.4, 0.1 * v + 0.3]);
         let village = SampleModel::Village.mesh(2000);
-        let grid = |mesh: &Mesh, cell: f32| Grid::of(mesh, cell, 16, 1).unwrap();
+        fn grid(mesh: &Mesh, cell: f32) -> Grid {
+            Grid::of(mesh, cell, 16, 1).unwrap()
+        }
         vec![grid(&small, 1.0), grid(&plates, 1.0), grid(&slope, 1.0), grid(&village, 0.15)]
     }
 

@@ -1,6 +1,4 @@
-//! Paint that spills on surfaces of known form.
-//!
-//! The cells of surfaces of known form, and which of them surface joins.
+//! Paint that spills on surfaces of known form. Also their cells, and which of them surface joins.
 
 use glam::Vec3;
 use graphics::mesh::{Mesh, SampleModel};
@@ -11,7 +9,6 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::test_volumes::{joined, sheet};
 
-/// A level sheet from the origin.
 pub(super) fn level(side: f32, height: f32, squares: u32) -> Mesh {
     sheet(squares, |u, v| [side * u, height, side * v])
 }
@@ -26,7 +23,6 @@ fn totals(paint: &[Cell]) -> [u64; 9] {
     totals
 }
 
-/// The cell that holds the surface nearest to a place.
 pub(super) fn cell_at(grid: &Grid, place: [f32; 3]) -> usize {
     grid.samples.cells[grid.nearest(place.into()).unwrap().0] as usize
 }
@@ -108,7 +104,6 @@ fn two_equal_cells_share_what_is_over_their_capacities() {
         let smaller = grid.cells.capacities[at].min(grid.cells.capacities[other]);
         let wanted = 9.0 * 0.04 / f64::from(grid.graph.axes[link]) * f64::from(smaller);
         let found = f64::from(paint[other].volume());
-        // Shares are whole parts of 65536.
         assert!((found / wanted - 1.0).abs() < 5e-3, "{found} for {wanted}");
     }
 }
@@ -133,7 +128,7 @@ fn with_a_slope_paint_runs_down() {
     let tilted = sheet(1, |u, v| [16.0 * u, 8.0 * v, 16.0 * v]);
     let grid = Grid::of(&tilted, 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let source = cell_at(&grid, [8.0, 4.0, 8.0]);
-    let mean_height = |slope: f32| {
+    let [level, steep] = [0.0, 20.0].map(|slope: f32| {
         let mut paint = vec![Cell::default(); grid.cells.len()];
         paint[source] = of_slot(0, grid.cells.room(source));
         let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, slope).unwrap();
@@ -143,13 +138,11 @@ fn with_a_slope_paint_runs_down() {
         let all: f64 = paint.iter().map(|own| f64::from(own.volume())).sum();
         let heights = paint.iter().zip(&grid.cells.centers);
         heights.map(|(own, at)| f64::from(own.volume()) * f64::from(at.y)).sum::<f64>() / all
-    };
-    let [level, steep] = [0.0, 20.0].map(mean_height);
+    });
     assert!((level - 4.0).abs() < 0.4, "{level}");
     assert!(steep < level - 0.6, "{steep} {level}");
 }
 
-/// The places that the volumes at rest hold.
 fn held(grid: &Grid, paint: &[Cell]) -> Vec<Vec3> {
     let wet = (0..grid.cells.len()).filter(|&cell| paint[cell].volume() > 0);
     let balls: Vec<(Vec3, f32)> = wet
@@ -182,7 +175,6 @@ fn paint_spreads_in_a_circle_and_its_area_grows_with_its_amount() {
         let held = held(&grid, &paint);
         let of_sample = f64::from(grid.samples.areas[0]);
         let area = held.len() as f64 * of_sample;
-        // The radius of each of 16 sectors.
         let mut sectors = [0.0; 16];
         for at in &held {
             let turn = (at.z - middle.z).atan2(at.x - middle.x) / std::f32::consts::TAU + 0.5;
@@ -208,16 +200,19 @@ fn full_cells_cover_all_surface() {
         let [low, high] = mesh.bounds();
         let cell = (high - low).max_element() / 12.0;
         let grid = Grid::of(&mesh, cell, SAMPLES_PER_CELL, 1).unwrap();
-        // Other places, four times as many.
+        // These are other places, four times as many.
         let others = SurfaceSamples::of(&mesh, cell / 2.0, SAMPLES_PER_CELL, 99).unwrap();
         let radii: Vec<f32> = (0..grid.cells.len())
             .map(|cell| grid.reach.radius(cell, grid.cells.capacities[cell], 0.0))
             .collect();
-        let balls = || grid.cells.centers.iter().zip(&radii);
-        let bare = others
-            .places
-            .iter()
-            .filter(|at| !balls().any(|(center, radius)| at.distance(*center) < *radius));
+        let bare = others.places.iter().filter(|at| {
+            !grid
+                .cells
+                .centers
+                .iter()
+                .zip(&radii)
+                .any(|(center, radius)| at.distance(*center) < *radius)
+        });
         assert_eq!(bare.count(), 0, "{}", shape.name());
     }
 }
@@ -273,15 +268,17 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
     for turn in [Vec3::X, Vec3::new(0.8, 0.36, 0.48)] {
         let across = turn.cross(Vec3::new(0.1, -0.2, 0.97)).normalize();
         let plane = |squares| sheet(squares, |u, v| (turn * u * 9.0 + across * v * 9.0).to_array());
-        let keys = |grid: &Grid| {
-            let first = |cell| grid.samples.places[grid.samples.of_cell(cell).start];
-            (0..grid.cells.len())
-                .map(|cell| grid.samples.lattice.coordinates(first(cell)))
-                .collect::<Vec<_>>()
-        };
         let grids =
             [1, 100].map(|squares| Grid::of(&plane(squares), 1.0, SAMPLES_PER_CELL, 1).unwrap());
-        let cells = grids.each_ref().map(keys);
+        let cells = grids.each_ref().map(|grid: &Grid| {
+            (0..grid.cells.len())
+                .map(|cell| {
+                    grid.samples
+                        .lattice
+                        .coordinates(grid.samples.places[grid.samples.of_cell(cell).start])
+                })
+                .collect::<Vec<_>>()
+        });
         // A cell with a sliver of surface may have a sample of one cut and none of the other.
         let both: Vec<_> = cells[0].iter().filter(|at| cells[1].contains(at)).collect();
         assert!(both.len() * 20 > cells[0].len() * 19, "{} of {}", both.len(), cells[0].len());
@@ -367,20 +364,19 @@ fn cells_of_parallel_plates_are_not_joined() {
 
 #[test]
 fn surfaces_touch_where_an_open_corner_is_between_them() {
-    // A ball of radius 1 sunk into a sheet.
     for (sunk, bodies) in [(0.0, 2), (0.1, 2), (0.9, 1), (1.4, 1)] {
         let floor = level(6.0, sunk - 1.0, 12);
         let ball = Mesh::sphere(3000);
-        let moved = |mesh: &Mesh, by: Vec3| {
+        fn moved(mesh: &Mesh, by: Vec3) -> Mesh {
             let mut mesh = mesh.clone();
             mesh.positions.iter_mut().for_each(|at| *at = (Vec3::from(*at) + by).to_array());
             mesh
-        };
+        }
         let both = joined(moved(&floor, Vec3::new(-3.0, 0.0, -3.0)), &ball);
         let grid = Grid::of(&both, 0.5, SAMPLES_PER_CELL, 1).unwrap();
         let most = grid.bodies.of_triangles.iter().max();
         assert_eq!(most, Some(&bodies), "{sunk}");
-        // A pane just over the sheet is one with it.
+        // A pane just over the sheet forms one body with it.
         let pane = moved(&level(1.0, sunk - 0.99, 1), Vec3::new(1.5, 0.0, 1.5));
         let grid = Grid::of(&joined(both, &pane), 0.5, SAMPLES_PER_CELL, 1).unwrap();
         let of = &grid.bodies.of_triangles;
@@ -398,7 +394,7 @@ fn surfaces_touch_where_an_open_corner_is_between_them() {
 
 #[test]
 fn sides_of_a_fold_are_joined_at_the_fold_alone() {
-    // Two large triangles a side, 1.2 cells apart at the open end.
+    // This has two large triangles per side, 1.2 cells apart at the open end.
     let fold = sheet(2, |u, v| [8.0 * (u - 0.5).abs() * 2.0, 2.4 * (u - 0.5), 8.0 * v]);
     let grid = Grid::of(&fold, 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let side = |cell: usize| {

@@ -1,4 +1,4 @@
-//! Actions on a world over time, as data.
+//! Actions on a world over time, as data. You pass them to a [`World`](super::World).
 
 use glam::Vec3;
 
@@ -12,7 +12,7 @@ pub struct Pour {
     pub track: Track,
     /// Flow in mm^3/s, 0 or more.
     pub rate_mm3_s: f64,
-    /// How long it flows in seconds, above 0; infinite until it is stopped.
+    /// How long it flows in seconds, above 0. If you pass infinity, it flows until you stop it.
     pub for_s: f64,
     /// The paint that flows.
     pub recipe: Recipe,
@@ -31,17 +31,19 @@ impl Pour {
 /// A sponge that takes up wet paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lift {
-    /// Its middle, by seconds since it was set down.
+    /// Its middle, by seconds since you set it down.
     pub track: Track,
     /// Its radius, above 0, in the unit of the scene.
     pub radius: f32,
-    /// Share of the paint below it that it takes up in a second, 0 to 120; 120 takes all at once.
+    /// Share of the paint below it that it takes up per second, 0 to 120. If you pass 120, it
+    /// takes all at once.
     pub rate: f32,
-    /// How long it takes up paint in seconds, above 0; infinite until it is stopped.
+    /// How long it takes up paint in seconds, above 0. If you pass infinity, this lasts until you
+    /// stop it.
     pub for_s: f64,
 }
 
-/// A volume for itself, outside of the grid.
+/// A single volume, outside of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Single {
     /// Its centre, in the unit of the scene.
@@ -50,21 +52,18 @@ pub struct Single {
     pub radius: f32,
     /// Level of detail of its mesh, 0 to [`crate::volume::MOST_DETAIL`].
     pub detail: u8,
-    /// Its paint, as much as makes a film on all surface within its radius; none for a volume that
-    /// only shows the colours of the scene.
+    /// Its paint, as much as makes a film on all surface within its radius. Pass `None` for a
+    /// volume that only shows the colours of the scene.
     pub recipe: Option<Recipe>,
     /// Index of its region.
     pub region: u16,
 }
 
-/// Something that goes on for some steps.
 #[derive(Debug, Clone)]
 pub(super) struct Timed<T> {
     pub(super) number: u64,
     pub(super) what: T,
-    /// Steps that it has gone on for.
     pub(super) steps: u64,
-    /// Steps after which it ends.
     pub(super) most: Option<u64>,
 }
 
@@ -73,7 +72,6 @@ impl<T> Timed<T> {
         Ok(Self { number, what, steps: 0, most: steps_of(for_s)? })
     }
 
-    /// Seconds that it has gone on for.
     pub(super) fn seconds(&self) -> f64 {
         self.steps as f64 / f64::from(STEPS_PER_SECOND)
     }
@@ -83,18 +81,16 @@ impl<T> Timed<T> {
     }
 }
 
-/// A tube at work.
 #[derive(Debug, Clone)]
 pub(super) struct Source {
     pub(super) pour: Pour,
     pub(super) measured: Measured,
-    /// Steps in which it was over the surface.
     pub(super) flowing: u64,
     /// Seed of the volume that it flowed into last.
     pub(super) into: Option<u64>,
 }
 
-/// Whole steps of a time in seconds, at least one; none for a time without end.
+/// Whole steps of a time in seconds, at least one. `None` for a time without end.
 fn steps_of(seconds: f64) -> Result<Option<u64>, WorldError> {
     if seconds == f64::INFINITY {
         return Ok(None);

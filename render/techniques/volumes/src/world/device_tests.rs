@@ -1,8 +1,6 @@
-//! Worlds stepped on a device against the same worlds on the processor.
-//!
-//! The outline of paint on a level sheet in its first seconds.
-//!
-//! 100,000 random actions on one world: no quantum is lost or made, with a grid and without.
+//! Steps worlds on a device and compares them with the same worlds on the processor. Also measures
+//! the outline of paint on a level sheet in its first seconds, and does 100,000 random actions on
+//! one world, with a grid and without: no quantum may be lost or made.
 
 use glam::Vec3;
 use graphics::compute::Compute;
@@ -19,7 +17,6 @@ use crate::motion::{KeepIn, MotionSettings, Push};
 use crate::test_volumes::device;
 use crate::volume::Volume;
 
-/// A world in which paint spills, a single volume is pushed, and a wall keeps both in.
 fn busy() -> World {
     let mut world = flat();
     world.keep(KeepIn::Above { point: Vec3::X * 3.2, normal: Vec3::NEG_X }).unwrap();
@@ -106,22 +103,20 @@ fn a_lost_device_is_an_error_and_no_paint_is_lost() {
     let lost = matches!(error, WorldError::Device(_) | WorldError::Motion(_));
     assert!(lost && error.to_string().contains("the graphics device was lost"), "{error}");
     assert!(is_exact(&world));
-    // It goes on elsewhere.
     world.step().unwrap();
     assert!(is_exact(&world));
 }
 
-/// Places along each side of the sheet at which it is looked at.
+/// We look at this many places along each side of the sheet.
 const SIDE: usize = 240;
 
-/// The wet part of the sheet at a moment.
 struct Outline {
-    /// Share of the wet area that is not joined to where paint is poured.
+    /// Share of the wet area that is not joined to the source.
     apart: f64,
-    /// Distances of the nearest dry and the farthest wet place from where paint is poured, over
-    /// the radius of a circle of the same area.
+    /// Distances of the nearest dry and the farthest wet place from the source, over the radius of
+    /// a circle of the same area.
     rim: [f64; 2],
-    /// Wet area by the area that its paint covers as a film.
+    /// Wet area over the area that its paint covers as a film.
     area: f64,
 }
 
@@ -136,7 +131,7 @@ fn outline(world: &World, from: Vec3) -> Outline {
     let wet: Vec<bool> =
         places.clone().map(|at| insides.iter().any(|inside| inside.holds(place(at)))).collect();
     let area = wet.iter().filter(|wet| **wet).count();
-    // Flooded from the wet place nearest to the source.
+    // We flood from the wet place nearest to the source.
     let distance = |at: &usize| place(*at).distance(from);
     let nearest = |is_wet: bool| {
         let all = places.clone().filter(|at| wet[*at] == is_wet);
@@ -197,7 +192,7 @@ fn smooth_paint_spreads_as_a_disc_whose_area_is_that_of_the_paint() {
     let settings = WorldSettings { unit_mm: Some(1.0), cell, motion, ..WorldSettings::default() };
     let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
     let mut before = 0.0;
-    // A rim is made of whole cells, so it is the rounder the more cells it is away.
+    // Whole cells make a rim, so it is rounder if it is more cells away.
     for (cells, round) in [(7.0, 0.9..1.1), (15.0, 0.92..1.06)] {
         let covered = std::f64::consts::PI * cells * cells * 0.3 * 0.3;
         let pour = Pour::at(Vec3::ZERO, 0.02 * (covered - before), 1.0, Recipe::of_slot(0));
@@ -211,14 +206,13 @@ fn smooth_paint_spreads_as_a_disc_whose_area_is_that_of_the_paint() {
     }
 }
 
-/// Actions in all.
 const ACTIONS: usize = 100_000;
 
-/// A world over a sphere of radius 1 at which things are done at random.
+/// A world over a sphere of radius 1. We do things to it at random.
 struct Played {
     world: World,
     random: ChaCha8Rng,
-    /// What all tubes were to give, in quanta.
+    /// Quanta that all tubes were to give.
     asked: u64,
 }
 
@@ -233,7 +227,6 @@ impl Played {
         Vec3::new(x, y, z).normalize_or(Vec3::Y)
     }
 
-    /// Seconds of a few whole steps.
     fn time(&mut self) -> f64 {
         f64::from(self.random.random_range(1..12)) / f64::from(STEPS_PER_SECOND)
     }
@@ -256,11 +249,13 @@ impl Played {
         self.world.lift(Lift { track: Track::at(place), radius, rate, for_s }).unwrap();
     }
 
-    /// Adds a volume of paint of its own.
+    /// Adds a volume with its own paint.
     fn add(&mut self) -> usize {
         let place = self.place();
         let radius = self.random.random_range(0.05..0.6);
-        let poured = |world: &World| world.tally().poured.iter().sum::<u64>();
+        fn poured(world: &World) -> u64 {
+            world.tally().poured.iter().sum::<u64>()
+        }
         let before = poured(&self.world);
         let own = Single { detail: 1, ..single(place, radius) };
         let index = self.world.add_volume(&own).unwrap();
@@ -268,7 +263,6 @@ impl Played {
         index
     }
 
-    /// Moves paint, and volumes at once to where they would grow.
     fn go_on(&mut self, action: usize) {
         if action.is_multiple_of(100) {
             return self.world.step().unwrap();
@@ -283,13 +277,14 @@ impl Played {
         let world = &self.world;
         assert!(is_exact(world), "{action}");
         for volume in world.volumes() {
-            let capacity = |cell| u64::from(world.grid.cells.capacities[cell as usize]);
-            let most = volume.cell.map_or(1 << 30, |cell| (16 * capacity(cell)).min(1 << 30));
+            let most = volume.cell.map_or(1 << 30, |cell| {
+                (16 * u64::from(world.grid.cells.capacities[cell as usize])).min(1 << 30)
+            });
             assert!(u64::from(volume.paint.volume()) <= most, "{action}: {volume:?}");
         }
     }
 
-    /// Lets all tubes run out, and compares what they gave with what they were to give.
+    /// Lets all tubes run out. Compares what they gave with what they were to give.
     fn finish(mut self) -> Tally {
         (0..20).for_each(|_| self.world.move_paint(None).unwrap());
         self.check(ACTIONS);
@@ -320,7 +315,7 @@ fn random_actions_on_a_grid_keep_every_quantum() {
             2000 => played.world.dry(),
             2001..2006 => {
                 let index = played.add();
-                // Too small a volume may hold no sample.
+                // If a volume is too small, it may hold no sample.
                 split += usize::from(played.world.split(index).is_ok());
             }
             2006 => {

@@ -1,11 +1,11 @@
-//! All volumes over one scene, what is done to them, and one step of time.
+//! All volumes over one scene, what you do to them, and one step of time.
 //!
 //! ```text
 //! pour, lift -> paint of volumes -> spilling -> new volumes, target radii -> motion -> volumes
 //! ```
 //!
-//! Paint is only moved, in whole quanta: [`Tally`] says where it is. A world is data: its clone is
-//! a snapshot from which it goes on to the same bytes, and so is [`World::saved`] on a disk.
+//! We only move paint, in whole quanta. [`Tally`] says where it is. A world is data: its clone is
+//! a snapshot that continues to the same bytes, and so is [`World::saved`] on a disk.
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 mod settings;

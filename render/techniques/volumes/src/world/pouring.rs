@@ -1,10 +1,5 @@
-//! Paint from tubes.
-//!
-//! Sponges that take up wet paint.
-//!
-//! Volumes for themselves, outside of the grid.
-//!
-//! A single volume, split into volumes of the grid.
+//! Paint from tubes, sponges that take up wet paint, and single volumes outside of the grid. You
+//! can split a single volume into volumes of the grid.
 
 use glam::Vec3;
 use paint::amount::MAX_COLUMN;
@@ -19,17 +14,17 @@ use crate::motion::kick;
 use crate::volume::Volume;
 use crate::wetting::QUANTA_PER_FACE;
 
-/// Level of detail of single volumes that begin where paint is poured.
+/// Level of detail of single volumes that begin where you pour paint.
 const DETAIL: u8 = 3;
 
 impl World {
-    /// Lets paint flow from the next step on. Returns its number for [`World::stop`] and
-    /// [`World::move_source`].
+    /// Lets paint flow from the next step on. Returns a number that you can pass to
+    /// [`World::stop`] and [`World::move_source`].
     ///
-    /// With a grid the paint goes to the cell of the surface nearest to the source. Without, it
-    /// goes to the single volume whose centre is nearest among those that hold the place, or
-    /// begins a new one. Away from the surface nothing flows. What a full cell has no room for
-    /// stays in the tube, see [`Tally::in_tube`](super::Tally::in_tube).
+    /// With a grid the paint goes to the cell of the surface nearest to the source. Without a
+    /// grid, it goes to the volume with the nearest centre among the single volumes that hold the
+    /// place, or begins a new one. Away from the surface nothing flows. If a full cell has no room
+    /// for the paint, it stays in the tube, see [`Tally::in_tube`](super::Tally::in_tube).
     ///
     /// # Errors
     /// If a place of its track is farther than one cell from the surface, or the rate or the time
@@ -46,8 +41,8 @@ impl World {
         Ok(number)
     }
 
-    /// Moves a source to a place (in the unit of the scene), where it stays. Numbers of what has
-    /// ended do nothing.
+    /// Moves a source to a place (in the unit of the scene), where it stays. If the number belongs
+    /// to something that has ended, this does nothing.
     ///
     /// # Errors
     /// If the place is farther than one cell from the surface.
@@ -59,7 +54,7 @@ impl World {
         Ok(())
     }
 
-    /// Checks that paint can be poured at a place, in the unit of the scene.
+    /// Checks that you can pour paint at a place, in the unit of the scene.
     ///
     /// # Errors
     /// [`WorldError::OffSurface`] if it is farther than one cell from the surface.
@@ -67,7 +62,6 @@ impl World {
         self.surface_at(place).map(|_| ())
     }
 
-    /// The sample of the surface nearest to a place.
     fn surface_at(&self, place: Vec3) -> Result<usize, WorldError> {
         let nearest = self.grid.nearest(place);
         let (sample, distance) = nearest.unwrap_or((0, f32::INFINITY));
@@ -78,7 +72,6 @@ impl World {
         }
     }
 
-    /// Lets all sources flow for this step.
     pub(super) fn flow(&mut self) -> Result<(), WorldError> {
         let mut sources = std::mem::take(&mut self.sources);
         let result = sources.iter_mut().try_for_each(|source| self.flow_from(source));
@@ -103,7 +96,7 @@ impl World {
         let added = measured.up_to(&pour.recipe, due, ends);
         let wet = self.volumes.len();
         let index = match self.volume_under(sample, pour.region) {
-            // No room for another volume.
+            // There is no room for another volume.
             Err(WorldError::Full { .. }) => {
                 add(&mut self.in_tube, added);
                 return Ok(());
@@ -130,7 +123,7 @@ impl World {
         Ok(())
     }
 
-    /// The volume that paint on a sample of the surface goes to, which may begin there.
+    /// The volume to which paint on a sample of the surface goes. It may begin there.
     fn volume_under(&mut self, sample: usize, region: u16) -> Result<usize, WorldError> {
         let samples = &self.grid.samples;
         let place = samples.places[sample];
@@ -155,8 +148,8 @@ impl World {
 }
 
 impl World {
-    /// Sets a sponge down, which takes up wet paint from the next step on. Returns its number for
-    /// [`World::stop`].
+    /// Sets a sponge down. It takes up wet paint from the next step on. Returns a number that you
+    /// can pass to [`World::stop`].
     ///
     /// # Errors
     /// If its radius, rate or time is out of its range.
@@ -170,8 +163,8 @@ impl World {
         Ok(number)
     }
 
-    /// Takes up a share, 0 to 1, of the paint of one volume, which shrinks; a volume that loses
-    /// all its paint vanishes. A volume without paint shrinks by the share of its radius.
+    /// Takes up a share, 0 to 1, of the paint of one volume. The volume shrinks, and vanishes if
+    /// it loses all its paint. A volume without paint shrinks by the share of its radius.
     ///
     /// # Errors
     /// If there is no such volume, it is dry, or the share is out of its range.
@@ -185,7 +178,6 @@ impl World {
         }
         if volume.paint.volume() == 0 {
             let target = volume.target_radius * (1.0 - share);
-            // Dots vanish.
             volume.target_radius = if target < BIRTH * self.scale.cell { 0.0 } else { target };
             volume.rests_under = 0;
             return Ok(());
@@ -194,7 +186,7 @@ impl World {
         Ok(())
     }
 
-    /// Moves a share of a volume's paint to the sponge, rounded up.
+    /// Moves a share of a volume's paint to the sponge. This rounds up.
     fn take_share(&mut self, index: usize, share: f32) {
         let kept = ((1.0 - share) * 65536.0).clamp(0.0, 65536.0) as u32;
         if kept < 65536 {
@@ -205,7 +197,6 @@ impl World {
         }
     }
 
-    /// Takes up the paint below all sponges for this step.
     pub(super) fn take_up(&mut self) {
         let mut sponges = std::mem::take(&mut self.sponges);
         for sponge in &mut sponges {
@@ -233,7 +224,7 @@ impl World {
         }
     }
 
-    /// Share of the surface with paint of a volume that lies where `below` is true.
+    /// Of the surface with paint of a volume, the share for which `below` is true.
     pub(super) fn share_below(&self, index: usize, below: impl Fn(Vec3) -> bool) -> f32 {
         let volume = &self.volumes[index];
         let samples = &self.grid.samples;
@@ -241,21 +232,22 @@ impl World {
             Some(cell) => samples.of_cell(cell as usize),
             None => 0..samples.len(),
         };
-        let held = |at: &Vec3| at.distance_squared(volume.center) <= volume.radius * volume.radius;
         let mut all = 0_u32;
         let mut found = 0_u32;
-        for place in samples.places[own].iter().filter(|place| held(place)) {
+        for place in samples.places[own]
+            .iter()
+            .filter(|at| at.distance_squared(volume.center) <= volume.radius * volume.radius)
+        {
             all += 1;
             found += u32::from(below(*place));
         }
         match all {
-            // Too small to hold a sample.
+            // The volume is too small to hold a sample.
             0 => f32::from(u8::from(below(volume.center))),
             _ => found as f32 / all as f32,
         }
     }
 
-    /// Gives a volume its paint.
     pub(super) fn give(&mut self, index: usize, paint: Cell) {
         match self.volumes[index].cell {
             Some(_) => self.set_paint(index, paint),
@@ -303,7 +295,7 @@ impl World {
         f64::from(QUANTA_PER_FACE) * area / (cell * cell)
     }
 
-    /// Radius about `center` within which a film on all surface has `amount` quanta.
+    /// A film on all surface within this radius about `center` has `amount` quanta.
     fn radius_of_film(&self, center: Vec3, amount: u32) -> f32 {
         let places = &self.grid.samples.places;
         let mut squares: Vec<f32> =
@@ -315,12 +307,12 @@ impl World {
         let last = squares.len() - 1;
         let (_, nth, _) =
             squares.select_nth_unstable_by(last.min(covered as usize), f32::total_cmp);
-        // Less than a sample: a disk of its area around the nearest.
+        // This is less than a sample, so we take a disk of its area around the nearest.
         nth.sqrt() * (covered.min(1.0) as f32).sqrt()
     }
 
-    /// Gives a single volume its paint: with more it grows, with less it shrinks to where its film
-    /// reaches.
+    /// Gives a single volume its paint. With more paint it grows, with less it shrinks to where
+    /// its film reaches.
     pub(super) fn set_single_paint(&mut self, index: usize, paint: Cell) {
         let Volume { center, target_radius, .. } = self.volumes[index];
         let before = self.volumes[index].paint.volume();
@@ -338,9 +330,9 @@ impl World {
 }
 
 impl World {
-    /// Splits a single volume: its paint is dealt to the cells that its inside samples of the
-    /// surface lie in, by area, in whole quanta, with the remainder to the first cell. The volume
-    /// vanishes; only what cells have no room for stays in it. Returns the number of cells.
+    /// Splits a single volume. We deal its paint to the cells of the surface samples inside of it,
+    /// by area, in whole quanta, with the remainder to the first cell. The volume vanishes, unless
+    /// cells have no room for some of its paint. Returns the number of cells.
     ///
     /// # Errors
     /// If there is no such volume, it is dry or of the grid, it holds no surface, there is no
@@ -364,8 +356,8 @@ impl World {
             return refused("holds no surface");
         }
         let whole = amounts_of(&paint);
-        let share = |samples: u64| whole.map(|amount| amount * samples / all);
-        let mut dealt: Vec<[u64; SLOTS + 1]> = parts.iter().map(|part| share(part.1)).collect();
+        let mut dealt: Vec<[u64; SLOTS + 1]> =
+            parts.iter().map(|part| whole.map(|amount| amount * part.1 / all)).collect();
         for slot in 0..=SLOTS {
             dealt[0][slot] += whole[slot] - dealt.iter().map(|amounts| amounts[slot]).sum::<u64>();
         }
@@ -385,7 +377,7 @@ impl World {
             for slot in 0..=SLOTS {
                 left[slot] += amounts[slot] - taken[slot];
             }
-            // Whatever happens next, no paint is there twice.
+            // Whatever happens next, we must not have paint twice.
             let rest = amounts_of(&self.volumes[index].paint);
             self.volumes[index].paint = as_cell(std::array::from_fn(|i| rest[i] - taken[i]));
         }
@@ -393,7 +385,6 @@ impl World {
         Ok(parts.len())
     }
 
-    /// Wettable cells whose samples a volume holds, and how many.
     fn held_samples(&self, index: usize) -> Vec<(usize, u64)> {
         let inside = Inside::of(&self.volumes[index]);
         let samples = &self.grid.samples;

@@ -1,6 +1,5 @@
-//! Shares of pigments, and how an amount is measured out by them in whole quanta.
-//!
-//! Where something that moves is at a time.
+//! Shares of pigments, and how we measure out an amount by them in whole quanta. Also the place of
+//! something that moves at a time.
 
 use glam::Vec3;
 use paint::amount::MAX_COLUMN;
@@ -9,14 +8,15 @@ use paint::layer::{Cell, SLOTS};
 use super::settings::WorldError;
 use crate::saved::{Reader, Stored, stored};
 
-/// Shares of the paints of eight slots and of vehicle, which sum to 1.
+/// Shares of the paints of eight slots and of vehicle. They sum to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recipe {
     shares: [f64; SLOTS + 1],
 }
 
 impl Recipe {
-    /// The recipe with these parts: of the pigments by slot, and at last of vehicle.
+    /// The recipe with these parts. You give the parts of the pigments by slot, and then of
+    /// vehicle. For example, two equal parts give half of each.
     ///
     /// # Errors
     /// If a part is below 0 or not finite, or none is above 0.
@@ -41,22 +41,21 @@ impl Recipe {
         Self { shares }
     }
 
-    /// `amount` quanta of it, in whole quanta of each paint.
     pub(super) fn measured(&self, amount: u32) -> Cell {
         let mut measured = Measured::default();
         as_cell(measured.up_to(self, f64::from(amount), true))
     }
 }
 
-/// Amounts of a recipe that have been measured out so far, in quanta.
+/// Amounts of a recipe that we have measured out so far, in quanta.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Measured {
     given: [u64; SLOTS + 1],
 }
 
 impl Measured {
-    /// Amounts to be added so that `amount` quanta have been given in all: each paint's share
-    /// rounded down, so the rest is carried; at the `end` the rest goes to the greatest share.
+    /// Amounts to add so that `amount` quanta have been given in all. We round each paint's share
+    /// down and carry the rest. At the `end` the rest goes to the greatest share.
     pub(super) fn up_to(&mut self, recipe: &Recipe, amount: f64, end: bool) -> [u64; SLOTS + 1] {
         let mut due = recipe.shares.map(|share| (share * amount) as u64);
         if end {
@@ -77,9 +76,11 @@ impl Measured {
 stored!(Recipe { shares });
 stored!(Measured { given });
 
-/// These amounts as a cell, which holds no more than a column of paint.
+/// These amounts as a cell. It holds no more than a column of paint.
 pub(super) fn as_cell(amounts: [u64; SLOTS + 1]) -> Cell {
-    let amount = |value: u64| value.min(u64::from(MAX_COLUMN)) as u32;
+    fn amount(value: u64) -> u32 {
+        value.min(u64::from(MAX_COLUMN)) as u32
+    }
     let mut cell = Cell { vehicle: amount(amounts[SLOTS]), ..Cell::default() };
     for (own, value) in cell.pigments.iter_mut().zip(amounts) {
         *own = amount(value);
@@ -87,12 +88,11 @@ pub(super) fn as_cell(amounts: [u64; SLOTS + 1]) -> Cell {
     cell
 }
 
-/// The amounts of a cell: of eight slots, and at last of vehicle.
 pub(super) fn amounts_of(cell: &Cell) -> [u64; SLOTS + 1] {
     std::array::from_fn(|i| u64::from(cell.pigments.get(i).copied().unwrap_or(cell.vehicle)))
 }
 
-/// The part of `amounts` that fits into `room` quanta, each in proportion and rounded down.
+/// The part of `amounts` that fits into `room` quanta. Each is in proportion and rounded down.
 pub(super) fn fitting(amounts: [u64; SLOTS + 1], room: u32) -> [u64; SLOTS + 1] {
     let sum: u64 = amounts.iter().sum();
     let room = u64::from(room);
@@ -102,7 +102,7 @@ pub(super) fn fitting(amounts: [u64; SLOTS + 1], room: u32) -> [u64; SLOTS + 1] 
     amounts.map(|amount| (u128::from(amount) * u128::from(room) / u128::from(sum)) as u64)
 }
 
-/// A place, or places at times with straight lines between.
+/// A place, or places at times with straight lines between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
     knots: Vec<(f64, Vec3)>,
@@ -115,14 +115,15 @@ impl Track {
         Self { knots: vec![(0.0, place)] }
     }
 
-    /// Places (in the unit of the scene) at rising times in seconds; before the first and after
-    /// the last time the place stays.
+    /// Places (in the unit of the scene) at rising times in seconds. Before the first and after
+    /// the last time, the place stays.
     ///
     /// # Errors
     /// If there is no place, a number is not finite, or the times do not rise.
     pub fn along(knots: Vec<(f64, Vec3)>) -> Result<Self, WorldError> {
-        let number =
-            |key, found| Err(WorldError::Number { key, range: "finite and rising", found });
+        fn number(key: &'static str, found: f64) -> Result<Track, WorldError> {
+            Err(WorldError::Number { key, range: "finite and rising", found })
+        }
         let mut last = f64::NEG_INFINITY;
         for (seconds, place) in &knots {
             if !(seconds.is_finite() && *seconds > last) {
@@ -152,7 +153,7 @@ impl Track {
         }
     }
 
-    /// The places that it turns at.
+    /// The places at which it turns.
     pub fn places(&self) -> impl Iterator<Item = Vec3> + '_ {
         self.knots.iter().map(|(_, place)| *place)
     }

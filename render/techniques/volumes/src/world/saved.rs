@@ -1,6 +1,5 @@
-//! Worlds as files, from which they go on to the same bytes.
-//!
-//! Regions that volumes stay in.
+//! Saves worlds as files, from which they continue to the same bytes. Also regions in which
+//! volumes must stay.
 
 use std::sync::Arc;
 
@@ -14,7 +13,6 @@ use crate::saved::{Kind, Reader, SavedError, Stored, identity, opened, sealed, s
 use crate::volume::{MOST_DETAIL, Particles, SphereMesh, Volume};
 use crate::wetting::Spilling;
 
-/// Files with a world.
 const WORLD: Kind = Kind { format: b"impasto-world\0\0\0", version: 1, name: "world" };
 
 stored!(Particles { places, velocities, samples });
@@ -56,8 +54,9 @@ impl<T: Stored> Stored for Timed<T> {
 
 impl World {
     /// The whole state of this world as the bytes of a file: volumes with their particles, paint,
-    /// all that flows or pushes, the tally and the time. `wish` are words for what it is the world
-    /// of, such as a digest of all that led to it; [`World::resumed`] wants the same.
+    /// all that flows or pushes, the tally and the time. As `wish`, pass words for what this world
+    /// belongs to, for example a digest of all that led to it. You need the same words for
+    /// [`World::resumed`].
     ///
     /// ```
     /// use graphics::mesh::SampleModel;
@@ -84,8 +83,8 @@ impl World {
         sealed(WORLD, &identity([wish, &self.print()]), &state)
     }
 
-    /// The world that [`World::saved`] gave as `file`, over the scene of this one. It goes on to
-    /// the same bytes as the world that was saved.
+    /// Resumes the world that [`World::saved`] gave as `file`. This world must have the same
+    /// scene. You get the same bytes as from the world that was saved.
     ///
     /// # Errors
     /// [`SavedError`] if the file holds no world or one of another version, is damaged, or was
@@ -97,7 +96,7 @@ impl World {
         if reader.is_empty() { Ok(world) } else { Err(SavedError::Damaged) }
     }
 
-    /// Words that tell worlds of different scenes, settings and regions apart.
+    /// Words for scene, settings and regions. If these differ, so do the words.
     pub(crate) fn print(&self) -> String {
         let forces = self.surroundings.fingerprint(&self.settings.motion);
         let cells = self.grid.cells.len();
@@ -105,7 +104,7 @@ impl World {
         format!("{:?} {:?} {forces:x} {cells} {samples}", self.settings, self.scale)
     }
 
-    /// Appends all that changes as time goes on.
+    /// Appends everything that changes as time passes.
     pub(crate) fn store_state(&self, bytes: &mut Vec<u8>) {
         self.volumes.store(bytes);
         self.settled.store(bytes);
@@ -117,7 +116,8 @@ impl World {
         [self.steps, self.numbered].store(bytes);
     }
 
-    /// This world in a state that [`World::store_state`] wrote; none if it is no state of it.
+    /// This world in a state that [`World::store_state`] wrote. `None` if the state does not
+    /// belong to it.
     pub(crate) fn with_state(&self, from: &mut Reader<'_>) -> Option<Self> {
         let volumes: Vec<Volume> = Stored::read(from)?;
         if !self.can_hold(&volumes) {
@@ -135,7 +135,7 @@ impl World {
         Some(world)
     }
 
-    /// Whether volumes have whole meshes, and cells that there are.
+    /// Checks that volumes have whole meshes, and only cells that exist.
     fn can_hold(&self, volumes: &[Volume]) -> bool {
         let cells = self.grid.cells.len();
         let mut particles = 0;
@@ -155,8 +155,8 @@ impl World {
 }
 
 impl World {
-    /// Keeps all volumes inside of a region from now on. No paint spills to surface outside of it;
-    /// paint that is there already stays, in volumes that shrink to dots.
+    /// Keeps all volumes inside of a region from now on. No paint spills to surface outside of it.
+    /// Paint that is there already stays, in volumes that shrink to dots.
     ///
     /// # Errors
     /// If a number of the region is out of its range.

@@ -1,6 +1,4 @@
-//! A world: its surface, its volumes and what is being done to them.
-//!
-//! Where all paint is.
+//! A world: its surface, its volumes, what you are doing to them, and where all paint is.
 
 use std::sync::Arc;
 
@@ -17,17 +15,16 @@ use crate::motion::{MotionError, Push, SurfaceLattice, Surroundings, kick};
 use crate::volume::{MOST_DETAIL, SphereMesh, Volume};
 use crate::wetting::{Grid, Spilling};
 
-/// In `of_cell`, no volume.
+/// Marks a cell without a volume in `of_cell`.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Radius at birth, in cells.
 pub(super) const BIRTH: f32 = 0.02;
 
 /// All volumes over one scene.
 ///
-/// Time goes on by [`World::step`] alone, a 120th of a second each. A clone is a snapshot, from
-/// which the same steps and actions lead to the same bytes, on any number of threads. Frames may
-/// take any number of steps each.
+/// Time passes by [`World::step`] alone, a 120th of a second each. A clone is a snapshot. The same
+/// steps and actions lead from it to the same bytes, on any number of threads. You can take any
+/// number of steps per frame.
 ///
 /// ```
 /// use graphics::mesh::SampleModel;
@@ -49,18 +46,17 @@ pub(super) const BIRTH: f32 = 0.02;
 pub struct World {
     pub(super) settings: WorldSettings,
     pub(super) scale: Scale,
-    /// The grid of the whole surface.
     pub(super) whole: Arc<Grid>,
-    /// The grid of the surface inside of all regions to stay in.
+    /// The grid of the surface inside of all regions in which volumes must stay.
     pub(super) grid: Arc<Grid>,
     pub(super) spilling: Spilling,
     pub(super) surroundings: Surroundings,
     pub(super) volumes: Vec<Volume>,
     /// Index of the wet volume in each cell, or [`NONE`].
     pub(super) of_cell: Vec<u32>,
-    /// Paint of the cells for spilling; each step fills it anew.
+    /// Paint of the cells for spilling. Each step fills this anew.
     pub(super) paint: Vec<Cell>,
-    /// Whether the last step spilled nothing, and no paint has come or gone since.
+    /// Whether the last step spilled nothing, and no paint has come or gone since then.
     pub(super) settled: bool,
     pub(super) sources: Vec<Timed<Source>>,
     pub(super) sponges: Vec<Timed<Lift>>,
@@ -69,12 +65,11 @@ pub struct World {
     pub(super) lifted: [u64; SLOTS + 1],
     pub(super) in_tube: [u64; SLOTS + 1],
     pub(super) steps: u64,
-    /// How many things have been given a number.
     pub(super) numbered: u64,
 }
 
 impl World {
-    /// A world without volumes around a mesh. y points up.
+    /// A world without volumes around a mesh. The y axis points upwards.
     ///
     /// # Errors
     /// If the mesh has no surface, a setting is out of its range, or cells are too small.
@@ -110,25 +105,26 @@ impl World {
         })
     }
 
-    /// The volumes, in the order in which they began; those that vanish are removed.
+    /// The volumes, in the order in which they began. This leaves out those that vanished.
     #[must_use]
     pub fn volumes(&self) -> &[Volume] {
         &self.volumes
     }
 
-    /// The surface inside of all regions to stay in, its cells and their links.
+    /// The surface inside of all regions in which volumes must stay, its cells and their links.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// [`Self::grid`] as it is shared by snapshots, until a region to stay in changes it.
+    /// [`Self::grid`], which snapshots share until you add a region.
     pub(crate) fn shared_grid(&self) -> &Arc<Grid> {
         &self.grid
     }
 
-    /// What each volume's cell faces, in the order of the volumes; zero for a volume that colours
-    /// all that it holds: a single one, or one in a cell with surface that faces opposite ways.
+    /// The direction that each volume's cell faces, in the order of the volumes. It is zero for a
+    /// volume that colours all that it holds. This is a single volume, or one in a cell with
+    /// surface that faces opposite ways.
     #[must_use]
     pub fn facing(&self) -> Vec<Vec3> {
         self.volumes
@@ -146,13 +142,13 @@ impl World {
         self.scale.cell
     }
 
-    /// The settings that it was made with.
+    /// The settings with which you made it.
     #[must_use]
     pub fn settings(&self) -> &WorldSettings {
         &self.settings
     }
 
-    /// The forces on the volumes from outside at present.
+    /// The forces on the volumes from outside, as they are now.
     #[must_use]
     pub fn surroundings(&self) -> &Surroundings {
         &self.surroundings
@@ -182,7 +178,7 @@ impl World {
         self.steps as f64 / f64::from(STEPS_PER_SECOND)
     }
 
-    /// Where all paint is at present.
+    /// Where all paint is now.
     #[must_use]
     pub fn tally(&self) -> Tally {
         let mut on_scene = [0; SLOTS + 1];
@@ -193,8 +189,8 @@ impl World {
         Tally { poured, on_scene, lifted, in_tube }
     }
 
-    /// Pushes what is inside of a ball for some time in seconds (infinite until it is stopped).
-    /// Returns its number for [`World::stop`].
+    /// Pushes what is inside of a ball for some time in seconds. If you pass infinity, this lasts
+    /// until you stop it. Returns a number that you can pass to [`World::stop`].
     ///
     /// # Errors
     /// If the push or the time is out of its range.
@@ -206,14 +202,14 @@ impl World {
         Ok(number)
     }
 
-    /// Ends a flow, a sponge or a push before its time; numbers of what has ended do nothing.
+    /// Ends a flow, a sponge or a push before its time. If it has ended already, this does
+    /// nothing.
     pub fn stop(&mut self, number: u64) {
         self.sources.retain(|timed| timed.number != number);
         self.sponges.retain(|timed| timed.number != number);
         self.pushes.retain(|timed| timed.number != number);
     }
 
-    /// A number that nothing else has.
     pub(super) fn next_number(&mut self) -> u64 {
         self.numbered += 1;
         self.numbered
@@ -243,7 +239,7 @@ impl World {
         Ok(self.volumes.len() - 1)
     }
 
-    /// Whether there is room for `count` more volumes of this detail.
+    /// Checks that there is room for `count` more volumes of this detail.
     pub(super) fn has_room(&self, count: usize, detail: u8) -> Result<(), WorldError> {
         let own = count * SphereMesh::of_detail(detail).directions.len();
         let particles: usize = self.volumes.iter().map(|v| v.particles.places[0].len()).sum();
@@ -257,8 +253,8 @@ impl World {
     }
 }
 
-/// Amounts of paint in quanta, of eight slots and at last of vehicle. At every time `poured` is
-/// the sum of `on_scene` and `lifted`, to the quantum.
+/// Amounts of paint in quanta: of eight slots, then of vehicle. At every time, `poured` is the sum
+/// of `on_scene` and `lifted`, to the quantum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tally {
     /// Paint that has come out of tubes, or with single volumes.
@@ -267,11 +263,10 @@ pub struct Tally {
     pub on_scene: [u64; SLOTS + 1],
     /// Paint in sponges.
     pub lifted: [u64; SLOTS + 1],
-    /// Paint that stayed in the tube, as there was no room for it.
+    /// Paint that stayed in the tube, because there was no room for it.
     pub in_tube: [u64; SLOTS + 1],
 }
 
-/// Adds amounts.
 pub(super) fn add(sums: &mut [u64; SLOTS + 1], amounts: [u64; SLOTS + 1]) {
     for (sum, amount) in sums.iter_mut().zip(amounts) {
         *sum += amount;

@@ -1,12 +1,5 @@
-//! Worlds over surfaces of known form.
-//!
-//! What lifting and pushing leave as it is.
-//!
-//! Paint that dries within a reach.
-//!
-//! Worlds without room for more volumes, and worlds at rest.
-//!
-//! Worlds saved and resumed.
+//! Worlds over surfaces of known form: lifting and pushing, paint that dries within a reach,
+//! worlds without room for more volumes, worlds at rest, and worlds saved and resumed.
 
 use glam::Vec3;
 use graphics::mesh::{Mesh, SampleModel};
@@ -45,7 +38,6 @@ pub(super) fn single(center: Vec3, radius: f32) -> Single {
     Single { center, radius, detail: 4, recipe: Some(Recipe::of_slot(2)), region: 1 }
 }
 
-/// The places of the surface that some volume holds.
 fn held(world: &World) -> Vec<Vec3> {
     let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
     let places = world.grid().samples.places.iter().copied();
@@ -56,7 +48,7 @@ fn held(world: &World) -> Vec<Vec3> {
 fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
     let mut world = flat();
     let recipe = Recipe::of_parts([3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]).unwrap();
-    // 0.6 mm^3 as a film of 0.02 mm are 30 mm^2.
+    // As a film of 0.02 mm, 0.6 mm^3 cover 30 mm^2.
     let pour = Pour::at(Vec3::new(0.2, 0.3, 0.1), 0.4, 1.5, recipe);
     world.pour(Pour { region: 3, ..pour }).unwrap();
     run(&mut world, 600);
@@ -76,7 +68,7 @@ fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
 
 #[test]
 fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
-    let across = |world: &World| {
+    fn across(world: &World) -> f32 {
         let Volume { particles, radius, .. } = &world.volumes()[0];
         let [places, speeds] = [&particles.places, &particles.velocities]
             .map(|[x, y, z]| (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect::<Vec<_>>());
@@ -84,8 +76,8 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
         // Growth moves particles along their rays.
         pairs.map(|(place, speed)| place.normalize().cross(*speed).length()).fold(0.0, f32::max)
             / radius
-    };
-    let kicked = |kick: f32| {
+    }
+    fn kicked(kick: f32) -> [[f32; 3]; 2] {
         let motion = MotionSettings {
             kick,
             microstructure: 0.0,
@@ -99,13 +91,13 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
             world.pour(pour.clone()).unwrap();
             run(&mut world, 1);
             let moving = across(&world);
-            // Paint flows for 60 steps, but kicks once.
+            // Paint flows for 60 steps, but gives a kick only once.
             run(&mut world, 30);
             let flowing = across(&world);
             run(&mut world, rest);
             [moving, flowing, across(&world)]
         })
-    };
+    }
     for [moving, flowing, resting] in kicked(0.3) {
         assert!(moving > 0.1 && resting < 0.01, "{moving} {resting}");
         assert!(flowing < 0.25 * moving, "{moving} {flowing}");
@@ -117,7 +109,7 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
 
 #[test]
 fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
-    let whole = |threads: usize, from: Option<&World>| {
+    fn whole(threads: usize, from: Option<&World>) -> (World, World) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut world = match from {
@@ -143,7 +135,7 @@ fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
             run(&mut world, 50);
             (snapshot, world)
         })
-    };
+    }
     let (snapshot, end) = whole(1, None);
     assert!(end.volumes().len() > 3 && end.volumes() != snapshot.volumes());
     for threads in [1, 2, 8] {
@@ -157,7 +149,9 @@ fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
 #[test]
 fn sources_off_the_surface_are_refused_with_their_distance() {
     let mut world = flat();
-    let pour = |y: f32| Pour::at(Vec3::new(0.0, y, 0.0), 1.0, 1.0, Recipe::of_slot(0));
+    fn pour(y: f32) -> Pour {
+        Pour::at(Vec3::new(0.0, y, 0.0), 1.0, 1.0, Recipe::of_slot(0))
+    }
     assert!(world.pour(pour(0.9)).is_ok());
     let Err(WorldError::OffSurface { distance, most, .. }) = world.pour(pour(2.0)) else {
         panic!("poured in the air");
@@ -181,14 +175,14 @@ fn what_a_full_cell_has_no_room_for_stays_in_the_tube() {
     assert!(is_exact(&world) && tally.in_tube[0] > 0);
     let asked = tally.poured[0] + tally.in_tube[0];
     assert_eq!(asked, (2.0 / world.quantum_mm3()).round() as u64);
-    // No surface is left to pour on or to split to.
+    // There is no surface left to pour on or to split to.
     let mut bare = world.clone();
     bare.keep(KeepIn::Ball { center: Vec3::splat(5.0), radius: 0.1 }).unwrap();
     assert!(bare.pour(Pour::at(Vec3::ZERO, 2.0, 1.0, Recipe::of_slot(0))).is_err());
     bare.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
     run(&mut bare, 20);
     assert!(is_exact(&bare) && bare.grid().samples.is_empty());
-    // Walls hold the volumes back, but for the rounding of a wall.
+    // Walls hold the volumes back, except for the rounding of a wall.
     for volume in world.volumes() {
         assert!(volume.vertices().all(|at| at[0].abs() < 0.6001 && at[2].abs() < 0.6001));
     }
@@ -200,7 +194,9 @@ fn what_a_full_cell_has_no_room_for_stays_in_the_tube() {
 #[test]
 fn dry_paint_stays_as_it_is_under_new_paint() {
     let mut world = flat();
-    let pour = |slot| Pour::at(Vec3::ZERO, 0.1, 0.5, Recipe::of_slot(slot));
+    fn pour(slot: usize) -> Pour {
+        Pour::at(Vec3::ZERO, 0.1, 0.5, Recipe::of_slot(slot))
+    }
     world.pour(pour(0)).unwrap();
     run(&mut world, 60);
     world.dry();
@@ -296,7 +292,7 @@ fn full_cells_of_rough_volumes_hold_all_surface() {
         run(&mut world, 60);
         let insides: Vec<(Vec3, Inside)> =
             world.volumes().iter().map(|volume| (volume.center, Inside::of(volume))).collect();
-        // Other places than those that the grid was made of, four times as many.
+        // These are other places than the grid has, four times as many.
         let places =
             SurfaceSamples::of(&mesh, world.scale.cell / 2.0, SAMPLES_PER_CELL, 77).unwrap().places;
         let held = |at: &Vec3| {
@@ -328,7 +324,7 @@ fn without_a_grid_paint_grows_single_volumes() {
     world.pour(Pour::at(Vec3::ZERO, 0.1, 1.0, Recipe::of_slot(0))).unwrap();
     run(&mut world, 400);
     assert_eq!(world.volumes().len(), 1);
-    // 0.1 mm^3 as a film of 0.02 mm are a disk of 5 mm^2.
+    // As a film of 0.02 mm, 0.1 mm^3 make a disk of 5 mm^2.
     let radius = world.volumes()[0].radius;
     assert!((radius / (5.0 / std::f32::consts::PI).sqrt() - 1.0).abs() < 0.04, "{radius}");
     assert!(world.split(0).is_err());
@@ -370,11 +366,11 @@ fn a_sponge_takes_the_paint_below_it() {
     let mut world = flat();
     world.pour(Pour::at(Vec3::ZERO, 0.6, 1.0, Recipe::of_slot(0))).unwrap();
     run(&mut world, 400);
-    let amounts = |world: &World| -> Vec<u32> {
+    fn amounts(world: &World) -> Vec<u32> {
         world.volumes().iter().map(|volume| volume.paint.volume()).collect()
-    };
+    }
     let before = amounts(&world);
-    // All that lies below, in one step.
+    // The sponge takes all that lies below in one step.
     let middle = Vec3::new(0.2, 0.0, 0.1);
     let radius = 1.3;
     let lift = Lift { track: Track::at(middle), radius, rate: 120.0, for_s: 1.0 / 120.0 };
@@ -393,7 +389,7 @@ fn a_sponge_takes_the_paint_below_it() {
 
 #[test]
 fn a_push_ends_and_its_volume_returns() {
-    // Pulled to the surface, particles may come to rest at other samples.
+    // If the surface pulls particles, they may come to rest at other samples.
     let motion = MotionSettings { surface_pull: 0.0, ..MotionSettings::default() };
     let settings = WorldSettings { motion, ..*flat().settings() };
     let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
@@ -413,7 +409,6 @@ fn a_push_ends_and_its_volume_returns() {
     assert!(farthest(&world) < 1e-3, "{}", farthest(&world));
 }
 
-/// A flat world with 1 mm3 of paint in the middle that has spread.
 fn spread() -> World {
     let mut world = flat();
     world.pour(Pour::at(Vec3::ZERO, 2.0, 0.5, Recipe::of_slot(0))).unwrap();
@@ -422,7 +417,6 @@ fn spread() -> World {
     world
 }
 
-/// The volumes that are dry, or those that are wet.
 fn with(world: &World, dry: bool) -> Vec<Volume> {
     world.volumes().iter().filter(|volume| volume.dry == dry).cloned().collect()
 }
@@ -435,7 +429,7 @@ fn paint_dries_below_the_dryer_and_flows_on_beside_it() {
     let dried = world.dry_within(place, radius).unwrap();
     let dry = with(&world, true);
     assert_eq!(dry.len(), dried);
-    // Cells of 1 mm: 12 have their middle below, and paint in others may lie near.
+    // The cells are 1 mm wide. 12 have their middle below, and paint in others may lie near.
     assert!((8..=16).contains(&dried), "{dried}");
     for volume in &dry {
         assert!(volume.center.distance(place) < radius + 0.5, "{:?}", volume.center);
@@ -559,7 +553,7 @@ fn particles_and_samples_take_no_more_memory_than_they_may() {
         bytes += size_of_val(volume) + along + size_of_val(&samples[..]);
         particles += samples.len();
     }
-    // Drawn with four shells, each with faces of its own.
+    // We draw with four shells. Each has separate faces.
     let drawn = VolumeSurfaces::of(world.volumes());
     bytes += 4 * (size_of_val(&drawn.vertices[..]) + size_of_val(&drawn.triangles[..]));
     assert!(particles > 500 && bytes <= 400 * particles, "{} a particle", bytes / particles);
@@ -573,8 +567,7 @@ fn particles_and_samples_take_no_more_memory_than_they_may() {
 
 const WISH: &str = "a test";
 
-/// A world in which paint flows along a track, is lifted, pushed and kept in, beside a single
-/// volume and dry ones.
+/// Paint flows along a track, is lifted, pushed and kept in, beside a single volume and dry ones.
 fn busy() -> World {
     let mut world = flat();
     world.keep(KeepIn::Above { point: Vec3::X * -4.0, normal: Vec3::X }).unwrap();
@@ -612,7 +605,7 @@ fn a_world_that_was_saved_goes_on_to_the_same_bytes() {
         run(&mut again, 90);
         assert_eq!(again.volumes(), whole.volumes(), "after {steps} steps");
         assert_eq!(again.tally(), whole.tally());
-        // Births go on with the numbers of before.
+        // Births continue with the numbers of before.
         assert_eq!(again.push(push(), 1.0).unwrap(), whole.push(push(), 1.0).unwrap());
         assert!(is_exact(&again));
     }

@@ -1,10 +1,5 @@
-//! One step of time.
-//!
-//! The graphics device of large worlds.
-//!
-//! Paint that dries.
-//!
-//! Volumes of the grid: paint spills from one to the next, and they grow with their paint.
+//! One step of time. Paint spills from one volume of the grid to the next, and they grow with
+//! their paint. This also has paint that dries, and the graphics device of large worlds.
 
 use glam::Vec3;
 use graphics::compute::Compute;
@@ -19,7 +14,7 @@ use crate::volume::Volume;
 use crate::wetting::{DeviceSpilling, Grid};
 
 impl World {
-    /// Goes on by one step, a 120th of a second: paint flows and is taken up, spills, and the
+    /// Takes one step, a 120th of a second: paint flows, sponges take it up, it spills, and the
     /// volumes move.
     ///
     /// # Errors
@@ -29,13 +24,14 @@ impl World {
         self.step_by(None)
     }
 
-    /// Goes on by one step like [`Self::step`], on a graphics device if the world has more
-    /// particles than [`super::DEVICE_PARTICLES`]. Paint is the same to the quantum, unless a
-    /// volume is split; places of particles agree with those of the processor within 1e-4 radii,
-    /// but for single particles that the surface pulls to another of two equally near samples.
+    /// Takes one step like [`Self::step`]. If the world has more particles than
+    /// [`super::DEVICE_PARTICLES`], a graphics device does it. You get the same paint to the
+    /// quantum, unless you split a volume. Places of particles agree with the processor's within
+    /// 1e-4 radii, except for single particles that the surface pulls to another of two equally
+    /// near samples.
     ///
     /// # Errors
-    /// Those of [`Self::step`], and if the device fails. All paint that has moved until then is in
+    /// As [`Self::step`], and if the device fails. All paint that has moved until then is in
     /// the tally.
     pub fn step_on(&mut self, device: &mut StepDevice) -> Result<(), WorldError> {
         let serving = device.serving(&self.volumes)?;
@@ -61,7 +57,7 @@ impl World {
         Ok(())
     }
 
-    /// The first half of a step: paint flows, is taken up and spills.
+    /// Takes the first half of a step: paint flows, is taken up and spills.
     pub(super) fn move_paint(
         &mut self,
         device: Option<&mut OpenedDevice>,
@@ -71,7 +67,7 @@ impl World {
         if self.settings.cell > 0.0 { self.spill(device) } else { Ok(()) }
     }
 
-    /// Removes volumes that have lost all their paint and shrunk to dots.
+    /// Removes volumes that have lost all their paint and are only dots.
     fn remove_vanished(&mut self) {
         let least = 0.5 * BIRTH * self.scale.cell;
         let count = self.volumes.len();
@@ -85,7 +81,6 @@ impl World {
         }
     }
 
-    /// Finds the wet volume in each cell.
     pub(super) fn index_cells(&mut self) {
         self.of_cell.fill(NONE);
         for (index, volume) in (0..).zip(&self.volumes) {
@@ -96,19 +91,19 @@ impl World {
     }
 }
 
-/// Number of particles above which a world is moved by a device that it is given. Smaller worlds
-/// stay on the processor, with the same bytes on every machine.
+/// If you give a device to a world, it moves the world from this number of particles on. Smaller
+/// worlds stay on the processor, with the same bytes on every machine.
 pub const DEVICE_PARTICLES: usize = 200_000;
 
-/// A graphics device for the steps of large worlds ([`World::step_on`]), with the memory that it
-/// keeps from step to step. One serves any number of worlds.
+/// A graphics device for the steps of large worlds ([`World::step_on`]). It keeps its memory from
+/// step to step. You can use one for any number of worlds.
 #[derive(Debug)]
 pub struct StepDevice {
     above: usize,
     opening: Opening,
 }
 
-/// A device that may have to be opened first.
+/// A device that we may have to open first.
 #[derive(Debug)]
 enum Opening {
     Processor,
@@ -116,7 +111,6 @@ enum Opening {
     Open(Box<OpenedDevice>),
 }
 
-/// The device and its memory.
 #[derive(Debug)]
 pub(super) struct OpenedDevice {
     pub(super) device: Device,
@@ -133,7 +127,7 @@ impl OpenedDevice {
 }
 
 impl StepDevice {
-    /// The device of `compute`; with the processor all worlds are moved there.
+    /// Uses the device of `compute`. If this is the processor, it moves all worlds.
     #[must_use]
     pub fn new(compute: Compute) -> Self {
         let device = compute.into_device();
@@ -142,8 +136,8 @@ impl StepDevice {
         Self { above: DEVICE_PARTICLES, opening }
     }
 
-    /// The adapter of `compute`, which paints meanwhile. It is opened a second time once there is a
-    /// world large enough.
+    /// Uses the adapter of `compute`, which paints meanwhile. We open it a second time once a
+    /// world is large enough.
     #[must_use]
     pub fn beside(compute: &Compute) -> Self {
         let adapter = compute.device().map(|device| device.adapter().clone());
@@ -151,13 +145,13 @@ impl StepDevice {
         Self { above: DEVICE_PARTICLES, opening }
     }
 
-    /// Serves worlds of more than `particles` particles, instead of [`DEVICE_PARTICLES`].
+    /// Serves worlds of more than `particles` particles. Use this to replace [`DEVICE_PARTICLES`].
     #[must_use]
     pub fn above(self, particles: usize) -> Self {
         Self { above: particles, ..self }
     }
 
-    /// Whether it moves this world.
+    /// Whether this device moves the world.
     #[must_use]
     pub fn serves(&self, world: &World) -> bool {
         self.serves_volumes(&world.volumes)
@@ -186,21 +180,21 @@ impl StepDevice {
     }
 }
 
-/// Share of a volume's surface below the dryer from which on the whole volume dries.
+/// A whole volume dries if at least this share of its surface is below the dryer.
 const SHARE: f32 = 0.5;
 
 impl World {
-    /// Dries all paint on the scene: from now on its shape and its amounts are frozen. Wet paint
-    /// poured later lies over it, in volumes of its own.
+    /// Dries all paint on the scene. This freezes its shape and its amounts. If you pour wet paint
+    /// later, it lies over the dry paint, in new volumes.
     pub fn dry(&mut self) {
         self.volumes.iter_mut().for_each(|volume| volume.dry = true);
         self.of_cell.fill(NONE);
         self.settled = false;
     }
 
-    /// Dries the volumes that hold a place, in the unit of the scene, and those with half of the
-    /// surface below their paint within `radius` of it, as [`World::dry`] does. Wet paint beside
-    /// them flows on, also over them. Returns how many dried.
+    /// Dries the volumes that hold a place, in the unit of the scene, as [`World::dry`] does. This
+    /// also dries volumes with half of the surface below their paint within `radius` of the place.
+    /// Wet paint beside them flows on, also over them. Returns how many dried.
     ///
     /// # Errors
     /// If the radius or a coordinate of the place is out of its range.
@@ -225,7 +219,6 @@ impl World {
         Ok(dried)
     }
 
-    /// Whether a dryer at `place` dries a volume.
     fn is_below(&self, index: usize, place: Vec3, radius: f32) -> bool {
         let volume = &self.volumes[index];
         let reach = volume.radius.max(2.0 * self.scale.cell);
@@ -237,14 +230,15 @@ impl World {
     }
 }
 
-/// Share of the giver's radius within which a volume begins: less than its deepest dents, as a rule.
+/// A volume begins within this share of the giver's radius. This is usually less than its deepest
+/// dents.
 const HIDDEN: f32 = 0.7;
 
 /// Level of detail of the volumes of the grid.
 const DETAIL: u8 = 2;
 
 impl World {
-    /// The wet volume in a cell; without one, a new one at `place` in the region.
+    /// The wet volume in a cell. If there is none, begins one at `place` in the region.
     pub(super) fn volume_in(
         &mut self,
         cell: usize,
@@ -265,15 +259,15 @@ impl World {
     }
 
     /// Begins the volume of a cell that paint reaches from a neighbour. It begins inside of the
-    /// giver's volume and moves to where it enters its cell no faster than volumes grow, so that
-    /// paint shows only where it has soaked to.
+    /// giver's volume. Then it moves to where it enters its cell, no faster than volumes grow.
+    /// This way you see paint only where it has soaked to.
     fn soak(&mut self, cell: usize, giver: usize) -> Result<(), WorldError> {
         let Volume { center, radius, region, .. } = self.volumes[self.of_cell[giver] as usize];
         let Grid { cells, reach, .. } = &*self.grid;
         let full = reach.radius(giver, cells.capacities[giver], 0.0);
         let mut entrance = self.grid.entrance(cell, cells.centers[giver]);
         if entrance.distance(cells.centers[giver]) > full {
-            // The giver never comes there: its own surface does.
+            // The giver never gets there, but its own surface does.
             entrance = self.grid.entrance(giver, entrance);
         }
         let begin = center + (entrance - center).clamp_length_max(HIDDEN * radius);
@@ -282,7 +276,7 @@ impl World {
         Ok(())
     }
 
-    /// One step of spilling between all wet volumes of the grid.
+    /// Takes one step of spilling between all wet volumes of the grid.
     pub(super) fn spill(&mut self, device: Option<&mut OpenedDevice>) -> Result<(), WorldError> {
         if self.settled {
             return Ok(());
@@ -309,7 +303,7 @@ impl World {
         }
         reached.sort_unstable();
         reached.dedup();
-        // Near the limit paint stays where it is wet.
+        // Near the limit, paint stays where it is wet.
         let births = self.has_room(reached.len(), DETAIL).is_ok();
         let born = match device {
             None => {
@@ -340,12 +334,14 @@ impl World {
         Ok(())
     }
 
-    /// Gives a volume of the grid its paint, and sends its centre from where it enters towards the
-    /// middle of its cell as the cell fills: a full cell's volume holds all its surface.
+    /// Gives a volume of the grid its paint. As the cell fills, this moves the centre from where
+    /// the volume enters towards the middle of its cell. The volume of a full cell holds all its
+    /// surface.
     pub(super) fn set_paint(&mut self, index: usize, paint: Cell) {
         let Some(cell) = self.volumes[index].cell.map(|cell| cell as usize) else { return };
         let capacity = self.grid.cells.capacities[cell].max(1) as f32;
-        // Squared: a ball that is as wide as its paint then ends where the paint of its cell does.
+        // We take the square. A ball that is as wide as its paint then ends where the paint of its
+        // cell ends.
         let filled = |paint: &Cell| {
             let share = (paint.volume() as f32 / capacity).min(1.0);
             share * share

@@ -1,5 +1,5 @@
-//! Counting in the stencil of a graphics device, against the processor. Without a device the
-//! tests pass, with a note on standard error.
+//! Counting in the stencil of a graphics device, compared with the processor. Without a device
+//! these tests pass, with a note on standard error.
 
 use std::io::Write;
 
@@ -14,8 +14,8 @@ use crate::field::Field;
 use crate::gpu::{BackendChoice, choose};
 use crate::surface::{Fragment, Gates, InsideCounter, Model, PackedMesh, VisibilityBuffer};
 
-/// A device, hardware before software. Appends the name of the adapter (or `none`) to the file
-/// that the environment variable `IMPASTO_GPU_TESTS` names, if it is set.
+/// A device, hardware before software. If you set the environment variable `IMPASTO_GPU_TESTS`,
+/// this appends the name of the adapter (or `none`) to the file with that name.
 fn device() -> Option<Compute> {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);
@@ -74,7 +74,7 @@ impl Scene {
     }
 }
 
-/// Number of values that differ. Panics at one that the other picture does not have within a
+/// Number of values that differ. This panics if the other picture does not have a value within a
 /// pixel.
 fn differing(on_cpu: &Field<i32>, on_gpu: &Field<i32>, what: &str) -> usize {
     let width = on_cpu.width();
@@ -122,7 +122,7 @@ fn the_device_counts_as_the_processor_does() {
 fn nothing_holds_what_is_not_seen_on_the_device() {
     let Some(mut on_gpu) = device() else { return };
     let mut surfaces = Surfaces::default();
-    // The far sides of these are beyond what depths tell apart.
+    // The depths do not resolve the far sides of these.
     for radius in [1.0, 100.0, 1e7] {
         surfaces.add_ball(Vec3::new(0.1, 0.0, 0.0), radius);
     }
@@ -258,14 +258,13 @@ fn without_depth_the_device_sums_a_whole_surface_to_nothing() {
     }
     let camera = camera(Vec3::new(1.5, 0.7, 1.9), Vec3::new(0.2, 0.1, 0.0));
     let weights: Vec<i32> = (1..=20).map(|i| i * i).collect();
-    // Seen on the near plane, so that no face is before it.
+    // We see it on the near plane, so that no face is before it.
     let seen = Fragment { triangle: 0, second: 0.0, third: 0.0, depth: 0.0 };
     let seen = VisibilityBuffer::filled(203, 121, seen);
     let visible: Image<Fragment> = on_gpu.upload(&seen).unwrap();
     let weighed = (surfaces.closed(), &weights[..]);
     let sums = InsideCounter::default().weighed(&mut on_gpu, &visible, &camera, weighed).unwrap();
     assert!(on_gpu.download(&sums).unwrap().values().iter().all(|&sum| sum == 0));
-    // The stencil, without depth: the wall is nearer than everything.
     let near_wall = wall(1.0, 0.5, 1);
     let mut scene = Scene { mesh: near_wall, surfaces, camera, size: (203, 121) };
     scene.camera = super::scene::camera(Vec3::new(0.0, 0.0, 1.06), Vec3::ZERO);

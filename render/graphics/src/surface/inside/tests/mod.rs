@@ -16,7 +16,6 @@ use crate::surface::{
 };
 use scene::{Found, Scene, Surfaces, camera, mesh_of, random_scene, wall};
 
-/// A wall 3 in front of an eye at the origin.
 fn before_wall(surfaces: Surfaces) -> Scene {
     let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
     Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) }
@@ -33,7 +32,7 @@ fn the_eye_may_stand_in_nested_surfaces() {
     let random = &mut ChaCha8Rng::seed_from_u64(5);
     for nested in [0, 1, 2, 5] {
         let mut surfaces = Surfaces::default();
-        // The nested ones end before the wall or reach through it in turn.
+        // Every second nested surface ends before the wall, the others reach through it.
         for i in 0..nested {
             let radius = if i % 2 == 0 { 4.5 } else { 0.5 };
             surfaces.add_bumpy(Vec3::ZERO, radius * (1.0 + 0.1 * i as f32), random);
@@ -83,8 +82,7 @@ fn three_hundred_surfaces_count_three_hundred() {
     }
 }
 
-/// A picture in which every pixel shows something on the near plane, so that no face is hidden
-/// from the count.
+/// Every pixel shows something on the near plane. This hides no face from the count.
 fn without_depth((width, height): (usize, usize)) -> VisibilityBuffer {
     let seen = Fragment { triangle: 0, second: 0.0, third: 0.0, depth: 0.0 };
     VisibilityBuffer::filled(width, height, seen)
@@ -110,8 +108,8 @@ fn a_surface_wholly_before_the_camera_sums_to_nothing() {
 
 #[test]
 fn the_skin_itself_counts_from_the_side_of_the_eye() {
-    // Faces with the corners of the wall have its depth, bit for bit. The box behind the wall
-    // begins on it and does not hold it. The box before the wall ends on it and does.
+    // Faces with the corners of the wall have its depth, bit for bit. One box begins on the wall
+    // and lies behind it, so it does not hold the wall. The other ends on the wall and holds it.
     let mut scene = before_wall(Surfaces::default());
     scene.mesh = wall(-3.0, 1.0, 1);
     scene.surfaces.add_box(Vec3::new(-1.0, -1.0, -4.0), Vec3::new(1.0, 1.0, -3.0));
@@ -144,7 +142,6 @@ fn counts_do_not_depend_on_the_tessellation_of_the_scene() {
     assert!(differ * 2000 <= few.values().len(), "{differ}");
 }
 
-/// Any weight of a surface at a pixel, of either sign.
 fn weight(surface: u32, pixel: usize) -> i32 {
     (surface.wrapping_mul(2_654_435_761) ^ (pixel as u32).wrapping_mul(40_503)) as i32 >> 12
 }
@@ -227,7 +224,7 @@ impl CrossingSum for Length {
 fn every_crossing_gives_the_length_inside_a_ball() {
     let mut surfaces = Surfaces::default();
     surfaces.add_ball(Vec3::new(0.0, 0.0, -3.0), 1.0);
-    // Around the eye: its entry is before the near plane, which stands for 0.
+    // This ball is around the eye. Its entry is before the near plane, so the length starts at 0.
     surfaces.add_ball(Vec3::ZERO, 0.5);
     let nothing = mesh_of(&[]);
     let camera = camera(Vec3::ZERO, Vec3::NEG_Z);

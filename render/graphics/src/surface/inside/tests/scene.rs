@@ -1,6 +1,6 @@
-//! Scenes of closed surfaces, some of them random, and the oracle that their counts are compared
-//! with: winding numbers in f64, without points that lie too near an outline or a skin for
-//! rasterised faces to decide.
+//! Scenes of closed surfaces, some of them random. We compare their counts with an oracle: winding
+//! numbers in f64. This leaves out points too near an outline or a skin for rasterised faces to
+//! decide.
 
 use std::f32::consts::{PI, TAU};
 
@@ -16,7 +16,6 @@ use crate::surface::{
     ClosedSurfaces, Count, Crossings, Fragment, NO_TRIANGLE, VisibilityBuffer, visible,
 };
 
-/// A picture of a scene with closed surfaces.
 pub(crate) struct Scene {
     pub(crate) mesh: Mesh,
     pub(crate) surfaces: Surfaces,
@@ -24,17 +23,13 @@ pub(crate) struct Scene {
     pub(crate) size: (usize, usize),
 }
 
-/// Findings of a comparison.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Found {
-    /// Pixels that show the scene.
     pub(super) samples: usize,
-    /// The greatest count of the oracle.
     pub(super) most: i32,
-    /// Samples with another count than the oracle's.
     pub(super) differ: usize,
-    /// The points that are farther than half a pixel from every outline and than a thousandth of
-    /// the radius from every skin.
+    /// Of these, points farther than half a pixel from every outline and than a thousandth of the
+    /// radius from every skin.
     pub(super) wrong: usize,
 }
 
@@ -56,7 +51,6 @@ impl Scene {
         View { eye, right, up, forward: -back, near, focal_px: middle.y / half, middle }
     }
 
-    /// The place that a pixel shows, in f64.
     fn place(&self, seen: Fragment) -> DVec3 {
         let corners = self.mesh.triangles[seen.triangle as usize].corners;
         let [a, b, c] = corners.map(|at| Vec3::from(self.mesh.positions[at as usize]).as_dvec3());
@@ -103,7 +97,6 @@ impl Found {
     }
 }
 
-/// Mesh of loose triangles, for pictures alone.
 pub(crate) fn mesh_of(triangles: &[[Vec3; 3]]) -> Mesh {
     let positions: Vec<_> = triangles.iter().flatten().map(Vec3::to_array).collect();
     let corners = (0..positions.len() as u32).step_by(3).map(|i| [i, i + 1, i + 2]);
@@ -111,7 +104,6 @@ pub(crate) fn mesh_of(triangles: &[[Vec3; 3]]) -> Mesh {
     Mesh { positions, triangles, ..Mesh::default() }
 }
 
-/// The square wall z = `z` from -`half` to `half`, of `2 * cells * cells` triangles.
 pub(crate) fn wall(z: f32, half: f32, cells: usize) -> Mesh {
     fn at(i: usize, cells: usize, half: f32) -> f32 {
         half * (2.0 * i as f32 / cells as f32 - 1.0)
@@ -127,12 +119,10 @@ pub(crate) fn wall(z: f32, half: f32, cells: usize) -> Mesh {
     mesh_of(&triangles.collect::<Vec<_>>())
 }
 
-/// A camera at `eye` that looks at `target`.
 pub(crate) fn camera(eye: Vec3, target: Vec3) -> Camera {
     Camera { eye, target, up: Vec3::Y, field_of_view_deg: 50.0, near: 0.05, far: 20.0 }
 }
 
-/// Closed surfaces in one list, as counting takes them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Surfaces {
     pub(crate) vertices: Vec<[f32; 3]>,
@@ -140,12 +130,11 @@ pub(crate) struct Surfaces {
     pub(crate) count: u32,
 }
 
-/// Corners from pole to pole, and around.
 const RINGS: u32 = 10;
 const AROUND: u32 = 14;
 
 impl Surfaces {
-    /// Adds a closed surface around `center`: the directions of a sphere, each as far as
+    /// Adds a closed surface around `center`. In each direction of a sphere, it is as far away as
     /// `radius` says.
     pub(crate) fn add_star(&mut self, center: Vec3, radius: impl Fn(Vec3) -> f32) {
         let first = self.vertices.len() as u32;
@@ -184,7 +173,6 @@ impl Surfaces {
         self.count += 1;
     }
 
-    /// Adds a sphere of triangles.
     pub(crate) fn add_ball(&mut self, center: Vec3, radius: f32) {
         self.add_star(center, |_| radius);
     }
@@ -201,7 +189,6 @@ impl Surfaces {
         });
     }
 
-    /// Adds the box between two corners.
     pub(crate) fn add_box(&mut self, low: Vec3, high: Vec3) {
         let first = self.vertices.len() as u32;
         for corner in 0..8 {
@@ -224,15 +211,14 @@ impl Surfaces {
         ClosedSurfaces { vertices: &self.vertices, triangles: &self.triangles }
     }
 
-    /// The triangles of one surface.
     pub(crate) fn faces(&self, surface: u32) -> impl Iterator<Item = [Vec3; 3]> + '_ {
         let own = self.triangles.iter().filter(move |one| one.material == surface);
         own.map(|one| one.corners.map(|corner| self.vertices[corner as usize].into()))
     }
 }
 
-/// The number of times that closed faces wind around `point`: their solid angles over 4 pi
-/// (van Oosterom, Strackee 1983, eq. 8).
+/// How often closed faces wind around `point`. This sums their solid angles over 4 pi (van
+/// Oosterom, Strackee 1983, eq. 8).
 pub(super) fn winding_number(point: DVec3, faces: &[[DVec3; 3]]) -> f64 {
     let angles = faces.iter().map(|face| {
         let [a, b, c] = face.map(|corner| corner - point);
@@ -244,7 +230,6 @@ pub(super) fn winding_number(point: DVec3, faces: &[[DVec3; 3]]) -> f64 {
     angles.sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
 
-/// A closed surface of the oracle.
 pub(super) struct Solid {
     faces: Vec<[DVec3; 3]>,
     low: DVec3,
@@ -260,14 +245,12 @@ impl Solid {
         Self { faces, low, high }
     }
 
-    /// Whether it holds `point`.
     pub(super) fn holds(&self, point: DVec3) -> bool {
-        // Outside of the bounding box nothing winds around a point.
+        // Nothing winds around a point outside of the bounding box.
         let inside = point.cmpge(self.low).all() && point.cmple(self.high).all();
         inside && winding_number(point, &self.faces) > 0.5
     }
 
-    /// Whether `point` is within `share` of the radius from the skin.
     pub(super) fn has_skin_at(&self, point: DVec3, share: f64) -> bool {
         let near = share * (self.high - self.low).max_element() / 2.0;
         let box_distance = (self.low - point).max(point - self.high).max_element();
@@ -275,11 +258,10 @@ impl Solid {
             && self.faces.iter().any(|&face| distance_to_triangle(point, face) <= near)
     }
 
-    /// Whether the outline seen from `eye` passes within `near` pixels of `at`. `project` takes a
-    /// point before the near plane, whose distance along `forward` is given, to pixels.
+    /// Whether the outline seen from `eye` passes within `near` pixels of `at`.
     pub(super) fn has_outline_at(&self, at: DVec2, near: f64, view: &View) -> bool {
-        let faces_eye = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(view.eye - a) > 0.0;
-        let fronts = self.faces.iter().filter(|&&face| faces_eye(face));
+        let fronts =
+            self.faces.iter().filter(|[a, b, c]| (*b - *a).cross(*c - *a).dot(view.eye - *a) > 0.0);
         // An edge is of the outline if only one of its two faces faces the eye.
         let mut edges: Vec<[[u64; 3]; 2]> = Vec::new();
         fn bits(corner: DVec3) -> [u64; 3] {
@@ -298,7 +280,6 @@ impl Solid {
     }
 }
 
-/// A camera in f64.
 pub(super) struct View {
     pub(super) eye: DVec3,
     pub(super) right: DVec3,

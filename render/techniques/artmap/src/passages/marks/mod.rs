@@ -1,6 +1,6 @@
-//! Marks: lines and rectangles by which a painter says where the samples of a picture are.
+//! Marks: lines and rectangles by which you say where the samples of a picture are.
 //!
-//! They are written in a TOML file:
+//! You write them in a TOML file:
 //!
 //! ```toml
 //! painting = "orchard.png"
@@ -15,9 +15,9 @@
 //! rectangle = [20, 300, 120, 90]
 //! ```
 //!
-//! Places are pixels from the upper left corner of the picture, which may be fractions. `spacing`
-//! holds two points one stroke apart. A picture of coloured lines over the painting does as well
-//! ([`Marks::from_overlay`]).
+//! Places are pixels from the upper left corner of the picture. You can use fractions. `spacing`
+//! holds two points one stroke apart. You can also draw coloured lines in a picture over the
+//! painting ([`Marks::from_overlay`]).
 mod text;
 
 use documents::file::FileError;
@@ -30,9 +30,9 @@ pub(super) use text::DrawnArea;
 /// The marks on one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Marks {
-    /// Name of the file of the marks, for messages.
+    /// Name of the file of the marks. Messages show this.
     pub file: String,
-    /// File of the picture that they were drawn on, where it was given.
+    /// File of the picture that you drew them on, if you gave it.
     pub painting: Option<String>,
     /// The samples, at least one.
     pub samples: Vec<Mark>,
@@ -41,20 +41,20 @@ pub struct Marks {
 /// The mark of one sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Name of the sample, different from all others.
+    /// Name of the sample. It must differ from all others.
     pub name: String,
     /// Place of the sample.
     pub area: MarkedArea,
-    /// Two points one stroke apart, in pixels, `None` if their distance is to be estimated.
+    /// Two points one stroke apart, in pixels. If this is `None`, we estimate the distance.
     pub spacing: Option<[[f64; 2]; 2]>,
 }
 
 /// Place of a sample in the picture, in pixels from its upper left corner.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MarkedArea {
-    /// A line of points over regions of the sample, which is grown from there.
+    /// A line of points over regions of the sample. The sample grows from there.
     Scribble(Vec<[f64; 2]>),
-    /// Columns and rows of the pixels of a line, which are used like a scribble.
+    /// Columns and rows of the pixels of a line. This works like a scribble.
     Pixels(Vec<[u32; 2]>),
     /// Exactly these pixels.
     Rectangle {
@@ -70,7 +70,7 @@ pub enum MarkedArea {
 }
 
 impl Marks {
-    /// Marks of one sample: all of a picture of `width` x `height` pixels.
+    /// One sample: all of a picture of `width` x `height` pixels.
     #[must_use]
     pub fn of_whole(name: &str, (width, height): (usize, usize)) -> Self {
         let [width, height] = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));

@@ -1,5 +1,5 @@
-//! Marks read from a TOML file or from a picture of coloured lines over the painting, and the
-//! pixels under each line.
+//! Reads marks from a TOML file or from a picture of coloured lines over the painting. Also finds
+//! the pixels under each line.
 
 use std::path::Path;
 
@@ -12,11 +12,10 @@ use spectra::color::Rgb;
 
 use super::{Mark, MarkFault, MarkedArea, Marks, MarksError};
 
-/// The way out where the parser knows none.
+/// The hint for a fault that the parser has no hint for.
 const KEYS: &str =
     "keys are painting, and in each sample name, spacing, and scribble, rectangle or pixels";
 
-/// The whole file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FileOfMarks {
@@ -50,7 +49,7 @@ impl Marks {
         Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
-    /// Parses the text of a file of marks. Errors call the file `file`.
+    /// Parses the text of a file of marks. `file` stands for the path in errors.
     ///
     /// # Errors
     /// [`MarksError`] with line, sample and key.
@@ -74,7 +73,7 @@ impl Marks {
         Ok(Self { file: file.to_owned(), painting: whole.painting, samples })
     }
 
-    /// Text of a file of these marks.
+    /// These marks as the text of a TOML file.
     ///
     /// # Panics
     /// Never: all marks can be written.
@@ -163,13 +162,14 @@ fn rectangle(numbers: [f64; 4]) -> Result<MarkedArea, MarkFault> {
     Ok(MarkedArea::Rectangle { x, y, width, height })
 }
 
-/// Largest number of lines: more colours come from soft brushes or from the painting itself.
+/// We allow this many lines. If there are more colours, they come from soft brushes or from the
+/// painting itself.
 const MOST_COLORS: usize = 64;
 
 impl Marks {
-    /// Reads a PNG of coloured lines on a transparent ground, as large as the painting. Each opaque
-    /// colour is the scribble of one sample, named like `#c9a227`. Pixels that are not quite opaque
-    /// (soft edges of a line) are left out.
+    /// Reads a PNG of coloured lines on a transparent ground, as large as the painting. Each
+    /// opaque colour is the scribble of one sample, named like `#c9a227`. This leaves out pixels
+    /// that are not quite opaque, e.g. soft edges of a line.
     ///
     /// # Errors
     /// [`MarksError`] if the file cannot be read, has another size, or holds no lines or more than
@@ -184,7 +184,7 @@ impl Marks {
         Self::from_lines(&file, &photograph.with_opacity(width, height))
     }
 
-    /// Marks of the lines in a picture of encoded sRGB with opacity, like [`Marks::from_overlay`].
+    /// Takes the lines from a picture of encoded sRGB with opacity, like [`Marks::from_overlay`].
     ///
     /// # Errors
     /// [`MarksError`] if there are no lines or more than 64 colours.
@@ -220,18 +220,16 @@ impl Marks {
     }
 }
 
-/// The pixels of a mark, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum DrawnArea {
-    /// Pixels of a line from which the sample is grown.
+    /// Pixels of a line. The sample grows from there.
     Line(Vec<u32>),
-    /// All pixels of the sample.
     Whole(Vec<u32>),
 }
 
 impl Marks {
-    /// Checks that all marks lie on a picture of `width` x `height` pixels, and that no lines of two
-    /// samples cross. No samples at all are no fault.
+    /// Checks that all marks lie on a picture of `width` x `height` pixels, and that no lines of
+    /// two samples cross. You may pass marks without any sample.
     ///
     /// # Errors
     /// [`MarksError`] with sample and place.
@@ -255,7 +253,7 @@ impl Marks {
         Ok(areas.collect())
     }
 
-    /// The pixels of each line, `None` for rectangles, which only have to lie on the picture.
+    /// The pixels of each line. `None` for rectangles, which only have to lie on the picture.
     fn lines(&self, width: usize, height: usize) -> Result<Vec<Option<Vec<u32>>>, MarksError> {
         let fault = |mark: &Mark, key: &'static str, fault: MarkFault| MarksError::Sample {
             file: self.file.clone(),
@@ -263,7 +261,7 @@ impl Marks {
             key,
             fault,
         };
-        // Pixels of the lines so far and the numbers of their samples, by pixel.
+        // Pixels of the lines so far with the numbers of their samples.
         let mut owners: Vec<(u32, usize)> = Vec::new();
         let mut lines = Vec::new();
         for (number, mark) in self.samples.iter().enumerate() {
@@ -288,9 +286,10 @@ impl Marks {
     }
 }
 
-/// Whether a place lies on the picture.
 fn inside(x: f64, y: f64, width: usize, height: usize) -> Result<(), MarkFault> {
-    let within = |place: f64, size: usize| (0.0..size as f64).contains(&place);
+    fn within(place: f64, size: usize) -> bool {
+        (0.0..size as f64).contains(&place)
+    }
     if within(x, width) && within(y, height) {
         return Ok(());
     }
@@ -298,7 +297,7 @@ fn inside(x: f64, y: f64, width: usize, height: usize) -> Result<(), MarkFault> 
 }
 
 impl MarkedArea {
-    /// The pixels of a line, in order and each once, `None` for a rectangle.
+    /// The pixels of a line, in order and each once. `None` for a rectangle.
     fn line(&self, width: usize, height: usize) -> Result<Option<Vec<u32>>, MarkFault> {
         let mut pixels = Vec::new();
         let index = |x: usize, y: usize| (y * width + x) as u32;
@@ -329,7 +328,7 @@ impl MarkedArea {
         Ok(Some(pixels))
     }
 
-    /// The pixels of a rectangle on a picture of this width, none of other areas.
+    /// The pixels of a rectangle on a picture of this width. Other areas give none.
     fn rectangle_pixels(&self, width: usize) -> Vec<u32> {
         let &Self::Rectangle { x, y, width: across, height: down } = self else {
             return Vec::new();
@@ -340,14 +339,13 @@ impl MarkedArea {
     }
 }
 
-/// Calls `at` for the pixels of a line, each in the same row or column as the one before, so that
-/// lines that cross share a pixel.
+/// Calls `at` for the pixels of a line. Each is in the same row or column as the one before. This
+/// way two lines that cross share a pixel.
 fn line([x, y]: [f64; 2], [to_x, to_y]: [f64; 2], mut at: impl FnMut(usize, usize)) {
     let steps = (to_x - x).abs().max((to_y - y).abs()).ceil().max(1.0);
     let mut row = y as usize;
     for step in 0..=steps as usize {
         let share = step as f64 / steps;
-        // Both ends lie on the picture, so all places between them do.
         let place = [x + share * (to_x - x), y + share * (to_y - y)].map(|place| place as usize);
         at(place[0], row);
         row = place[1];
@@ -381,7 +379,9 @@ mod tests {
 
     #[test]
     fn faults_name_file_line_sample_and_key() {
-        let sample = |rest: &str| format!("[[sample]]\nname = \"a\"\n{rest}\n");
+        fn sample(rest: &str) -> String {
+            format!("[[sample]]\nname = \"a\"\n{rest}\n")
+        }
         let cases = [
             (
                 TEXT.replace("spacing", "spaceing"),
@@ -464,7 +464,9 @@ mod tests {
     }
 
     fn marks(areas: Vec<MarkedArea>) -> Marks {
-        let name = |number: usize| ["one", "two", "three"][number].to_owned();
+        fn name(number: usize) -> String {
+            ["one", "two", "three"][number].to_owned()
+        }
         let samples = areas.into_iter().enumerate();
         let samples =
             samples.map(|(number, area)| Mark { name: name(number), area, spacing: None });
@@ -491,7 +493,9 @@ mod tests {
 
     #[test]
     fn faults_name_file_sample_and_place() {
-        let line = |from, to| MarkedArea::Scribble(vec![from, to]);
+        fn line(from: [f64; 2], to: [f64; 2]) -> MarkedArea {
+            MarkedArea::Scribble(vec![from, to])
+        }
         let rectangle = MarkedArea::Rectangle { x: 5, y: 0, width: u32::MAX, height: 1 };
         let cases = [
             (

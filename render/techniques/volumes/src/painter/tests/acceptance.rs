@@ -1,6 +1,6 @@
 //! Pictures of whole worlds: order, threads, the cut into triangles, full grids, other worlds.
-//!
-//! Every setting does something: to the volumes of a world, to a picture, or to a film.
+//! Also checks that every setting does something: to the volumes of a world, to a picture, or to a
+//! film.
 
 use super::*;
 use crate::script::Script;
@@ -79,8 +79,7 @@ fn a_full_grid_colours_all_that_is_seen() {
                 let painted = scene.painted(&world);
                 let pixels = painted.values().iter().zip(plain.values()).zip(seen.values());
                 let shown = pixels.filter(|(_, seen)| seen.triangle != NO_TRIANGLE);
-                let wrong = |found: [f32; 4], plain: [f32; 4]| found[..3] != plain[..3];
-                shown.filter(|((found, plain), _)| wrong(**found, **plain)).count()
+                shown.filter(|((found, plain), _)| found[..3] != plain[..3]).count()
             };
             let found = [bare(-1.0), bare(-0.2)];
             assert_eq!(found, [0, 0], "{} from {azimuth_deg}", shape.name());
@@ -88,8 +87,8 @@ fn a_full_grid_colours_all_that_is_seen() {
     }
 }
 
-/// Pixels whose masks differ, of those inside of a volume and all, on a plane of two triangles and
-/// one of 20,000.
+/// Counts the pixels with different masks, the ones inside of a volume, and all, on a plane of two
+/// triangles and one of 20,000.
 fn differing(act: impl Fn(&mut World)) -> [usize; 3] {
     let scenes = [1, 100].map(|squares| {
         let mesh = sheet(squares, |u, v| [12.0 * u - 6.0, 0.0, 12.0 * v - 6.0]);
@@ -119,7 +118,7 @@ fn masks_do_not_depend_on_the_cut_into_triangles() {
         }
     });
     assert!(inside > 20_000 && differ * 2000 <= all, "{differ} of {inside}");
-    // Where paint is poured the radii are those of other samples of the surface.
+    // Where you pour paint the radii come from other samples of the surface.
     let [differ, inside, all] = differing(|world| {
         let pour = Pour::at(Vec3::new(0.5, 0.0, 0.5), 0.8, 1.0, Recipe::of_slot(0));
         world.pour(pour).unwrap();
@@ -152,7 +151,7 @@ fn films_of_single_volumes_lie_on_all_that_they_hold() {
     scene.settings.unit_mm = 1.0;
     scene.styles[0].inside = settings::Inside::Glaze;
     let mut painter = scene.painter().with_pigments(pigments()).unwrap();
-    // More of the upper plate than of the lower one, which alone is seen.
+    // We pour more on the upper plate than on the lower one, and see only the lower one.
     let mut below = |recipe: Option<Recipe>| {
         let mut world = scene.world();
         let own = Single { recipe, ..single(Vec3::new(0.0, 0.3, 0.0), 2.0, 0) };
@@ -212,7 +211,7 @@ fn where_a_device_knows_no_gates_the_processor_counts() {
 
 #[test]
 fn a_scene_turned_inside_out_is_painted_alike() {
-    let inside_out = |faces: bool, normals: bool| {
+    fn inside_out(faces: bool, normals: bool) -> usize {
         let mut scene = Scene::still_life();
         let mesh = &mut scene.mesh;
         if faces {
@@ -225,7 +224,7 @@ fn a_scene_turned_inside_out_is_painted_alike() {
         let world = scene.poured();
         let mask = scene.painter().shown(&world, &scene.camera, SIZE, Show::Mask).unwrap();
         mask.values().iter().filter(|mask| mask[0] > 0.5).count()
-    };
+    }
     let own = inside_out(false, false);
     assert!(own > 300, "{own}");
     for (faces, normals) in [(true, true), (true, false), (false, true)] {
@@ -234,7 +233,7 @@ fn a_scene_turned_inside_out_is_painted_alike() {
     }
 }
 
-/// Settings of forces and cells, each other than usual.
+/// Settings of forces and cells. Each differs from the default.
 const OF_WORLDS: [&str; 18] = [
     "unit_mm = 50.0",
     "seed = 2",
@@ -280,7 +279,7 @@ const OF_PICTURES: [&str; 18] = [
 
 const OF_SAMPLES: [&str; 2] = ["picture.samples = 2", "picture.paper = \"#102030\""];
 
-/// Settings of the regions that a script does not describe itself.
+/// Settings of the regions that a script does not describe.
 const OF_REGIONS: [&str; 4] = [
     "drawing.shells = [1.0, 0.5]",
     "drawing.tint = [0.0, 0.1, 0.2, 0.9, 1.0]",
