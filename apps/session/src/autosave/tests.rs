@@ -20,7 +20,7 @@ fn files(text: &str) -> Vec<(&'static str, Content)> {
     vec![(CANVAS, text()), (PALETTE, text()), (META, meta)]
 }
 
-/// Text of the only lost session, `None` without one. Asserts that its files agree.
+/// Text of the only lost session, if there is one. Asserts that its files agree.
 fn found(sessions: &Path) -> Option<String> {
     let mut all = LostSession::all(sessions).unwrap();
     assert!(all.len() <= 1, "{all:?}");
@@ -174,7 +174,7 @@ fn dry(count: usize) -> Vec<Action> {
     (1..=count).map(|index| Action::Dry { fraction: index as f64 / 100.0 }).collect()
 }
 
-/// A painting whose recording goes on from action `from` with `count` actions.
+/// A painting with a recording of `count` actions from action `from` on.
 fn painting(from: usize, count: usize) -> KeptPainting {
     let canvas = Arc::new(document());
     let palette = Arc::new(document());

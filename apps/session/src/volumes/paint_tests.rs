@@ -1,6 +1,5 @@
-//! Pigments of scenes: libraries, tubes, lights, and what is saved of them.
-//!
-//! Scenes by hand against their scripts played.
+//! Tests of scenes: libraries, tubes, lights and what is saved of them, and gestures compared with
+//! their scripts.
 
 use std::path::{Path, PathBuf};
 
@@ -137,7 +136,7 @@ fn a_script_is_saved_with_its_library_beside_it() {
     let failure = recording.save(&file("u.toml")).unwrap_err();
     assert!(failure.what.contains("mine.json") && failure.hint.is_some(), "{failure:?}");
     assert!(!file("u.toml").exists() && read(&file("mine.json")) == b"another");
-    // Beside the library nothing is copied.
+    // Nothing but the library is copied.
     recording.save(&folder.path().join("v.toml")).unwrap();
     assert_eq!(read(&folder.path().join("v.toml")), read(&file("s.toml")));
 }
@@ -156,7 +155,7 @@ fn pen(x: f32, y: f32) -> ScenePen {
     ScenePen { at: [x, y], pressure: 1.0 }
 }
 
-/// Holds a tool down for 30 steps along a line, and goes on for 20 more.
+/// Holds a tool down for 30 steps along a line, and continues for 20 more.
 fn gesture(scene: &mut Scene, grip: Grip, from: [f32; 2], to: [f32; 2]) {
     let sight = sight(scene);
     assert!(scene.pen_down(&sight, grip, pen(from[0], from[1])).unwrap(), "there is a surface");
@@ -185,7 +184,7 @@ fn picture(scene: &mut Scene) -> Vec<[u8; 4]> {
     scene.pixels(&sight, Quality { fine: false, share: 1.0, waits: true }).unwrap()
 }
 
-/// The volumes that the saved script of a scene leads to at its present moment.
+/// The volumes that you get when you play the saved script to the present moment.
 fn played(scene: &Scene, camera: Option<Camera>) -> Vec<Volume> {
     let recording = scene.recording(camera).unwrap();
     let script = Script::from_text("recording", &recording.text).unwrap();
@@ -258,7 +257,7 @@ fn an_event_that_is_taken_back_leaves_what_there_was_without_it() {
     let wanted = picture(&mut scene);
     scene.go_to(50).unwrap();
     settle(&mut scene);
-    // Between events that are there already.
+    // This comes between events that exist already.
     gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
     assert_eq!((scene.moment(), scene.end()), (100, 100));
     let with_both = picture(&mut scene);
