@@ -1,7 +1,6 @@
-//! Synthetic watercolours on white paper: ladders of every paint and mixtures of every pair.
-//!
-//! K and S are invented, not measured. The hard set adds the deviations of real washes from
-//! Kubelka-Munk theory: errors of amount, uneven films, a surface and noise.
+//! Synthetic watercolours on white paper: ladders of every paint and mixtures of every pair. Their
+//! K and S are invented. The hard set deviates from Kubelka-Munk theory as real washes do: by
+//! errors of amount, uneven films, a surface and noise.
 
 use calibrate::Curves;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
@@ -12,8 +11,8 @@ use rand_distr::{Distribution, StandardNormal};
 use spectra::Grid;
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
-/// Name; K per mL as a constant plus Gaussian bands (height, centre in nm, standard deviation in
-/// nm); S per mL at 550 nm.
+/// Name, then K per mL as a constant plus Gaussian bands (height, centre in nm, standard deviation
+/// in nm), then S per mL at 550 nm.
 type Paint = (&'static str, f64, &'static [(f64, f64, f64)], f64);
 
 /// Thirteen paints, from transparent (S of 1.5 per mL) to opaque (S of 55 per mL).
@@ -49,7 +48,7 @@ impl Watercolors {
         Self::made(even, &mut |amount| amount, &mut || 0.0)
     }
 
-    /// Readings with errors: log-normal errors of the measured-out amount (5 %) and of the amount
+    /// Readings with errors: log-normal errors of the amount in the pipette (5 %) and of the amount
     /// that stays on the paper (12 %), films of unevenness 0.5, a surface that the file does not
     /// state, and normal noise of 0.003 in the reflectance.
     #[must_use]
@@ -63,7 +62,7 @@ impl Watercolors {
             film,
             &mut |amount| {
                 let pipette = (0.05 * normal(&mut amounts)).exp();
-                // The film gets a smaller share of a larger amount: power 0.85, unchanged at 0.04
+                // The paper keeps a smaller share of a larger amount: power 0.85, unchanged at 0.04
                 // mL.
                 let kept: f64 = amount * pipette * (0.12 * normal(&mut amounts)).exp();
                 (kept / 0.04).powf(0.85) * 0.04

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Heights of paint or ground in mm, row by row; row 0 is the upper edge of the canvas.
+/// Heights of paint or ground in mm, row by row from the upper edge of the canvas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heights {
     cell_mm: f64,
@@ -21,8 +21,8 @@ impl Heights {
         Self { cell_mm, columns, mm }
     }
 
-    /// Heights in mm of a surface `width_mm` x `height_mm`, told by their place: `height` gets
-    /// the centre of a cell in mm from the left and the upper edge.
+    /// Heights in mm of a surface `width_mm` x `height_mm`. You pass `height`, which gets the
+    /// centre of a cell in mm from the left and the upper edge.
     #[must_use]
     pub fn from_places(
         cell_mm: f64,
@@ -86,7 +86,7 @@ impl Heights {
         start..(end as usize).clamp(start, count)
     }
 
-    /// Rows between two distances in mm from the upper edge, as heights of their own.
+    /// Cuts out the rows between two distances in mm from the upper edge.
     #[must_use]
     pub fn band(&self, mm: Range<f64>) -> Self {
         let rows = self.rows_in(mm);
@@ -117,7 +117,7 @@ impl Heights {
         cells.map(|(x, y)| self.at(x, y)).collect()
     }
 
-    /// Height in mm of the highest cell; 0 without paint.
+    /// Height in mm of the highest cell. Without paint this is 0.
     #[must_use]
     pub fn highest_mm(&self) -> f64 {
         self.mm.iter().fold(0.0, |highest: f64, &mm| highest.max(mm))

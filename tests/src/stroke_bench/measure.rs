@@ -1,14 +1,7 @@
-//! Pure measures of heights in mm.
-//!
-//! The outline of a mark: how far its edges deviate from straight lines.
-//!
-//! The surface of a patch: saw-tooth, pits, evenness and colour.
-//!
-//! Waves in a profile: filters and spectra over wavelengths in mm.
-//!
-//! Series of numbers: means, deviations, trends and correlations.
-//!
-//! The mark of a stroke that runs along x: its width, its film, its lips and its ends.
+//! Pure measures of heights in mm: how far the edges of a mark deviate from straight lines, how
+//! even a surface is (saw-tooth, pits, colour), which waves a profile has, and where the mark of a
+//! stroke along x begins and ends, how wide and thick it is and which lips it has. Also means,
+//! trends and correlations of series.
 
 use std::f64::consts::{LN_2, PI, TAU};
 use std::ops::Range;
@@ -17,11 +10,11 @@ use spectra::color::{Lab, delta_e_ciede2000};
 
 use super::heights::Heights;
 
-/// Root of the mean squared distance in mm of the upper and of the lower edge of a mark from the
-/// straight line nearest to each, over `columns`. The edge of a column is where the height, going
-/// inwards, first reaches half of the film, between the centres of cells. The film of a column is
-/// the mean over the middle 60 % of its width, smoothed over 5 mm along the mark.
-/// `None` where a column has no paint.
+/// How far the upper and the lower edge of a mark deviate from straight lines, in mm, over
+/// `columns`: root of the mean squared distance from the nearest line. Going inwards, the edge of a
+/// column is where the height first reaches half of the film, between the centres of cells. The
+/// film of a column is the mean over the middle 60 % of its width, smoothed over 5 mm along the
+/// mark. Returns `None` if a column has no paint.
 #[must_use]
 pub fn edge_deviations_mm(heights: &Heights, columns: Range<usize>) -> Option<[f64; 2]> {
     let cell_mm = heights.cell_mm();
@@ -47,8 +40,8 @@ pub fn edge_deviations_mm(heights: &Heights, columns: Range<usize>) -> Option<[f
     ])
 }
 
-/// Root of the mean squared distance of `places`, told every `step`, from the nearest straight
-/// line; perpendicular to that line.
+/// Root of the mean squared distance of `places` from the nearest straight line, perpendicular to
+/// the line. There is a place every `step`.
 #[must_use]
 pub fn line_deviation(places: &[f64], step: f64) -> f64 {
     let along: Vec<f64> = (0..places.len()).map(|index| index as f64 * step).collect();
@@ -62,7 +55,7 @@ pub fn line_deviation(places: &[f64], step: f64) -> f64 {
 }
 
 /// Root of the mean squared second difference between neighbouring cells along x and along y, in
-/// mm: 4 a for a chequerboard of amplitude a, 0 for a plane.
+/// mm. A chequerboard of amplitude a gives 4 a, for example, and a plane gives 0.
 #[must_use]
 pub fn second_differences_mm(
     heights: &Heights,
@@ -112,9 +105,9 @@ pub fn color_spread(colors: &[Lab]) -> f64 {
     mean(&colors.iter().map(|&lab| delta_e_ciede2000(center, lab)).collect::<Vec<_>>())
 }
 
-/// Profile without waves shorter than `cut_mm`: the Gaussian filter of surface texture (ISO
-/// 16610-21:2011, equation 1), which passes half of a wave of that length. Near the ends the
-/// weights inside are normalised. `step_mm` is the distance of two values.
+/// Profile without waves shorter than `cut_mm`. This is the Gaussian filter of surface texture (ISO
+/// 16610-21:2011, equation 1), which passes half of a wave of that length. Near the ends it
+/// normalises the weights inside. `step_mm` is the distance of two values.
 #[must_use]
 pub fn smoothed(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
     let width = (LN_2 / PI).sqrt() * cut_mm;
@@ -157,9 +150,9 @@ fn power(profile: &[f64], step_mm: f64, per_mm: f64) -> f64 {
     (real * real + imaginary * imaginary) / (count * count)
 }
 
-/// Wavelength in mm at the peak of the mean power spectrum of several profiles of one length,
-/// each without its parabola. Searched from two cells to the length of a profile over 1.5, in
-/// steps of a quarter of a wave over the length. Not a number without profiles or relief.
+/// Wavelength in mm at the peak of the mean power spectrum of several profiles of one length. First
+/// subtracts the parabola of each. Searches from two cells to 1 / 1.5 of the length, in steps of a
+/// quarter of a wave over the length. Returns NaN without profiles or relief.
 #[must_use]
 pub fn peak_wavelength_mm(profiles: &[Vec<f64>], step_mm: f64) -> f64 {
     let length_mm = profiles.first().map_or(0.0, |profile| profile.len() as f64 * step_mm);
@@ -177,13 +170,13 @@ pub fn peak_wavelength_mm(profiles: &[Vec<f64>], step_mm: f64) -> f64 {
     best.1
 }
 
-/// Mean; not a number for an empty series.
+/// Mean. An empty series gives NaN.
 #[must_use]
 pub fn mean(series: &[f64]) -> f64 {
     series.iter().sum::<f64>() / series.len() as f64
 }
 
-/// Root of the mean square; not a number for an empty series.
+/// Root of the mean square. An empty series gives NaN.
 #[must_use]
 pub fn rms(series: &[f64]) -> f64 {
     (series.iter().map(|value| value * value).sum::<f64>() / series.len() as f64).sqrt()
@@ -210,13 +203,13 @@ pub fn ends(series: &[f64]) -> (f64, f64) {
     series.iter().fold(start, |(low, high), &value| (low.min(value), high.max(value)))
 }
 
-/// Smallest ratio of a value to the one before it: above 1 where all values rise.
+/// Smallest ratio of a value to the one before it. This is above 1 if all values rise.
 #[must_use]
 pub fn least_rise(series: &[f64]) -> f64 {
     series.windows(2).map(|pair| pair[1] / pair[0]).fold(f64::INFINITY, f64::min)
 }
 
-/// Share `quantile` (0 to 1) of the values lies below; not a number for an empty series.
+/// The value with the share `quantile` (0 to 1) of the values below it. An empty series gives NaN.
 #[must_use]
 pub fn quantile(series: &[f64], quantile: f64) -> f64 {
     let mut sorted = series.to_vec();
@@ -225,8 +218,8 @@ pub fn quantile(series: &[f64], quantile: f64) -> f64 {
     sorted.get(place.min(sorted.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
 }
 
-/// Polynomial of degree `N - 1` nearest to `values` at `places` (least squares), as its values
-/// there.
+/// Polynomial of degree `N - 1` nearest to `values` at `places` (least squares). Returns its values
+/// at these places.
 #[must_use]
 pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
     let middle = mean(places);
@@ -234,7 +227,7 @@ pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
     let powers = |x: f64| -> [f64; N] {
         std::array::from_fn(|power| ((x - middle) / reach).powi(power as i32))
     };
-    // Normal equations, solved by elimination; the powers are of the order of 1.
+    // Solves the normal equations by elimination. The powers are of the order of 1.
     let mut rows = vec![vec![0.0; N + 1]; N];
     for (&x, &value) in places.iter().zip(values) {
         let powers = powers(x);
@@ -269,7 +262,7 @@ pub fn without_parabola(series: &[f64]) -> Vec<f64> {
     series.iter().zip(trend).map(|(value, trend)| value - trend).collect()
 }
 
-/// Pearson's correlation of two series of one length; 0 if one is constant.
+/// Pearson's correlation of two series of one length. If one is constant, this is 0.
 #[must_use]
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean_a = mean(a);
@@ -281,8 +274,8 @@ pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     if power > 0.0 { covariance / power.sqrt() } else { 0.0 }
 }
 
-/// Slope of the line that fits `b` best as a function of `a`: the share of a relief `a` that
-/// shows in `b`.
+/// Slope of the best line for `b` as a function of `a`: the share of a relief `a` that you see in
+/// `b`.
 #[must_use]
 pub fn slope(a: &[f64], b: &[f64]) -> f64 {
     let mean_a = mean(a);
@@ -292,8 +285,8 @@ pub fn slope(a: &[f64], b: &[f64]) -> f64 {
     if variance > 0.0 { covariance / variance } else { 0.0 }
 }
 
-/// Autocorrelation at `lags` (in values), averaged over several series: the sum of products over
-/// that of squares, each per value. The series have no trend.
+/// Autocorrelation at `lags` (in values), averaged over several series: the mean product divided by
+/// the mean square. The series must have no trend.
 #[must_use]
 pub fn autocorrelation(all: &[Vec<f64>], lags: Range<usize>) -> Vec<f64> {
     let product = |lag: usize| {
@@ -370,7 +363,7 @@ fn extent_at_mm(profile: &[f64], step_mm: f64, share: f64) -> Option<(f64, f64)>
 }
 
 impl Mark {
-    /// The only mark in `heights`. `None` without paint, or with less than 20 mm of it.
+    /// The only mark in `heights`. Returns `None` if there is less than 20 mm of paint.
     #[must_use]
     pub fn along_x(heights: &Heights) -> Option<Self> {
         Self::within(heights, 0.0..heights.columns() as f64 * heights.cell_mm())
@@ -412,8 +405,8 @@ impl Mark {
         mean(&heights.part(columns, self.middle.clone()))
     }
 
-    /// Highest place of the mean profile across near the upper and near the lower edge, over
-    /// the film.
+    /// Highest place of the mean profile across, near the upper and near the lower edge, relative
+    /// to the film.
     #[must_use]
     pub fn side_lips(&self, heights: &Heights) -> [f64; 2] {
         let profile = heights.across(self.steady.clone());
@@ -425,8 +418,8 @@ impl Mark {
         [highest(top - LIP_MM, top + LIP_MM), highest(bottom - LIP_MM, bottom + LIP_MM)]
     }
 
-    /// Highest place of the mean profile along the last `LIP_MM` mm before the mark's end, over
-    /// the film from 15 to 5 mm before it.
+    /// Highest place of the mean profile along the last `LIP_MM` mm before the mark's end, relative
+    /// to the film from 15 to 5 mm before it.
     #[must_use]
     pub fn end_lip(&self, heights: &Heights) -> f64 {
         let profile = heights.along(self.middle.clone());
@@ -436,8 +429,8 @@ impl Mark {
         last.iter().fold(0.0, |a: f64, &b| a.max(b)) / film
     }
 
-    /// Places in mm along x where the mean film begins and ends: where it crosses half of the
-    /// film of the first and of the last 10 mm of the steady part.
+    /// Places in mm along x where the mean film begins and ends: where it crosses half of the film
+    /// of the first and of the last 10 mm of the steady part.
     #[must_use]
     pub fn ends_mm(&self, heights: &Heights) -> Option<(f64, f64)> {
         let profile = heights.along(self.middle.clone());
@@ -586,7 +579,7 @@ mod tests {
     use crate::golden::assert_near;
     use std::f64::consts::TAU;
 
-    /// A mark 6 mm wide whose upper edge lies at `edge(x)`; cells hold their covered share.
+    /// A mark 6 mm wide with its upper edge at `edge(x)`. Cells hold their covered share.
     fn mark(edge: impl Fn(f64) -> f64) -> Heights {
         Heights::from_places(0.1, (40.0, 30.0), |x, y| {
             let share = |inside: f64| (inside / 0.1 + 0.5).clamp(0.0, 1.0);
@@ -608,7 +601,7 @@ mod tests {
         let heights = mark(|x| 10.0 + 0.3 * (x / 5.0 * TAU).sin());
         let found = edge_deviations_mm(&heights, 0..400).unwrap();
         assert_near("wave", &found, &[0.3 * 0.5f64.sqrt(); 2], 0.01);
-        // Whole cells only: the error is even over a cell, with a deviation of 1 / sqrt 12.
+        // With whole cells, the error is even over a cell, with a deviation of 1 / sqrt 12.
         let slope = 10f64.to_radians().tan();
         let stairs = mark(|x| ((10.0 + slope * x) / 0.1).round() * 0.1);
         let [upper, _] = edge_deviations_mm(&stairs, 0..400).unwrap();

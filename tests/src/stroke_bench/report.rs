@@ -1,13 +1,12 @@
-//! The table of figures as text and as JSON.
-//!
-//! Results of a case: figures with the bounds that are wanted, pictures and curves.
+//! Results of a case: figures with the bounds that are wanted, pictures and curves. Writes the
+//! table of figures as text and as JSON.
 
 use std::fmt::Write;
 
 use image::RgbImage;
 use serde_json::{Value, json};
 
-/// A number with four significant digits, or `-` if it is none.
+/// A number with four significant digits, or `-` if it is not finite.
 #[must_use]
 pub fn number(value: f64) -> String {
     if !value.is_finite() {
@@ -18,7 +17,7 @@ pub fn number(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Bounds of a figure in words; empty without bounds.
+/// Bounds of a figure in words. They are empty without bounds.
 #[must_use]
 pub fn bounds(wanted: Wanted) -> String {
     let plain = |value: f64| format!("{}", (value * 1e6).round() / 1e6);
@@ -40,7 +39,7 @@ pub fn verdict(figure: &Figure) -> &'static str {
     }
 }
 
-/// All figures as lines of text, and how many of those with bounds are met.
+/// All figures as lines of text, and how many of them meet their bounds.
 #[must_use]
 pub fn table(reports: &[CaseReport]) -> String {
     let mut text = String::new();
@@ -93,7 +92,7 @@ pub fn json(cell_mm: f64, small: bool, reports: &[CaseReport]) -> Value {
     })
 }
 
-/// Bounds that a figure is wanted in, both inclusive.
+/// Wanted bounds of a figure, both inclusive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wanted {
     /// Lowest wanted value.
@@ -107,11 +106,11 @@ pub struct Wanted {
 pub struct Figure {
     /// Name, unique within its case.
     pub name: String,
-    /// Value; not a number where there was nothing to measure.
+    /// Value, or NaN if there was nothing to measure.
     pub value: f64,
     /// Unit, empty for a ratio.
     pub unit: &'static str,
-    /// Bounds; none for a figure that is told for information.
+    /// Bounds. A figure that is only for information has none.
     pub wanted: Wanted,
 }
 
@@ -122,22 +121,22 @@ impl Figure {
         Self { name: name.into(), value, unit, wanted: Wanted::default() }
     }
 
-    /// A figure wanted at `low` or above.
+    /// Sets the lower bound.
     #[must_use]
     pub fn at_least(mut self, low: f64) -> Self {
         self.wanted.low = Some(low);
         self
     }
 
-    /// A figure wanted at `high` or below.
+    /// Sets the upper bound.
     #[must_use]
     pub fn at_most(mut self, high: f64) -> Self {
         self.wanted.high = Some(high);
         self
     }
 
-    /// Whether the value lies within its bounds; `None` without bounds. A value that is not a
-    /// number lies within none.
+    /// Whether the value is within its bounds, or `None` without bounds. NaN is never within
+    /// bounds.
     #[must_use]
     pub fn is_met(&self) -> Option<bool> {
         let Wanted { low, high } = self.wanted;
@@ -166,7 +165,7 @@ pub struct Panel {
     pub caption: String,
     /// Width and height of the part in mm.
     pub size_mm: (f64, f64),
-    /// Magnification on the sheet; 1 for whole strokes.
+    /// Magnification on the sheet. Whole strokes have 1.
     pub zoom: f64,
     /// Pictures from above, one pixel a cell.
     pub pictures: Vec<RgbImage>,
@@ -175,7 +174,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// The panel with its pictures `zoom` times as large as those of whole strokes.
+    /// The panel with its pictures enlarged by `zoom`.
     #[must_use]
     pub fn zoomed(self, zoom: f64) -> Self {
         Self { zoom, ..self }

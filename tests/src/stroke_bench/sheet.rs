@@ -1,5 +1,5 @@
-//! The picture sheet: each case's strokes from above under two lights, sections through the paint,
-//! and its figures beside them.
+//! The picture sheet: the strokes of each case from above under two lights, sections through the
+//! paint, and the figures beside them.
 
 use std::fmt::Write;
 
@@ -11,15 +11,14 @@ use reports::svg::{escaped, opening};
 
 use super::report::{CaseReport, Curve, Panel, bounds, number, verdict};
 
-/// Width of the sheet in units; the PNG has two pixels a unit.
+/// Width of the sheet in units. The PNG has two pixels per unit.
 const WIDTH: f64 = 1180.0;
 const SCALE: f64 = 2.0;
-/// Units per mm of canvas where nothing is magnified: six pixels of the PNG.
+/// Units per mm of canvas if nothing is magnified: six pixels of the PNG.
 const PER_MM: f64 = 3.0;
 const MARGIN: f64 = 14.0;
 const GAP: f64 = 16.0;
 const HEADER: f64 = 34.0;
-/// Left edge of the figures.
 const FIGURES: f64 = 800.0;
 const LINE: f64 = 12.5;
 const TEXT: f64 = 9.5;
@@ -42,7 +41,7 @@ impl Panel {
     }
 }
 
-/// Upper left corners of the panels, which flow in lines, and the lower end of the last line.
+/// Upper left corners of the panels, arranged in lines, and the lower end of the last line.
 fn places(panels: &[Panel]) -> (Vec<(f64, f64)>, f64) {
     let mut x = MARGIN;
     let mut y = HEADER;
@@ -172,7 +171,7 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
         let pixels = |mm: f64| (SCALE * panel.per_mm() * mm).round() as u32;
         let width = pixels(panel.size_mm.0);
         let height = pixels(panel.size_mm.1);
-        // Single cells stay squares where they are larger than a pixel.
+        // If a cell is larger than a pixel, it should stay a square.
         let larger = width > 2 * picture.width();
         let filter = if larger { FilterType::Nearest } else { FilterType::Triangle };
         let scaled = resize(picture, width, height, filter);

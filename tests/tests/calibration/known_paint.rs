@@ -1,9 +1,6 @@
-//! Fits of synthetic mixtures whose K and S are known.
-//!
-//! Calibration with absolute amounts on one backing: ladders and mixtures of synthetic
-//! watercolours.
-//!
-//! Swatches from the rows of a measurement file: scale, grid, repeated readings, backings, faults.
+//! Fits of synthetic mixtures with known K and S, calibration with absolute amounts on one backing
+//! (from ladders and mixtures of synthetic watercolours), and swatches read from the rows of a
+//! measurement file.
 
 use std::sync::Mutex;
 
@@ -182,13 +179,14 @@ fn pigments_always_mixed_alike_lower_the_rank() {
         condition(&problem, &made.curves).rank
     };
     assert_eq!(rank(&made.observations), 21);
-    // The mixtures determine only the sums of the two K and of the two S: two unknowns fewer.
+    // The mixtures determine only the sum of the two K and of the two S, so there are two unknowns
+    // fewer.
     assert_eq!(rank(&tied), 19);
 }
 
 #[test]
 fn a_fit_is_the_same_to_the_bit_on_any_number_of_threads_and_tells_its_stages() {
-    // Wide enough that panels of the factor are shared out to threads.
+    // This is wide enough that the solver shares out panels of the factor to threads.
     let grid = spectra::Grid::from_nm(400.0, 20.0, 16).unwrap();
     let made = SyntheticMixtures::of_size(7, 0.002, grid, 30, 120);
     let weights = Viewing::default().weights(grid).unwrap();
@@ -234,7 +232,7 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
         for at in 0..library.grid.count() {
             let found = pigment.absorption[at];
             let truth = made.absorption[index][at];
-            // K below 1 per mL, about a hundredth of the peaks, hardly changes these films.
+            // K below 1 per mL is about a hundredth of the peaks and hardly changes these films.
             if truth > 1.0 {
                 assert!(
                     (found / truth).ln().abs() < 0.05,
@@ -248,8 +246,8 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
 
 #[test]
 fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
-    // The deviations are as large as reported for real watercolour: an even film without a surface
-    // predicts these mixtures with a mean error of about 2.2.
+    // The deviations are as large as reported for real watercolour. If you assume an even film
+    // without a surface, the mean error of these mixtures is about 2.2.
     let set = Watercolors::hard(1).swatches();
     let problem = films(&set).unwrap();
     let film = chosen_film(&problem, Surface::NONE, Watch::default()).unwrap();
@@ -334,7 +332,7 @@ fn few_films_are_fitted_without_holding_any_back() {
 fn thin_films_that_tell_little_of_scattering_are_told() {
     let set = Watercolors::hard(2).swatches();
     let white = set.pigments.iter().position(|p| p == "chinese white").unwrap();
-    // Keeps chinese white only in its thinnest wash, which on white paper shows only noise.
+    // Keeps chinese white only in its thinnest wash, where white paper shows nothing but noise.
     let kept = |s: &calibrate::swatch::Swatch| {
         let alone = s.amounts.iter().filter(|a| **a > 0.0).count() == 1;
         alone && (s.amounts[white] == 0.0 || s.amounts[white] < 0.015)

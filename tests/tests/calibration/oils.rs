@@ -1,8 +1,6 @@
-//! Error limits of fits to the Van Gogh oils, in CIEDE2000 under D65 for the CIE 1931 observer.
-//!
-//! Quadrature rules of few wavelengths: colour errors on mixtures of the oils, weights and nodes.
-//!
-//! Long work that is asked to end: it ends where it stands, with an error that says so.
+//! Fits to the Van Gogh oils: error limits in CIEDE2000 under D65 for the CIE 1931 observer,
+//! quadrature rules with their colour errors on mixtures of the oils, and long work that is asked
+//! to end.
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 
@@ -28,8 +26,8 @@ use suite::watercolors::Watercolors;
 
 #[test]
 fn the_published_program_is_as_far_off_as_it_is_known_to_be() {
-    // Mean error 12.1 over all 84 samples, including the two of pigments whose K and S this program
-    // does not determine.
+    // The mean error is 12.1 over all 84 samples. Two of them are of pigments with undetermined K
+    // and S.
     let mean = fitted(Method::Qp, Surface::NONE).library.evidence.unwrap().delta_e.mean;
     assert!((11.8..12.3).contains(&mean), "{mean}");
 }
@@ -60,7 +58,7 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
         folds: None,
         watch: Watch::default(),
     };
-    // The four mixtures with both white and black are not left out: their errors are small and
+    // We do not leave out the four mixtures with both white and black: their errors are small and
     // would lower the mean.
     let found = leave_out(&set, white, SURFACE, &plan, |o| {
         (o.shares[white.index()] > 0.0) != (o.shares[black] > 0.0)
@@ -69,7 +67,7 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
     assert_eq!(found.per_sample.len(), 52);
     let error = found.delta_e;
     assert!(error.mean < 2.8 && error.p90 < 6.0 && error.max < 9.0, "{error:?}");
-    // What carries the error: over a third of it is strength, most of the mixtures are with white.
+    // Over a third of the error is strength, and most of the mixtures are with white.
     let free = found.strength_free.unwrap();
     assert!(free.mean < 0.65 * error.mean && free.mean > 0.3 * error.mean, "{free:?} {error:?}");
     let part = |name: &str| found.by_pigment.iter().find(|p| p.pigment == name).unwrap();
@@ -220,8 +218,8 @@ fn fitting_beats_moments_and_moments_beat_the_papers_weights() {
         let moments = mean(Quadrature::moments(&viewing, 8).unwrap());
         let fitted = mean(Quadrature::library(&viewing, &library, 8).unwrap());
         assert!(fitted < moments && fitted < gauss, "{light}: {fitted} {moments} {gauss}");
-        // FL11 has emission lines, so its weight function is not smooth; there the weights of the
-        // paper may have the smaller error.
+        // The emission lines of FL11 make its weight function rough, so the paper's weights may be
+        // better.
         assert!(light == "FL11" || moments < gauss, "{light}: {moments} {gauss}");
     }
 }
@@ -297,7 +295,8 @@ fn names_are_found_exactly_then_without_case_then_by_their_start() {
     assert_eq!(library.find("red l"), Ok(PigmentId(lake)));
 }
 
-/// The stages that `work` tells, if it is asked to end at the first that `last` selects, and its error.
+/// Asks `work` to end at the first stage for which `last` is true. Returns its stages and its
+/// error.
 fn until<T>(
     last: impl Fn(&FitStage) -> bool + Sync,
     work: impl FnOnce(Watch<'_>) -> Result<T, FittingError>,

@@ -1,10 +1,6 @@
-//! Properties of colours, lights and spectra that hold for any values.
-//!
-//! Properties of colour differences, CIELAB, chromatic adaptation, display RGB and metamerism.
-//!
-//! Inputs of spectra, grids, lamps and lights: which are refused, and with which error.
-//!
-//! Properties of the weighted sums that give XYZ from a spectrum.
+//! Properties of colours, lights and spectra for any values: colour differences, CIELAB, chromatic
+//! adaptation, display RGB, metamerism, refused inputs with their errors, and the weighted sums
+//! that give XYZ.
 
 use documents::hint::Explain;
 use rand::{RngExt, SeedableRng};
@@ -22,10 +18,10 @@ use spectra::{
 };
 use suite::golden::assert_near;
 
-/// Tolerance: a few rounding errors of numbers of size 100, the range of XYZ and Lab.
+/// A few rounding errors of numbers of size 100, the range of XYZ and Lab.
 const ROUNDING: f64 = 1600.0 * f64::EPSILON;
 
-/// Random pairs of colours, each with its seed.
+/// Pairs of colours, each with its seed.
 fn random_pairs() -> impl Iterator<Item = (u64, Lab, Lab)> {
     (0..2000).map(|seed| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -38,7 +34,7 @@ fn random_pairs() -> impl Iterator<Item = (u64, Lab, Lab)> {
     })
 }
 
-/// XYZ of the whites of D65, A and F11, which differ strongly.
+/// XYZ of the whites of D65, A and F11. They differ strongly.
 const WHITES: [[f64; 3]; 3] =
     [[95.04, 100.0, 108.88], [109.85, 100.0, 35.58], [100.96, 100.0, 64.37]];
 
@@ -281,7 +277,7 @@ fn outside_the_band_is_refused_or_held() {
         let refused = spectrum.at(nm, linear, Extrapolation::Refuse);
         assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "at {nm}: {refused:?}");
     }
-    // NaN is nearer to neither end, so no end value can be held.
+    // NaN is not nearer to either end, so we cannot hold an end value.
     assert!(samples.at_linear(f64::NAN, Extrapolation::Hold).is_err(), "held at NaN");
     assert!(spectrum.at(f64::NAN, linear, Extrapolation::Hold).is_err(), "held at NaN");
 }
@@ -366,8 +362,8 @@ fn grids() -> [Grid; 4] {
         .map(|(start, step, count)| Grid::from_nm(start, step, count).unwrap())
 }
 
-/// Weights of every tabulated illuminant and of a black body and a daylight of 5600 K, for every
-/// observer (each on another grid), with both interpolations.
+/// Weights of every tabulated illuminant, and of a black body and a daylight of 5600 K. For every
+/// observer, each on a different grid, with both interpolations.
 fn weights() -> impl Iterator<Item = (String, TristimulusWeights)> {
     let by_temperature = [black_body(5600.0).unwrap(), daylight(5600.0).unwrap()];
     let lights = Illuminant::names().map(|name| Illuminant::named(name).unwrap());

@@ -1,12 +1,7 @@
-//! Errors of the program: exit status 2 if it cannot run, 1 if it refuses the data.
-//!
-//! Exit status: the same fault has the same status in every verb, as docs/guide/command-line.md says.
-//!
-//! `impasto fit` on files with one fault each: exit status 1, an error with place and reason, and
-//! no output file.
-//!
-//! Files that could be read as something else than they are: each is told, none gives a wrong
-//! result in silence.
+//! Errors of the program: exit status 2 if it cannot run, 1 if it refuses the data, and the same
+//! for the same fault in every verb, as docs/guide/command-line.md says. `impasto fit` refuses
+//! files with one fault each, with place and reason and without an output file. Files that could be
+//! taken for something else are reported, and none gives a wrong result silently.
 
 use suite::program::{Run, impasto, repository};
 
@@ -158,7 +153,7 @@ fn an_input_is_never_written_over() {
     let file = folder.path().join("oils.csv");
     std::fs::copy(oils(), &file).unwrap();
     let before = std::fs::read(&file).unwrap();
-    // Another path of the input file.
+    // This is another path of the input file.
     let round_about = folder.path().join("./oils.csv");
     let run = impasto(&["fit", file.to_str().unwrap(), "--output", round_about.to_str().unwrap()]);
     assert_eq!(run.status, 2, "{}", run.err);
@@ -243,7 +238,7 @@ fn samples_fitted_exactly_are_no_proof_and_this_is_said() {
     assert!(run.err.contains("would not be identified (c)"), "{}", run.err);
 }
 
-/// Runs the commands, which all have one fault, and asserts one status and a message with `words`.
+/// Runs commands that all have the same fault, and asserts one status and a message with `words`.
 fn all(status: u8, words: &[&str], commands: &[&[&str]]) {
     for arguments in commands {
         let run = impasto(arguments);
@@ -412,7 +407,7 @@ fn messages_hold_no_types_long_numbers_or_temporary_paths() {
     }
 }
 
-/// A small valid file; each test changes it to make one fault.
+/// A small valid file. Each test makes one fault in it.
 const SOUND: &str = "\
 sample,film,backing,White,Red,400,410,420
 a,paint,card,100,,90,91,92
@@ -421,8 +416,7 @@ c,paint,card,50,50,20,22,70
 d,paint,card,90,10,40,42,80
 ";
 
-/// Runs `fit` on a file of these bytes. Asserts that only a successful run leaves a file, the
-/// library.
+/// Runs `fit` on a file of these bytes. Asserts that only a successful run leaves a library.
 fn fit(bytes: &[u8]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.csv");
@@ -634,7 +628,7 @@ fn a_reading_below_a_k1_that_was_asked_for() {
     assert!(floored.out.contains("b (1)"), "the reading is named: {}", floored.out);
 }
 
-/// Runs impasto with `content` in a file, whose path replaces `FILE` among `arguments`.
+/// Writes `content` to a file and runs impasto with its path in place of `FILE`.
 fn run(name: &str, content: &[u8], arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -644,7 +638,7 @@ fn run(name: &str, content: &[u8], arguments: &[&str]) -> Run {
     impasto(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// Asserts that the run failed for its input, with all of `words` in the error.
+/// Asserts that the run refused its input, with all of `words` in the error.
 fn refused_by_name(run: &Run, words: &[&str]) {
     assert_eq!(run.status, 1, "{}{}", run.out, run.err);
     for word in words {

@@ -1,8 +1,5 @@
-//! `impasto match`: targets, prices, limits, lights and films on the command line.
-//!
-//! `impasto correct`: batches, recipes and stock on the command line.
-//!
-//! `impasto match --by spectrum`: the table, its figures, and the case for which it is made.
+//! `impasto match` (targets, prices, limits, lights and films), `impasto correct` (batches, recipes and
+//! stock), and `impasto match --by spectrum` with its table and the case that it is made for.
 
 use serde_json::Value;
 use suite::program::{impasto, repository};
@@ -115,7 +112,7 @@ fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
     assert!(told[0]["nearest"].as_f64().unwrap() > 5.0);
     let run = impasto(&["match", &library(), "#ff00ff"]);
     assert!(run.out.contains("out of reach"), "{}", run.out);
-    // In CIEDE2000 the colour nearest to this magenta is a grey; in CIE 1976 it is chromatic.
+    // In CIEDE2000 the nearest colour to this magenta is a grey. In CIE 1976 it is chromatic.
     let lab = &told[0]["by_cie1976"][0]["lab"]["D65"];
     assert!(lab[1].as_f64().unwrap() > 30.0, "{lab}");
     assert!(matched(&["#7a6a50"])[0]["by_cie1976"].as_array().unwrap().is_empty());
@@ -186,7 +183,7 @@ fn what_cannot_be_is_refused_with_a_way_out() {
     }
 }
 
-/// Pigment names and shares of the first recipe for the first target.
+/// Pigments and shares of the first recipe for the first target.
 fn first(told: &Value) -> Vec<(String, f64)> {
     let pigments = told[0]["recipes"][0]["pigments"].as_array().unwrap().iter();
     pigments
@@ -362,8 +359,8 @@ fn amounts_at_their_measured_limit_are_told() {
     assert!(amounts(&["--json", "--beyond-measured"]).iter().any(|amount| *amount < 0.2));
 }
 
-/// A file with spectra of a standard and of a batch with less blue than was meant, both of zinc white and
-/// cobalt blue.
+/// A file with two spectra of zinc white and cobalt blue: a standard, and a batch with too little
+/// blue.
 fn spectra(folder: &tempfile::TempDir) -> String {
     let library = repository("measurements/van-gogh-oils.pigments.json");
     let mixed = |blue: &str| {
@@ -403,7 +400,7 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let json = impasto(&[&all[..], &["--json", "--at-most", "1"]].concat()).json();
     let first = &json["corrections"][0];
     assert_eq!(first["additions"][0]["name"], "Cobalt Blue");
-    // 12 parts to 88 instead of 8 are 23 g more; less is within the tolerance.
+    // 12 parts to 88 instead of 8 are 23 g more. Less is within the tolerance.
     let grams = first["grams"].as_f64().unwrap();
     assert!((10.0..23.0).contains(&grams), "{grams}");
     assert!(first["delta_e"]["D65"].as_f64().unwrap() <= 0.5, "{first}");
@@ -447,7 +444,7 @@ fn run(arguments: &[&str]) -> suite::program::Run {
     impasto(&[&["match", library.as_str()], arguments].concat())
 }
 
-/// A measured yellow, whose paint is in the library with others that make the same colour.
+/// A measured yellow. The library has its paint and others that make the same colour.
 fn sample() -> String {
     repository("measurements/van-gogh-oils.csv") + "#14B"
 }
@@ -470,7 +467,7 @@ fn a_recipe_by_spectrum_is_less_metameric_than_one_by_colour() {
     let index = |recipe: &Value, at: usize| recipe["metamerism"][at]["index"].as_f64().unwrap();
     let rms = |recipe: &Value| recipe["rms_percent"].as_f64().unwrap();
     let under = |recipe: &Value, light: &str| recipe["delta_e"][light].as_f64().unwrap();
-    // By colour the recipe is exact under daylight and far off under lamps.
+    // The recipe by colour is exact under daylight and far off under lamps.
     assert!(under(&color, "D65") < 0.01 && index(&color, 0) > 1.0 && index(&color, 1) > 3.0);
     assert!(index(&spectrum, 0) < 0.2 && index(&spectrum, 1) < 0.6, "{spectrum}");
     assert!(under(&spectrum, "D65") < 0.7 && under(&spectrum, "FL11") < 0.7, "{spectrum}");
@@ -500,7 +497,7 @@ fn the_table_says_what_is_matched_and_under_which_lights_it_is_told() {
     for column in ["distance", "rms_percent", "delta_e_FL11", "metamerism_D65 to A"] {
         assert!(heading.split(',').any(|one| one == column), "{heading}");
     }
-    // A colour has no spectrum to compare.
+    // You cannot compare the spectrum of a colour.
     let colour = run(&["#4a7d8c", "--count", "1"]);
     assert!(colour.out.contains("(CIEDE2000)") && !colour.out.contains("rms"), "{}", colour.out);
     let refused = run(&["#4a7d8c", "--by", "spectrum"]);

@@ -1,8 +1,4 @@
-//! The command `impasto painterly`.
-//!
-//! Models in the brushwork of a map.
-//!
-//! Photographs in the brushwork of a map.
+//! The command `impasto painterly`: models and photographs in the brushwork of a map.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -11,9 +7,9 @@ use image::{Rgb, RgbImage};
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
-/// A folder with the map `m.exr` of three tones painted in small dabs, its samples `s.exr` and `style.toml`.
+/// A folder with the map `m.exr` of three tones painted in small dabs, its samples `s.exr` and its
+/// `style.toml`. It is painted once for all tests.
 pub(super) fn folder() -> TempDir {
-    // Painted once for all tests.
     static FILES: OnceLock<[(&str, Vec<u8>); 3]> = OnceLock::new();
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in FILES.get_or_init(painted) {
@@ -22,7 +18,6 @@ pub(super) fn folder() -> TempDir {
     folder
 }
 
-/// Paints the samples and builds the map.
 fn painted() -> [(&'static str, Vec<u8>); 3] {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| path(&folder, name);
@@ -59,7 +54,7 @@ fn done(arguments: &[&str]) -> Run {
     run
 }
 
-/// Mean of the channels of the pixels of a picture in a rectangle.
+/// Mean of the channels over a rectangle of a picture.
 fn mean(picture: &str, [x, y, width, height]: [u32; 4]) -> f64 {
     let picture = image::open(picture).unwrap().to_rgb8();
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
@@ -106,7 +101,7 @@ fn a_painting_with_the_pigments_of_the_map_is_relit_like_any_other() {
     let lit = pixels(&lit);
     let raking = pixels(&raking);
     assert_eq!(lit.dimensions(), (120, 90));
-    // The light from the right changes the strokes, not only their brightness.
+    // The light from the right changes the strokes in more than their brightness.
     let ratio = |x: u32| f64::from(raking[(x, 45)].0[1]) / f64::from(lit[(x, 45)].0[1]);
     let ratios: Vec<f64> = (45..75).map(ratio).collect();
     let range = ratios.iter().fold([f64::MAX, 0.0_f64], |[a, b], &r| [a.min(r), b.max(r)]);
@@ -215,7 +210,7 @@ fn frames_for_compositing_hold_cover_depth_height_and_direction() {
     assert_eq!(channel("A")[middle], 1.0);
     assert!(channel("R")[middle] > 0.02 && channel("height")[middle] > 0.0);
     let depth = channel("Z");
-    // The ball has radius 1: its outline is farther away than its middle by less than that.
+    // The ball has radius 1. Its outline is farther away than its middle, but by less than that.
     let edge = (0..64).filter(|x| depth[24 * 64 + x].is_finite()).min().unwrap();
     let behind = depth[24 * 64 + edge] - depth[middle];
     assert!(depth[0] == f32::INFINITY && depth[middle] > 1.0, "{}", depth[middle]);
@@ -235,7 +230,7 @@ fn colours_of_a_model_are_painted_with_pigments_of_their_own() {
     let exports = ["--output", &painting, "--picture", &picture, "--pigment-maps", &maps];
     done(&[&model[..], &exports, &["--set", "colour.from=model"]].concat());
     let read = image::open(&picture).unwrap().to_rgb8();
-    // The knot is blue, the pigments of the map are not.
+    // The knot is blue, but the pigments of the map are not.
     let blue = read.pixels().filter(|pixel| pixel.0[2] > pixel.0[0].saturating_add(15)).count();
     assert!(blue > 500, "{blue} blue pixels");
     let names = std::fs::read_dir(&maps).unwrap().map(|entry| entry.unwrap().file_name());
@@ -266,7 +261,7 @@ fn guides_turn_the_strokes_of_a_model() {
     assert!(run.status == 1 && run.err.contains("g.toml"), "{}", run.err);
 }
 
-/// Writes a picture of 60 x 40 px of a colour for each pixel.
+/// Writes a picture of 60 x 40 px.
 fn write(path: &str, color: impl Fn(u32, u32) -> [u8; 3]) {
     RgbImage::from_fn(60, 40, |x, y| Rgb(color(x, y))).save(path).unwrap();
 }

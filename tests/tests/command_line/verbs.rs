@@ -1,8 +1,5 @@
-//! JSON output of the verbs: its keys, and values with known results.
-//!
-//! `impasto light`: lamps by name and by file, in every form of output.
-//!
-//! `impasto demo`: its output, and that it reproduces the shipped library.
+//! JSON output of the verbs, `impasto light` in every form of output, and `impasto demo`, which
+//! reproduces the shipped library.
 
 use serde_json::Value;
 use suite::program::{Run, impasto, repository};
@@ -130,7 +127,7 @@ fn color_prints_its_keys_with_white_at_100() {
     assert_eq!(keys(&list[0]), known);
     assert_eq!(list[0]["sample"], "white");
     assert!((list[0]["xyz"][1].as_f64().unwrap() - 100.0).abs() < 1e-9, "{}", list[0]);
-    // White of illuminant A for the 10 degree observer in CIE 15: 111.14, 100, 35.20.
+    // CIE 15 gives 111.14, 100, 35.20 for the white of illuminant A and the 10 degree observer.
     assert!((list[0]["xyz"][0].as_f64().unwrap() - 111.14).abs() < 0.02, "{}", list[0]);
     assert!((list[0]["xyz"][2].as_f64().unwrap() - 35.20).abs() < 0.02, "{}", list[0]);
     assert_eq!(list[0]["hex"], "#ffffff");
@@ -173,7 +170,7 @@ fn color_tells_differences_and_metamerism() {
     assert_eq!(keys(difference), ["from", "ciede2000", "cie1976", "cie94", "cmc_2_1"]);
     assert!(difference["ciede2000"].as_f64().unwrap() > 10.0, "{difference}");
     assert_eq!(list[2]["difference"]["ciede2000"], 0.0);
-    // Computed from the four XYZ with CIEDE2000 of colour-science.
+    // colour-science computes this from the four XYZ with CIEDE2000.
     let index = list[1]["metamerism"]["index"].as_f64().unwrap();
     assert!((index - 4.6387).abs() < 5e-4, "{index}");
     assert_eq!(list[1]["metamerism"]["kind"], "special metamerism index, change of illuminant");
@@ -279,7 +276,7 @@ fn mix_prints_its_keys_and_a_masstone_is_its_sample() {
         ["wavelengths_nm", "reflectance", "xyz", "lab", "srgb", "hex", "in_gamut"]
     );
     assert_eq!(mix["wavelengths_nm"].as_array().unwrap().len(), 31);
-    // Sample 09A, a film that hides, reads 6.1 % at 410 nm.
+    // Sample 09A is a film that hides. It reads 6.1 % at 410 nm.
     let at_410 = mix["reflectance"][1].as_f64().unwrap();
     assert!((at_410 - 0.061).abs() < 0.004, "{at_410}");
 }
@@ -427,7 +424,7 @@ fn lamps_are_described_by_name_and_by_file() {
     assert_eq!(told[1]["light"], bulb);
     assert_eq!(told[2]["special"].as_array().unwrap().len(), 14);
     assert_eq!(told[2]["samples"].as_array().unwrap().len(), 99);
-    // R9 of the tube FL2 is below 0: reds look brown.
+    // R9 of the tube FL2 is below 0, so reds look brown.
     assert!(told[2]["special"][8].as_f64().unwrap() < 0.0, "{}", told[2]["special"]);
 }
 
@@ -498,7 +495,7 @@ fn the_library_records_its_input() {
         std::fs::read_to_string(repository("measurements/van-gogh-oils.pigments.json")).unwrap();
     let library: Value = serde_json::from_str(&library).unwrap();
     let recorded = library["inputs"][0]["sha256"].as_str().unwrap();
-    // A fit of the same bytes records the same hash, a fit of other bytes another hash.
+    // A fit of the same bytes records the same hash, and a fit of other bytes records another one.
     let folder = tempfile::tempdir().unwrap();
     let fitted = |bytes: &[u8]| {
         let csv = folder.path().join("a.csv");

@@ -1,5 +1,5 @@
-//! One vocabulary over all verbs: old spellings do what the new ones do, tables are CSV too, and
-//! every verb tells what it wrote.
+//! All verbs share one vocabulary: old spellings do the same as new ones, tables are CSV too, and
+//! every verb says what it wrote.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ fn done(arguments: &[&str]) -> Run {
     run
 }
 
-/// Counts of a spectrometer: white, dark and a swatch.
+/// Counts of a spectrometer for white, dark and a swatch.
 fn counts(folder: &Path) -> [String; 3] {
     [("white.txt", 20_000.0), ("dark.txt", 200.0), ("swatch.txt", 9_000.0)].map(|(name, light)| {
         let path = place(folder, name);
@@ -38,7 +38,7 @@ fn counts(folder: &Path) -> [String; 3] {
     })
 }
 
-/// The results of two commands, which are the same, and their remarks.
+/// Asserts that two commands give the same results, and returns their remarks.
 fn same(new: &[&str], old: &[&str]) {
     assert_eq!(done(new).out, done(old).out, "{new:?} and {old:?}");
 }
@@ -130,7 +130,7 @@ fn a_file_after_the_white_of_a_fit_is_still_a_reading() {
 
 #[test]
 fn old_spellings_of_the_painter_do_what_the_new_ones_do() {
-    // With a small map `m.exr`, and a small style.
+    // There is a small map `m.exr` and a small style.
     let folder = super::painterly::folder();
     let folder = folder.path();
     let map = place(folder, "m.exr");

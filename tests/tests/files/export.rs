@@ -1,10 +1,6 @@
-//! Exported pictures, read back with independent readers.
-//!
-//! Export of pigment maps: scale, file names, table of volumes, refused maps.
-//!
-//! OpenEXR export of linear RGB and of spectra.
-//!
-//! PNG export: sRGB curve, chunks of colour space and size, clipping, refused pictures.
+//! Exported pictures, read back with independent readers: pigment maps with scale, file names and
+//! volumes, OpenEXR of linear RGB and of spectra, and PNG with sRGB curve, chunks of colour space
+//! and size, clipping and refusals.
 
 use std::io::Cursor;
 
@@ -40,7 +36,7 @@ fn maps_give_millimetres_back_by_their_scale() {
     let sidecar: serde_json::Value =
         serde_json::from_slice(file(&files, "study.maps.json")).unwrap();
     let scale = sidecar["mm_at_65535"].as_f64().unwrap();
-    // The scale is the thickness of the thickest cell: 0.11 mm of white and 0.09 mm of blue.
+    // The thickest cell gives the scale: 0.11 mm of white and 0.09 mm of blue.
     assert_near("scale", &[scale], &[0.2], 1e-7);
     assert_eq!(sidecar["width_mm"], 0.8);
     for (index, map) in three().iter().enumerate() {
@@ -264,7 +260,7 @@ fn colors_out_of_gamut_keep_hue_and_lightness_and_are_counted() {
     let mut picture = ramp();
     picture[(3, 0)] = [1.5, -0.25, 0.5, 1.0];
     picture[(4, 0)] = [0.0, 0.0, -0.1, 1.0];
-    // An excess of the size of a rounding error is not counted.
+    // An excess of the size of a rounding error does not count.
     picture[(5, 0)] = [1.000_000_1, 0.0, 0.0, 1.0];
     let png = png8(&picture, 0.1).unwrap();
     assert_eq!(png.outside, 2);

@@ -1,10 +1,5 @@
-//! Painting files: a painting is read back unchanged, and any other file is refused.
-//!
-//! Documents of paintings with random amounts of paint.
-//!
-//! A painting that is written and read back is the same to the quantum.
-//!
-//! Faulty and damaged painting files: refused with the place, without a panic, and before memory is
+//! Painting files. A painting with random amounts of paint is read back the same to the quantum.
+//! Faulty and damaged files are refused with the place, without a panic, and before memory is
 //! allocated.
 
 use std::io::Cursor;
@@ -52,8 +47,8 @@ fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), slots: &Slots, highest: u32
     layer
 }
 
-/// A painting of `width` x `height` cells with `dry` dry layers. `highest` is the largest amount of
-/// a pigment in a cell, in quanta.
+/// A painting of `width` x `height` cells with `dry` dry layers and at most `highest` quanta of a
+/// pigment in a cell.
 pub(crate) fn painting(
     seed: u64,
     (width, height): (usize, usize),
@@ -216,7 +211,7 @@ fn image(bytes: &[u8]) -> FlatImage {
         .unwrap()
 }
 
-/// Error of reading a valid file after `change`. Asserts that the error names the file.
+/// Error of reading a valid file after `change`. Asserts that it names the file.
 fn refused(change: impl FnOnce(&mut FlatImage)) -> PaintingFileError {
     let mut image = image(&write(&small()).unwrap());
     change(&mut image);
@@ -383,11 +378,12 @@ fn a_painting_beyond_the_memory_limit_is_refused_before_it_is_read() {
     assert_eq!(error, wanted);
 }
 
-/// The size stated in a header allocates no memory before the file is long enough for it.
+/// A header may state a huge size: no memory is allocated before the file is long enough for it.
 #[test]
 fn a_short_file_cannot_promise_a_huge_canvas() {
     let mut bytes = write(&painting(5, (40, 33), 0, 0)).unwrap();
-    // Change the canvas size in both parts, then data window and chunk count of the first, `base`.
+    // Change the canvas size in both parts, then data window and chunk count of the first part,
+    // `base`.
     let mut patch = |key: &[u8], skip: usize, value: i32, times: usize| {
         let places: Vec<_> =
             (0..bytes.len() - key.len()).filter(|&at| bytes[at..].starts_with(key)).collect();
@@ -429,7 +425,7 @@ fn fuzz() -> ProptestConfig {
 proptest! {
     #![proptest_config(fuzz())]
 
-    /// Reading a damaged file gives an error or another painting, never a panic.
+    /// If you read a damaged file, you get an error or another painting, but never a panic.
     #[test]
     fn damage_never_panics(
         flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
@@ -437,7 +433,7 @@ proptest! {
     ) {
         let mut bytes = sound().to_vec();
         for (index, byte) in flips {
-            // Half of the cases damage only the first bytes, which hold the headers.
+            // Half of the cases damage only the first bytes, where the headers are.
             let at = if early { index.index(1200) } else { index.index(bytes.len()) };
             bytes[at] = byte;
         }
@@ -452,8 +448,8 @@ proptest! {
     }
 }
 
-/// A valid file, made once. Its library has only two pigments: a whole library is far longer than
-/// the rest of the file, and damage would rarely hit anything else.
+/// A valid file, made once. Its library has only two pigments. A whole library would be far longer
+/// than the rest of the file, so damage would rarely hit anything else.
 fn sound() -> &'static [u8] {
     static BYTES: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
     BYTES.get_or_init(|| {

@@ -1,8 +1,6 @@
-//! Checks of GPU kernels without an adapter: validity, bindings and layouts of structs.
-//!
-//! Errors of the graphics device: sizes beyond its limits, and a lost device.
-//!
-//! `impasto gpu`: the adapters that it lists, and the one that painting would use.
+//! Checks GPU kernels without an adapter (validity, bindings and layouts of structs), errors of the
+//! graphics device (sizes beyond its limits, a lost device), and `impasto gpu` with the adapters
+//! that it lists.
 
 use documents::hint::Explain;
 use graphics::field::Field;
@@ -45,7 +43,7 @@ fn every_kernel_is_valid_in_the_base_profile() {
 fn every_kernel_is_bound_as_it_says() {
     for kernel in kernels() {
         let module = parsed(kernel);
-        // Memory that a workgroup shares is bound to nothing.
+        // Memory that a workgroup shares has no binding.
         let bound = module.global_variables.iter().map(|(_, v)| v).filter(|v| v.binding.is_some());
         let mut found: Vec<_> = bound.collect();
         found.sort_by_key(|variable| variable.binding.map(|binding| binding.binding));
@@ -64,7 +62,7 @@ fn every_kernel_is_bound_as_it_says() {
     }
 }
 
-/// Size in bytes of a WGSL struct, and its fields with their offsets, as a [`Layout`] has them.
+/// Size in bytes of a WGSL struct, and its fields with their offsets as in a [`Layout`].
 fn fields(module: &naga::Module, name: &str) -> Option<(u32, Vec<(String, usize)>)> {
     let of_name = |ty: &&naga::Type| ty.name.as_deref() == Some(name);
     let ty = module.types.iter().map(|(_, ty)| ty).find(of_name)?;
@@ -118,7 +116,8 @@ fn shaders_that_count_faces_are_valid_and_bound_as_they_say() {
 fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
     let Some(device) = crate::device() else { return };
     let limit = device.adapter().limits.binding_bytes;
-    // A strip of cells whose pigments, 32 bytes a cell, exceed the limit; the floor has 4 bytes.
+    // The pigments of this strip of cells, 32 bytes each, exceed the limit. The floor has 4 bytes
+    // per cell.
     let cells = (limit / 32 + 1) as usize;
     if cells > 1 << 26 {
         return;

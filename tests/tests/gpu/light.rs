@@ -1,4 +1,4 @@
-//! Rendering on the GPU against the layer and shading formulas in f64.
+//! Rendering on the GPU compared with the layer and shading formulas in f64.
 
 use graphics::field::Field;
 use graphics::tile::TileSet;
@@ -12,11 +12,11 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
-/// Tolerance in linear RGB for f32 with the inexact `exp`, `sqrt` and division of WGSL. Largest
-/// error measured on lavapipe: 4e-7.
+/// Tolerance in linear RGB for f32 with the inexact `exp`, `sqrt` and division of WGSL. On lavapipe
+/// the largest error is 4e-7.
 const NEAR: f64 = 3e-6;
 
-/// Tolerance for three films with relief and gloss. Largest error on lavapipe: 1.9e-6.
+/// Tolerance for three films with relief and gloss. On lavapipe the largest error is 1.9e-6.
 const NEAR_STACK: f64 = 2e-5;
 
 const NO_LAYER: LayerOptics =
@@ -24,7 +24,6 @@ const NO_LAYER: LayerOptics =
 
 fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
-    // Channels with different weights: red even, green of the first four nodes, blue rising.
     let rgb = |node: usize| [0.125, if node < 4 { 0.25 } else { 0.0 }, (node as f32) / 28.0];
     Scene {
         ground: [ground; NODES],
@@ -99,7 +98,7 @@ fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
     for per_quantum in [1e-9, 1e-7, 1e-5] {
         for ground in [0.0, 0.04, 0.5, 1.0] {
             let mut coat = NO_LAYER;
-            // Absorption falls over the wavelengths, scattering rises.
+            // Absorption falls over the wavelengths, while scattering rises.
             coat.absorption[0] = std::array::from_fn(|i| per_quantum * (8 - i) as f32);
             coat.scattering[1] = std::array::from_fn(|i| per_quantum * (1 + i) as f32);
             let scene = flat_scene(ground, coat, Vec::new());
@@ -154,7 +153,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     let mut scene = flat_scene(0.8, coats[2], coats[..2].to_vec());
     scene.lamp.relief = 0.7;
     let all = TileSet::all(engine.bounds());
-    // The first call bakes the dry layers, the second only composites the wet layer over them.
+    // The first call bakes the dry layers. The second only composites the wet layer over them.
     engine.render(View::First, &scene, &all, &TileSet::default()).unwrap();
     scene.lamp.ambient = 0.2;
     engine.render(View::First, &scene, &TileSet::default(), &all).unwrap();
@@ -184,8 +183,9 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
 }
 
-/// Light of a cell whose level colour is `flat`, by the formulas of [`paint::shade`] in f64. `top`
-/// gives heights around the cell in quanta.
+/// Light of a cell by the formulas of [`paint::shade`] in f64. `flat` is the colour of a level
+/// cell, and
+/// `top` gives heights around the cell in quanta.
 fn shaded(
     prepared: &ReliefLamp,
     lamp: &Lamp,

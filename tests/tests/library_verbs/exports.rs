@@ -1,8 +1,6 @@
-//! `impasto library export`: palettes, CxF spectra and tables of K and S for other programs.
-//!
-//! Swatch files (ASE, ACO, GPL): a round trip of random palettes, and errors of faulty files.
-//!
-//! Pigments guessed from a colour: mixing gives the colour back, and the guess is marked.
+//! `impasto library export`: palettes, CxF spectra and tables of K and S for other programs, a round trip of
+//! random palettes in swatch files (ASE, ACO, GPL), and errors of faulty ones. Also pigments
+//! guessed from a colour: mixing gives the colour back, and the guess is marked.
 
 use calibrate::PigmentId;
 use calibrate::curation::{Body, guessed_pigment};
@@ -19,7 +17,7 @@ use suite::program::impasto;
 
 use crate::{Shelf, done, oils, read, refused};
 
-/// Exports the oils as `format` with the further arguments `more`, and reads the file back.
+/// Exports the oils as `format` with `more` arguments, and reads the file back.
 fn exported(format: &str, more: &[&str]) -> SwatchFile {
     let shelf = Shelf::new();
     let file = shelf.path("palette");
@@ -170,7 +168,7 @@ fn a_faulty_table_is_refused_with_its_place() {
     assert!(!library.pigments[1].identified, "K/S alone");
 }
 
-/// Colours whose components are exact in 8 bits, in 16 bits and in 32-bit floats.
+/// Colours with components that are exact in 8 bits, in 16 bits and in 32-bit floats.
 fn color() -> impl Strategy<Value = SwatchColor> {
     let step = || (0..=1u8).prop_map(f64::from);
     let quarter = |from: i32, to: i32| (from * 4..=to * 4).prop_map(|q| f64::from(q) / 4.0);
@@ -301,7 +299,7 @@ fn errors_name_file_and_byte_or_line() {
 
 #[test]
 fn hue_saturation_and_brightness_are_read_as_rgb() {
-    // A hue of 120 degrees with full saturation and brightness is green.
+    // A hue of 120 degrees is green at full saturation and brightness.
     let bytes = b"\x00\x01\x00\x01\x00\x01\x55\x55\xff\xff\xff\xff\x00\x00";
     let SwatchColor::Rgb(rgb) = read_aco("a.aco", bytes).unwrap().swatches[0].color else {
         panic!("RGB")

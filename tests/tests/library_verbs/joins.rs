@@ -1,6 +1,5 @@
-//! `impasto library merge`, `convert`, `rename` and `subset`: the colours of mixtures are kept.
-//!
-//! `impasto library check` and `diff`: doubtful data, faults, and differences of two libraries.
+//! `impasto library merge`, `convert`, `rename` and `subset` preserve the colours of mixtures. `check` and
+//! `diff` report doubtful data, faults, and differences of two libraries.
 
 use calibrate::library::{AmountKind, Pigment};
 use serde_json::Value;
@@ -8,7 +7,7 @@ use suite::golden::assert_near;
 
 use crate::{Shelf, done, furthest, oils, read, refused, text, tried};
 
-/// Bound on the change of a reflectance when K and S are rounded to six digits.
+/// Largest change of a reflectance when K and S are rounded to six digits.
 const ROUNDING: f64 = 1e-5;
 
 #[test]
@@ -361,7 +360,8 @@ fn a_batch_that_differs_is_told_and_fails() {
     let shelf = Shelf::new();
     let batch = shelf.changed("batch.json", &oils(), |library| {
         let cobalt = library.find("Cobalt").unwrap();
-        // Half of both K and S leaves the masstone unchanged but halves the strength in mixtures.
+        // If both K and S are halved, the masstone stays, but the pigment is half as strong in
+        // mixtures.
         for curve in [0, 1] {
             let pigment = &mut library[cobalt];
             let curve = [&mut pigment.absorption, &mut pigment.scattering].into_iter().nth(curve);

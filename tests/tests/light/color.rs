@@ -1,11 +1,6 @@
-//! Colour of paint: eight wavelengths against the full spectrum, and mixtures of pigments against
-//! mixtures of lights.
-//!
-//! Colours of thin films that no screen shows.
-//!
-//! Light seen by an eye that adapted to it in part.
-//!
-//! Pictures with several pixels a cell.
+//! Colour of paint: eight wavelengths compared with the full spectrum, mixtures of pigments
+//! compared with mixtures of lights, thin films outside the gamut, an eye that has adapted in part,
+//! and pictures with several pixels per cell.
 
 use calibrate::evaluate::{Summary, Viewing, percentile};
 use calibrate::{Curves, PigmentId};
@@ -39,7 +34,7 @@ fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
     cells.map(|(x, y)| weights.xyz(&spectral.measured_reflectance(x, y))).collect()
 }
 
-/// CIEDE2000 of eight wavelengths against the full spectrum, by cell, both adapted to the white of
+/// CIEDE2000 of eight wavelengths from the full spectrum, by cell. Both are adapted to the white of
 /// sRGB.
 fn errors(document: &Document, name: &str) -> Vec<f64> {
     let light = light(&document.library, name);
@@ -112,7 +107,7 @@ fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
     let light = light(&library, "D65");
     let [yellow, blue, white] = ["Chrome Yellow (Otero)", "Prussian Blue", "Lead White"]
         .map(|name| library.find(name).unwrap());
-    // Tints with white: an ochre-like yellow and a clearly visible blue.
+    // Tints with white: a yellow like ochre, and a clearly visible blue.
     let [yellow, blue] = [vec![(yellow, 0.6), (white, 0.4)], vec![(blue, 0.03), (white, 0.97)]];
     let mixer = Mixer::new(&library, &light, &yellow, &blue).unwrap();
     let [first, last] = [mixer.mix(0.0), mixer.mix(1.0)];
@@ -308,7 +303,6 @@ fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
     assert!(cut_off > 5.0, "cutting off channels turns hues by {cut_off} degrees at most");
 }
 
-/// Linear sRGB of the perfect diffuser.
 fn white(rgb: &[[f32; 3]]) -> [f64; 3] {
     std::array::from_fn(|channel| rgb.iter().map(|rgb| f64::from(rgb[channel])).sum())
 }
@@ -331,7 +325,7 @@ fn an_eye_that_adapted_in_part_keeps_some_of_the_color_of_the_light() {
         } else {
             assert!(chromas.windows(2).all(|pair| pair[0] < pair[1]), "{name}: {chromas:?}");
         }
-        // Without adaptation, white has the chromaticity of the light itself.
+        // Without adaptation, white has the chromaticity of the light.
         let found: Xyz =
             RgbSpace::Srgb.xyz_from_linear().apply(white(&light.rgb_at_degree(0.0))).into();
         let wanted = light.quadrature.rule.white;
@@ -404,7 +398,7 @@ fn a_picture_keeps_its_mean() {
 
 #[test]
 fn the_edge_of_a_slanting_stroke_has_no_stairs() {
-    // Paint to the left of a line that moves a cell to the right with each row.
+    // Paint is to the left of a line that moves a cell to the right with each row.
     let edge = |y: f64| y - 0.5;
     let mut slanting = document(40, 40, &["Bone Black"]);
     for cell in (0..40).flat_map(|y| (0..40).map(move |x| (x, y))) {
@@ -413,7 +407,8 @@ fn the_edge_of_a_slanting_stroke_has_no_stairs() {
     }
     let [coarse, fine] = both(&slanting, 4);
     let middle = 0.5 * (coarse[(0, 39)][1] + coarse[(39, 0)][1]);
-    // Span of the distances between the line and the edge of the paint over quarters of a row.
+    // Difference between the largest and the smallest distance from the line to the edge of the
+    // paint, over quarters of a row.
     let stairs = |lighter: &dyn Fn(usize, usize) -> bool| {
         let ends = (32..128).map(|y| {
             let x = (0..160).position(|x| lighter(x, y)).unwrap();

@@ -1,6 +1,5 @@
-//! Shading of relief and gloss.
-//!
-//! Grounds: relief, reflectance and gloss of each kind, and refusal of invalid descriptions.
+//! Shading of relief and gloss, and grounds: relief, reflectance and gloss of each kind, and
+//! refusal of invalid descriptions.
 
 use calibrate::evaluate::Viewing;
 use documents::hint::Explain;
@@ -18,12 +17,12 @@ use spectra::color::{Adaptation, RgbSpace};
 use crate::made_up::{CELL_MM, document, glazes_over_mixtures, lay, oils};
 use TopMaterial::{Dry, Ground, Wet};
 
-/// Width of the surfaces of these tests in cells, and their middle.
+/// Width of the surfaces in cells, and their middle.
 const SIDE: usize = 65;
 const MIDDLE: usize = 32;
 
-/// Linear green of a grey cell in the middle of a surface of the height `cells`, in widths of a
-/// cell, by the distance from the middle along x and y.
+/// Linear green of a grey cell in the middle of a surface. `cells` gives the height in cells at a
+/// distance from the middle along x and y.
 fn lit_in(scene: &Scene, cells: impl Fn(f64, f64) -> f64 + Sync, material: TopMaterial) -> f32 {
     let mut tops = Tops::level(SIDE, SIDE);
     let from_middle = |at: usize| at as f64 - MIDDLE as f64;
@@ -34,7 +33,8 @@ fn lit_in(scene: &Scene, cells: impl Fn(f64, f64) -> f64 + Sync, material: TopMa
     out[0][1]
 }
 
-/// Linear green of a grey cell whose surface rises by `slopes` along x and y, in cells per cell.
+/// Linear green of a grey cell on a surface that rises by `slopes` along x and y, in cells per
+/// cell.
 fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
     let [a, b] = [slopes.0, slopes.1].map(f64::from);
     lit_in(scene, |x, y| a * x + b * y, material)
@@ -60,7 +60,7 @@ fn a_level_surface_shows_what_was_measured() {
             }
         }
     }
-    // A whole picture of paint of even height on a level ground.
+    // A picture of paint of even height on a level ground.
     let mut level = document(4, 4, &["Vermilion"]);
     for cell in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
         lay(&mut level.wet, cell, &[0.1]);
@@ -78,15 +78,15 @@ fn a_level_surface_shows_what_was_measured() {
 
 #[test]
 fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
-    // The lamp is at the upper left: a surface that rises to the right or downwards faces it.
+    // The lamp is at the upper left, so a surface that rises to the right or downwards faces it.
     let scene = studio(Lighting::default());
     let level = lit(&scene, (0.0, 0.0), Ground);
     assert!(lit(&scene, (0.2, 0.0), Ground) > level * 1.02);
     assert!(lit(&scene, (0.0, 0.2), Ground) > level * 1.02);
     assert!(lit(&scene, (-0.2, 0.0), Ground) < level * 0.98);
     assert!(lit(&scene, (0.0, -0.2), Ground) < level * 0.98);
-    // Half of the light is ambient, from the part of the sky that the slope sees; the other half
-    // follows Lambert's law, relative to level paint.
+    // Half of the light is ambient and comes from the part of the sky that the slope sees. The
+    // other half follows Lambert's law, relative to level paint.
     let [x, y, z] = scene.lamp.direction;
     for (a, b) in [(0.3f32, -0.1f32), (-0.2, 0.1), (-0.1, 0.3)] {
         let lambert = (z - a * x - b * y) / (1.0 + a * a + b * b).sqrt() / z;
@@ -97,16 +97,16 @@ fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
         let found = lit(&scene, (a, b), Ground) / level;
         assert!((found - factor).abs() < 1e-5, "{a} {b}: {found} {factor}");
     }
-    // With ambient light only, the direction of a slope does not show.
+    // With ambient light only, you cannot see the direction of a slope.
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
     let any = [(0.2, 0.1), (-0.2, -0.1), (-0.1, 0.2)].map(|slopes| lit(&soft, slopes, Wet));
     assert!(any.iter().all(|one| (one - level / 1.0125).abs() < 1e-5), "{any:?} {level}");
-    // A slope that faces away from the lamp receives the ambient light only.
+    // A slope that faces away from the lamp gets only ambient light.
     let steep = lit(&scene, (-1.0, -1.0), Ground) / level;
     assert!((steep - 0.5 / 1.5).abs() < 1e-5, "{steep}");
 }
 
-/// A scene whose lamp stands on the left, `elevation_deg` high.
+/// A scene with a lamp on the left, `elevation_deg` high.
 fn from_the_left(elevation_deg: f64, ambient: f64) -> Scene {
     studio(Lighting { azimuth_deg: 270.0, elevation_deg, ambient, ..Lighting::default() })
 }
@@ -115,22 +115,20 @@ fn from_the_left(elevation_deg: f64, ambient: f64) -> Scene {
 fn a_wall_casts_a_shadow_that_ends_softly() {
     let scene = from_the_left(20.0, 0.2);
     let level = lit(&scene, (0.0, 0.0), Ground);
-    // A wall of the height of two cells that ends `distance` cells to the left of the middle.
     let behind = |distance: f64| {
         lit_in(&scene, |x, _| if x <= -distance { 2.0 } else { 0.0 }, Ground) / level
     };
-    // Its shadow is 2 / tan 20 degrees = 5.5 cells long.
     let shades = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0].map(behind);
     assert!(shades.windows(2).all(|pair| pair[0] <= pair[1]), "{shades:?}");
     assert!(shades[0] < 0.35 && shades[1] < 0.6, "close behind the wall: {shades:?}");
     assert!(shades[5] > 0.99, "far behind the wall: {shades:?}");
-    // At the distance of 3 cells the wall overtops the lamp by 2 / 3 - tan 20 degrees; of the
-    // sky it hides slopes of 2 / 3 in 3 of 8 directions at most.
+    // At the distance of 3 cells the wall overtops the lamp by 2 / 3 - tan 20 degrees. It hides
+    // slopes of 2 / 3 in at most 3 of 8 directions of the sky.
     let over = (2.0 / 3.0 - 20.0f32.to_radians().tan()) / SOFT;
     let free = 1.0 / (1.0 + over * over);
     let within = 0.8 * free + 0.2 / (1.0 + 0.5 * 4.0 / 9.0)..=0.8 * free + 0.2;
     assert!(within.contains(&shades[1]), "{shades:?} {within:?}");
-    // Before the wall there is light.
+    // In front of the wall there is light.
     let before = lit_in(&scene, |x, _| if x >= 3.0 { 2.0 } else { 0.0 }, Ground) / level;
     assert!(before > 0.95, "{before}");
 }
@@ -140,7 +138,7 @@ fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
     let level = lit(&soft, (0.0, 0.0), Ground);
     for along in [0.0, 0.5, 1.0] {
-        // Furrows 6 cells apart, half a cell deep; `up` at their ridges.
+        // Furrows 6 cells apart and half a cell deep. `up` is 1 at a ridge.
         let furrows = |up: f64| {
             let wave = move |x: f64, y: f64| {
                 let across = x * (1.0 - along) + y * along;
@@ -202,11 +200,12 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
     scene.lamp.dry = Gloss { strength: 0.25, exponent: 60.0 };
     scene.lamp.ground = Gloss { strength: 0.0, exponent: 60.0 };
     let [x, y, z] = scene.lamp.direction;
-    // Slopes -h_x / h_z and -h_y / h_z: the normal is the halfway vector h of lamp and viewer.
+    // Slopes -h_x / h_z and -h_y / h_z, where the normal is the halfway vector h of lamp and
+    // viewer.
     let mirror = (-x / (z + 1.0), -y / (z + 1.0));
     let [wet, dry, ground] = [Wet, Dry, Ground].map(|material| lit(&scene, mirror, material));
     let veil = (1.0 - ((1.0 + z) / (2.0 + 2.0 * z).sqrt()).powf(60.0)) as f64;
-    // Mirrored light replaces as much of the light from within.
+    // Mirrored light replaces the same amount of light from within.
     for (found, strength) in [(wet, 0.5), (dry, 0.25)] {
         let mirrored = strength * veil / (1.0 + strength * veil);
         let wanted = f64::from(ground) + mirrored * (1.0 - f64::from(ground));
@@ -273,7 +272,6 @@ fn made(json: &str, width: usize, height: usize) -> ground::Ground {
     spec(json).build(width, height, CELL_MM, &oils()).unwrap()
 }
 
-/// Heights of all cells in mm, ascending.
 fn sorted_mm(ground: &ground::Ground) -> Vec<f64> {
     let mm = |&quanta: &i32| f64::from(quanta) / f64::from(QUANTA_PER_CELL) * CELL_MM;
     let mut heights: Vec<f64> = ground.height.values().iter().map(mm).collect();
@@ -308,7 +306,7 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
     let wood = made(r#"{"kind":"wood"}"#, 400, 400);
     let white = made(r#"{"kind":"panel"}"#, 2, 2);
     assert!(wood.gloss.strength > 0.0 && white.gloss.strength == 0.0, "{:?}", wood.gloss);
-    // Reflectance falls from red over green to blue, and is neither very light nor black.
+    // Reflectance falls from red over green to blue. It is neither very light nor black.
     let part = |from: usize, to: usize| {
         let values = &wood.reflectance[from..to];
         values.iter().sum::<f64>() / values.len() as f64
@@ -317,7 +315,7 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
     let green = part(12, 18);
     let red = part(22, 28);
     assert!(blue < green && green < red && red < 0.4 && blue > 0.02, "{blue} {green} {red}");
-    // From cell to cell heights change less along the fibres than across them.
+    // Along the fibres, heights change less from cell to cell than across them.
     let change = |right: usize, down: usize| -> f64 {
         let height = |x: usize, y: usize| f64::from(wood.height[(x, y)]);
         let cells = (0..390 * 390).map(|i| (i % 390, i / 390));
@@ -345,7 +343,7 @@ fn linen_has_as_many_threads_as_it_says() {
     for count in [8.0, 14.0, 22.0] {
         let json = format!(r#"{{"kind":"linen","seed":5,"threads_per_cm":{count}}}"#);
         let cloth = spec(&json).build(2000, 400, 0.05, &oils()).unwrap().height;
-        // The sum over all rows cancels the weave and keeps one maximum for each thread along y.
+        // The sum over all rows cancels the weave. Each thread along y leaves one maximum.
         let column = |x: usize| -> f64 { (0..400).map(|y| f64::from(cloth[(x, y)])).sum() };
         let profile: Vec<f64> = (0..2000).map(column).collect();
         let mean = profile.iter().sum::<f64>() / 2000.0;
@@ -374,7 +372,7 @@ fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
     assert_eq!(eight.height, sixteen.height);
     let heights = sorted_mm(&eight);
     assert!(heights[0].abs() < 1e-9 && (heights[399] - 0.3).abs() < 1e-6, "{heights:?}");
-    // Linear interpolation between the centres of pixels, a quarter of the width from the left.
+    // We interpolate linearly between the centres of pixels, a quarter of the width from the left.
     let mm = f64::from(eight.height[(10, 5)]) / f64::from(QUANTA_PER_CELL) * CELL_MM;
     assert!((mm - 0.055).abs() < 1e-6, "{mm}");
 

@@ -1,8 +1,6 @@
-//! Recipe search compared with an exhaustive search over a grid of shares.
-//!
-//! Which recipes are shown, and in which order.
-//!
-//! Limits of a recipe search: allowed and required pigments, their number, shares, whole parts.
+//! Recipe search compared with an exhaustive search over a grid of shares, which recipes are shown
+//! in which order, and limits of a search: allowed and required pigments, their number, shares,
+//! whole parts.
 
 use calibrate::evaluate::lab;
 use calibrate::library::PigmentLibrary;
@@ -19,7 +17,7 @@ use super::{conditions, oils, target_of};
 const PIGMENTS: usize = 12;
 const STEPS: usize = 20;
 
-/// Every division of `left` steps among `count` pigments with at least one step each.
+/// Every division of `left` steps among `count` pigments, with at least one step each.
 fn shares(count: usize, left: usize) -> Vec<Vec<usize>> {
     if count == 1 {
         return vec![vec![left]];
@@ -61,7 +59,7 @@ fn colors(library: &PigmentLibrary, pigments: &[PigmentId]) -> Vec<Lab> {
     colors
 }
 
-/// Target colours: half are random points in CIELAB, half are random mixtures.
+/// Target colours. Half are random points in CIELAB, half are random mixtures.
 fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(2004);
     let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
@@ -97,8 +95,9 @@ fn recipes_are_at_least_as_near_as_an_exhaustive_search_on_200_targets() {
     for (number, wanted) in targets(&library, &request.allowed, 200).into_iter().enumerate() {
         let target = Target::from_lab("", wanted, &conditions);
         let found = recipes(&library, &target, &request).unwrap()[0].distance;
-        // Only a colour nearer than the one found matters. CIEDE2000 is at least a twelfth of CIE 1976 at these
-        // chromas, and at least the difference of lightness by its greatest weight, 1.748: farther ones are skipped.
+        // Only a colour nearer than the one found matters. At these chromas CIEDE2000 is at least a
+        // twelfth of CIE 1976, and at least the difference of lightness divided by its greatest
+        // weight, 1.748. So we skip colours that are farther away.
         let nearest = every.iter().fold(found, |least, &color| {
             let far = (wanted.lightness - color.lightness).abs() > 1.748 * least
                 || delta_e_cie76(wanted, color) > 12.0 * least;
@@ -185,8 +184,8 @@ fn lights_that_count_rank_metameric_recipes_lower() {
     let white = library.find("Zinc White").unwrap();
     let tint = library.mix([(blue, 1.0), (white, 4.0)]).unwrap().hiding(library.saunderson);
     let target = target_of(&library, &tint, &three);
-    // Errors of the best recipe without ultramarine: under D65, and root mean square of the three
-    // lights.
+    // Errors of the best recipe without ultramarine: under D65, and as root mean square over the
+    // three lights.
     let apart = |weights: [f64; 3]| {
         let mut conditions = three.clone();
         conditions
@@ -246,7 +245,7 @@ fn a_pigment_that_brings_nothing_is_not_shown() {
     let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
     let names = ["Zinc White", "Minium", "Chrome Yellow", "Cobalt Blue", "Viridian", "Bone Black"];
     request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
-    // More than the 56 sets of one to four of six pigments.
+    // This is more than the 56 sets of one to four of six pigments.
     request.count = 100;
     let found = recipes(&library, &target, &request).unwrap();
     assert!((2..56).contains(&found.len()), "{} recipes", found.len());

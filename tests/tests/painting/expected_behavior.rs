@@ -1,11 +1,7 @@
-//! Expected behaviour of paint: wet mixing, contact with the weave, pick-up by a clean brush, and
-//! limits of brushes and columns.
-//!
-//! Stiffness of the medium: fluid paint levels after a stroke, stiff paint keeps its furrows.
-//!
-//! Squeezing paint onto a surface, and scraping wet paint off.
-//!
-//! Continuous adjustments, gloss, the memory limit of undo, and setting the paint on a brush.
+//! How paint should behave: wet mixing, contact with the weave, pick-up by a clean brush, and
+//! limits of brushes and columns. Fluid paint levels after a stroke, while stiff paint keeps its
+//! furrows. Also squeezing and scraping paint, continuous adjustments, gloss, the memory limit of
+//! undo, and setting the paint on a brush.
 
 use documents::hint::Explain;
 use graphics::tile::{Rect, TileSet};
@@ -29,8 +25,8 @@ fn bare_cells(wet: &Layer) -> usize {
     (0..wet.vehicle.values().len()).filter(|&cell| wet.cell(cell).volume() == 0).count()
 }
 
-/// Colour and blue share of yellow plus blue, in every cell whose paint of the two is higher than
-/// a tenth of the cell width.
+/// Colour and blue share of yellow plus blue, in every cell with more of these two than a tenth of
+/// the cell width.
 fn mixed(strokes: impl Fn(&mut Painting)) -> Vec<(Lab, f64)> {
     let mut painting = on_cpu(bare_on(r#"{"kind": "panel", "seed": 1}"#, 160, 60));
     strokes(&mut painting);
@@ -64,7 +60,7 @@ fn yellow_and_blue_mixed_wet_on_the_canvas_go_through_green() {
         lay(painting, YELLOW, 0.6);
         lay(painting, BLUE, 0.02);
     });
-    // Additive mixing would give an a* between those of the two pigments, never below both.
+    // Additive mixing would give an a* between the two pigments, but never below both.
     let green = both
         .iter()
         .filter(|(lab, share)| (0.005..0.5).contains(share) && lab.a < ends - 10.0 && lab.b > 0.0);
@@ -200,8 +196,8 @@ fn paint_too_high_for_whole_numbers_is_refused_when_opened() {
 
 const COLUMNS: usize = 200;
 
-/// Mean difference in height of neighbouring cells across the middle of a stroke along x, over the
-/// mean height there.
+/// Mean difference in height of neighbouring cells across the middle of a stroke along x, relative
+/// to the mean height there.
 fn furrows(wet: &Layer) -> f64 {
     let height = |x: usize, y: usize| f64::from(wet.cell(y * COLUMNS + x).volume());
     let middle = || (80..120).flat_map(|x| (23..37).map(move |y| (x, y)));
@@ -255,7 +251,7 @@ fn all_that_is_squeezed_out_lies_there_to_the_quantum() {
     }
 }
 
-/// Height of the highest column of wet paint, in mm, and the smallest rectangle around all wet
+/// Height of the highest column of wet paint in mm, and the smallest rectangle around all wet
 /// cells.
 fn heap(painting: &mut Painting) -> (f64, Rect) {
     let wet = painting.wet().unwrap();
@@ -320,7 +316,7 @@ fn heaps_on_small_cells_are_flatter_and_no_pile_is_without_end() {
     let mut document = bare_on(r#"{"kind": "panel"}"#, 400, 400);
     document.cell_mm = 0.02;
     for mut painting in on_both(&document) {
-        // Without the limit on the height of a heap it would be 85 cells high.
+        // Without the limit on its height, the heap would be 85 cells high.
         painting.squeeze(&pure(WHITE), 0.0, 4.0, 4.0, 20.0).unwrap();
         let wet = painting.wet().unwrap();
         let highest = (0..400 * 400).map(|index| wet.cell(index).volume()).max().unwrap();
@@ -379,7 +375,7 @@ fn scraping_takes_all_wet_paint_and_no_dry() {
         assert!(painting.document().unwrap() == before, "undo");
         painting.redo().unwrap();
         assert!(painting.document().unwrap() == after, "redo");
-        // Scraping a surface without wet paint adds no step to the history.
+        // If you scrape a surface without wet paint, the history gets no step.
         let actions = painting.undo_count();
         assert!(!painting.scrape().unwrap(), "a clean canvas");
         assert_eq!(painting.undo_count(), actions);

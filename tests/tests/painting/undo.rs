@@ -1,7 +1,5 @@
-//! Undo and redo of every kind of action restore paint, brushes and picture bit for bit.
-//!
-//! Strokes extended in portions: any division into portions gives the paint and the undo of the
-//! whole stroke.
+//! Undo and redo of every kind of action restore paint, brushes and picture bit for bit. If you
+//! extend a stroke in portions, any division gives the paint and the undo of the whole stroke.
 
 use calibrate::PigmentId;
 use documents::hint::Explain;
@@ -33,7 +31,7 @@ fn whole(painting: &mut Painting, brushes: usize) -> Whole {
     (painting.document().unwrap(), paint, painting.picture().unwrap())
 }
 
-/// Applies a random action. Returns whether it added a step to the history.
+/// Applies a random action. Returns whether it became a step of the history.
 fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
     let layers = painting.state().dry.len();
     match random.random_range(0..16) {
@@ -151,7 +149,7 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
     let mut painting = open(document, engine, 3 * (TILE_BYTES + brush_bytes));
     let brush = loaded(&mut painting, HeadShape::Round, 2.0, YELLOW, 0.5);
     let mut past = Vec::new();
-    // Each dab lies within one tile, so three of them fit into the memory limit.
+    // Each dab is within one tile, so three of them fit into the memory limit.
     for place in [(4.0, 4.0), (6.0, 6.0), (4.0, 8.0), (8.0, 4.0), (5.0, 5.0)] {
         past.push(painting.wet().unwrap());
         let dab = along(&[place, (place.0 + 0.5, place.1)], 0.5);
@@ -162,7 +160,7 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
         assert!(painting.wet().unwrap() == past[index], "state {index} after undo");
     }
     assert!(!painting.undo().unwrap(), "older ones do not fit");
-    // Along three edges, through more tiles than the limit holds.
+    // This goes along three edges, through more tiles than the limit holds.
     let long = along(&[(2.0, 2.0), (24.0, 2.0), (24.0, 18.0), (2.0, 18.0)], 0.5);
     assert!(!painting.stroke(brush, &long).unwrap().undoable, "a stroke beyond the memory limit");
     assert!(!painting.undo().unwrap(), "older steps are dropped too");
@@ -230,7 +228,7 @@ fn a_measured_light_comes_back_with_an_undo() {
     assert!(painting.picture().unwrap() == seen, "picture after undo");
 }
 
-/// The wet layer, then the paint on each of the first `brushes` brushes.
+/// The wet layer, and the paint on each of the first `brushes` brushes.
 fn paint(painting: &mut Painting, brushes: usize) -> Vec<PiecesLayer> {
     let mut layers = vec![painting.wet().unwrap()];
     layers
@@ -238,7 +236,7 @@ fn paint(painting: &mut Painting, brushes: usize) -> Vec<PiecesLayer> {
     layers
 }
 
-/// Random samples, some outside the canvas; one position occurs twice (a pen at rest).
+/// Random samples, some outside the canvas. One position occurs twice, like a pen at rest.
 fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
     let count = random.random_range(1..9);
     let mut place = || (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0));
@@ -247,8 +245,8 @@ fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
     along(&places, 0.6)
 }
 
-/// Extends a stroke by `samples` in random portions and paints a random number of sub-steps after
-/// each. Returns the sub-steps, the cells, and whether the stroke can be undone.
+/// Extends a stroke by `samples` in random portions, and paints a random number of sub-steps after
+/// each. Returns the sub-steps, the cells, and whether you can undo the stroke.
 fn in_pieces(
     painting: &mut Painting,
     brush: PiecesBrushId,
@@ -327,7 +325,7 @@ fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
             let mut stroke = cut.begin_stroke(brush).unwrap();
             stroke.extend(&samples[..2]).unwrap();
             stroke.advance(&mut cut, 20).unwrap();
-            // The sample before the refused one is accepted; the one after it is not.
+            // The sample before the refused one is accepted, but not the one after it.
             let error = stroke.extend(&[samples[2], bad, samples[3]]).unwrap_err();
             let error = PaintingError::from(error);
             assert!(matches!(error, PaintingError::Stroke(_)), "{error}");

@@ -43,8 +43,8 @@ fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     (report, session)
 }
 
-/// A copy of `script` with only its first `actions` actions, on cells of twice the size. At their own size the
-/// tests of the pages play them too.
+/// A copy of `script` with only its first `actions` actions, on cells of twice the size. The tests
+/// of the pages also play them at their own size.
 fn begun(script: &StrokeScript, actions: usize) -> StrokeScript {
     let mut begun = script.clone();
     begun.actions.truncate(actions);

@@ -1,8 +1,5 @@
-//! Mixing charts, tints and drawdowns.
-//!
-//! Graded mixtures from one paint to another: steps, rows of prediction and their errors.
-//!
-//! Palettes of absolute amounts: washes over the white card, which replaces a white paint.
+//! Mixing charts, tints, drawdowns, and graded mixtures from one paint to another with their
+//! errors. Palettes of absolute amounts: washes over the white card, which replaces a white paint.
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
@@ -173,7 +170,7 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
         1e-9,
     );
     assert!(steps[0].share.is_sign_positive(), "a share of -0");
-    // 13F and 13G are far from any tenth, so they are steps besides the eleven tenths.
+    // 13F and 13G are far from any tenth, so they come in addition to the eleven tenths.
     assert_eq!(steps.len(), 13);
     assert!(steps.windows(2).all(|pair| pair[0].share < pair[1].share));
     let half = steps.iter().find(|s| s.sample.as_deref() == Some("13C")).unwrap();
@@ -244,7 +241,7 @@ fn a_wash_goes_nine_tenths_of_the_way_where_it_absorbs_most() {
     let library = watercolors();
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
-    // Without scattering a wash attenuates the card by exp(-2 K d) = 1/10 where it absorbs most.
+    // Without scattering, a wash attenuates the card by exp(-2 K d) = 1/10 where it absorbs most.
     assert_near("red", &[palette.wash(PigmentId(0))], &[10f64.ln() / 2.0 / 120.01], 1e-9);
     assert_near("water", &[palette.wash(PigmentId(3))], &[1.0], 0.0);
     let at = 3;
@@ -296,7 +293,7 @@ fn amounts_that_hide_are_told_and_clear_ones_never_do() {
     let powers = hiding_powers(&palette);
     assert_eq!(powers[3].hides.thickness(), None);
     let yellow = powers[1].hides.thickness().unwrap();
-    // There the luminance over black is 0.98 of that over white.
+    // There the luminance over black is 0.98 times the luminance over white.
     let mixture = library.mix(recipe([(1, 1.0)])).unwrap();
     let weights = viewing.weights(grid()).unwrap();
     let over = |card: &[f64]| weights.xyz(&mixture.film(yellow, card, library.film())).y;

@@ -1,4 +1,4 @@
-//! Figures of a palette in a report: which are drawn, their colours and their numbers.
+//! Figures of a palette in a report: which ones are drawn, their colours and their numbers.
 
 use calibrate::PigmentId;
 use calibrate::library::AmountKind;
@@ -161,7 +161,7 @@ fn small_and_odd_libraries_draw_what_there_is() {
     assert!(report.figures().all(|figure| !NAMES.contains(&figure.name.as_str())));
 }
 
-/// Asserts that no figure holds a NaN. Allows empty tables: a white alone has no tints.
+/// Asserts that no figure has a NaN. Tables may be empty: a white alone has no tints, for example.
 fn finite_but_for_empty_tables(report: &Report) {
     for figure in report.figures() {
         let text = figure.svg.clone() + &figure.data.csv();

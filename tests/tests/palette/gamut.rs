@@ -1,6 +1,5 @@
-//! Gamut of a palette: sampled mixtures, outline, spectral locus and sRGB primaries.
-//!
-//! Colour shifts and metamers under other lights.
+//! Gamut of a palette: sampled mixtures, outline, spectral locus and sRGB primaries, and colour
+//! shifts and metamers under other lights.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -99,7 +98,7 @@ fn the_locus_and_srgb_stand_where_the_standards_put_them() {
     for (name, found, wanted) in
         [("red", red, [0.64, 0.33]), ("green", green, [0.3, 0.6]), ("blue", blue, [0.15, 0.06])]
     {
-        // The white computed from D65 differs from the rounded white of the standard.
+        // The white computed from D65 is not exactly the rounded white of the standard.
         assert_near(name, &found, &wanted, 3e-4);
     }
     let outline = sampled_gamut(&palette).in_xy(72);
@@ -114,7 +113,7 @@ fn the_same_palette_gives_the_same_gamut() {
     assert_eq!(sampled_gamut(&oils.palette()), sampled_gamut(&oils.palette()));
 }
 
-/// Whether a chromaticity lies inside the spectral locus, closed by the purple line.
+/// Whether a chromaticity is inside the spectral locus and the purple line that closes it.
 fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
     let mut within = false;
     for (at, (_, a)) in locus.iter().enumerate() {
@@ -128,13 +127,13 @@ fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
     within
 }
 
-/// Cell of a colour in the grid that is searched for gaps: 10 of L*, 3 of a* and b*.
+/// Cell of a colour in the grid that is searched for gaps: 10 in L*, 3 in a* and b*.
 fn cell(sample: &GamutSample) -> [i32; 3] {
     let lab = sample.color.lab;
     [lab.lightness / 10.0, lab.a / 3.0, lab.b / 3.0].map(|side| side.floor() as i32)
 }
 
-/// The mixture of two recipes in equal parts: share by paint, in units of 1e-9.
+/// The mixture of two recipes in equal parts, as the share of each paint in units of 1e-9.
 fn halves(first: &Recipe, second: &Recipe) -> BTreeMap<PigmentId, i64> {
     let mut shares: BTreeMap<PigmentId, f64> = BTreeMap::new();
     for &(paint, share) in first.iter().chain(second) {
@@ -153,8 +152,8 @@ fn a_gap_between_two_samples_is_filled_or_was_tried() {
     for (at, sample) in samples.iter().enumerate() {
         first.entry(cell(sample)).or_insert(at);
     }
-    // All pairs of occupied cells with one cell between them: the cell between, the later of the
-    // two samples, and their mixture in equal parts.
+    // All pairs of occupied cells with one cell between them: this cell, the later of the two
+    // samples, and their mixture in equal parts.
     let mut pairs = Vec::new();
     for (&[band, a, b], &one) in &first {
         for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
@@ -281,7 +280,7 @@ fn the_same_paint_under_two_names_is_no_metamer() {
     assert!(!found.is_empty(), "the two blues match under every light");
     for pair in found {
         let worst = pair.indices.iter().copied().fold(0.0, f64::max);
-        // Two mixtures that differ a little in shares also differ a little under other lights.
+        // If two mixtures differ a little in shares, they also differ a little under other lights.
         assert!(worst < 1.0, "{:?}: {worst}", pair.names);
     }
 }

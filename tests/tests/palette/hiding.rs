@@ -1,6 +1,5 @@
-//! Hiding power: the thickness from which a film hides, against closed forms and the oils.
-//!
-//! Tinting strength: closed forms, the tint of standard depth, and a standard paint.
+//! Hiding power, i.e. the thickness from which a film hides, and tinting strength (the tint of
+//! standard depth and a standard paint), compared with closed forms and the oils.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
@@ -53,7 +52,7 @@ fn clear_films_never_hide() {
         panic!("a film without K and S never hides")
     };
     assert_near("the cards' own", &[contrast], &[0.05 / 0.8], 1e-12);
-    // A dye that does not absorb from 650 nm on.
+    // This dye does not absorb from 650 nm on.
     let mut dye = band("dye", 2.0, 550.0, 0.0);
     dye.absorption.iter_mut().for_each(|k| *k -= 0.01);
     dye.absorption[25..].fill(0.0);
@@ -162,7 +161,7 @@ fn twice_the_absorption_is_twice_the_strength() {
 fn strength_is_k_over_s_of_one_part_in_nine_of_white_by_hand() {
     let found = strengths(four(), AmountKind::Relative, None);
     assert_near("K/S", &[found[1].strength], &[0.1 * 3.01 / (0.9 + 0.1 * 0.4)], 1e-12);
-    // The K/S of the white itself is subtracted.
+    // We subtract the K/S of the white itself.
     let mut grey = four();
     grey[0] = even("white", 0.2, 1.0);
     let found = strengths(grey, AmountKind::Relative, None);

@@ -1,6 +1,5 @@
-//! Reading photographs: bit depth, transparency, resampling, EXIF orientation, broken files.
-//!
-//! Photographs as TIFF and WebP, and with ICC profiles of wide gamut.
+//! Reads photographs: bit depth, transparency, resampling, EXIF orientation, broken files, TIFF and
+//! WebP, and ICC profiles of wide gamut.
 
 use std::io::Cursor;
 
@@ -26,7 +25,6 @@ fn read(bytes: &[u8]) -> Photograph {
     Photograph::from_bytes("made.png", bytes).unwrap()
 }
 
-/// Linear sRGB of a picture of one pixel.
 fn one(bytes: &[u8]) -> [f32; 3] {
     read(bytes).on_canvas(1, 1)[(0, 0)]
 }
@@ -82,21 +80,21 @@ fn a_photograph_is_stretched_to_another_shape() {
     assert_eq!(photograph.size(), (30, 10));
     let stretched = photograph.on_canvas(3, 3);
     assert_eq!(stretched.row(1, 0, 3), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    // Cells smaller than pixels: interpolation makes no cell darker or brighter.
+    // The cells are smaller than pixels: interpolation makes no cell darker or brighter.
     let fine = photograph.on_canvas(90, 30);
     for value in fine.values() {
         assert!((value.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{value:?}");
     }
 }
 
-/// A JPEG of two halves, white left, black right, with an EXIF orientation.
+/// A JPEG of two halves, white on the left and black on the right, with an EXIF orientation.
 fn turned(orientation: u8) -> Vec<u8> {
     let halves = GrayImage::from_fn(32, 16, |x, _| [if x < 16 { 255 } else { 0 }].into());
     let mut plain = Vec::new();
     JpegEncoder::new(&mut plain)
         .write_image(halves.as_raw(), 32, 16, ExtendedColorType::L8)
         .unwrap();
-    // APP1: TIFF header, one entry (0x0112, SHORT, 1), no further directory.
+    // APP1 holds a TIFF header, one entry (0x0112, SHORT, 1), and no further directory.
     let mut exif = b"Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0".to_vec();
     exif.extend([orientation, 0, 0, 0, 0, 0, 0]);
     let mut bytes = plain[..2].to_vec();
@@ -138,7 +136,7 @@ fn a_broken_file_is_refused_by_its_name() {
 
 #[test]
 fn too_many_pixels_are_refused_before_they_are_read() {
-    // A PNG whose header claims 20000 x 20000 pixels, with the data of one.
+    // The header of this PNG claims 20000 x 20000 pixels, but there is data for one.
     let whole = png(GrayImage::from_pixel(1, 1, [0].into()));
     let mut head = whole[..29].to_vec();
     head[16..20].copy_from_slice(&20_000_u32.to_be_bytes());
@@ -152,7 +150,6 @@ fn too_many_pixels_are_refused_before_they_are_read() {
     assert_eq!(error.to_string(), told);
 }
 
-/// CRC-32 of a PNG chunk (ISO 3309).
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
@@ -204,7 +201,7 @@ fn a_cut_file_is_refused_wherever_it_ends() {
     }
 }
 
-/// A picture of 8 x 8 pixels of one colour, with a profile, in each format that holds one.
+/// A picture of 8 x 8 pixels of one colour with a profile, in each format that can have one.
 fn with_profile(values: [u8; 3], profile: &ColorProfile) -> [Vec<u8>; 3] {
     let profile = profile.encode().unwrap();
     let picture = RgbImage::from_pixel(8, 8, values.into());

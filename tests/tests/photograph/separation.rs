@@ -1,6 +1,5 @@
-//! Separation of colours into heights of pigments, and the colours of the films rebuilt.
-//!
-//! Choosing the palette for a photograph from the pigments of a library.
+//! Separates colours into heights of pigments and rebuilds the colours of the films, and chooses
+//! the palette for a photograph from the pigments of a library.
 
 use calibrate::PigmentId;
 use graphics::field::Field;
@@ -21,7 +20,6 @@ fn errors(separation: &Separation, picture: &Picture) -> ColorErrors {
     ColorErrors::between(separation, picture, &rebuild_picture(separation.film(), &heights))
 }
 
-/// Linear sRGB of `#rrggbb`.
 fn linear(hex: &str) -> [f32; 3] {
     Rgb::from_hex(hex).unwrap().linear().0.map(|value| value as f32)
 }
@@ -125,7 +123,7 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let hiding = errors(&HIDING, &picture);
     let thin = errors(&THIN, &picture);
     assert!(thin.out_of_gamut < hiding.out_of_gamut, "{thin:?} {hiding:?}");
-    // The colour change of a film over a black ground measures what the film does not hide.
+    // A film over a black ground changes colour. This measures what the film does not hide.
     let black = vec![0.03; STUDIO.library.grid.count()];
     let materials = STUDIO.materials(&STUDIO.slots);
     let over_black = PaintFilm::at_nodes(

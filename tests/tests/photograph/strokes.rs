@@ -1,7 +1,6 @@
-//! Planning the strokes of a layer: direction, geometry, coverage, order and limits.
-//!
-//! Painting a picture in strokes: the error falls from level to level, and the recorded script
-//! gives the same painting.
+//! Plans the strokes of a layer (direction, geometry, coverage, order and limits), and paints a
+//! picture in strokes: the error falls from level to level, and the recorded script gives the same
+//! painting.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -21,12 +20,12 @@ use crate::made::{HIDING, STUDIO};
 
 const CELL_MM: f64 = 0.5;
 
-/// A plan with two brushes that suit pictures of 80 x 60 mm.
+/// A plan with two brushes for pictures of 80 x 60 mm.
 fn plan() -> Plan {
     Plan { sizes_mm: vec![12.0, 4.0], ..Plan::default() }
 }
 
-/// The bare ground, as a picture of the size of `picture`.
+/// The bare ground as a picture like `picture`.
 fn blank(picture: &Picture) -> Picture {
     Field::filled(picture.width(), picture.height(), HIDING.film().rgb(&[0.0; 8]))
 }
@@ -35,7 +34,7 @@ fn planned(picture: &Picture, level: usize) -> Vec<PlannedStroke> {
     plan_layer(picture, &blank(picture), &HIDING, &plan(), level, CELL_MM)
 }
 
-/// A sine grating of brown and cream; its crests run at `degrees` from x towards y.
+/// A sine grating of brown and cream. Its crests run at `degrees` from x towards y.
 fn grating(degrees: f64) -> Picture {
     let (sin, cos) = degrees.to_radians().sin_cos();
     Field::from_values(
@@ -131,7 +130,7 @@ fn lights_are_thick_and_darks_are_thin() {
 
 #[test]
 fn no_stroke_bends_tighter_than_its_brush() {
-    // Rings around a point, tighter and tighter towards it.
+    // Rings around a point become tighter towards it.
     let color = |i: usize| {
         let ring = ((i % 160) as f32 - 80.0).hypot((i / 160) as f32 - 60.0);
         [0.3 + 0.25 * (0.25 * ring).sin(); 3]
@@ -181,7 +180,8 @@ fn one_level_covers_a_blank_canvas_with_about_two_coats_at_most() {
 fn without_a_difference_there_is_no_stroke() {
     let picture = grating(30.0);
     assert_eq!(plan_layer(&picture, &picture, &HIDING, &plan(), 0, CELL_MM), []);
-    // Nor for a colour out of gamut where the canvas has the nearest colour of the palette.
+    // The same holds for a colour out of gamut, if the canvas has the nearest colour of the
+    // palette.
     let vivid = Field::filled(160, 120, [0.0, 1.0, 0.0]);
     let reached = rebuild_picture(HIDING.film(), &HIDING.separate(&vivid));
     assert_eq!(plan_layer(&vivid, &reached, &HIDING, &plan(), 1, CELL_MM), []);
@@ -283,12 +283,11 @@ fn opened(script: &StrokeScript) -> Painting {
     Painting::open(script.bare(&STUDIO.library, &resolved, ground), engine, 0).unwrap()
 }
 
-/// Result of painting the target.
 struct Finished {
     script: StrokeScript,
     session: PaintingSession,
     levels: Vec<LevelReport>,
-    /// Number of strokes reported as planned, and number reported as painted.
+    /// Numbers of strokes that were planned and painted, as reported.
     told: (usize, usize),
 }
 
@@ -370,7 +369,7 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     assert!(wanted.dry.len() >= 3, "{} dry layers", wanted.dry.len());
     assert!(document.wet == wanted.wet && document.dry == wanted.dry, "the paintings differ");
     assert_eq!((report.strokes, report.strokes), (laid, strokes as u64));
-    // Before every stroke the brush is washed and loaded.
+    // The brush is washed and loaded before every stroke.
     for actions in finished.script.actions.windows(3) {
         if let [first, Action::Load(load), stroke] = actions {
             assert_eq!((first.kind(), stroke.kind()), ("wash", "stroke"));

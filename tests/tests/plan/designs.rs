@@ -42,7 +42,7 @@ fn bench() -> Bench {
 }
 
 impl Bench {
-    /// Fits the swatches of `design`, with readings simulated from the oils plus normal noise.
+    /// Fits the swatches of `design`. Their readings are simulated from the oils plus normal noise.
     fn fit(&self, design: &[usize], seed: u64) -> Refined {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let surface = self.oils.saunderson;
@@ -84,7 +84,8 @@ impl Bench {
     }
 
     /// Errors of ln K and ln S by pigment and wavelength, each with the standard deviation
-    /// predicted for `design`. The S of the white is left out.
+    /// predicted for
+    /// `design`. Leaves out the S of the white.
     fn errors(&self, design: &[usize], seed: u64) -> Vec<(f64, f64)> {
         let fit = self.fit(design, seed);
         let deviations = self.information.log_deviations(design);
@@ -104,9 +105,9 @@ impl Bench {
         errors
     }
 
-    /// Geometric mean of the absolute errors of ln K and ln S over eight simulated fits, the mean
-    /// that D-optimality makes small. Large errors of K where a paint hardly absorbs, which no
-    /// design determines, would dominate an arithmetic mean.
+    /// Geometric mean of the absolute errors of ln K and ln S over eight simulated fits.
+    /// D-optimality makes this mean small. In an arithmetic mean, large errors of K where a paint
+    /// hardly absorbs would dominate, though no design determines them.
     fn typical_error(&self, design: &[usize]) -> f64 {
         let logs: Vec<f64> = (0..8)
             .flat_map(|seed| self.errors(design, 100 + seed))
@@ -149,7 +150,7 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
     for design in [optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap(), start]
     {
         let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
-        // The prediction is linear, which holds for relative deviations below about a third.
+        // The prediction is linear, so it holds for relative deviations below about a third.
         let known = pulls.filter(|(_, deviation)| *deviation < 0.3);
         let mut pulls: Vec<f64> = known.map(|(e, deviation)| (e / deviation).powi(2)).collect();
         assert!(pulls.len() > 800, "{} errors", pulls.len());

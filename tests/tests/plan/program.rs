@@ -1,8 +1,6 @@
-//! The verb `plan`: recipes, measurement file, prior, and the fit of the filled-in file.
-//!
-//! The commands of docs/guide/measuring.md, run in order.
-//!
-//! Simulated readings of planned swatches, computed from K and S of the oils.
+//! The verb `plan`: recipes, measurement file, prior, and the fit of the filled-in file. Runs the
+//! commands of docs/guide/measuring.md in order, and simulates readings of planned swatches from K
+//! and S of the oils.
 
 use calibrate::fit::ExpectedNoise;
 use calibrate::library::PigmentLibrary;
@@ -190,7 +188,7 @@ fn a_prior_gives_a_better_plan_and_says_by_how_much() {
     let own = sum("relative_deviations");
     let usual = sum("usual_relative_deviations");
     assert!(own < usual, "{own} for {usual}");
-    // Doubling the noise about doubles the predicted deviation.
+    // With twice the noise, the predicted deviation is about twice as large.
     let at = |noise: &str| {
         let run = plan(&["--prior", &prior, "--noise", noise, "--swatches", "19", "--json"]).json();
         run["prior"]["usual_relative_deviations"]["Viridian"]["scattering"].as_f64().unwrap()
@@ -250,7 +248,7 @@ fn parted(full: &str) -> (String, String) {
     (spectra, amounts)
 }
 
-/// Readings of bare paper and of washes of two paints with invented K and S on it.
+/// Readings of bare paper, and of washes of two paints on it with invented K and S.
 fn washes() -> String {
     let nm: Vec<f64> = (0..16).map(|step| 400.0 + 20.0 * f64::from(step)).collect();
     let band = |nm: f64, center: f64| (-((nm - center) / 70.0).powi(2)).exp();
@@ -329,7 +327,7 @@ fn every_command_of_the_page_on_measuring_runs() {
 /// Reflectances of the bare cards, equal at all wavelengths.
 const WHITE_CARD: f64 = 0.85;
 const BLACK_CARD: f64 = 0.05;
-/// Thickness of the films, in units in which zinc white has S d = 1. Such films nearly hide.
+/// Thickness of the films, in units where zinc white has S d = 1. Such films nearly hide.
 const THICKNESS: f64 = 8.0;
 
 pub(crate) const OILS: &str = "measurements/van-gogh-oils.pigments.json";

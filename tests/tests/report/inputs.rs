@@ -1,4 +1,4 @@
-//! Inputs of `impasto report`: library, readings and pair; refused inputs and kept files.
+//! Inputs of `impasto report`: library, readings and pair, refused inputs, and files that stay.
 
 use suite::program::{impasto, repository};
 use suite::watercolors::Watercolors;
@@ -77,7 +77,7 @@ fn only_the_named_columns_are_pigments() {
 #[test]
 fn readings_of_other_pigments_are_refused_before_anything_is_written() {
     let work = Work::new();
-    // Names are compared without regard to case. Both sets have a Prussian blue, so it is renamed.
+    // Names are compared without case. Both sets have a Prussian blue, so we rename it.
     let csv = Watercolors::exact().csv().replace("prussian blue", "indigo");
     std::fs::write(work.path("other.csv"), csv).unwrap();
     let run = work.report("out", &[&work.text("other.csv")]);

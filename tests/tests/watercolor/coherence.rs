@@ -1,14 +1,10 @@
-//! Coherent noise, which stays on its object while the camera moves.
-//!
-//! Change of coherent noise between frames, relative to noise that stands still on the picture.
+//! Coherent noise stays on its object while the camera moves. We measure its change between frames
+//! relative to noise that stands still on the picture, its spectrum at any distance of the camera,
+//! and that CPU and GPU agree, also on bare pixels, at a step in depth, and under a shift of the
+//! camera.
 //!
 //! `IMPASTO_TURNTABLE=1 cargo test -p suite --test watercolor turntable -- --nocapture`
 //! measures a full turn: 60 frames at 750 x 570 of 60,000 triangles.
-//!
-//! Spectrum of coherent noise, and its independence of the distance of the camera.
-//!
-//! Coherent noise on CPU and GPU, on bare pixels, at a step in depth, and under a shift of the
-//! camera.
 
 use std::f64::consts::TAU;
 use std::io::Write;
@@ -26,7 +22,7 @@ use graphics::mesh::{Mesh, Triangle};
 use graphics::surface::visible;
 use suite::program::device;
 
-/// A mesh with what noise needs of it: hierarchy, features and a repeating texture.
+/// A mesh with what noise needs: hierarchy, features and a repeating texture.
 struct Subject {
     mesh: Mesh,
     hierarchy: Arc<Hierarchy>,
@@ -87,7 +83,7 @@ fn waves(wave_px: f32) -> AnchoredNoise {
     AnchoredNoise { wave_px, ..AnchoredNoise::FLOW }
 }
 
-/// A wall of two triangles, and a camera whose picture it fills.
+/// A wall of two triangles, and a camera with a picture that the wall fills.
 fn wall() -> (Mesh, Camera) {
     let corners = [[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [5.0, 5.0, 0.0], [-5.0, 5.0, 0.0]];
     let triangles = [[0, 1, 2], [0, 2, 3]].map(|corners| Triangle { corners, material: 0 });
@@ -102,7 +98,7 @@ fn wall() -> (Mesh, Camera) {
     (mesh, from_front(10.0, 20.0))
 }
 
-/// A camera on the z axis at `distance` that looks at the origin.
+/// A camera on the z axis at `distance`, looking at the origin.
 fn from_front(distance: f32, field_of_view_deg: f32) -> Camera {
     Camera {
         eye: Vec3::Z * distance,
@@ -131,7 +127,7 @@ struct Turn {
     height: usize,
     /// Number of frames compared, 6 degrees apart.
     frames: usize,
-    /// Size of the noise relative to that for a picture of 570 rows.
+    /// Size of the noise relative to a picture of 570 rows.
     scale: f32,
 }
 
@@ -148,8 +144,8 @@ fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
     all.rms()
 }
 
-/// RMS change relative to the same noise standing still: flow and dispersion by features, then
-/// flow by particles for each of their numbers.
+/// RMS change relative to the same noise standing still: flow and dispersion by features, and flow
+/// by particles for each of their numbers.
 fn measured(mesh: Mesh, turn: &Turn, particles: &[usize]) -> (Vec<f64>, Vec<f64>) {
     let Turn { width, height, .. } = *turn;
     let subject = Subject::new(mesh);
@@ -209,10 +205,10 @@ fn turntable() {
     }
 }
 
-/// Side of the square in the middle of the picture whose spectrum is computed, in pixels.
+/// Side of the square in the middle of the picture, in pixels. We compute its spectrum.
 const SIDE: usize = 128;
 
-/// Power of the square by radial frequency, in cycles per [`SIDE`] pixels, under a Hann window.
+/// Power of this square by radial frequency, in cycles per [`SIDE`] pixels, under a Hann window.
 fn spectrum(noise: &Field<f32>) -> Vec<f64> {
     let left = (noise.width() - SIDE) / 2;
     let top = (noise.height() - SIDE) / 2;
@@ -224,7 +220,7 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
         .map(|angle| [angle.cos(), -angle.sin()])
         .collect();
     let wave = |i: usize| waves[i % SIDE];
-    // Fourier transform of the rows, then of the columns.
+    // Fourier transform of the rows, and then of the columns.
     let half = SIDE / 2;
     let mut rows = vec![[0.0; 2]; SIDE * half];
     for y in 0..SIDE {
@@ -254,8 +250,7 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
     power
 }
 
-/// Mean frequency in cycles per pixel, and the share of the power above `limit` cycles per
-/// pixel.
+/// Mean frequency in cycles per pixel, and the share of the power above `limit` cycles per pixel.
 fn told(power: &[f64], limit: f64) -> [f64; 2] {
     let all: f64 = power.iter().sum();
     let at = |i: usize| i as f64 / SIDE as f64;
@@ -299,7 +294,7 @@ fn under_zoom(noise: impl Fn(f32, u64) -> Field<f32>, limit: f64) -> Vec<[f64; 2
 
 #[test]
 fn frequency_holds_while_the_model_comes_nearer() {
-    // Triangles smaller than any feature, and some that are larger than the picture.
+    // Triangles smaller than any feature, and some larger than the picture.
     for triangles in [40_000, 500] {
         let subject = Subject::new(Mesh::sphere(triangles));
         let particles = Particles::new(&subject.hierarchy, 6);
@@ -347,7 +342,7 @@ fn compare(on_cpu: &Field<f32>, on_gpu: &Field<f32>, what: &str) {
     assert!(all().all(|value| (0.0..=1.0).contains(value)), "{what}: not in 0..1");
     let pairs = on_cpu.values().iter().zip(on_gpu.values());
     let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-    // Rounding of a depth is about a thousandth of the depth range of a feature.
+    // The rounding of a depth is about a thousandth of the depth range of a feature.
     assert!(worst < 2e-3, "{what}: {worst}");
 }
 
@@ -405,7 +400,7 @@ fn bare_pixels_are_a_half_and_the_same_input_gives_the_same_noise() {
 
 #[test]
 fn a_feature_is_on_its_own_surface_only() {
-    // A near surface on the left, a far one on the right, nothing at the bottom.
+    // A near surface on the left, a far one on the right, and nothing at the bottom.
     let depth = |i: usize| match (i % 40, i / 40) {
         (_, 30..) => 1.0,
         (..20, _) => 0.3,

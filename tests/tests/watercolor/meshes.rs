@@ -1,17 +1,13 @@
-//! Meshes: reading their files, normals, and checks.
-//!
-//! Reading meshes from OBJ, PLY and glTF: geometry, materials, textures and transforms.
-//!
-//! Invalid mesh files: errors with the location, the reason and a hint.
-//!
-//! Normals, closed surfaces, faults of meshes, and the sample models.
+//! Meshes: read from OBJ, PLY and glTF with geometry, materials, textures and transforms. Invalid
+//! files give errors with the location, the reason and a hint. Also normals, closed surfaces,
+//! faults of meshes, and the sample models.
 
 use documents::hint::Explain;
 use glam::Vec3;
 use graphics::mesh::{GridSize, Material, Mesh, MeshError, MeshFault, SampleModel, Texture};
 use serde_json::json;
 
-/// Writes files of these names and contents, opens the first as a mesh and checks the mesh.
+/// Writes these files, opens the first one as a mesh and checks it.
 fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {
     let folder = tempfile::tempdir().unwrap();
     for (name, content) in files {
@@ -26,7 +22,6 @@ fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {
     opened
 }
 
-/// A PNG of two texels, red and blue.
 fn two_texels() -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let picture = image::RgbImage::from_raw(2, 1, vec![255, 0, 0, 0, 0, 255]).unwrap();
@@ -34,7 +29,7 @@ fn two_texels() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The glTF document `rest` with its version and with `buffer` declared as `data.bin`.
+/// The glTF document `rest` with its version. Declares `buffer` as `data.bin`.
 fn gltf(buffer: &[u8], mut rest: serde_json::Value) -> Vec<u8> {
     rest["asset"] = serde_json::json!({ "version": "2.0" });
     rest["buffers"] = serde_json::json!([{ "uri": "data.bin", "byteLength": buffer.len() }]);
@@ -51,7 +46,6 @@ fn square_bytes() -> Vec<u8> {
     places.chain(corners.iter().flat_map(|corner| corner.to_le_bytes())).collect()
 }
 
-/// A glTF document with one node of [`SQUARE`].
 fn square_document() -> serde_json::Value {
     serde_json::json!({
         "bufferViews": [
@@ -70,7 +64,6 @@ fn square_document() -> serde_json::Value {
     })
 }
 
-/// Positions of the corners of every triangle.
 fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
     mesh.triangles
         .iter()
@@ -78,7 +71,6 @@ fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
         .collect()
 }
 
-/// The two triangles of the square.
 fn square() -> Vec<[[f32; 3]; 3]> {
     let [a, b, c, d] = SQUARE;
     vec![[a, b, c], [a, c, d]]
@@ -180,7 +172,7 @@ fn ply_as_text_and_in_both_binaries() {
 #[test]
 fn gltf_with_transforms_materials_and_textures() {
     let mut document = square_document();
-    // The parent translates; the child mirrors and stretches along x.
+    // The parent translates. The child mirrors and stretches along x.
     document["nodes"] = json!([
         { "translation": [10, 0, 0], "children": [1] },
         { "mesh": 0, "scale": [-2, 1, 1] },
@@ -199,7 +191,7 @@ fn gltf_with_transforms_materials_and_textures() {
     ];
     let mesh = opened(&files).unwrap();
     let [a, b, c, d] = SQUARE.map(|[x, y, z]: [f32; 3]| [10.0 - 2.0 * x, y, z]);
-    // A mirrored triangle has two corners swapped, so that it runs counter-clockwise.
+    // A mirrored triangle has two corners swapped, so that they run counter-clockwise.
     assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
     let Material { name, color: [r, g, b], texture } = &mesh.materials[0];
@@ -227,7 +219,7 @@ fn binary_gltf_and_strips_and_fans() {
         glb.extend(b"BIN\0");
         glb.extend(&buffer);
         let mesh = opened(&[("a.glb", &glb)]).unwrap();
-        // Of the indices 0 1 2 0 2 3; a strip and a fan of them have four triangles.
+        // These are the indices 0 1 2 0 2 3. A strip and a fan of them have four triangles.
         assert_eq!(mesh.triangles.len(), wanted, "mode {mode}");
         assert_eq!(corners(&mesh)[0], square()[0], "mode {mode}");
         if mode == 4 {
@@ -236,8 +228,9 @@ fn binary_gltf_and_strips_and_fans() {
     }
 }
 
-/// Asserts that the first file is refused with a hint and a message of one line that names the file
-/// and contains all of `wanted`.
+/// Asserts that the first file is refused with a hint and a message of one line with its name and
+/// all of
+/// `wanted`.
 #[track_caller]
 fn refused(files: &[(&str, &[u8])], wanted: &[&str]) {
     let error = opened(files).unwrap_err();
@@ -393,7 +386,7 @@ fn names_and_paths() {
     assert!(error.to_string().contains("no/such/model.obj"), "{error}");
 }
 
-/// Largest angle between `normals` and the radii of a ball, in degrees.
+/// Largest angle in degrees between `normals` and the radii of a ball.
 fn worst(mesh: &Mesh, normals: &[[f32; 3]]) -> f32 {
     let angles = mesh.positions.iter().zip(normals).map(|(&place, &normal)| {
         Vec3::from(place).normalize().dot(normal.into()).clamp(-1.0, 1.0).acos().to_degrees()
@@ -414,10 +407,10 @@ fn a_ball_has_its_radii_as_normals() {
 fn smoothing_keeps_a_ball_and_evens_bumps() {
     let mut ball = Mesh::sphere(5000);
     let kept = ball.smoothed_normals(20);
-    // Around the poles triangles are uneven, so averaged normals deviate.
+    // Around the poles, triangles are uneven, so averaged normals deviate.
     assert!(worst(&ball, &kept) < 4.0, "{}", worst(&ball, &kept));
     let smooth = ball.normals.clone();
-    // Perturbs each normal by its position, equally on both sides of the seam.
+    // Perturbs each normal by its position, and equally on both sides of the seam.
     for (normal, place) in ball.normals.iter_mut().zip(&ball.positions) {
         let [x, y, z] = place.map(|at| (at * 977.0).sin() * 0.4);
         *normal = (Vec3::from(*normal) + Vec3::new(x, y, z)).normalize().into();
@@ -499,7 +492,7 @@ fn shapes_are_whole_and_as_fine_as_asked() {
             assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-4));
             let colors = mesh.colors.iter().flatten();
             assert!(colors.into_iter().all(|value| (0.0..=1.0).contains(value)));
-            // Normals point to the side from which corners run counter-clockwise.
+            // Normals point to the side where corners run counter-clockwise.
             let agree = mesh.triangles.iter().filter(|triangle| {
                 let at = triangle.corners.map(|at| Vec3::from(mesh.positions[at as usize]));
                 let normal: Vec3 =

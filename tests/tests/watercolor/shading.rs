@@ -15,7 +15,7 @@ use watercolor::{ModelPainter, Settings, ShadowMap, Toon, shade_toon};
 
 use super::seen::{inside_them, random_triangles};
 
-/// A chequered texture of odd width and height, 7 x 5 texels.
+/// A chequered texture of 7 x 5 texels.
 fn checks() -> Texture {
     let texel = |x: u32, y: u32| match (x / 2 + y) % 2 {
         0 => u32::from_le_bytes([240, 200, 40 * y as u8, 255]),
@@ -71,7 +71,7 @@ fn shaded(
     compute.download(&color).unwrap()
 }
 
-/// The picture of [`shaded`] with the shadows that the mesh casts.
+/// The picture of [`shaded`] with cast shadows.
 fn shadowed(
     compute: &mut Compute,
     mesh: &Mesh,
@@ -200,8 +200,8 @@ fn the_device_sees_what_the_processor_sees() {
                 differ += 1;
             } else if a.triangle != NO_TRIANGLE {
                 shown += 1;
-                // A GPU may compute weights from vertices that are not rounded, which changes
-                // them in triangles of a few pixels. The position agrees nevertheless.
+                // A GPU may compute weights from vertices that are not rounded. This changes them
+                // in triangles of a few pixels, but the position agrees.
                 let off = position_at(mesh, *a).distance(position_at(mesh, *b));
                 assert!(off < 6e-3, "{size:?}: {off} off: {a:?} {b:?}");
                 assert!((a.depth - b.depth).abs() < 5e-4, "{size:?}: {a:?} {b:?}");

@@ -1,8 +1,5 @@
-//! The command `impasto artmap`.
-//!
-//! `impasto artmap build`, `check` and `show`: maps of samples.
-//!
-//! `impasto artmap paint`: samples painted by the engine.
+//! The command `impasto artmap`: `build`, `check` and `show` for maps of samples, and `paint`,
+//! which paints samples.
 
 mod sampled;
 
@@ -12,7 +9,6 @@ use serde_json::json;
 use suite::program::{Run, impasto, repository};
 use tempfile::TempDir;
 
-/// A temporary folder, deleted when dropped.
 struct Folder(TempDir);
 
 impl Folder {
@@ -20,7 +16,7 @@ impl Folder {
         Self(tempfile::tempdir().unwrap())
     }
 
-    /// The path of a file in the folder, which need not exist.
+    /// Path of a file in the folder. It need not exist.
     fn file(&self, name: &str) -> String {
         self.0.path().join(name).display().to_string()
     }
@@ -34,7 +30,6 @@ impl Folder {
         std::fs::read(self.0.path().join(name)).unwrap()
     }
 
-    /// Names of the files, sorted.
     fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.0.path()).unwrap();
         let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
@@ -43,8 +38,8 @@ impl Folder {
         names
     }
 
-    /// A picture of 200 x 120 pixels. Left of x = 100 light strokes at 60 degrees, 10 px apart;
-    /// right of it dark ones at 120 degrees, 8 px apart.
+    /// A picture of 200 x 120 pixels. Left of x = 100 there are light strokes at 60 degrees, 10 px
+    /// apart, and right of it dark ones at 120 degrees, 8 px apart.
     fn strokes(&self) -> String {
         let color = |i: usize| {
             let x = (i % 200) as f32;
@@ -79,7 +74,6 @@ fn artmap(arguments: &[&str]) -> Run {
     impasto(&[&["artmap"], arguments].concat())
 }
 
-/// Runs `impasto artmap` and asserts success.
 #[track_caller]
 fn done(arguments: &[&str]) -> Run {
     let run = artmap(arguments);
@@ -88,7 +82,7 @@ fn done(arguments: &[&str]) -> Run {
 }
 
 impl Folder {
-    /// Samples of four spacings and more, painted in dabs: `name` with `tones` tones.
+    /// Samples of four spacings and more, painted in dabs with `tones` tones, in the file `name`.
     fn painted(&self, name: &str, tones: &str, seed: &str) -> String {
         let text = done(&["paint", "--show-style", "dabs"]).out;
         let small = text
@@ -120,7 +114,8 @@ fn a_map_has_a_tile_of_every_sample_that_agrees_with_the_first() {
     }
     assert!(told["pigments"].as_array().unwrap().len() >= 3, "{told}");
     assert_eq!(done(&["show", &map, "--json"]).json(), told, "the file holds all that was told");
-    // Tiles, three rows of tones between, repeats, relief; 12 pixels around each tile of 64.
+    // Tiles, three rows of tones in between, repeats and relief, with 12 pixels around each tile of
+    // 64.
     let sheet = image::open(&sheet).unwrap();
     assert_eq!((sheet.width(), sheet.height()), (12 + 3 * 76, 12 + 6 * 76));
 
@@ -158,7 +153,7 @@ fn steps_of_a_map_are_pictures_in_order() {
     assert!(last.contains("map-2-level-"), "{names:?}");
     let last = image::open(last).unwrap();
     assert_eq!((last.width(), last.height()), (64, 64));
-    // A file in the place of the folder.
+    // There is a file instead of the folder.
     let run = artmap(&[&build[..], &["--stages", &samples]].concat());
     assert_eq!(run.status, 2, "{}", run.err);
     assert!(run.err.contains("this folder cannot be created"), "{}", run.err);
@@ -169,7 +164,7 @@ fn samples_of_several_files_make_one_map_and_faults_are_told() {
     let folder = Folder::new();
     let samples = folder.painted("s.exr", "2", "1");
     let map = folder.file("m.exr");
-    // The same samples twice: two pairs of equal tones.
+    // The same samples twice make two pairs of equal tones.
     done(&["build", &samples, &samples, "--size", "64", "--output", &map]);
     let run = artmap(&["check", &map]);
     assert_eq!(run.status, 1, "{}", run.out);
@@ -210,7 +205,7 @@ fn maps_that_cannot_be_made_are_refused_and_nothing_is_written() {
 }
 
 impl Folder {
-    /// A style of dabs on a canvas of few and large cells.
+    /// A style of dabs on a canvas of few large cells.
     fn small_style(&self) -> String {
         let text = done(&["paint", "--show-style", "dabs"]).out;
         let small = text
@@ -246,7 +241,7 @@ fn tones_are_painted_in_the_pigments_of_a_library_and_shown_again() {
         told["pigments"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     assert!(pigments.len() >= 3 && pigments.contains(&"Zinc White"), "{pigments:?}");
     assert_eq!(done(&["show", &output, "--json"]).json(), told, "the file holds all that was told");
-    // Colours above, relief below.
+    // Colours are above, relief is below.
     let sheet = image::open(&sheet).unwrap();
     let side = 8 * 36;
     assert_eq!((sheet.width(), sheet.height()), (48 + 3 * side + 32, 48 + 2 * side + 16));

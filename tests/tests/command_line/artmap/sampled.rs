@@ -1,10 +1,5 @@
-//! `impasto artmap sample` of pictures by marks, and `impasto artmap show`.
-//!
-//! `impasto artmap sample` of paintings that impasto made.
-//!
-//! Marks that `impasto artmap sample --propose` writes.
-//!
-//! Refusals of `impasto artmap sample`: exit status, place and way out.
+//! `impasto artmap sample` of pictures by marks and of paintings that impasto made, marks that it writes
+//! with `--propose`, and its refusals with exit status, place and a way out.
 
 use graphics::export::png8;
 use graphics::field::Field;
@@ -13,7 +8,6 @@ use suite::program::impasto;
 
 use super::{Folder, MARKS, artmap, done};
 
-/// Number of a JSON value.
 #[track_caller]
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
@@ -50,7 +44,7 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     );
     assert!((number(&wall["spacing_px"]) - 10.0).abs() < 0.5, "{wall}");
     assert!(number(&wall["sharpness"]) > 0.5 && shade["sharpness"].is_null(), "{told}");
-    // The smaller spacing of two is that of the set.
+    // The set has the smaller spacing of the two.
     assert_eq!((number(&told["spacing"]), number(&shade["scale"][0])), (8.0, 1.0));
     assert!((number(&wall["scale"][0]) - 0.8).abs() < 0.04, "{wall}");
     assert_eq!(shade["bounds"], json!([106, 6, 88, 108]));
@@ -180,7 +174,7 @@ fn marks_of_another_picture_are_used_with_a_warning() {
     assert!(run.err.contains("marks the picture orchard.jpg, not strokes.png"), "{}", run.err);
 }
 
-/// Pigments of the crowded painting, one more than a table of samples holds.
+/// Pigments of the crowded painting. This is one more than a table of samples holds.
 const NINE: [&str; 9] = [
     "Zinc White",
     "Lead White",
@@ -194,8 +188,9 @@ const NINE: [&str; 9] = [
 ];
 
 impl Folder {
-    /// A painting of 80 x 60 cells: upright strokes 4 mm (8 cells) apart in two pigments; with
-    /// `crowded`, a touch of seven further ones below.
+    /// A painting of 80 x 60 cells with upright strokes 4 mm (8 cells) apart in two pigments. If it
+    /// is
+    /// `crowded`, there are touches of seven more below.
     fn painting(&self, crowded: bool) -> String {
         let load = |pigment: &str, mm: f64| json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}});
         let stroke = |samples: Value| json!({"stroke": {"brush": "flat", "samples": samples}});
@@ -248,7 +243,7 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     let seen = whole["direction"]["seen_in"].as_str();
     assert!([Some("colour"), Some("relief")].contains(&seen), "{seen:?}");
 
-    // Marks on a painting count its cells.
+    // Marks on a painting are in cells.
     let marks = folder.write(
         "m.toml",
         "[[sample]]\nname = \"half\"\nrectangle = [0, 0, 40, 60]\nspacing = [[4, 9], [12, 9]]\n",

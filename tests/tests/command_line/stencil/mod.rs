@@ -1,10 +1,5 @@
-//! The command `impasto stencil`.
-//!
-//! Models and photographs that turn to colour where paint is.
-//!
-//! Cameras of options, which a script that is written has too.
-//!
-//! Volumes as films of measured pigments.
+//! The command `impasto stencil`: models and photographs that turn to colour where paint is,
+//! cameras of options and of the scripts that it writes, and volumes as films of measured pigments.
 
 mod faults;
 mod recordings;
@@ -20,12 +15,11 @@ use tempfile::TempDir;
 use volumes::performance::{FirstView, Performance};
 use volumes::script::Script;
 
-/// A red box, 2 units wide, 1 high and 1 deep.
+/// A red box of 2 x 1 x 1 units.
 const BOX: &str = "mtllib box.mtl\nv -1 0 -0.5\nv 1 0 -0.5\nv 1 1 -0.5\nv -1 1 -0.5\nv -1 0 0.5\n\
     v 1 0 0.5\nv 1 1 0.5\nv -1 1 0.5\nusemtl red\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\n\
     f 1 5 8 4\nf 2 3 7 6\n";
 
-/// A folder with the model `box.obj`.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("box.obj"), BOX).unwrap();
@@ -48,18 +42,18 @@ fn done(arguments: &[&str]) -> Run {
     run
 }
 
-/// Options of a small picture: wide cells, half a second, one sample a pixel.
+/// Options of a small picture: wide cells, half a second, one sample per pixel.
 const SMALL: [&str; 8] =
     ["--width", "64", "--seconds", "0.5", "--set", "grid.cell=0.2", "--set", "picture.samples=1"];
 
-/// Options of paint poured before the middle of the first picture.
+/// Pours paint before the middle of the first picture.
 const POUR: [&str; 2] = ["--pour", "0.45,0.6,150"];
 
 fn pixels(path: impl AsRef<Path>) -> RgbImage {
     image::open(path).unwrap().to_rgb8()
 }
 
-/// Names of the files in a folder that end in `ending`, sorted.
+/// Sorted names of the files in a folder that end in `ending`.
 fn files(folder: impl AsRef<Path>, ending: &str) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap();
     let names = names.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
@@ -127,13 +121,13 @@ fn a_script_that_was_written_makes_the_same_picture() {
     let read = |name: &str| fs::read(name).unwrap();
     assert!(read(&picture) == read(&again), "the same bytes");
     assert_eq!(text, fs::read_to_string(&second).unwrap());
-    // From another folder the script names the whole path.
+    // From another folder, the script uses the whole path.
     let elsewhere = tempfile::tempdir().unwrap();
     let moved = path(&elsewhere, "moved.toml");
     done(&[&script, "--script-out", &moved]);
     done(&[&moved, "--width", "64", "--picture", &again]);
     assert!(read(&picture) == read(&again), "the same bytes from another folder");
-    // The picture would be another without one of the options.
+    // If you leave out one of the options, you get another picture.
     done(&[&scene[..], &look, &["--picture", &again]].concat());
     assert!(read(&picture) != read(&again), "tints change the picture");
 }
@@ -205,7 +199,7 @@ fn volumes_of_each_frame_are_those_of_the_library_at_that_moment() {
     let view = FirstView::new(&model, &camera, (64, 48));
     let settings = script.settings().unwrap();
     let mut play = Performance::new(&script, &model, &settings, &view).unwrap();
-    // The first frame is the beginning, without volumes.
+    // The first frame shows the beginning, without volumes.
     for (name, step) in names[1..].iter().zip([30, 60]) {
         play.advance_to(step).unwrap();
         let volumes = play.world().volumes();
@@ -347,11 +341,11 @@ fn a_scene_turned_inside_out_is_painted_as_well() {
     assert!(own > 20 && (own / 2..own * 2).contains(&found), "{own} {found}");
 }
 
-/// Options of a film of five frames, if the camera has no number of its own.
+/// Five frames, unless the camera has its own number.
 const RATE: [&str; 2] = ["--rate", "8"];
 
-/// Paints a still and a film of `subject` with these options of its camera, then with the script
-/// that this wrote alone, and compares their bytes. Returns the still, the film and the script.
+/// Paints a still and a film of `subject` with these options of its camera, and again with only the
+/// script that this wrote. Compares their bytes, and returns the still, the film and the script.
 fn replayed(subject: &str, camera: &[&str]) -> (Vec<u8>, Vec<u8>, String) {
     let folder = tempfile::tempdir().unwrap();
     let [picture, film, script] = ["p.png", "f.gif", "s.toml"].map(|name| path(&folder, name));
@@ -445,7 +439,7 @@ fn a_painting_of_volumes_is_relit_and_repainted() {
     let off = own.pixels().zip(same.pixels());
     let off = off.map(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max().unwrap());
     assert!(off.max() <= Some(1), "the picture as it was saved");
-    // Where ultramarine was poured the picture turns from blue to red, and nowhere else.
+    // Where ultramarine was poured, the picture turns from blue to red, and only there.
     let swapped = relit(&["--swap", "all:Ultramarine=Vermilion"]);
     let redness = |pixel: &Rgb<u8>| i32::from(pixel.0[0]) - i32::from(pixel.0[2]);
     let turned = same.pixels().zip(swapped.pixels()).filter(|(a, b)| a != b);
@@ -487,7 +481,7 @@ fn pours_take_the_palette_in_turn_and_recipes_mix() {
     for words in ["P1 = \"Eosin Lake (lead, wax)\"", "P2 = \"Ultramarine\"", "P2 = 1.0"] {
         assert!(commas.contains(words), "{words}: {commas}");
     }
-    // Parts of a painting are shown too, but not written as one.
+    // You can show parts of a painting, but not write them as one.
     done(&[&scene[..], &palette, &["--show", "mask", "--picture", &picture]].concat());
     assert!(pixels(&picture).pixels().all(|pixel| [0, 255].contains(&pixel.0[1])));
     let output = path(&folder, "o.exr");
@@ -554,7 +548,7 @@ fn a_written_script_holds_its_ground_and_its_lamp() {
     for other in [["--over", "black"], ["--ground", "paper"], ["--illuminant", "A"]] {
         assert!(replayed(&other) != bytes, "{other:?} is another painting");
     }
-    // Written again from there into another folder, the lamp is found still.
+    // If you write the script again to another folder, the lamp is still found.
     let below = path(&folder, "below");
     fs::create_dir(&below).unwrap();
     let moved = format!("{below}/t.toml");
@@ -579,7 +573,7 @@ fn the_passes_hold_the_heights_of_each_pigment() {
     let library = library();
     let [photo, passes] = ["photo.png", "p.exr"].map(|name| path(&folder, name));
     RgbImage::from_pixel(60, 40, Rgb([180; 3])).save(&photo).unwrap();
-    // A photograph is 200 mm wide and fills the picture: a pixel is 1 mm^2.
+    // A photograph is 200 mm wide and fills the picture, so a pixel is 1 mm^2.
     let scene = [&photo, "--width", "200", "--set", "picture.samples=1", "--pigments", &library];
     let paint = ["--pour", "0.4,0.5,18", "--paint", "Ultramarine=3,Lead White=1"];
     let told = done(&[&scene[..], &paint, &["--passes", &passes, "--json"]].concat()).json();
@@ -612,7 +606,7 @@ fn the_passes_hold_the_heights_of_each_pigment() {
         assert_eq!(*blue > 0.0, *count > 0.0, "a film where volumes are");
         assert!((blue - 3.0 * white).abs() <= 2e-5, "{blue} {white}");
     }
-    // The film of the preset grisaille, and somewhat more at its edge.
+    // This is the film of the preset grisaille, and a little more at its edge.
     let most = blue.iter().zip(&white).map(|(blue, white)| blue + white).fold(0.0, f64::max);
     assert!((0.003..0.012).contains(&most), "{most} mm");
     assert!(counts.iter().filter(|&&count| count > 0.0).count() > 4000);

@@ -1,15 +1,8 @@
-//! Text formats of instruments, read by the library and by the program.
-//!
-//! Formats of instruments: every fixture is recognized and gives the known values, with the reader
-//! and with `impasto color`.
-//!
-//! Tables of readings as instruments and people write them: headings of names and wavelengths, lines above
-//! the table, falling wavelengths, decimal commas.
-//!
-//! Instrument files with faults or with other quantities than reflectance: refused with the place
-//! and a hint.
-//!
-//! Arbitrary and damaged bytes: no reader of text formats panics, and every error names the file.
+//! Text formats of instruments, read by the library and by the program. Every fixture is recognized
+//! and gives the known values. Tables may be written as instruments and people do: headings of
+//! names and wavelengths, lines above the table, falling wavelengths, decimal commas. Files with
+//! faults or with other quantities are refused with the place and a hint, and damaged bytes never
+//! make a reader panic.
 mod workbooks;
 
 use std::path::PathBuf;
@@ -20,12 +13,10 @@ use spectra::instrument::{Format, MeasuredQuantity, MeasuredSpectrum, Role, Unit
 use suite::golden::assert_near;
 use suite::program::{Run, impasto};
 
-/// Path of a made-up file in tests/fixtures/instruments.
 fn fixture(name: &str) -> String {
     suite::program::repository(&format!("tests/fixtures/instruments/{name}"))
 }
 
-/// Names and bytes of all made-up instrument files.
 fn fixtures() -> Vec<(String, Vec<u8>)> {
     let mut paths: Vec<PathBuf> =
         std::fs::read_dir(fixture("")).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -41,7 +32,7 @@ const NM: [f64; 7] = [400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0];
 const MADDER: [f64; 7] = [20.0, 10.5, 12.0, 15.25, 60.0, 70.0, 75.0];
 const SLATE: [f64; 7] = [50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.5];
 
-/// File, format, names of its spectra, and the reading of a perfect white.
+/// File, format, names of its spectra, and the value of a perfect white.
 const FILES: [(&str, Format, &[&str], f64); 18] = [
     ("two.cgats", Format::Cgats, &["Madder", "Slate"], 1.0),
     ("two.ti3", Format::Cgats, &["Madder", "Slate"], 100.0),
@@ -150,7 +141,7 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     assert!(run.err.contains(said), "{}", run.err);
     let run = color(&[691.0]);
     assert!(run.status == 1 && run.err.contains("column `691 nm`"), "{}", run.err);
-    // A file without wavelengths in the middle of the visible band has no ends to cut off.
+    // Without wavelengths in the middle of the visible band, there are no ends to cut off.
     std::fs::write(&file, "340,0.5\n360,-0.1\n380,0.5\n").unwrap();
     let run = impasto(&["color", file.to_str().unwrap()]);
     assert!(run.status == 1 && run.err.contains("column `360 nm`"), "{}", run.err);
@@ -199,7 +190,7 @@ fn a_jaz_file_holds_its_own_white_and_dark() {
     let counts = impasto(&["color", &jaz, "--white", &white, "--dark", &dark, "--json"]);
     assert_eq!(counts.json()[0]["sample"], "madder (S)");
     assert_near("S against R and D", &lab(&counts), &lab(&processed), 1e-9);
-    // In a file that states no roles, the name in `--white` finds the white.
+    // In a file that states no roles, `--white` finds the white by its name.
     let columns = fixture("columns.txt");
     let slate = format!("{columns}#Slate");
     let run =
@@ -210,7 +201,7 @@ fn a_jaz_file_holds_its_own_white_and_dark() {
 #[test]
 fn files_in_memory_give_the_readings_of_files_on_the_disk() {
     let folder = tempfile::tempdir().unwrap();
-    // Its column is no amount: only its spectra can be read.
+    // Its column is not an amount, so you can only read its spectra.
     let remark = b"sample,film,backing,Blue,400,500,600\nA,paint,white,much,0.1,0.2,0.3\n".to_vec();
     let files = fixtures().into_iter().chain([("remark.csv".to_owned(), remark)]);
     for (name, bytes) in files {
@@ -227,7 +218,6 @@ fn files_in_memory_give_the_readings_of_files_on_the_disk() {
     }
 }
 
-/// Runs `color` on a file with this content.
 fn color(name: &str, content: &str) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(name);
@@ -342,7 +332,7 @@ fn columns_beside_the_names_are_told() {
     assert_eq!(run.status, 0, "amounts take no part in colours: {}", run.err);
 }
 
-/// Runs `color` on a fixture in which the first `from` is replaced by `to`.
+/// Runs `color` on a fixture, with the first `from` replaced by `to`.
 fn color_of(name: &str, from: &str, to: &str) -> Run {
     let bytes = std::fs::read(fixture(name)).unwrap();
     let text = String::from_utf8(bytes).unwrap();
@@ -450,7 +440,7 @@ fn a_format_that_is_told_is_the_one_that_is_read() {
 
 const FILE: &str = "some/file.txt";
 
-/// Reads the bytes in every format and with the detected format; checks the spectra or the error.
+/// Reads the bytes in every format and with the detected format. Checks the spectra or the error.
 fn read_every_way(bytes: &[u8]) {
     let told = Format::ALL.into_iter().map(Some).chain([None]);
     for format in told {
@@ -471,7 +461,7 @@ fn read_every_way(bytes: &[u8]) {
     }
 }
 
-/// Damage to a file: places, as fractions of its length, and the bytes that replace the content.
+/// Edits of a file: places, as fractions of its length, and bytes to put there.
 fn edits() -> impl Strategy<Value = Vec<(f64, Vec<u8>)>> {
     let piece = prop_oneof![
         proptest::collection::vec(any::<u8>(), 0..4),

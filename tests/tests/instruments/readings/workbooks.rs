@@ -1,6 +1,5 @@
-//! Workbooks of readings and of recipes, and binary files: read like text, refused with sheet and cell.
-//!
-//! Recipes in a file of their own: the fit gives the same library as one CSV of both.
+//! Workbooks of readings and of recipes, and binary files: read like text, refused with sheet and
+//! cell. If recipes are in a separate file, the fit gives the same library as one CSV of both.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
@@ -16,12 +15,12 @@ const MAIN: &str = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
 const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
 const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 
-/// A workbook whose only sheet, `Readings`, has the cells of a CSV from its row `first` on.
+/// A workbook with the cells of a CSV from row `first` on in its only sheet, `Readings`.
 fn workbook(csv: &str, first: usize) -> Vec<u8> {
     workbook_of(&[("Readings", csv)], first)
 }
 
-/// A workbook with sheets of these names, which have the cells of a CSV from their row `first` on.
+/// A workbook with sheets of these names. Each has the cells of a CSV from row `first` on.
 fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
     let cell = |text: &str, row: usize, column: usize| {
         let letter = char::from(b'A' + u8::try_from(column).unwrap());
@@ -240,7 +239,7 @@ fn oils_apart() -> (String, String) {
     (cgats, recipes)
 }
 
-/// Cells of a CSV whose quoted cells contain no quotes.
+/// Cells of a CSV. Quoted cells must not contain quotes.
 fn csv_rows(text: &str) -> Vec<Vec<String>> {
     let row = |line: &str| {
         let mut cells = vec![String::new()];
@@ -361,7 +360,7 @@ fn columns_of_instruments_are_no_pigments() {
     assert_eq!(run.json()["pigments"], 2, "{}", run.out);
 }
 
-/// Two amounts of one paint over paper, which is measured bare and stands in the first row.
+/// Two amounts of one paint over paper. The bare paper is in the first row.
 const WASHES: &str = "\
 sample,film,Blue,400,500,600
 paper,none,,0.9,0.9,0.9

@@ -1,7 +1,5 @@
-//! Reflectance from detector counts: made-up counts of a grey of known reflectance, its white and
-//! darks, with integration times, saturation and noise.
-//!
-//! Detector counts referenced to a white and a dark, on the command line.
+//! Reflectance from detector counts, also on the command line: made-up counts of a grey of known
+//! reflectance, its white and darks, with integration times, saturation and noise.
 
 use std::path::Path;
 
@@ -31,7 +29,6 @@ fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Mea
 
 const TILE: f64 = 0.98;
 
-/// Counts per millisecond of a perfect white.
 fn lamp(nm: f64) -> f64 {
     400.0 + 1.5 * (nm - 340.0)
 }
@@ -89,7 +86,7 @@ fn a_grey_comes_out_as_it_went_in() {
 fn other_pixels_are_joined_by_straight_lines() {
     let (sample, mut white, mut darks) = measured(10.0, 10.0);
     for record in std::iter::once(&mut white).chain(&mut darks) {
-        // Light and dark are linear in the wavelength, so every second pixel determines the rest.
+        // Light and dark are linear in the wavelength, so every second pixel determines the others.
         let keep = |values: &[f64]| values.iter().copied().step_by(2).collect::<Vec<f64>>();
         (record.wavelengths_nm, record.values) =
             (keep(&record.wavelengths_nm), keep(&record.values));
@@ -98,7 +95,7 @@ fn other_pixels_are_joined_by_straight_lines() {
     for (&nm, &value) in found.wavelengths_nm.iter().zip(&found.values) {
         assert!((value - grey(nm)).abs() < 1e-12, "{nm} nm: {value}");
     }
-    // The last pixel of the sample lies beyond the last pixel of the white.
+    // The last pixel of the sample is beyond the last pixel of the white.
     assert_eq!(found.values.len() + 1, sample.values.len(), "{:?}", found.remarks);
     assert!(found.remarks[0].contains("the white has no value"), "{:?}", found.remarks);
 }
@@ -253,7 +250,7 @@ fn a_measured_tile_is_a_smooth_curve_between_its_wavelengths() {
     }
 }
 
-/// Writes the counts `of` a wavelength, every 10 nm from 380 to 730 nm; returns the path.
+/// Writes the counts `of` each wavelength, every 10 nm from 380 to 730 nm. Returns the path.
 fn counts(folder: &Path, name: &str, of: impl Fn(f64) -> f64) -> String {
     let lines = (0..36).map(|i| 380.0 + 10.0 * f64::from(i));
     let lines: String = lines.map(|nm| format!("{nm}\t{}\n", of(nm))).collect();

@@ -1,10 +1,6 @@
-//! Segmentation, morphology, and the abstraction of photographs that uses both.
-//!
-//! Pictures with known regions, generated exactly as in `tests/golden/segmentation.py`.
-//!
-//! Abstraction of photographs: regions, opacity, size, and CPU against GPU.
-//!
-//! Quality of segmentation: regions and boundaries against OpenCV's mean shift.
+//! Segmentation and morphology (its quality compared with OpenCV's mean shift), and the abstraction
+//! of photographs that uses both: regions, opacity, size, and CPU against GPU. The pictures have
+//! known regions and are generated exactly as in `tests/golden/segmentation.py`.
 
 mod segmentation;
 
@@ -24,8 +20,8 @@ use watercolor::{AbstractionError, RegionSettings, abstract_photograph};
 const WIDTH: usize = 160;
 const HEIGHT: usize = 120;
 
-/// A shape with a soft outline, drawn over those before it. `across` and `down` are the changes of
-/// colour to the right and to the bottom; `texture` is the amplitude of a diagonal wave.
+/// A shape with a soft outline, drawn over the shapes before it. `across` and `down` are the
+/// changes of colour to the right and to the bottom. `texture` is the amplitude of a diagonal wave.
 #[derive(Deserialize)]
 struct Shape {
     kind: String,
@@ -46,7 +42,7 @@ struct Found {
     precision: f64,
 }
 
-/// A picture as the golden file describes it, with OpenCV's results by range radius.
+/// A picture of the golden file, with OpenCV's results by range radius.
 #[derive(Deserialize)]
 struct Told {
     name: String,
@@ -227,7 +223,7 @@ struct Cases {
     pictures: Vec<Told>,
 }
 
-/// Pixels whose label differs from that of the pixel to the right or below.
+/// Pixels with another label than the pixel to the right or below.
 fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
     let width = labels.width();
     let height = labels.height();
@@ -244,14 +240,13 @@ fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
     found
 }
 
-/// Share of the pixels `found` with one of `wanted` within 2 px.
+/// Share of the pixels `found` that have one of `wanted` within 2 px.
 fn near(found: &[(i32, i32)], wanted: &[(i32, i32)]) -> f64 {
     let close = |a: &(i32, i32), b: &(i32, i32)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2) <= 4;
     let count = found.iter().filter(|a| wanted.iter().any(|b| close(a, b))).count();
     if found.is_empty() { 0.0 } else { count as f64 / found.len() as f64 }
 }
 
-/// Sum of the results of all pictures.
 fn whole<'a>(found: impl Iterator<Item = &'a Found>) -> Found {
     let none = Found { regions: 0, recall: 0.0, precision: 0.0 };
     found.fold(none, |sum, found| Found {
@@ -261,10 +256,10 @@ fn whole<'a>(found: impl Iterator<Item = &'a Found>) -> Found {
     })
 }
 
-/// Compares with OpenCV's mean shift filter, whose output is divided into regions by the same
-/// rules. On each picture the recall is at most 0.005 below that of any range radius of OpenCV.
-/// Over all pictures, against the range radius with the highest recall: no lower recall, no more
-/// regions, and a mean precision at most 0.05 lower.
+/// Compares with OpenCV's mean shift filter. The same rules divide its output into regions. On each
+/// picture the recall is at most 0.005 below OpenCV with any range radius. Over all pictures,
+/// compared with the range radius of the highest recall, there is no lower recall, there are no
+/// more regions, and the mean precision is at most 0.05 lower.
 #[test]
 fn boundaries_are_found_no_worse_than_by_opencv() {
     let golden: Golden<Cases, Shared> = read("segmentation");

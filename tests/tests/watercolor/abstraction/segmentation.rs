@@ -1,6 +1,5 @@
-//! Segmentation of small synthetic pictures: regions, connectivity, coverage and settings.
-//!
-//! Openings and closings: definition, algebraic properties, and CPU against GPU.
+//! Segmentation of small synthetic pictures (regions, connectivity, coverage, settings), and
+//! openings and closings (definition, algebraic properties, CPU against GPU).
 
 use documents::hint::Explain;
 use graphics::compute::{ColorImage, Compute};

@@ -1,8 +1,6 @@
-//! Effects of photographs alone: soft steps, lifted darks, reserved whites, a margin, back-runs.
-//!
-//! Settings of watercolour: presets, TOML files and their errors, scaling to a picture.
-//!
-//! Glazes of calibrated pigments over paper of known reflectance.
+//! Effects only of photographs (soft steps, lifted darks, reserved whites, a margin, back-runs),
+//! settings of watercolour (presets, TOML files and their errors, scaling to a picture), and glazes
+//! of calibrated pigments over paper of known reflectance.
 
 use std::collections::BTreeSet;
 use std::io::Cursor;
@@ -31,7 +29,7 @@ fn photograph(width: u32, height: u32, color: impl Fn(u32, u32) -> [u8; 3]) -> P
     Photograph::from_bytes("made.png", bytes.get_ref()).unwrap()
 }
 
-/// Settings in which only the effects of photographs are left, all off.
+/// Settings with only the effects of photographs left, all switched off.
 fn plain() -> Settings {
     let mut settings = without_effects(Settings::default());
     settings.reference_px = 400.0;
@@ -47,7 +45,7 @@ fn prepared(photograph: &Photograph, settings: Settings) -> PreparedPhotograph {
     PhotographPainter::new(settings).prepare(photograph).unwrap()
 }
 
-/// A sky that grows paler downwards, with a dark tower before it.
+/// A sky that becomes paler downwards, with a dark tower in front.
 fn sky() -> Photograph {
     photograph(400, 300, |x, y| match x {
         180..230 if y > 90 => [60, 30, 25],
@@ -58,7 +56,7 @@ fn sky() -> Photograph {
     })
 }
 
-/// The greatest step of red between neighbours of a column.
+/// Largest step of red between neighbours of a column.
 fn steepest(color: &Field<[f32; 4]>, x: usize) -> f32 {
     let steps = (1..color.height()).map(|y| (color[(x, y)][0] - color[(x, y - 1)][0]).abs());
     steps.fold(0.0, f32::max)
@@ -98,7 +96,7 @@ fn wet_outlines_run_over_their_share_of_the_picture() {
     let mut of = moved;
     let [none, some, all] = [0.0, 0.4, 1.0].map(&mut of);
     assert!(none == 0 && some > 20 && some < 280 && all > 285, "{none} {some} {all} rows");
-    // An outline of black against white stays on the wettest paper.
+    // On the wettest paper, an outline of black against white stays.
     let strong = photograph(400, 300, |x, _| [if x < 200 { 20 } else { 235 }; 3]);
     let [dry, wet] = [0.0, 1.0].map(|amount| {
         settings.wet.amount = amount;
@@ -176,7 +174,7 @@ fn back_runs_stay_in_the_wash_that_their_water_falls_into() {
         let places = (0..300).flat_map(|y| columns.clone().map(move |x| (x, y)));
         places.filter(|&at| field[at] != 0.5).count()
     };
-    // A tone of the same wash ends no bloom; the other wash and bare paper do.
+    // A tone of the same wash does not end a bloom. The other wash and bare paper do.
     let lighter = back_runs(&columns(blue, [0.4, 0.5, 0.8, 1.0]), &settings);
     let parts = [&even, &lighter].map(|field| changed(field, 0..300));
     assert!(parts[0].abs_diff(parts[1]) < 20, "{parts:?} pixels");
@@ -281,8 +279,8 @@ fn outlines_of_small_pictures_have_no_saw_teeth() {
     assert!(found < 0.6 * teeth, "{found}, on the paper of the picture {teeth}");
 }
 
-/// `group.key` of every key, and whether a comment is on the line above it. Includes keys that
-/// are commented out.
+/// `group.key` of every key, and whether there is a comment on the line above it. Includes keys that are
+/// commented out.
 fn keys(text: &str) -> Vec<(String, bool)> {
     let mut group = String::new();
     let mut found = Vec::new();
@@ -304,7 +302,7 @@ fn keys(text: &str) -> Vec<(String, bool)> {
 
 #[test]
 fn presets_are_read_and_tell_of_every_key() {
-    // All keys, including those without a default value.
+    // All keys, including keys without a default value.
     let mut settings = Settings::default();
     settings.paper.scan = Some("x".to_owned());
     settings.toon.greys = Some("x".to_owned());
@@ -434,7 +432,6 @@ fn made() -> &'static Made {
     })
 }
 
-/// Default light without relief.
 fn level() -> Lighting {
     Lighting { relief: 0.0, ..Lighting::default() }
 }
@@ -558,7 +555,7 @@ fn a_palette_is_chosen_and_comes_near_to_colors_that_watercolor_has() {
     let glazes = Glazes::new(&library, &slots, paper.clone(), light).unwrap();
     let film = glazes.film();
     let white = film.rgb(&[0.0; 8]);
-    // Black is raised to the reflectance of the surface, the lowest that paint reaches.
+    // Paint cannot be darker than the reflectance of the surface, so we raise black to it.
     let black = library.saunderson.floor() as f32;
     for color in colors {
         let linear = spectra::color::Rgb([color[0], color[1], color[2]].map(f64::from)).linear();

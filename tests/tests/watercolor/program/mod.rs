@@ -1,10 +1,6 @@
-//! The command `impasto watercolor`.
-//!
-//! `impasto watercolor` of meshes: file formats, shapes, cameras, stages, and the GPU.
-//!
-//! `impasto watercolor` of photographs: colours, formats, stages, masks, and the GPU.
-//!
-//! `impasto watercolor` with a moving camera: frames, GIF and APNG, and resumed runs.
+//! The command `impasto watercolor`: meshes (file formats, shapes, cameras, stages, GPU),
+//! photographs (colours, formats, stages, masks, GPU), and a moving camera (frames, GIF and APNG,
+//! resumed runs).
 
 mod refusals;
 mod pigments;
@@ -22,7 +18,6 @@ use image::{AnimationDecoder, Rgb, RgbImage};
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
-/// A temporary folder, deleted when dropped.
 struct Folder(TempDir);
 
 impl Folder {
@@ -30,7 +25,7 @@ impl Folder {
         Self(tempfile::tempdir().unwrap())
     }
 
-    /// The path of a file in the folder, which need not exist.
+    /// Path of a file in the folder. It need not exist.
     fn file(&self, name: &str) -> String {
         self.0.path().join(name).display().to_string()
     }
@@ -40,7 +35,7 @@ impl Folder {
         self.file(name)
     }
 
-    /// The names in the subfolder `inside`, sorted; empty if there is no such folder.
+    /// Sorted names in the subfolder `inside`. There are none if the folder does not exist.
     fn names(&self, inside: &str) -> Vec<String> {
         let Ok(entries) = std::fs::read_dir(self.0.path().join(inside)) else { return Vec::new() };
         let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
@@ -49,8 +44,8 @@ impl Folder {
         names
     }
 
-    /// A photograph of 160 x 120 pixels: red on the left, blue on the right, darker
-    /// downwards, with a yellow disc in the middle.
+    /// A photograph of 160 x 120 pixels: red on the left, blue on the right, darker downwards, with
+    /// a yellow disc in the middle.
     fn photograph(&self) -> String {
         let color = |i: usize| {
             let x = (i % 160) as f32;
@@ -100,7 +95,6 @@ const CORNERS: [([i8; 3], [u8; 3]); 5] = [
     ([-1, 0, -1], [1, 1, 0]),
     ([0, 2, 0], [1, 0, 1]),
 ];
-/// Triangles of the pyramid, as indices of [`CORNERS`].
 const SIDES: [[u16; 3]; 6] = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]];
 
 fn watercolor(subject: &str, options: &[&str]) -> Run {
@@ -213,7 +207,7 @@ fn glb() -> Vec<u8> {
     glb
 }
 
-/// Number of painted pixels: those with a channel below 200.
+/// Number of painted pixels. These have a channel below 200.
 fn covered(picture: &RgbImage) -> usize {
     picture.pixels().filter(|pixel: &&Rgb<u8>| pixel.0.iter().any(|value| *value < 200)).count()
 }
@@ -320,7 +314,7 @@ fn a_device_paints_the_same_mesh() {
         let pairs = on_cpu.pixels().zip(made.pixels());
         let far = |(a, b): &(&Rgb<u8>, &Rgb<u8>)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2);
         let far = pairs.filter(far).count();
-        // At an edge between two triangles CPU and GPU may choose different ones.
+        // At an edge between two triangles, CPU and GPU may choose different ones.
         assert!(far <= 19 && mean < 0.02, "{mesh}: {far} pixels, {mean} in the mean");
     }
 }
@@ -480,7 +474,7 @@ fn small_and_narrow_photographs_are_painted() {
 
 const TURN: [&str; 4] = ["--width", "48", "--turntable", "4"];
 
-/// Paints a turntable of four frames of the pyramid, with `into` as further options.
+/// Paints a turntable of four frames of the pyramid, with the options `into`.
 #[track_caller]
 fn turned(folder: &Folder, into: &[&str]) -> Run {
     painted(&folder.pyramid(), &[&TURN[..], into, &["--json"]].concat())
@@ -512,7 +506,7 @@ fn a_gif_and_an_apng_hold_every_frame() {
         assert!(difference(&pair[0], &pair[1]).0 > 1.0, "two frames are alike");
     }
 
-    // Both animations use one folder of frames: another format and rate need no new frame.
+    // Both animations use one folder of frames, so another format and rate need no new frame.
     let told = turned(&folder, &["--animation", &apng]).json();
     assert_eq!(told["frames_found"], 4);
     let decoder = GifDecoder::new(BufReader::new(File::open(&gif).unwrap())).unwrap();
@@ -544,7 +538,7 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
     };
     let first = all(&folder);
     let animation = std::fs::read(&gif).unwrap();
-    // One frame is missing, one is truncated, one is a picture of other software.
+    // One frame is missing, one is truncated, and one is a picture of other software.
     std::fs::remove_file(frame(&folder, "frames", 2)).unwrap();
     std::fs::write(frame(&folder, "frames", 3), &first[2][..first[2].len() - 9]).unwrap();
     RgbImage::new(5, 5).save(frame(&folder, "frames", 4)).unwrap();
@@ -597,8 +591,8 @@ fn other_content_of_an_input_is_another_wish() {
 #[test]
 fn noise_follows_the_mesh_unless_it_is_static() {
     let folder = Folder::new();
-    // A ball of one colour, lit from the camera, looks the same from all sides; only noise
-    // changes between two frames.
+    // A ball of one colour, lit from the camera, looks the same from all sides. Only noise changes
+    // between two frames.
     let look = ["--width", "64", "--turntable", "8", "--set", "flow.strength=3"];
     let mut first_frames = Vec::new();
     for (method, moves) in [("static", false), ("particles", true), ("features", true)] {

@@ -1,6 +1,5 @@
-//! `impasto watercolor --pigments`: glazes of calibrated pigments instead of RGB densities.
-//!
-//! `impasto watercolor` with presets, files of settings, and single settings.
+//! `impasto watercolor --pigments` with glazes of calibrated pigments instead of RGB densities, and presets,
+//! files of settings, and single settings.
 
 use suite::program::{Run, impasto, repository};
 
@@ -171,7 +170,7 @@ fn a_file_changes_what_it_names_and_an_option_changes_the_file() {
     let thinner = ["--preset", "sketch", "--settings", &file, "--set", "wash.density=0.5"];
     let back = ["--preset", "sketch", "--set", "flow.seed=9"];
     assert!(made(&thinner) == made(&back), "the preset's density is 0.5");
-    // Of two values for a key the last applies.
+    // If a key has two values, the last one applies.
     let twice = ["--preset", "sketch", "--set", "wash.density=3", "--set", "wash.density=.50"];
     assert!(made(&twice) == made(&["--preset", "sketch"]), "the first of two applies");
 }

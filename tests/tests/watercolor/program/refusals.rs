@@ -15,7 +15,7 @@ fn refused(run: &Run, status: u8, what: &str, hint: &str) {
     assert!(run.out.is_empty(), "{what}: {}", run.out);
 }
 
-/// Asserts exit status 2 and `what` in the error; unlike [`refused`], no hint is required.
+/// Asserts exit status 2 and `what` in the error. Unlike [`refused`], this requires no hint.
 #[track_caller]
 fn misused(run: &Run, what: &str) {
     assert_eq!(run.status, 2, "{what}: {}", run.err);
@@ -284,7 +284,7 @@ fn files_that_cannot_be_written() {
     misused(&watercolor(&photo, &["--stages", &taken]), "taken: this folder cannot be created");
     assert_eq!(folder.names("."), ["photo.png", "pyramid.obj", "taken"]);
 
-    // A mask is an input too, and a subject in the folder of stages may not be overwritten.
+    // A mask is an input too. A subject in the folder of stages may not be overwritten.
     let mask = folder.mask();
     let run = watercolor(&photo, &["--density-mask", &mask, "--picture", &mask]);
     refused(&run, 2, "mask.png: is an input", "give the output");
@@ -296,7 +296,7 @@ fn files_that_cannot_be_written() {
     assert_eq!(folder.names("stages"), ["02-regions.png"], "no stage was written");
     assert!(std::fs::read(&inside).unwrap() == before);
 
-    // Frames of unknown origin are kept, and nothing else is written.
+    // Frames of unknown origin stay, and nothing else is written.
     std::fs::create_dir(folder.file("theirs")).unwrap();
     folder.write("theirs/frame-0002.png", "whose?");
     let run = turned(&["--frames", &folder.file("theirs"), "--picture", &out]);
