@@ -36,8 +36,9 @@ pub fn impasto(arguments: &[&str]) -> Run {
     let mut err = Vec::new();
     let all = std::iter::once("impasto").chain(arguments.iter().copied());
     let status = impasto::run(all, &mut out, &mut err, impasto::Screen::default());
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
-    Run { status, out: text(out), err: text(err) }
+    let [out, err] =
+        [out, err].map(|bytes| String::from_utf8(bytes).expect("the program writes UTF-8"));
+    Run { status, out, err }
 }
 
 /// Path of a file of the repository, valid from any working folder.

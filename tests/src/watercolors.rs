@@ -57,7 +57,9 @@ impl Watercolors {
         let film = UnevenFilm { surface, unevenness: 0.5 };
         let mut amounts = ChaCha8Rng::seed_from_u64(seed);
         let mut readings = ChaCha8Rng::seed_from_u64(seed + 1);
-        let normal = |random: &mut ChaCha8Rng| -> f64 { StandardNormal.sample(random) };
+        fn normal(random: &mut ChaCha8Rng) -> f64 {
+            StandardNormal.sample(random)
+        }
         Self::made(
             film,
             &mut |amount| {
@@ -94,18 +96,22 @@ impl Watercolors {
         noise: &mut dyn FnMut() -> f64,
     ) -> Self {
         let grid = Grid::from_nm(400.0, 10.0, 31).expect("a grid");
-        let curve = |base: f64, bands: &[(f64, f64, f64)]| -> Vec<f64> {
-            let band = |nm: f64, &(height, middle, width): &(f64, f64, f64)| {
-                height * (-0.5 * ((nm - middle) / width).powi(2)).exp()
-            };
-            grid.wavelengths_nm()
-                .map(|nm| base + bands.iter().map(|b| band(nm, b)).sum::<f64>())
-                .collect()
-        };
-        let absorption: Vec<Vec<f64>> = PAINTS.iter().map(|p| curve(p.1, p.2)).collect();
-        let slope =
-            |s: f64| grid.wavelengths_nm().map(move |nm| s * (nm / 550.0).powf(-0.4)).collect();
-        let scattering: Vec<Vec<f64>> = PAINTS.iter().map(|p| slope(p.3)).collect();
+        let absorption: Vec<Vec<f64>> = PAINTS
+            .iter()
+            .map(|&(_, base, bands, _)| {
+                let at = grid.wavelengths_nm().map(|nm| {
+                    let heights = bands.iter().map(|&(height, middle, width)| {
+                        height * (-0.5 * ((nm - middle) / width).powi(2)).exp()
+                    });
+                    base + heights.sum::<f64>()
+                });
+                at.collect()
+            })
+            .collect();
+        let scattering: Vec<Vec<f64>> = PAINTS
+            .iter()
+            .map(|p| grid.wavelengths_nm().map(|nm| p.3 * (nm / 550.0).powf(-0.4)).collect())
+            .collect();
         let paper: Vec<f64> = grid
             .wavelengths_nm()
             .map(|nm| 0.86 + 0.04 * (nm - 550.0) / 300.0 - 0.1 * (-(nm - 400.0) / 18.0).exp())
@@ -138,11 +144,11 @@ impl Watercolors {
 /// Amounts in mL of each film: twelve steps of every paint, then every pair of paints in three
 /// ratios at three levels.
 fn recipes() -> Vec<Vec<f64>> {
-    let with = |parts: &[(usize, f64)]| {
+    fn with(parts: &[(usize, f64)]) -> Vec<f64> {
         let mut amounts = vec![0.0; PAINTS.len()];
         parts.iter().for_each(|&(paint, amount)| amounts[paint] = amount);
         amounts
-    };
+    }
     let mut recipes = Vec::new();
     for paint in 0..PAINTS.len() {
         for step in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16] {

@@ -94,7 +94,7 @@ impl Inbox {
 
     /// Removes the commands that can be executed during a replay, even if others come before them.
     pub(super) fn take_questions(&mut self) -> Vec<Command> {
-        let is_question = |command: &Command| {
+        let (questions, others) = self.waiting.drain(..).partition(|command| {
             matches!(
                 command,
                 Command::Snapshot(_)
@@ -102,8 +102,7 @@ impl Inbox {
                     | Command::Pick { .. }
                     | Command::SetUndoBytes(_)
             )
-        };
-        let (questions, others) = self.waiting.drain(..).partition(is_question);
+        });
         self.waiting = others;
         Vec::from(questions)
     }
@@ -186,9 +185,12 @@ mod tests {
 
     #[test]
     fn only_the_last_value_of_a_drag_is_kept() {
-        let opacity =
-            |layer, value| Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value });
-        let stiffness = |value| Command::Adjust(Action::Stiffness { value });
+        fn opacity(layer: usize, value: f64) -> Command {
+            Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value })
+        }
+        fn stiffness(value: f64) -> Command {
+            Command::Adjust(Action::Stiffness { value })
+        }
         let mut inbox = received(vec![
             Command::Adjust(light(1.0)),
             Command::Adjust(light(2.0)),

@@ -133,8 +133,9 @@ impl LayerSummary {
     ) -> Result<Self, E> {
         let (width, height) = size(bounds);
         let mut cells = Layer::empty(PROBES * width, PROBES * height);
-        let place =
-            |index: usize, count: usize, along: usize| (2 * index + 1) * along / (2 * count);
+        fn place(index: usize, count: usize, along: usize) -> usize {
+            (2 * index + 1) * along / (2 * count)
+        }
         let columns: Vec<usize> =
             (0..cells.width()).map(|x| place(x, cells.width(), bounds.width)).collect();
         let rows: Vec<usize> =
@@ -246,8 +247,9 @@ fn document_of(painting: &Painting, layer: DryLayer) -> Document {
 /// Width and height of the thumbnail of a canvas in pixels, at most one pixel per cell.
 fn size(bounds: Rect) -> (usize, usize) {
     let longer = bounds.width.max(bounds.height);
-    let side = |cells: usize| (cells * LONGEST_THUMBNAIL.min(longer) / longer.max(1)).max(1);
-    (side(bounds.width), side(bounds.height))
+    let [width, height] = [bounds.width, bounds.height]
+        .map(|cells| (cells * LONGEST_THUMBNAIL.min(longer) / longer.max(1)).max(1));
+    (width, height)
 }
 
 /// Memory of all pictures together.

@@ -248,10 +248,12 @@ mod tests {
         let [first, Event::Opened(_), last] = &events[..] else {
             panic!("three events: {events:?}")
         };
-        let message = |event: &Event| match event {
-            Event::Message { text, failed, .. } => (text.clone(), *failed),
-            other => panic!("no message: {other:?}"),
-        };
+        fn message(event: &Event) -> (String, bool) {
+            match event {
+                Event::Message { text, failed, .. } => (text.clone(), *failed),
+                other => panic!("no message: {other:?}"),
+            }
+        }
         assert!(message(first).0.contains("pulled out") && message(first).1, "the loss is told");
         assert!(message(last).0.contains("processor") && !message(last).1, "and the way on");
     }

@@ -83,7 +83,9 @@ pub(super) struct Outbox {
 
 impl Outbox {
     pub(super) fn new() -> Self {
-        let view = |surface, second| UnsentTiles { surface, second, unsent: TileSet::default() };
+        fn view(surface: SurfaceId, second: bool) -> UnsentTiles {
+            UnsentTiles { surface, second, unsent: TileSet::default() }
+        }
         Self {
             bytes: SrgbBytes::new(),
             views: [
@@ -169,9 +171,8 @@ impl Outbox {
         let start = Instant::now();
         for view in &mut self.views {
             let painting = session.painting_mut(view.surface);
-            let exists =
-                |painting: &&mut Painting| !view.second || painting.second_light().is_some();
-            let Some(painting) = painting.filter(exists) else {
+            let shown = painting.filter(|own| !view.second || own.second_light().is_some());
+            let Some(painting) = shown else {
                 view.unsent = TileSet::default();
                 continue;
             };

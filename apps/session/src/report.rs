@@ -188,11 +188,13 @@ impl Reporter {
         for (name, spec) in specs {
             let BrushLoad { head, tip, most_load_mm } = self.load(session, &name)?;
             let amount_mm: f64 = head.iter().sum();
-            let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
-            let parts_of = |heights: &[f64; SLOTS + 1]| -> [f64; SLOTS] {
+            fn share(whole: f64, part: f64) -> f64 {
+                if whole > 0.0 { part / whole } else { 0.0 }
+            }
+            fn parts_of(heights: &[f64; SLOTS + 1]) -> [f64; SLOTS] {
                 let pigments: f64 = heights[..SLOTS].iter().sum();
                 std::array::from_fn(|slot| share(pigments, heights[slot]))
-            };
+            }
             let parts = parts_of(&head);
             let of_tip = self.colors.of_slots(&slots, &parts_of(&tip));
             let of_tip_film = self.colors.swatch(&slots, &tip, films);
@@ -529,8 +531,8 @@ mod tests {
         let tints = colors.tints(&slots);
         assert_eq!(tints[2], Some(palette.color(&palette.tint(blue, TINT)).srgb.to_bytes()));
         assert_eq!((tints[0], tints[5]), (None, None), "an empty slot; no known scattering");
-        let green = |color: Option<[u8; 3]>| color.map(|color| color[1]);
-        assert!(green(tints[2]) > green(masstones[2]), "white lightens");
+        let [tint, masstone] = [&tints, &masstones].map(|colors| colors[2].map(|color| color[1]));
+        assert!(tint > masstone, "white lightens");
     }
 
     #[test]
@@ -608,12 +610,10 @@ mod tests {
     #[test]
     fn a_thin_film_shows_what_is_below_and_a_thick_one_hides_it() {
         let (colors, slots) = colors("D65");
-        let swatch = |scale: f64| {
+        let [thin, thick] = [0.1, 400.0].map(|scale| {
             let paint = heights(0.01 * scale, 0.02 * scale, 0.005 * scale);
             colors.swatch(&slots, &paint, &setting(0.7)).unwrap()
-        };
-        let thin = swatch(0.1);
-        let thick = swatch(400.0);
+        });
         assert!(thin.contrast < 0.5 && thick.contrast > 0.999, "{thin:?} {thick:?}");
         assert!((thin.thickness_mm - 0.0035).abs() < 1e-12, "{}", thin.thickness_mm);
         let apart = (thick.over_cards[0].lab.lightness - thick.opaque.lab.lightness).abs();
@@ -654,11 +654,11 @@ mod tests {
     #[test]
     fn the_swatch_follows_the_light_and_medium_alone_has_none() {
         let paint = heights(0.02, 0.01, 0.0);
-        let under = |light: &str| {
+        let [day, lamp] = ["D65", "A"].map(|light| {
             let (colors, slots) = colors(light);
             colors.swatch(&slots, &paint, &setting(0.7)).unwrap().opaque.lab
-        };
-        assert_ne!(under("D65"), under("A"));
+        });
+        assert_ne!(day, lamp);
         let (colors, slots) = colors("D65");
         assert_eq!(colors.swatch(&slots, &heights(0.0, 0.0, 0.3), &setting(0.7)), None);
     }

@@ -162,8 +162,9 @@ mod tests {
             height,
             (0..width * height)
                 .map(|index: usize| {
-                    let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
-                    [value(1), value(31), value(577), 1.0]
+                    let [r, g, b] =
+                        [1, 31, 577].map(|k| ((index * k) % 1009) as f32 / 1000.0 - 0.004);
+                    [r, g, b, 1.0]
                 })
                 .collect(),
         )
@@ -206,7 +207,7 @@ mod tests {
         tiles.insert(Rect { x: 10, y: 10, width: 130, height: 60 });
         tiles.insert(Rect { x: 280, y: 10, width: 1, height: 1 });
         let found: Vec<Rect> = runs(&tiles, bounds).into_iter().map(|(run, _)| run).collect();
-        let rect = |x, y, width| Rect { x, y, width, height: 64 };
-        assert_eq!(found, [rect(0, 0, 192), rect(256, 0, 44), rect(0, 64, 192)]);
+        let wanted = [(0, 0, 192), (256, 0, 44), (0, 64, 192)];
+        assert_eq!(found, wanted.map(|(x, y, width)| Rect { x, y, width, height: 64 }));
     }
 }

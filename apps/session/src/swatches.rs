@@ -194,7 +194,9 @@ impl KeptMixture {
 
     /// Key and problem of the first value that cannot be used.
     fn fault(&self) -> Option<(String, String)> {
-        let fault = |key: &str, reason: String| Some((key.to_owned(), reason));
+        fn fault(key: &str, reason: String) -> Option<(String, String)> {
+            Some((key.to_owned(), reason))
+        }
         let name = self.name.trim();
         if name.is_empty() || name.chars().count() > LONGEST_NAME {
             return fault(

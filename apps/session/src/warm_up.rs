@@ -92,10 +92,10 @@ mod tests {
         let mut warm_up = WarmUp::default();
         assert!(warm_up.step() && warm_up.session.is_some());
         warm_up.paint().unwrap();
-        let painted = |warm_up: &mut WarmUp| {
+        fn painted(warm_up: &mut WarmUp) -> u64 {
             let canvas = warm_up.session.as_mut().unwrap().canvas_mut();
-            canvas.wet().unwrap().totals().iter().sum::<u64>()
-        };
+            canvas.wet().unwrap().totals().iter().sum()
+        }
         let first = painted(&mut warm_up);
         warm_up.paint().unwrap();
         assert!(first > 0 && painted(&mut warm_up) > first);

@@ -251,8 +251,8 @@ impl Easel {
             pictures.push(cut(&picture, columns.clone(), rows.clone()));
         }
         self.painting.relight(Lighting::default()).expect("a light that has a name");
-        let mm = |cells: usize| cells as f64 * heights.cell_mm();
-        let size_mm = (mm(columns.len()), mm(rows.len()));
+        let cell_mm = heights.cell_mm();
+        let size_mm = (columns.len() as f64 * cell_mm, rows.len() as f64 * cell_mm);
         let curves = sections(&heights, &columns, &rows);
         Panel { caption: caption.into(), size_mm, zoom: 1.0, pictures, curves }
     }
@@ -284,8 +284,8 @@ fn sections(heights: &Heights, columns: &Range<usize>, rows: &Range<usize>) -> V
     };
     let along = [row(0.5)..row(0.5) + 1, row(0.2)..row(0.8) + 1]
         .map(|rows| heights.along(rows)[columns.clone()].to_vec());
-    let curve = |caption, lines: [Vec<f64>; 2]| Curve { caption, step_mm, lines: lines.into() };
-    vec![curve("across", across), curve("along", along)]
+    let sections = [("across", across), ("along", along)];
+    sections.map(|(caption, lines)| Curve { caption, step_mm, lines: lines.into() }).into()
 }
 
 /// Both edges in mm of the first mark of a profile. Gaps below 1 mm belong to it.

@@ -30,9 +30,12 @@ impl Heights {
         height: impl Fn(f64, f64) -> f64,
     ) -> Self {
         let [columns, rows] = [width_mm, height_mm].map(|mm| (mm / cell_mm).round() as usize);
-        let centre = |cell: usize| (cell as f64 + 0.5) * cell_mm;
-        let cells = (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y)));
-        Self::new(cell_mm, columns, cells.map(|(x, y)| height(centre(x), centre(y))).collect())
+        let cells = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
+        let heights = cells.map(|cell| {
+            let [x, y] = cell.map(|at| (at as f64 + 0.5) * cell_mm);
+            height(x, y)
+        });
+        Self::new(cell_mm, columns, heights.collect())
     }
 
     /// Width of a cell in mm.
@@ -98,16 +101,16 @@ impl Heights {
     #[must_use]
     pub fn across(&self, columns: Range<usize>) -> Vec<f64> {
         let count = columns.len().max(1) as f64;
-        let sum = |y: usize| columns.clone().map(|x| self.at(x, y)).sum::<f64>();
-        (0..self.rows()).map(|y| sum(y) / count).collect()
+        let sums = (0..self.rows()).map(|y| columns.clone().map(|x| self.at(x, y)).sum::<f64>());
+        sums.map(|sum| sum / count).collect()
     }
 
     /// Mean over `rows` of each column: the profile along a stroke that runs along x, in mm.
     #[must_use]
     pub fn along(&self, rows: Range<usize>) -> Vec<f64> {
         let count = rows.len().max(1) as f64;
-        let sum = |x: usize| rows.clone().map(|y| self.at(x, y)).sum::<f64>();
-        (0..self.columns).map(|x| sum(x) / count).collect()
+        let sums = (0..self.columns).map(|x| rows.clone().map(|y| self.at(x, y)).sum::<f64>());
+        sums.map(|sum| sum / count).collect()
     }
 
     /// Heights in mm of the cells in `columns` and `rows`, row by row.

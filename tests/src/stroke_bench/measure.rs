@@ -112,9 +112,9 @@ pub fn color_spread(colors: &[Lab]) -> f64 {
 pub fn smoothed(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
     let width = (LN_2 / PI).sqrt() * cut_mm;
     let reach = (2.0 * width / step_mm).ceil() as usize;
-    let weight = |lag: usize| (-PI * (lag as f64 * step_mm / width).powi(2)).exp();
-    let weights: Vec<f64> = (0..=reach).map(weight).collect();
-    let at = |index: usize| {
+    let weights: Vec<f64> =
+        (0..=reach).map(|lag| (-PI * (lag as f64 * step_mm / width).powi(2)).exp()).collect();
+    let values = (0..profile.len()).map(|index| {
         let first = index.saturating_sub(reach);
         let last = (index + reach).min(profile.len() - 1);
         let mut sum = 0.0;
@@ -125,8 +125,8 @@ pub fn smoothed(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
             whole += weight;
         }
         sum / whole
-    };
-    (0..profile.len()).map(at).collect()
+    });
+    values.collect()
 }
 
 /// Profile minus [`smoothed`]: waves shorter than `cut_mm`.
@@ -246,11 +246,12 @@ pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
             }
         }
     }
-    let factor =
-        |row: usize| if rows[row][row] == 0.0 { 0.0 } else { rows[row][N] / rows[row][row] };
+    let factors: Vec<f64> = (0..N)
+        .map(|row| if rows[row][row] == 0.0 { 0.0 } else { rows[row][N] / rows[row][row] })
+        .collect();
     places
         .iter()
-        .map(|x: &f64| powers(*x).iter().enumerate().map(|(i, power)| factor(i) * power).sum())
+        .map(|&x| factors.iter().zip(powers(x)).map(|(factor, power)| factor * power).sum())
         .collect()
 }
 
@@ -267,10 +268,10 @@ pub fn without_parabola(series: &[f64]) -> Vec<f64> {
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean_a = mean(a);
     let mean_b = mean(b);
-    let pairs = || a.iter().zip(b).map(|(a, b)| (a - mean_a, b - mean_b));
-    let covariance: f64 = pairs().map(|(a, b)| a * b).sum();
-    let power: f64 =
-        pairs().map(|(a, _)| a * a).sum::<f64>() * pairs().map(|(_, b)| b * b).sum::<f64>();
+    let pairs: Vec<(f64, f64)> = a.iter().zip(b).map(|(a, b)| (a - mean_a, b - mean_b)).collect();
+    let covariance: f64 = pairs.iter().map(|(a, b)| a * b).sum();
+    let power: f64 = pairs.iter().map(|(a, _)| a * a).sum::<f64>()
+        * pairs.iter().map(|(_, b)| b * b).sum::<f64>();
     if power > 0.0 { covariance / power.sqrt() } else { 0.0 }
 }
 
@@ -410,12 +411,11 @@ impl Mark {
     #[must_use]
     pub fn side_lips(&self, heights: &Heights) -> [f64; 2] {
         let profile = heights.across(self.steady.clone());
-        let highest = |from: f64, to: f64| {
-            let rows = heights.rows_in(from..to);
-            profile[rows].iter().fold(0.0, |a: f64, &b| a.max(b)) / self.film_mm
-        };
         let (top, bottom) = self.edges_mm;
-        [highest(top - LIP_MM, top + LIP_MM), highest(bottom - LIP_MM, bottom + LIP_MM)]
+        [top, bottom].map(|edge| {
+            let rows = heights.rows_in(edge - LIP_MM..edge + LIP_MM);
+            profile[rows].iter().fold(0.0, |a: f64, &b| a.max(b)) / self.film_mm
+        })
     }
 
     /// Highest place of the mean profile along the last `LIP_MM` mm before the mark's end, relative
@@ -471,8 +471,10 @@ mod series_tests {
     #[test]
     fn a_parabola_is_taken_away_and_a_wave_on_it_stays() {
         let wave = wave(200, 10.0);
-        let bent = |index: usize| 3.0 + 0.2 * index as f64 - 0.01 * (index * index) as f64;
-        let on_it: Vec<f64> = wave.iter().enumerate().map(|(i, value)| value + bent(i)).collect();
+        let on_it: Vec<f64> = (0_u32..)
+            .zip(&wave)
+            .map(|(i, value)| value + (3.0 + 0.2 * f64::from(i) - 0.01 * f64::from(i * i)))
+            .collect();
         let left = without_parabola(&on_it);
         assert_near("rms of the wave", &[rms(&left)], &[0.5f64.sqrt()], 0.01);
         let line = fitted::<2>(&[1.0, 2.0, 4.0], &[3.0, 5.0, 9.0]);
@@ -482,21 +484,18 @@ mod series_tests {
     #[test]
     fn waves_correlate_with_themselves_and_not_across_a_quarter() {
         let wave = wave(400, 20.0);
-        let shifted = |lag: usize| correlation(&wave[..380], &wave[lag..380 + lag]);
-        assert_near(
-            "correlation",
-            &[shifted(20), shifted(10), shifted(5)],
-            &[1.0, -1.0, 0.0],
-            1e-9,
-        );
+        let found = [20, 10, 5].map(|lag| correlation(&wave[..380], &wave[lag..380 + lag]));
+        assert_near("correlation", &found, &[1.0, -1.0, 0.0], 1e-9);
         assert_eq!(correlation(&[1.0, 1.0], &[1.0, 2.0]), 0.0);
     }
 
     #[test]
     fn a_relief_shows_by_the_slope_whatever_lies_beside_it() {
         let relief: Vec<f64> = (0..300).map(|i| (f64::from(i) * 0.7).sin()).collect();
-        let other = |i: usize| 5.0 + (i as f64 * 0.31).cos();
-        let top: Vec<f64> = relief.iter().enumerate().map(|(i, z)| 0.25 * z + other(i)).collect();
+        let top: Vec<f64> = (0_u32..)
+            .zip(&relief)
+            .map(|(i, z)| 0.25 * z + (5.0 + (f64::from(i) * 0.31).cos()))
+            .collect();
         let found = slope(&relief, &top);
         assert!((found - 0.25).abs() < 0.02, "{found}");
         assert_eq!(slope(&[1.0; 9], &[2.0; 9]), 0.0);
@@ -517,10 +516,10 @@ mod mark_tests {
 
     /// A mark from x 8 to 62.3 mm and y 5.03 to 15.03 mm, `film` high, with lips 0.5 mm wide.
     fn stroke(film: impl Fn(f64) -> f64, side: f64, end: f64) -> Heights {
+        fn inside(at: f64, from: f64, to: f64) -> f64 {
+            ((at - from) / 0.1 + 0.5).clamp(0.0, 1.0) * ((to - at) / 0.1 + 0.5).clamp(0.0, 1.0)
+        }
         Heights::from_places(0.1, (80.0, 20.0), |x, y| {
-            let inside = |at: f64, from: f64, to: f64| {
-                ((at - from) / 0.1 + 0.5).clamp(0.0, 1.0) * ((to - at) / 0.1 + 0.5).clamp(0.0, 1.0)
-            };
             let near_side = (5.5..14.5).contains(&y);
             let lip = if x > 61.5 {
                 end
@@ -546,7 +545,9 @@ mod mark_tests {
 
     #[test]
     fn ends_are_found_where_half_of_the_near_film_is_left() {
-        let falling = |x: f64| 0.4 - 0.005 * x;
+        fn falling(x: f64) -> f64 {
+            0.4 - 0.005 * x
+        }
         let heights = stroke(falling, 1.0, 1.0);
         let mark = Mark::along_x(&heights).unwrap();
         let (from, to) = mark.ends_mm(&heights).unwrap();
@@ -581,8 +582,10 @@ mod tests {
 
     /// A mark 6 mm wide with its upper edge at `edge(x)`. Cells hold their covered share.
     fn mark(edge: impl Fn(f64) -> f64) -> Heights {
+        fn share(inside: f64) -> f64 {
+            (inside / 0.1 + 0.5).clamp(0.0, 1.0)
+        }
         Heights::from_places(0.1, (40.0, 30.0), |x, y| {
-            let share = |inside: f64| (inside / 0.1 + 0.5).clamp(0.0, 1.0);
             0.1 * share(y - edge(x)) * share(edge(x) + 6.0 - y)
         })
     }
@@ -619,20 +622,23 @@ mod tests {
         let board =
             Heights::new(0.1, 20, (0..400).map(|i| 0.01 * f64::from((i / 20 + i) % 2)).collect());
         let plane = Heights::from_places(0.1, (2.0, 2.0), |x, y| 0.3 * x + 0.1 * y);
-        let of = |heights: &Heights| second_differences_mm(heights, 0..20, 0..20);
-        assert_near("board", &of(&board), &[4.0 * 0.005; 2], 1e-12);
-        assert_near("plane", &of(&plane), &[0.0; 2], 1e-12);
         let ribs =
             Heights::from_places(0.1, (2.0, 2.0), |_, y| 0.01 * ((y / 0.1) as usize % 2) as f64);
-        assert_near("ribs along x", &of(&ribs), &[0.0, 0.02], 1e-12);
+        for (name, heights, wanted) in [
+            ("board", board, [4.0 * 0.005; 2]),
+            ("plane", plane, [0.0; 2]),
+            ("ribs along x", ribs, [0.0, 0.02]),
+        ] {
+            assert_near(name, &second_differences_mm(&heights, 0..20, 0..20), &wanted, 1e-12);
+        }
     }
 
     #[test]
     fn pits_are_counted_within_the_patch() {
         // One cell in 100 is a hole.
         let heights = Heights::from_places(0.1, (10.0, 10.0), |x, y| {
-            let cell = |mm: f64| (mm / 0.1) as usize % 10;
-            if cell(x) == 5 && cell(y) == 5 { 0.01 } else { 0.2 }
+            let hole = [x, y].iter().all(|mm| (mm / 0.1) as usize % 10 == 5);
+            if hole { 0.01 } else { 0.2 }
         });
         let all = pits(&heights, |_, _| true);
         assert_near(
@@ -645,7 +651,9 @@ mod tests {
 
     #[test]
     fn colors_spread_about_their_mean() {
-        let gray = |lightness: f64| Lab { lightness, a: 0.0, b: 0.0 };
+        fn gray(lightness: f64) -> Lab {
+            Lab { lightness, a: 0.0, b: 0.0 }
+        }
         assert_near("no spread", &[color_spread(&[gray(50.0); 4])], &[0.0], 1e-12);
         let spread = color_spread(&[gray(48.0), gray(52.0)]);
         assert!((1.7..2.3).contains(&spread), "CIEDE2000 is about 1 a step at L* 50: {spread}");
@@ -659,12 +667,11 @@ mod tests {
 
     #[test]
     fn the_filter_halves_a_wave_of_its_length_and_keeps_long_ones() {
-        let part = |wavelength_mm: f64| {
+        let passed = [3.0, 30.0, 0.6].map(|wavelength_mm| {
             let wave = wave(90.0, wavelength_mm, 1.0);
-            let inner = |profile: &[f64]| rms(&profile[150..750]);
-            inner(&smoothed(&wave, 0.1, 3.0)) / inner(&wave)
-        };
-        assert_near("passed", &[part(3.0), part(30.0), part(0.6)], &[0.5, 0.993, 0.0], 0.005);
+            rms(&smoothed(&wave, 0.1, 3.0)[150..750]) / rms(&wave[150..750])
+        });
+        assert_near("passed", &passed, &[0.5, 0.993, 0.0], 0.005);
         let level = smoothed(&[2.0; 30], 0.1, 3.0);
         assert_near("a level", &level, &[2.0; 30], 1e-12);
         assert_near("nothing rough on a level", &rough(&[2.0; 30], 0.1, 3.0), &[0.0; 30], 1e-12);

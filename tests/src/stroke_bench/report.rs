@@ -20,7 +20,9 @@ pub fn number(value: f64) -> String {
 /// Bounds of a figure in words. They are empty without bounds.
 #[must_use]
 pub fn bounds(wanted: Wanted) -> String {
-    let plain = |value: f64| format!("{}", (value * 1e6).round() / 1e6);
+    fn plain(value: f64) -> String {
+        format!("{}", (value * 1e6).round() / 1e6)
+    }
     match (wanted.low, wanted.high) {
         (Some(low), Some(high)) => format!("{} to {}", plain(low), plain(high)),
         (Some(low), None) => format!(">= {}", plain(low)),
@@ -221,14 +223,16 @@ mod tests {
         let text = table(std::slice::from_ref(&report));
         assert!(text.contains("1 of 2 figures"), "{text}");
         let json = json(0.25, true, &[report]);
-        let told = |at: usize| json["figures"][at]["ok"].clone();
-        assert_eq!([told(0), told(1), told(2)], [json!(true), json!(false), Value::Null]);
+        let told = [0, 1, 2].map(|at: usize| json["figures"][at]["ok"].clone());
+        assert_eq!(told, [json!(true), json!(false), Value::Null]);
         assert_eq!(json["figures"][1]["value"], Value::Null);
     }
 
     #[test]
     fn bounds_are_met_within_and_never_by_no_number() {
-        let figure = |value: f64| Figure::new("film", value, "mm");
+        fn figure(value: f64) -> Figure {
+            Figure::new("film", value, "mm")
+        }
         assert_eq!(figure(0.1).is_met(), None);
         assert_eq!(
             [0.09, 0.1, 0.2, 0.21]

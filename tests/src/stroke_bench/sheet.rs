@@ -168,9 +168,8 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     let text = image::load_from_memory(&png(&drawing.0)?).expect("a PNG of the drawing");
     let mut sheet = text.to_rgb8();
     for (picture, (x, y), panel) in pictures {
-        let pixels = |mm: f64| (SCALE * panel.per_mm() * mm).round() as u32;
-        let width = pixels(panel.size_mm.0);
-        let height = pixels(panel.size_mm.1);
+        let [width, height] = [panel.size_mm.0, panel.size_mm.1]
+            .map(|mm| (SCALE * panel.per_mm() * mm).round() as u32);
         // If a cell is larger than a pixel, it should stay a square.
         let larger = width > 2 * picture.width();
         let filter = if larger { FilterType::Nearest } else { FilterType::Triangle };
@@ -231,14 +230,19 @@ mod tests {
         assert_eq!(places[0].1, places[2].1, "three in a line");
         assert_eq!(places[3].1, places[0].1 + report.panels[0].height() + GAP);
         let picture = picture(&report).unwrap();
-        let red = |(x, y): (f64, f64)| {
-            let at = |units: f64| (SCALE * units) as u32;
-            *picture.get_pixel(at(x + 100.0), at(y + LINE + 20.0)) == Rgb([200, 0, 0])
-        };
-        assert!(places.iter().all(|&place| red(place)), "each picture lies in its panel");
+        for (x, y) in places {
+            let [x, y] = [x + 100.0, y + LINE + 20.0].map(|units| (SCALE * units) as u32);
+            assert_eq!(
+                *picture.get_pixel(x, y),
+                Rgb([200, 0, 0]),
+                "each picture lies in its panel"
+            );
+        }
         let corner = picture.get_pixel(0, picture.height() - 1);
         assert_eq!(*corner, Rgb(PAPER.0), "paper up to the last row");
-        let ink = |pixels: &RgbImage| pixels.pixels().filter(|pixel| pixel.0[0] < 0x60).count();
+        fn ink(pixels: &RgbImage) -> usize {
+            pixels.pixels().filter(|pixel| pixel.0[0] < 0x60).count()
+        }
         assert!(ink(&picture) > 500, "there is text");
         let sheet = sheet(&vec![report; 6]).unwrap();
         assert_eq!(sheet.dimensions(), (3 * picture.width(), 2 * picture.height()));

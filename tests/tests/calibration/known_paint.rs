@@ -56,12 +56,11 @@ fn every_method_recovers_known_k_and_s_from_readings_without_noise() {
 fn at_the_papers_size_the_fit_is_nearer_to_the_truth_than_its_readings() {
     for seed in [11, 12] {
         let made = SyntheticMixtures::paper_size(seed, 0.002);
-        let rms = |fit: &Refined| made.rms_to_truth(&fit.curves);
         // Noise of 0.002 in 71 mixtures with 21 unknowns leaves 0.002 sqrt(21 / 71) = 0.00109
         // without smoothing.
-        let rough = rms(&refined(&made, Smoothness::None));
+        let rough = made.rms_to_truth(&refined(&made, Smoothness::None).curves);
         assert!(rough < 0.00115, "seed {seed}: {rough}");
-        let smooth = rms(&refined(&made, Smoothness::Auto));
+        let smooth = made.rms_to_truth(&refined(&made, Smoothness::Auto).curves);
         assert!(smooth < 0.0007, "seed {seed}: {smooth}");
     }
 }
@@ -132,12 +131,12 @@ fn any_number_of_wavelengths_will_do() {
     let made = SyntheticMixtures::paper_size(4, 0.001);
     for count in [1, 2, 3, 7] {
         let grid = spectra::Grid::from_nm(500.0, 3.0, count).unwrap();
-        let cut = |o: &Observation| Observation {
+        let cut = made.observations.iter().map(|o| Observation {
             ratio: o.ratio[..count].to_vec(),
             reflectance: o.reflectance[..count].to_vec(),
             ..o.clone()
-        };
-        let observations: Vec<Observation> = made.observations.iter().map(cut).collect();
+        });
+        let observations: Vec<Observation> = cut.collect();
         let problem = Problem::new(grid, made.surface, &observations, PigmentId(0)).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let fit = fit_refined(&problem, &weights, Refinement::whole(Smoothness::Auto)).unwrap();
@@ -267,8 +266,11 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
     // The error of a sample is larger when the fit has not seen it.
     let fitted = calibrate_absolute(&set, film, &settings, &viewing).unwrap().library;
     let fitted = fitted.evidence.unwrap().per_sample;
-    let error = |name: &String| fitted.iter().find(|f| f.sample == *name).unwrap().delta_e;
-    let same_films = chosen.per_sample.iter().map(|s| error(&s.sample)).sum::<f64>() / 702.0;
+    let errors = chosen
+        .per_sample
+        .iter()
+        .map(|sample| fitted.iter().find(|f| f.sample == sample.sample).unwrap().delta_e);
+    let same_films = errors.sum::<f64>() / 702.0;
     let ratio = chosen.delta_e.mean / same_films;
     assert!(ratio > 1.02, "{ratio}");
     let plain = leave_out_films(&set, EVEN, &plan).unwrap();
@@ -279,9 +281,9 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
 fn amounts_in_another_unit_change_only_the_unit_of_k_and_s() {
     let made = Watercolors::exact();
     let mut set = made.swatches();
-    let fit = |set: &SwatchSet| {
+    fn fit(set: &SwatchSet) -> PigmentLibrary {
         calibrate_absolute(set, EVEN, &FitSettings::default(), &Viewing::default()).unwrap().library
-    };
+    }
     let millilitres = fit(&set);
     set.swatches.iter_mut().flat_map(|s| &mut s.amounts).for_each(|amount| *amount *= 1000.0);
     let microlitres = fit(&set);
@@ -333,11 +335,10 @@ fn thin_films_that_tell_little_of_scattering_are_told() {
     let set = Watercolors::hard(2).swatches();
     let white = set.pigments.iter().position(|p| p == "chinese white").unwrap();
     // Keeps chinese white only in its thinnest wash, where white paper shows nothing but noise.
-    let kept = |s: &calibrate::swatch::Swatch| {
+    let ladders = set.retaining(|s| {
         let alone = s.amounts.iter().filter(|a| **a > 0.0).count() == 1;
         alone && (s.amounts[white] == 0.0 || s.amounts[white] < 0.015)
-    };
-    let ladders = set.retaining(kept);
+    });
     let library =
         calibrate_absolute(&ladders, EVEN, &FitSettings::default(), &Viewing::default()).unwrap();
     let library = library.library;
@@ -399,11 +400,9 @@ fn the_ratio_of_a_film_that_does_not_hide_comes_from_two_backings() {
     let k = 0.3;
     let s = 0.8;
     let d = 1.1;
-    let over = |g: f64| Layer::new(k, s, d).over(g);
+    let [white, black] = [0.9, 0.04].map(|g| Layer::new(k, s, d).over(g));
     let text = format!(
-        "sample,film,backing,W,400\na,paint,white,1,{}\na,paint,black,1,{}\na,none,white,,0.9\na,none,black,,0.04\n",
-        over(0.9),
-        over(0.04)
+        "sample,film,backing,W,400\na,paint,white,1,{white}\na,paint,black,1,{black}\na,none,white,,0.9\na,none,black,,0.04\n"
     );
     let set = SwatchSet::from_table(&table(&text)).unwrap();
     let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
@@ -484,15 +483,13 @@ fn films_whose_readings_deny_that_they_hide_are_told_apart() {
 
 #[test]
 fn thicknesses_that_a_gauge_cannot_tell_apart_are_one() {
-    let text = |second: &str| {
-        format!(
+    fn hiding(second: &str) -> Hiding {
+        let text = format!(
             "sample,film,backing,thickness_mm,W,400\na,paint,white,0.101,1,0.5\na,paint,black,{second},1,0.4\na,none,white,,,0.9\na,none,black,,,0.04\n"
-        )
-    };
-    let hiding = |second: &str| {
-        let set = SwatchSet::from_table(&table(&text(second))).unwrap();
+        );
+        let set = SwatchSet::from_table(&table(&text)).unwrap();
         observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap()[0].hiding
-    };
+    }
     assert!(matches!(hiding("0.099"), Hiding::Difference(_)), "{:?}", hiding("0.099"));
     assert!(matches!(hiding("0.080"), Hiding::Assumed(Some(_))), "{:?}", hiding("0.080"));
 }

@@ -129,11 +129,13 @@ fn pigments_known_only_from_a_masstone_are_said_not_invented() {
 #[test]
 fn odd_recipes_and_outlying_samples_are_named() {
     let warnings = fitted(Method::Refined, SURFACE).library.evidence.unwrap().warnings;
-    let named =
-        |start: &str, word: &str| warnings.iter().any(|w| w.starts_with(start) && w.contains(word));
-    assert!(named("recipes that do not sum", "08F (100.30 %)"), "{warnings:?}");
-    assert!(named("17D", "disagrees with its recipe"), "{warnings:?}");
-    assert!(named("readings below", "11A (34)"), "{warnings:?}");
+    for (start, word) in [
+        ("recipes that do not sum", "08F (100.30 %)"),
+        ("17D", "disagrees with its recipe"),
+        ("readings below", "11A (34)"),
+    ] {
+        assert!(warnings.iter().any(|w| w.starts_with(start) && w.contains(word)), "{warnings:?}");
+    }
 }
 
 #[test]
@@ -181,9 +183,9 @@ fn the_errors_are_told_under_the_light_asked_for_but_k_and_s_stay() {
         calibrate::calibration::calibrate(&set, white, SURFACE, &settings, &viewing).unwrap();
     let under_d65 = fitted(Method::Refined, SURFACE);
     assert_eq!(under_a.library.pigments, under_d65.library.pigments);
-    let mean =
-        |c: &calibrate::calibration::Calibration| c.library.evidence.as_ref().unwrap().delta_e.mean;
-    assert!((mean(&under_a) - mean(&under_d65)).abs() > 1e-3, "the errors depend on the light");
+    let [one, other] =
+        [under_a, under_d65].map(|fit| fit.library.evidence.as_ref().unwrap().delta_e.mean);
+    assert!((one - other).abs() > 1e-3, "the errors depend on the light");
 }
 
 fn library() -> PigmentLibrary {
@@ -213,10 +215,12 @@ fn fitting_beats_moments_and_moments_beat_the_papers_weights() {
             observer: Observer::Cie1964Deg10,
         };
         let mixtures = held_out(&library, &viewing);
-        let mean = |rule: Quadrature| rule.error(&mixtures).mean;
-        let gauss = mean(Quadrature::gauss(&viewing, 8).unwrap());
-        let moments = mean(Quadrature::moments(&viewing, 8).unwrap());
-        let fitted = mean(Quadrature::library(&viewing, &library, 8).unwrap());
+        let [gauss, moments, fitted] = [
+            Quadrature::gauss(&viewing, 8).unwrap(),
+            Quadrature::moments(&viewing, 8).unwrap(),
+            Quadrature::library(&viewing, &library, 8).unwrap(),
+        ]
+        .map(|rule| rule.error(&mixtures).mean);
         assert!(fitted < moments && fitted < gauss, "{light}: {fitted} {moments} {gauss}");
         // The emission lines of FL11 make its weight function rough, so the paper's weights may be
         // better.
@@ -249,8 +253,8 @@ fn the_weights_of_each_channel_sum_to_the_white() {
 fn the_same_library_gives_the_same_wavelengths() {
     let library = library();
     let viewing = Viewing::default();
-    let rule = || Quadrature::library(&viewing, &library, 8).unwrap();
-    assert_eq!(rule(), rule());
+    let [rule, again] = [(); 2].map(|()| Quadrature::library(&viewing, &library, 8).unwrap());
+    assert_eq!(rule, again);
 }
 
 #[test]
@@ -277,10 +281,11 @@ fn none_or_too_many_wavelengths_are_refused() {
 fn unseen_mixtures_are_other_mixtures_for_another_seed() {
     let library = library();
     let weights = Viewing::default().weights(library.grid).unwrap();
-    let set = |seed| MixtureSet::random(&library, &weights, 50, seed);
-    assert_eq!(set(1), set(1));
-    assert_ne!(set(1), set(2));
-    assert_eq!(set(1).len(), 50);
+    let [one, again, other] =
+        [1, 1, 2].map(|seed| MixtureSet::random(&library, &weights, 50, seed));
+    assert_eq!(one, again);
+    assert_ne!(one, other);
+    assert_eq!(one.len(), 50);
 }
 
 #[test]
@@ -353,10 +358,10 @@ fn a_validation_ends_before_most_of_its_mixtures() {
     let readings = oils();
     let options = ValidationOptions::default();
     let prepared = PreparedFit::new(&readings, &options.fit, Watch::default()).unwrap();
-    let left_out = |stage: &FitStage| *stage == FitStage::LeftOut;
-    let (stages, error) = until(left_out, |watch| prepared.validate(&options, watch));
+    let (stages, error) =
+        until(|stage| *stage == FitStage::LeftOut, |watch| prepared.validate(&options, watch));
     assert!(is_cancelled(&error), "{error:?}");
-    let told = stages.iter().filter(|stage| left_out(stage)).count();
+    let told = stages.iter().filter(|stage| **stage == FitStage::LeftOut).count();
     let all = prepared.mixtures(&options).unwrap();
     let at_once = rayon::current_num_threads();
     assert!(told <= at_once && 2 * told < all, "{told} of {all} on {at_once} threads");

@@ -160,15 +160,15 @@ fn slopes_are_the_limit_of_difference_quotients() {
         let [value, over_k, over_s] = Layer::over_with_slopes(k, s, g);
         assert!((value - film.over_backing()).abs() <= ROUNDING, "{value}: {film:?}");
         // A forward difference of second order, because K and S may be 0.
-        let quotient = |at: &dyn Fn(f64) -> f64, size: f64| {
+        fn quotient(at: impl Fn(f64) -> f64, size: f64) -> f64 {
             let step = 1e-5 * (1.0 + size);
             (4.0 * at(step) - at(2.0 * step) - 3.0 * at(0.0)) / (2.0 * step)
-        };
-        let by_k = quotient(&|h| Layer::new(k + h, s, 1.0).over(g), k);
-        let by_s = quotient(&|h| Layer::new(k, s + h, 1.0).over(g), s);
+        }
+        let by_k = quotient(|h| Layer::new(k + h, s, 1.0).over(g), k);
+        let by_s = quotient(|h| Layer::new(k, s + h, 1.0).over(g), s);
         let by_g = Layer::new(k, s, 1.0).over_slope(g);
         // Backwards, because no backing reflects more than 1.
-        let wanted = -quotient(&|h| Layer::new(k, s, 1.0).over(g - h), 0.0);
+        let wanted = -quotient(|h| Layer::new(k, s, 1.0).over(g - h), 0.0);
         assert!((by_g - wanted).abs() <= 1e-6 * (1.0 + wanted), "{by_g} for {wanted}: {film:?}");
         let size = 1.0 + s.powi(2);
         assert!((over_k - by_k).abs() <= 1e-6 * size, "dR/dK {over_k} for {by_k}: {film:?}");

@@ -25,12 +25,12 @@ const ROUNDING: f64 = 1600.0 * f64::EPSILON;
 fn random_pairs() -> impl Iterator<Item = (u64, Lab, Lab)> {
     (0..2000).map(|seed| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut lab = || Lab {
+        let [one, two] = [(); 2].map(|()| Lab {
             lightness: rng.random_range(0.0..=100.0),
             a: rng.random_range(-100.0..=100.0),
             b: rng.random_range(-100.0..=100.0),
-        };
-        (seed, lab(), lab())
+        });
+        (seed, one, two)
     })
 }
 
@@ -96,13 +96,11 @@ fn slopes_of_lab_are_the_limit_of_difference_quotients() {
         let xyz = lab.to_xyz(white).to_array().map(|v| v.abs() + 0.01);
         let Matrix3(slopes) = Lab::slopes_over_xyz(xyz.into(), white);
         for column in 0..3 {
-            let at = |step: f64| {
+            let [below, above] = [-1e-6, 1e-6].map(|step| {
                 let mut moved = xyz;
                 moved[column] *= 1.0 + step;
                 Lab::from_xyz(moved.into(), white).to_array()
-            };
-            let below = at(-1e-6);
-            let above = at(1e-6);
+            });
             for row in 0..3 {
                 let quotient = (above[row] - below[row]) / 2e-6;
                 let slope = slopes[row][column] * xyz[column];
@@ -298,8 +296,9 @@ fn a_lamp_is_read_from_a_file() {
     let file = folder.path().join("lamp.csv");
     std::fs::write(&file, "# desk lamp\nnm,power\n400,1\n700,4\n").unwrap();
     let lamp = light_from_text(file.to_str().unwrap()).unwrap();
-    let at = |nm: f64| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap();
-    assert_eq!([at(360.0), at(500.0), at(800.0)], [1.0, 2.0, 4.0], "{}", lamp.name());
+    let found = [360.0, 500.0, 800.0]
+        .map(|nm| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap());
+    assert_eq!(found, [1.0, 2.0, 4.0], "{}", lamp.name());
 
     std::fs::write(&file, "400,1\n600,-3\n").unwrap();
     let error = light_from_text(file.to_str().unwrap()).unwrap_err();

@@ -211,9 +211,9 @@ fn spectra_beyond_the_visible_have_no_color() {
 
 #[test]
 fn a_ground_must_be_one_spectrum() {
-    let over = |ground: &str| {
+    fn over(ground: &str) -> Run {
         impasto(&["mix", &library(), "Viridian=1", "--thickness", "1", "--over", ground])
-    };
+    }
     let run = over(&oils());
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("expected one spectrum of a ground"), "{}", run.err);
@@ -252,29 +252,21 @@ fn all(status: u8, words: &[&str], commands: &[&[&str]]) {
 #[test]
 fn the_same_fault_has_the_same_status_in_every_verb() {
     let folder = tempfile::tempdir().unwrap();
-    let place = |name: &str| folder.path().join(name).display().to_string();
-    let library = repository("measurements/van-gogh-oils.pigments.json");
-    let oils = repository("measurements/van-gogh-oils.csv");
-    let photo = repository("docs/images/photograph.png");
-    let library = library.as_str();
-    let oils = oils.as_str();
-    let photo = photo.as_str();
-    let png = place("a.png");
-    let json = place("a.json");
-    let exr = place("a.exr");
-    let out = place("out");
-    let png = png.as_str();
-    let json = json.as_str();
-    let exr = exr.as_str();
-    let out = out.as_str();
-    let painted = place("painted.exr");
-    let painted = painted.as_str();
-    let script = place("script.json");
+    let [library, oils, photo] = [
+        "measurements/van-gogh-oils.pigments.json",
+        "measurements/van-gogh-oils.csv",
+        "docs/images/photograph.png",
+    ]
+    .map(repository);
+    let [library, oils, photo] = [&library, &oils, &photo].map(String::as_str);
+    let names = ["a.png", "a.json", "a.exr", "out", "painted.exr", "script.json"];
+    let paths = names.map(|name| folder.path().join(name).display().to_string());
+    let [png, json, exr, out, painted, script] = paths.each_ref().map(String::as_str);
     let text = r#"{"format": "strokes", "version": 1, "title": "A",
         "canvas": {"width_mm": 4, "height_mm": 4, "cell_mm": 0.2}, "palette": {"W": "Lead White"},
         "brushes": {}, "actions": []}"#;
-    std::fs::write(&script, text).unwrap();
-    assert_eq!(impasto(&["paint", &script, "-o", painted]).status, 0);
+    std::fs::write(script, text).unwrap();
+    assert_eq!(impasto(&["paint", script, "-o", painted]).status, 0);
 
     let absent = &["Viridan", "did you mean Viridian?"];
     all(
@@ -363,7 +355,7 @@ fn the_same_fault_has_the_same_status_in_every_verb() {
         &["unknown key `strenght`", "did you mean strength?"],
         &[&["watercolor", photo, "--set", "edges.strenght=1", "-o", png]],
     );
-    let nowhere = place("no/such/folder/a.json");
+    let nowhere = folder.path().join("no/such/folder/a.json").display().to_string();
     all(
         2,
         &["cannot be"],
@@ -664,17 +656,13 @@ fn rows_are_those_of_the_file_with_crlf_and_blank_lines() {
 #[test]
 fn lamps_and_paint_are_not_taken_for_each_other() {
     let grey = repository("spectra/examples/paints.csv");
-    let lamp = |name: &str, text: &str| {
-        run(name, text.as_bytes(), &["color", grey.as_str(), "--illuminant", "FILE"])
-    };
-    refused_by_name(
-        &lamp("narrow.csv", "nm,power\n500,1\n510,2\n"),
-        &["420 to 680 nm", "narrow.csv"],
-    );
-    refused_by_name(
-        &lamp("paint.csv", "nm,%R\n400,10\n700,20\n"),
-        &["found `reflectance`", "hint: "],
-    );
+    for (name, text, words) in [
+        ("narrow.csv", "nm,power\n500,1\n510,2\n", ["420 to 680 nm", "narrow.csv"]),
+        ("paint.csv", "nm,%R\n400,10\n700,20\n", ["found `reflectance`", "hint: "]),
+    ] {
+        let lamp = run(name, text.as_bytes(), &["color", grey.as_str(), "--illuminant", "FILE"]);
+        refused_by_name(&lamp, &words);
+    }
     let irradiance = "Jaz Absolute Irradiance File\n>>>>>Begin Processed\nW\tD\tS\tP\n\
         400\t1\t50\t0.5\n500\t1\t50\t0.5\n700\t1\t20\t0.7\n>>>>>End\n";
     let paint = run("sun.JazIrrad", irradiance.as_bytes(), &["color", "FILE"]);

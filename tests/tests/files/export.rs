@@ -69,13 +69,16 @@ fn the_recipe_tells_volumes_and_shares() {
     let mut table = csv::Reader::from_reader(file(&files, "study.recipe.csv"));
     let rows: Vec<_> = table.records().map(|row| row.unwrap()).collect();
     assert_eq!(rows[1][0], *"Blue, \"dark\"");
-    let figures = |row: usize| -> Vec<f64> {
-        rows[row].iter().skip(1).map(|text| text.parse().unwrap()).collect()
-    };
-    // The heights of white sum to 0.66 mm over 12 cells of 0.04 mm2; one cell has 0.09 mm of blue.
-    assert_near("white", &figures(0), &[0.0264, 0.88, 0.055, 0.11, 11.0 / 12.0], 1e-5);
-    assert_near("blue", &figures(1), &[0.0036, 0.12, 0.0075, 0.09, 1.0 / 12.0], 1e-5);
-    assert_near("none", &figures(2), &[0.0; 5], 0.0);
+    // The heights of white sum to 0.66 mm over 12 cells of 0.04 mm2. One cell has 0.09 mm of blue.
+    for (row, name, wanted, tolerance) in [
+        (0_usize, "white", [0.0264, 0.88, 0.055, 0.11, 11.0 / 12.0], 1e-5),
+        (1, "blue", [0.0036, 0.12, 0.0075, 0.09, 1.0 / 12.0], 1e-5),
+        (2, "none", [0.0; 5], 0.0),
+    ] {
+        let figures: Vec<f64> =
+            rows[row].iter().skip(1).map(|text| text.parse().unwrap()).collect();
+        assert_near(name, &figures, &wanted, tolerance);
+    }
 }
 
 #[test]
@@ -168,7 +171,9 @@ fn spectra_stand_in_the_published_channels() {
 
 #[test]
 fn spectra_that_do_not_fit_are_refused() {
-    let plane = |value: f32| Field::filled(5, 3, value);
+    fn plane(value: f32) -> Field<f32> {
+        Field::filled(5, 3, value)
+    }
     let small = Field::filled(4, 3, 0.5);
     let cases = [
         (vec![400.0], vec![plane(0.1), plane(0.2)], "found `1 wavelengths` for plane 2"),
@@ -250,8 +255,9 @@ fn pictures_say_what_they_are_and_how_large() {
         assert_eq!(chunk(&png.bytes, b"cICP"), Some(&[1, 13, 0, 1][..]));
         let [x, y] = [10_000_u32; 2].map(u32::to_be_bytes);
         assert_eq!(chunk(&png.bytes, b"pHYs"), Some(&[&x[..], &y[..], &[1]].concat()[..]));
-        let at = |name: &[u8]| png.bytes.windows(4).position(|window| window == name).unwrap();
-        assert!(at(b"cICP") < at(b"IDAT"), "the colour space must precede the pixels");
+        let [profile, pixels] = [b"cICP", b"IDAT"]
+            .map(|name| png.bytes.windows(4).position(|window| window == name).unwrap());
+        assert!(profile < pixels, "the colour space must precede the pixels");
     }
 }
 

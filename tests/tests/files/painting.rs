@@ -58,10 +58,13 @@ pub(crate) fn painting(
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let library = library();
     let count = library.pigments.len();
-    let mut slots = || -> Slots {
-        std::array::from_fn(|_| rng.random_bool(0.7).then(|| PigmentId(rng.random_range(0..count))))
-    };
-    let palettes: Vec<Slots> = (0..=dry).map(|_| slots()).collect();
+    let palettes: Vec<Slots> = (0..=dry)
+        .map(|_| {
+            std::array::from_fn(|_| {
+                rng.random_bool(0.7).then(|| PigmentId(rng.random_range(0..count)))
+            })
+        })
+        .collect();
     let rise = i32::try_from(highest.min(i32::MAX as u32)).unwrap();
     let heights = (0..width * height).map(|_| rng.random_range(-rise..=rise)).collect();
     let mut layers: Vec<DryLayer> = palettes
@@ -175,13 +178,11 @@ fn other_programs_find_parts_and_channels_in_millimetres() {
     let y = wet.attributes.layer_position.y();
     let first = y as usize * document.wet.width() + x;
     let cell = document.wet.cell(first);
-    let value = |name: &str| {
+    let assert_mm = |name: &str, quanta: u32| {
         let list = &wet.channel_data.list;
         let channel = list.iter().find(|channel| channel.name.eq(name));
-        channel.unwrap_or_else(|| panic!("no `{name}`")).sample_data.value_by_flat_index(0).to_f32()
-    };
-    let assert_mm = |name: &str, quanta: u32| {
-        let got = value(name);
+        let channel = channel.unwrap_or_else(|| panic!("no `{name}`"));
+        let got = channel.sample_data.value_by_flat_index(0).to_f32();
         let wanted = mm_from_quanta(quanta, document.cell_mm) as f32;
         assert_eq!(got, wanted, "{name}");
     };
@@ -396,7 +397,9 @@ fn a_short_file_cannot_promise_a_huge_canvas() {
         patch(window, 4 + 12, 32_999, times);
     }
     patch(b"chunkCount\0int\0", 4, 33_000 / 32 + 1, 1);
-    let at = |bytes: &[u8], key: &[u8]| bytes.windows(key.len()).position(|w| w == key).unwrap();
+    fn at(bytes: &[u8], key: &[u8]) -> usize {
+        bytes.windows(key.len()).position(|w| w == key).unwrap()
+    }
     let json = at(&bytes, b"\"width\":40,\"height\":33");
     bytes.splice(json..json + 22, *b"\"width\":40000,\"height\":33000");
     let size = at(&bytes, b"impasto\0string\0") + 15;
@@ -458,13 +461,10 @@ fn sound() -> &'static [u8] {
         document.library.evidence = None;
         document.library.reference = None;
         document.library.pigments.truncate(2);
-        let fewer = |slots: &mut Slots| {
-            for slot in slots.iter_mut().flatten() {
-                *slot = PigmentId(slot.index() * 2 / all);
-            }
-        };
-        fewer(&mut document.slots);
-        document.dry.iter_mut().for_each(|layer| fewer(&mut layer.slots));
+        let layers = document.dry.iter_mut().map(|layer| &mut layer.slots);
+        for slot in layers.chain([&mut document.slots]).flatten().flatten() {
+            *slot = PigmentId(slot.index() * 2 / all);
+        }
         let bytes = write(&document).unwrap();
         // The file must contain compressed blocks, so that damage hits them too.
         let image = image(&bytes);

@@ -40,7 +40,9 @@ fn engine(start: &Reference) -> Option<(PaintEngine, BrushId)> {
 /// Rectangles in the middle, at every edge, of one cell, and of the whole canvas.
 fn rects() -> Vec<Rect> {
     let (width, height) = SIZE;
-    let rect = |x, y, width, height| Rect { x, y, width, height };
+    fn rect(x: usize, y: usize, width: usize, height: usize) -> Rect {
+        Rect { x, y, width, height }
+    }
     vec![
         rect(20, 10, 24, 17),
         rect(0, 0, 5, 6),
@@ -233,8 +235,9 @@ pub(crate) fn contact(
             }
             let around = [0, -1, 1, -(1 << 22), 1 << 10][rng.random_range(0..5)];
             let height = tops(x, y) + around + rng.random_range(-(1 << 18)..1 << 16);
-            let mut along = || [0, 256, -256, rng.random_range(-300..300)][rng.random_range(0..4)];
-            let velocity = (along(), along());
+            let [x, y] = [(); 2]
+                .map(|()| [0, 256, -256, rng.random_range(-300..300)][rng.random_range(0..4)]);
+            let velocity = (x, y);
             let speed = [0, 256, rng.random_range(0..=256)][rng.random_range(0..3)];
             let mut touch =
                 Touch::new(height, rng.random_range(0..brush_cells), velocity, speed, 0);
@@ -334,7 +337,9 @@ fn undo_then_redo_is_the_identity() {
         .flat_map(|row| (0..DRIED_SIZE.0.div_ceil(TILE)).map(move |column| Tile { row, column }))
         .collect();
     // These slots lie in several blocks of undo memory, in descending order.
-    let slot = |i: usize| UndoSlot(200 - 30 * i);
+    fn slot(i: usize) -> UndoSlot {
+        UndoSlot(200 - 30 * i)
+    }
     for (i, &tile) in tiles.iter().enumerate() {
         engine.save_tile(tile, slot(i)).unwrap();
     }

@@ -53,11 +53,11 @@ pub(crate) fn small_style(text: &str) -> String {
 
 /// A style of small dabs, and a map of three tones.
 fn brushwork(folder: &Path) {
-    let run = |arguments: &[&str]| {
+    fn run(arguments: &[&str]) -> String {
         let run = impasto(arguments);
         assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
         run.out
-    };
+    }
     let shown = run(&["artmap", "paint", "--show-style", "dabs"]);
     let style = small_style(&shown);
     assert!(style != shown, "the style has another size: {shown}");

@@ -59,7 +59,9 @@ const SMALL: [(&str, &[&str], &[&str]); 8] = [
 /// instead of those that ship.
 fn small(words: &[String]) -> Vec<String> {
     let mut words = words.to_vec();
-    let has = |words: &[String], part: &str| words.iter().any(|word| word.contains(part));
+    fn has(words: &[String], part: &str) -> bool {
+        words.iter().any(|word| word.contains(part))
+    }
     for (verb, parts, more) in SMALL {
         let meant = words[1] == verb && parts.iter().all(|part| has(&words, part));
         if meant && !has(&words, more[0]) {
@@ -67,13 +69,12 @@ fn small(words: &[String]) -> Vec<String> {
         }
     }
     let own_style = words.iter().any(|word| word == "mine.toml");
-    let replaced = |words: &mut Vec<String>, option: &str, by: [&str; 2]| match words
-        .iter()
-        .position(|word| word == option)
-    {
-        Some(at) => words[at..at + 2].clone_from_slice(&by.map(str::to_owned)),
-        None => words.extend(by.map(str::to_owned)),
-    };
+    fn replaced(words: &mut Vec<String>, option: &str, by: [&str; 2]) {
+        match words.iter().position(|word| word == option) {
+            Some(at) => words[at..at + 2].clone_from_slice(&by.map(str::to_owned)),
+            None => words.extend(by.map(str::to_owned)),
+        }
+    }
     match (words[1].as_str(), words.get(2).map(String::as_str)) {
         ("artmap", Some("paint")) if !own_style && !has(&words, "--show-style") => {
             replaced(&mut words, "--style", ["--style", files::STYLE]);

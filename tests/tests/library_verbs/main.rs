@@ -74,10 +74,10 @@ fn furthest(first: &PigmentLibrary, second: &PigmentLibrary) -> f64 {
         .map(|p| p.name.as_str())
         .collect();
     assert!(known.len() > 1, "pigments in common: {known:?}");
-    let film = |library: &PigmentLibrary, names: [&str; 2]| {
+    fn film(library: &PigmentLibrary, names: [&str; 2]) -> Vec<f64> {
         let recipe = library.recipe(names.map(|name| (name, 1.0))).unwrap();
         library.mix(recipe).unwrap().hiding(library.saunderson)
-    };
+    }
     let mut largest: f64 = 0.0;
     for a in &known {
         for b in &known {

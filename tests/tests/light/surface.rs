@@ -25,8 +25,10 @@ const MIDDLE: usize = 32;
 /// distance from the middle along x and y.
 fn lit_in(scene: &Scene, cells: impl Fn(f64, f64) -> f64 + Sync, material: TopMaterial) -> f32 {
     let mut tops = Tops::level(SIDE, SIDE);
-    let from_middle = |at: usize| at as f64 - MIDDLE as f64;
-    tops.set_all(|x, y| (cells(from_middle(x), from_middle(y)) * f64::from(1 << 21)) as i32);
+    tops.set_all(|x, y| {
+        let [x, y] = [x, y].map(|at| at as f64 - MIDDLE as f64);
+        (cells(x, y) * f64::from(1 << 21)) as i32
+    });
     let mut out = [[0.0; 4]];
     shade_row(scene, (&tops, (MIDDLE, MIDDLE)), &[[0.5; 8]], &[material], &mut out);
     assert_eq!(out[0][3], 1.0, "alpha");
@@ -115,10 +117,11 @@ fn from_the_left(elevation_deg: f64, ambient: f64) -> Scene {
 fn a_wall_casts_a_shadow_that_ends_softly() {
     let scene = from_the_left(20.0, 0.2);
     let level = lit(&scene, (0.0, 0.0), Ground);
-    let behind = |distance: f64| {
+    // A wall two cells high ends at these distances to the left of the middle, in cells. Its shadow
+    // is 2 / tan 20 degrees = 5.5 cells long.
+    let shades = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0].map(|distance: f64| {
         lit_in(&scene, |x, _| if x <= -distance { 2.0 } else { 0.0 }, Ground) / level
-    };
-    let shades = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0].map(behind);
+    });
     assert!(shades.windows(2).all(|pair| pair[0] <= pair[1]), "{shades:?}");
     assert!(shades[0] < 0.35 && shades[1] < 0.6, "close behind the wall: {shades:?}");
     assert!(shades[5] > 0.99, "far behind the wall: {shades:?}");
@@ -139,15 +142,13 @@ fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
     let level = lit(&soft, (0.0, 0.0), Ground);
     for along in [0.0, 0.5, 1.0] {
         // Furrows 6 cells apart and half a cell deep. `up` is 1 at a ridge.
-        let furrows = |up: f64| {
+        let [ridge, ground] = [1.0, -1.0].map(|up| {
             let wave = move |x: f64, y: f64| {
                 let across = x * (1.0 - along) + y * along;
                 up * 0.25 * (across * std::f64::consts::PI / 3.0).cos()
             };
             lit_in(&soft, wave, Ground) / level
-        };
-        let ridge = furrows(1.0);
-        let ground = furrows(-1.0);
+        });
         assert!(ridge > 0.999 && ground < 0.996, "along {along}: {ridge} {ground}");
     }
 }
@@ -184,12 +185,12 @@ fn a_height_matters_as_far_as_it_says() {
         scene.cell_mm = cell_mm as f32;
         let level = lit(&scene, (0.0, 0.0), Wet);
         let far = cells as f64;
-        let spot = |distance: f64| {
-            let ring = move |x: f64, y: f64| x.abs().max(y.abs()) >= distance;
-            lit_in(&scene, |x, y| if ring(x, y) { 3.0 } else { 0.0 }, Wet)
-        };
-        assert_eq!(spot(far + 1.0), level, "{cell_mm}");
-        assert!(spot(far) < level, "{cell_mm}");
+        let [out_of_reach, within] = [far + 1.0, far].map(|distance| {
+            let spot = |x: f64, y: f64| if x.abs().max(y.abs()) >= distance { 3.0 } else { 0.0 };
+            lit_in(&scene, spot, Wet)
+        });
+        assert_eq!(out_of_reach, level, "{cell_mm}");
+        assert!(within < level, "{cell_mm}");
     }
 }
 
@@ -273,8 +274,9 @@ fn made(json: &str, width: usize, height: usize) -> ground::Ground {
 }
 
 fn sorted_mm(ground: &ground::Ground) -> Vec<f64> {
-    let mm = |&quanta: &i32| f64::from(quanta) / f64::from(QUANTA_PER_CELL) * CELL_MM;
-    let mut heights: Vec<f64> = ground.height.values().iter().map(mm).collect();
+    let mm = ground.height.values().iter();
+    let mm = mm.map(|&quanta| f64::from(quanta) / f64::from(QUANTA_PER_CELL) * CELL_MM);
+    let mut heights: Vec<f64> = mm.collect();
     heights.sort_by(f64::total_cmp);
     heights
 }
@@ -307,22 +309,20 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
     let white = made(r#"{"kind":"panel"}"#, 2, 2);
     assert!(wood.gloss.strength > 0.0 && white.gloss.strength == 0.0, "{:?}", wood.gloss);
     // Reflectance falls from red over green to blue. It is neither very light nor black.
-    let part = |from: usize, to: usize| {
-        let values = &wood.reflectance[from..to];
+    let [blue, green, red] = [4..9, 12..18, 22..28].map(|range| {
+        let values = &wood.reflectance[range];
         values.iter().sum::<f64>() / values.len() as f64
-    };
-    let blue = part(4, 9);
-    let green = part(12, 18);
-    let red = part(22, 28);
+    });
     assert!(blue < green && green < red && red < 0.4 && blue > 0.02, "{blue} {green} {red}");
     // Along the fibres, heights change less from cell to cell than across them.
-    let change = |right: usize, down: usize| -> f64 {
-        let height = |x: usize, y: usize| f64::from(wood.height[(x, y)]);
+    let [along, across] = [(1, 0), (0, 1)].map(|(right, down)| -> f64 {
         let cells = (0..390 * 390).map(|i| (i % 390, i / 390));
-        cells.map(|(x, y)| (height(x + right, y + down) - height(x, y)).abs()).sum()
-    };
-    let along = change(1, 0);
-    let across = change(0, 1);
+        let changes = cells.map(|(x, y)| {
+            let [from, to] = [(x, y), (x + right, y + down)].map(|at| f64::from(wood.height[at]));
+            (to - from).abs()
+        });
+        changes.sum()
+    });
     assert!(along * 4.0 < across, "{along} along, {across} across");
     let own =
         made(r#"{"kind":"wood","reflectance":0.5,"gloss":{"strength":0,"exponent":9}}"#, 2, 2);
@@ -344,8 +344,8 @@ fn linen_has_as_many_threads_as_it_says() {
         let json = format!(r#"{{"kind":"linen","seed":5,"threads_per_cm":{count}}}"#);
         let cloth = spec(&json).build(2000, 400, 0.05, &oils()).unwrap().height;
         // The sum over all rows cancels the weave. Each thread along y leaves one maximum.
-        let column = |x: usize| -> f64 { (0..400).map(|y| f64::from(cloth[(x, y)])).sum() };
-        let profile: Vec<f64> = (0..2000).map(column).collect();
+        let profile: Vec<f64> =
+            (0..2000).map(|x| (0..400).map(|y| f64::from(cloth[(x, y)])).sum()).collect();
         let mean = profile.iter().sum::<f64>() / 2000.0;
         let hills = profile.windows(2).filter(|w| w[0] < mean && w[1] >= mean).count();
         let found = hills as f64 / 10.0;
@@ -356,19 +356,18 @@ fn linen_has_as_many_threads_as_it_says() {
 #[test]
 fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
     let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, picture: image::DynamicImage| {
-        let path = folder.path().join(name);
-        picture.save(&path).unwrap();
-        path.display().to_string()
-    };
     let eight = image::GrayImage::from_fn(4, 2, |x, _| image::Luma([(x * 85) as u8]));
     type Gray16 = image::ImageBuffer<image::Luma<u16>, Vec<u16>>;
     let sixteen = Gray16::from_fn(4, 2, |x, _| image::Luma([(x * 21845) as u16]));
-    let [eight, sixteen] =
-        [write("8.png", eight.into()), write("16.png", sixteen.into())].map(|path| {
-            let json = serde_json::json!({"kind": "image", "path": path, "depth_mm": 0.3});
-            made(&json.to_string(), 40, 10)
-        });
+    let pictures: [(&str, image::DynamicImage); 2] =
+        [("8.png", eight.into()), ("16.png", sixteen.into())];
+    let [eight, sixteen] = pictures.map(|(name, picture)| {
+        let path = folder.path().join(name);
+        picture.save(&path).unwrap();
+        let path = path.display().to_string();
+        let json = serde_json::json!({"kind": "image", "path": path, "depth_mm": 0.3});
+        made(&json.to_string(), 40, 10)
+    });
     assert_eq!(eight.height, sixteen.height);
     let heights = sorted_mm(&eight);
     assert!(heights[0].abs() < 1e-9 && (heights[399] - 0.3).abs() < 1e-6, "{heights:?}");
@@ -390,10 +389,10 @@ fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
 #[test]
 fn a_priming_is_the_librarys_white_a_number_a_color_or_a_spectrum() {
     let library = oils();
-    let primed = |reflectance: &str| {
+    fn primed(reflectance: &str) -> Vec<f64> {
         let json = format!(r#"{{"kind":"panel","reflectance":{reflectance}}}"#);
         made(&json, 2, 2).reflectance
-    };
+    }
     let white = made(r#"{"kind":"panel"}"#, 2, 2).reflectance;
     let zinc = library.mix([(library.find("Zinc White").unwrap(), 1.0)]).unwrap();
     assert_eq!(white, zinc.hiding(library.saunderson));

@@ -178,9 +178,11 @@ fn spots_are_compared_with_their_mixtures() {
     let names = green["pigments"].to_string();
     assert!(names.contains("Viridian") && names.contains("Lead White"), "{names}");
     for spot in [yellow, green] {
-        let list = |key: &str| -> Vec<f64> { serde_json::from_value(spot[key].clone()).unwrap() };
-        assert_eq!(list("measured_nm"), list("mapped_nm"), "the scan has the library's bands");
-        let apart = list("measured").into_iter().zip(list("mapped")).map(|(a, b)| (a - b).abs());
+        let lists = ["measured_nm", "mapped_nm", "measured", "mapped"];
+        let [measured_nm, mapped_nm, measured, mapped] =
+            lists.map(|key| -> Vec<f64> { serde_json::from_value(spot[key].clone()).unwrap() });
+        assert_eq!(measured_nm, mapped_nm, "the scan has the library's bands");
+        let apart = measured.into_iter().zip(mapped).map(|(a, b)| (a - b).abs());
         assert!(apart.fold(0.0, f64::max) < 0.03, "{spot}");
     }
     let page = std::fs::read_to_string(pictures.join("maps.html")).unwrap();

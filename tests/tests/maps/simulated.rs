@@ -47,8 +47,8 @@ fn truth_is_what_is_known_by_hand() {
     let truth = Truth::open(folder.path().join("scan-truth.zarr")).unwrap();
     assert_eq!((truth.lines(), truth.samples()), (6, 16));
     let rows = truth.block(0).unwrap();
-    let place = |name: &str| truth.pigments().iter().position(|known| known == name).unwrap();
-    let order = ["Lead White", "Vermilion", "Viridian"].map(place);
+    let order = ["Lead White", "Vermilion", "Viridian"]
+        .map(|name| truth.pigments().iter().position(|known| known == name).unwrap());
     for (sample, class, ground, shares) in [
         (1, PaintClass::Bare, 1.0, [0.0; 3]),
         (5, PaintClass::Hiding, 0.0, [0.75, 0.25, 0.0]),
@@ -84,16 +84,17 @@ fn blur_makes_edges_and_joins_the_truth_as_it_joins_light() {
     let run = simulate(&painting, &scan, &["--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
     let classes = &run.json()["classes"];
-    let count = |class: &str| classes[class].as_u64().unwrap();
-    assert_eq!(count("hiding") + count("edge"), 64 * 48, "{classes}");
-    assert!(count("edge") > 300 && count("hiding") > 1500, "{classes}");
+    let [hiding, edge] = ["hiding", "edge"].map(|class| classes[class].as_u64().unwrap());
+    assert_eq!(hiding + edge, 64 * 48, "{classes}");
+    assert!(edge > 300 && hiding > 1500, "{classes}");
     let truth = Truth::open(folder.path().join("scan-truth.zarr")).unwrap();
     let rows = truth.block(0).unwrap();
     let viridian = truth.pigments().iter().position(|name| name == "Viridian").unwrap();
-    let share = |at: usize| rows.share[at * rows.pigments + viridian];
+    let [inside, left, right] =
+        [40, 47, 48].map(|x| rows.share[(8 * 64 + x) * rows.pigments + viridian]);
     // From a patch with 30 % of it to one with none, and half as much at the edge between both.
-    let edge = f32::midpoint(share(8 * 64 + 47), share(8 * 64 + 48));
-    assert!((share(8 * 64 + 40) - 0.3).abs() < 1e-3 && (edge - 0.15).abs() < 1e-3, "{edge}");
+    let edge = f32::midpoint(left, right);
+    assert!((inside - 0.3).abs() < 1e-3 && (edge - 0.15).abs() < 1e-3, "{edge}");
 }
 
 #[test]
@@ -128,13 +129,13 @@ fn figure(json: &Value, kind: &str, figure: &str) -> f64 {
 fn maps_of_a_simulated_scan_are_near_its_truth() {
     let folder = tempfile::tempdir().unwrap();
     let painting = written_painting(&patches(), folder.path());
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    for bands in ["31", "204"] {
+    let [out_of_31, out_of_204, truth, scanned] =
+        ["maps-31", "maps-204", "scan-truth.zarr", "scan.hdr"]
+            .map(|name| folder.path().join(name).display().to_string());
+    for (bands, out) in [("31", out_of_31), ("204", out_of_204)] {
         let scan = folder.path().join("scan.hdr");
         assert_eq!(simulate(&painting, &scan, &["--bands", bands]).status, 0);
-        let out = path(&format!("maps-{bands}"));
-        let truth = path("scan-truth.zarr");
-        let run = impasto(&["map", &path("scan.hdr"), "-o", &out, "--truth", &truth, "--json"]);
+        let run = impasto(&["map", &scanned, "-o", &out, "--truth", &truth, "--json"]);
         assert_eq!(run.status, 0, "{}", run.err);
         let json = run.json();
         for (kind, precision, recall, error) in [
@@ -173,9 +174,9 @@ fn bare_ground_is_told_by_a_region_or_a_file_and_no_paint_is() {
         );
         assert_eq!(run.status, 0, "{name}: {}", run.err);
         let json = run.json();
-        let mapped = |kind: &str| figure(&json, kind, "mapped");
-        assert!(mapped("bare") < 0.01, "{name}: {} of the ground is mapped", mapped("bare"));
-        assert!(mapped("hiding, light") > 0.99, "{name}: {}", mapped("hiding, light"));
+        let [bare, light] = ["bare", "hiding, light"].map(|kind| figure(&json, kind, "mapped"));
+        assert!(bare < 0.01, "{name}: {bare} of the ground is mapped");
+        assert!(light > 0.99, "{name}: {light}");
     }
     let map = |ground: &str| impasto(&["map", &path("scan.hdr"), "--ground", ground]);
     let run = map("40..60,0..4");

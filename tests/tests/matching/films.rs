@@ -114,9 +114,9 @@ fn absolute_amounts_stay_within_what_was_measured() {
     let conditions = conditions(&["D65"]);
     let paper = vec![0.85; library.grid.count()];
     let pair = ["Vermilion", "Ultramarine"].map(|name| library.find(name).unwrap());
-    let amounts = |recipe: &RecipeMatch| -> Vec<f64> {
+    fn amounts(recipe: &RecipeMatch) -> Vec<f64> {
         recipe.shares.iter().map(|(_, share)| share * recipe.thickness.unwrap()).collect()
-    };
+    }
     for wished in [[0.3, 0.02], [0.9, 0.2], [0.02, 0.03], [0.3, 0.4]] {
         let recipe: Recipe = pair.into_iter().zip(wished).collect();
         let wash = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
@@ -138,11 +138,11 @@ fn absolute_amounts_stay_within_what_was_measured() {
         let acted = !found[0].at_limit.is_empty() || found[0].shares.len() < 2;
         assert_eq!(acted, limited, "{wished:?}: {:?}", found[0]);
         // Within the limits, no recipe of a fine grid is nearer.
-        let steps =
-            || (0..=50).map(|step| RANGE[0] + (RANGE[1] - RANGE[0]) * f64::from(step) / 50.0);
         let weights = conditions[0].viewing.weights(library.grid).unwrap();
-        let both = steps().flat_map(|red| steps().map(move |blue| [red, blue]));
-        let alone = steps().flat_map(|amount| [[amount, 0.0], [0.0, amount]]);
+        let steps = (0..=50).map(|step| RANGE[0] + (RANGE[1] - RANGE[0]) * f64::from(step) / 50.0);
+        let steps: Vec<f64> = steps.collect();
+        let both = steps.iter().flat_map(|&red| steps.iter().map(move |&blue| [red, blue]));
+        let alone = steps.iter().flat_map(|&amount| [[amount, 0.0], [0.0, amount]]);
         for tried in both.chain(alone) {
             let recipe: Recipe = pair.into_iter().zip(tried).collect();
             let film = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
@@ -182,8 +182,8 @@ fn batch(library: &PigmentLibrary, weighed: &[(&str, f64)]) -> Batch {
 
 fn apart(a: &Spectrum<Reflectance>, b: &Spectrum<Reflectance>) -> f64 {
     let weights = Viewing::default().weights(a.grid()).unwrap();
-    let lab = |spectrum: &Spectrum<Reflectance>| lab(&weights, spectrum.values());
-    delta_e_ciede2000(lab(a), lab(b))
+    let [a, b] = [a, b].map(|spectrum| lab(&weights, spectrum.values()));
+    delta_e_ciede2000(a, b)
 }
 
 #[test]

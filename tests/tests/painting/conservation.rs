@@ -67,8 +67,8 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
                 }
             }
             // Parts of the strokes are outside the canvas.
-            let mut place = || (random.random_range(-3.0..39.0), random.random_range(-3.0..27.0));
-            let places: Vec<_> = (0..8).map(|_| place()).collect();
+            let places = [(); 8]
+                .map(|()| (random.random_range(-3.0..39.0), random.random_range(-3.0..27.0)));
             let pressure = random.random_range(0.1..1.0);
             substeps += painting.stroke(brush, &along(&places, pressure)).unwrap().substeps;
             strokes += 1;
@@ -155,7 +155,7 @@ fn both_backends_hold_the_same_paint_and_show_it_alike() {
     let mut cpu = on_cpu(document);
     finished(&mut cpu);
     finished(&mut gpu);
-    let check = |cpu: &mut Painting, gpu: &mut Painting, what: &str| {
+    fn check(cpu: &mut Painting, gpu: &mut Painting, what: &str) {
         let shown = differences(&cpu.picture().unwrap(), &gpu.picture().unwrap());
         let mean = mean(&shown);
         let high = shown[shown.len() * 999 / 1000];
@@ -164,7 +164,7 @@ fn both_backends_hold_the_same_paint_and_show_it_alike() {
             "CPU against GPU, {what}: mean {mean:.2e}, 99.9th percentile {high:.2e}, largest {largest:.2e} CIEDE2000"
         ));
         assert!(mean < 0.1 && high < 1.0, "{what}: mean {mean}, 99.9 % below {high}");
-    };
+    }
     check(&mut cpu, &mut gpu, "daylight");
     same_paint(&cpu.document().unwrap(), &gpu.document().unwrap());
     let low = Lighting {

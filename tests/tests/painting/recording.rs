@@ -39,10 +39,9 @@ fn assert_same(painted: &mut Whole, played: &mut Whole, what: &str) {
     assert!(painted.0 == played.0, "{what}: another canvas");
     assert!(painted.1 == played.1, "{what}: another palette");
     // The recording gives every head its own name, whereas the session reuses names for new heads.
-    // Brush paints are therefore compared without names.
-    let last = |whole: &mut Whole| whole.2.drain(..).flatten().collect::<Vec<_>>();
-    let painted = last(painted);
-    let played = last(played);
+    // So we compare the paint on brushes without names.
+    let [painted, played] =
+        [painted, played].map(|whole| whole.2.drain(..).flatten().collect::<Vec<_>>());
     assert!(painted.iter().all(|paint| played.contains(paint)), "{what}: other paint on a brush");
 }
 
@@ -54,7 +53,6 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
         let place = (random.random_range(2.0..16.0), random.random_range(2.0..12.0));
         session.apply(&squeeze(SurfaceId::Palette, pigment, place)).unwrap();
     }
-    let knife = || "knife".to_owned();
     for _ in 0..actions {
         match random.random_range(0..12) {
             0 => _ = session.undo().unwrap(),
@@ -65,14 +63,14 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
                 let vehicle = random.random_range(0.0..1.0);
                 let amount_mm = random.random_range(0.0..0.4);
                 // This is refused if the palette lacks viridian or the brush is full.
-                let load = Load { brush: knife(), recipe, vehicle, amount_mm };
+                let load = Load { brush: "knife".to_owned(), recipe, vehicle, amount_mm };
                 let _ = session.apply(&Action::Load(load));
             }
             3 => {
                 let keep = random.random_range(0.0..1.0);
                 session.apply(&Action::Wipe { brush: "flat".to_owned(), keep }).unwrap();
             }
-            4 => _ = session.apply(&Action::Wash { brush: knife() }).unwrap(),
+            4 => _ = session.apply(&Action::Wash { brush: "knife".to_owned() }).unwrap(),
             5 => {
                 // This makes a new head under the same name, or takes an earlier head again.
                 let size_mm = [4.0, 2.5, 10.0 / 3.0][random.random_range(0..3)];
@@ -111,8 +109,9 @@ fn assert_replays(backend: Backend, seed: u64, actions: usize) {
     let report = replayed(&script, &mut other);
     let what = format!("seed {seed}");
     assert_eq!((report.actions, report.idle), (script.actions.len() as u64, 0), "{what}");
-    let history = |session: &PaintingSession| (session.history().0.len(), session.history().1);
-    assert_eq!(history(&other), history(&session), "{what}");
+    let [played, painted] =
+        [&other, &session].map(|session| (session.history().0.len(), session.history().1));
+    assert_eq!(played, painted, "{what}");
     assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
     // Undo all actions in both sessions.
     session.go_to(0).unwrap();
@@ -144,17 +143,17 @@ fn a_session_may_go_on_with_a_painting() {
     start.title = "went on".to_owned();
     let mut script = StrokeScript::continue_from("study.exr", &start);
     script.mixing = header().mixing;
-    let set_up = |script: &StrokeScript, start: &Document| {
+    fn continued(script: &StrokeScript, start: &Document) -> PaintingSession {
         let (canvas, palette) = script.surfaces(oils(), Some(start.clone())).unwrap();
         let canvas = on_cpu_lit(canvas);
         let palette = palette.map(on_cpu_lit);
         PaintingSession::recorded(canvas, palette, script).unwrap()
-    };
-    let mut session = set_up(&script, &start);
+    }
+    let mut session = continued(&script, &start);
     paint_at_random(&mut session, 22, 30);
     let script = read(&session);
     assert_eq!(script.start.as_deref(), Some("study.exr"));
-    let mut other = set_up(&script, &start);
+    let mut other = continued(&script, &start);
     replayed(&script, &mut other);
     let mut painted = whole(&mut session);
     assert_ne!(painted.0.wet.totals(), [0; SLOTS + 1]);

@@ -118,7 +118,7 @@ pub(crate) fn pure(slot: usize) -> [f64; SLOTS] {
 
 /// Samples along `places` in mm, one every tenth of a second, at one pressure.
 pub(crate) fn along(places: &[(f64, f64)], pressure: f64) -> Vec<Sample> {
-    let sample = |(index, &(x_mm, y_mm)): (usize, &(f64, f64))| Sample {
+    let samples = places.iter().enumerate().map(|(index, &(x_mm, y_mm))| Sample {
         seconds: 0.1 * index as f64,
         x_mm,
         y_mm,
@@ -127,8 +127,8 @@ pub(crate) fn along(places: &[(f64, f64)], pressure: f64) -> Vec<Sample> {
         tilt_y_deg: -15.0,
         // At 90 degrees a flat head that moves along x paints with its broad side.
         twist_deg: 90.0 + 5.0 * index as f64,
-    };
-    places.iter().enumerate().map(sample).collect()
+    });
+    samples.collect()
 }
 
 /// Adds a brush loaded with `amount_mm` of the pigment in `slot`, with 10 % vehicle.
@@ -248,7 +248,7 @@ pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
     let mut seconds = random.random_range(0.0..100.0);
     let mut x_mm = random.random_range(0.0..26.0);
     let mut y_mm = random.random_range(0.0..20.0);
-    let mut next = || {
+    let wandered = (0..samples).map(|_| {
         seconds += random.random_range(0.0..0.02);
         x_mm += random.random_range(-2.0..2.0);
         y_mm += random.random_range(-2.0..2.0);
@@ -261,8 +261,8 @@ pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
             tilt_y_deg: random.random_range(-30.0..30.0),
             twist_deg: random.random_range(0.0..180.0),
         }
-    };
-    (0..samples).map(|_| next()).collect()
+    });
+    wandered.collect()
 }
 
 /// Paints a random stroke. Extends it in random portions, with a random number of sub-steps after

@@ -221,7 +221,9 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         live(&mut session, SurfaceId::Canvas, "flat", &mut random);
         session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
         let before = whole(&mut session);
-        let turned = |azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() });
+        fn turned(azimuth_deg: f64) -> Action {
+            Action::Light(Lighting { azimuth_deg, ..Lighting::default() })
+        }
         for azimuth_deg in [10.0, 20.0, 30.0] {
             session.adjust(&turned(azimuth_deg)).unwrap();
             assert_eq!(session.canvas().state().lighting.azimuth_deg, azimuth_deg, "not applied");
@@ -337,10 +339,13 @@ fn surfaces_that_do_not_go_together_are_refused() {
         PaintingSession::new(canvas, Some(palette)).map(|_| ()).map_err(|error| error.to_string())
     };
     assert_eq!(together(|_| ()), Ok(()));
-    let refused = |what: &str| Err(format!("canvas and palette have different {what}"));
-    assert_eq!(together(|palette| palette.cell_mm = 0.1), refused("cells"));
-    assert_eq!(together(|palette| palette.slots.swap(0, 1)), refused("pigments"));
-    assert_eq!(together(|palette| palette.lighting.relief = 0.0), refused("lights"));
-    assert_eq!(together(|palette| palette.medium.scattering_per_mm = 1.0), refused("media"));
-    assert_eq!(together(|palette| palette.library.title.clear()), refused("pigment libraries"));
+    for (change, what) in [
+        ((|palette| palette.cell_mm = 0.1) as fn(&mut paint::document::Document), "cells"),
+        (|palette| palette.slots.swap(0, 1), "pigments"),
+        (|palette| palette.lighting.relief = 0.0, "lights"),
+        (|palette| palette.medium.scattering_per_mm = 1.0, "media"),
+        (|palette| palette.library.title.clear(), "pigment libraries"),
+    ] {
+        assert_eq!(together(change), Err(format!("canvas and palette have different {what}")));
+    }
 }

@@ -11,7 +11,7 @@ use super::studio::{
     BLUE, PALETTE, WHITE, YELLOW, along, bare, crossing, loaded, on_both, on_cpu, open, pigment,
     pure,
 };
-use paint::brush::{HeadMesh, HeadShape, HeadShape as PiecesHeadShape};
+use paint::brush::{HeadShape, HeadShape as PiecesHeadShape};
 use paint::document::{Document, Lighting};
 use paint::engine::{BrushId, BrushId as PiecesBrushId, PaintEngine};
 use paint::history::TILE_BYTES;
@@ -97,8 +97,8 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
         }
         _ => {
             let brush = random.random_range(0..2);
-            let mut place = || (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
-            let places: Vec<_> = (0..3).map(|_| place()).collect();
+            let places =
+                [(); 3].map(|()| (random.random_range(0.0..26.0), random.random_range(0.0..20.0)));
             let report = painting.stroke(BrushId(brush), &along(&places, 0.6)).unwrap();
             assert!(report.undoable, "a stroke exceeds the undo memory");
             true
@@ -183,13 +183,10 @@ fn a_drying_keeps_only_the_tiles_that_were_wet() {
 #[test]
 fn a_brush_never_changes_its_pigment_by_an_undo() {
     for mut painting in on_both(&bare(60, 60)) {
-        let keep: Vec<PigmentId> = PALETTE[1..].iter().map(|name| pigment(name)).collect();
-        let with = |first: &str| {
-            let all: Vec<PigmentId> = [pigment(first)].into_iter().chain(keep.clone()).collect();
-            all
-        };
+        let mut all: Vec<PigmentId> = PALETTE.iter().map(|name| pigment(name)).collect();
+        all[0] = pigment("Ultramarine");
         let brush = painting.add_brush(HeadShape::Round, 2.0).unwrap();
-        painting.set_palette(&with("Ultramarine")).unwrap();
+        painting.set_palette(&all).unwrap();
         assert_eq!(painting.slot_of(pigment("Ultramarine")).unwrap(), WHITE);
         painting.load(brush, &pure(WHITE), 0.0, 0.2).unwrap();
         let late = painting.add_brush(HeadShape::Round, 2.0).unwrap();
@@ -239,8 +236,9 @@ fn paint(painting: &mut Painting, brushes: usize) -> Vec<PiecesLayer> {
 /// Random samples, some outside the canvas. One position occurs twice, like a pen at rest.
 fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
     let count = random.random_range(1..9);
-    let mut place = || (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0));
-    let mut places: Vec<_> = (0..count).map(|_| place()).collect();
+    let mut places: Vec<_> = (0..count)
+        .map(|_| (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0)))
+        .collect();
     places.insert(count / 2, places[count / 2]);
     along(&places, 0.6)
 }
@@ -373,10 +371,9 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     stroke.lift();
     stroke.advance(&mut painting, 32).unwrap();
     let bent = painting.head(brush).mesh().unwrap();
-    let lowest = |mesh: &HeadMesh| {
-        mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min)
-    };
-    assert!(lowest(&bent) < lowest(&hovering), "the head did not bend");
+    let [bent_to, hovers_at] = [&bent, &hovering]
+        .map(|mesh| mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min));
+    assert!(bent_to < hovers_at, "the head did not bend");
     painting.hover(brush, &samples[0]);
     assert_eq!(painting.head(brush).mesh(), Some(bent), "hover moved the head");
     stroke.finish(&mut painting).unwrap();

@@ -156,8 +156,9 @@ fn a_heap_that_ends_with_its_tile_is_seen_beyond_it() {
             let x_mm = (56.0 + 0.25 * f64::from(step)) * CELL_MM;
             painting.squeeze(&pure(WHITE), 0.0, x_mm, 6.0, 3.0).unwrap();
             let wet = painting.wet().unwrap();
-            let painted = |x: usize| (0..64).any(|y| wet.cell(y * 130 + x).volume() > 0);
-            ended += usize::from(painted(63) && !painted(64));
+            let [last, next] =
+                [63, 64].map(|x| (0..64).any(|y| wet.cell(y * 130 + x).volume() > 0));
+            ended += usize::from(last && !next);
             let seen = painting.picture().unwrap();
             assert!(seen == anew(&mut painting, None), "step {step}");
             painting.scrape().unwrap();
@@ -398,8 +399,8 @@ fn exr_channels(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
         .from_buffered(std::io::Cursor::new(bytes))
         .unwrap();
     let channels = image.layer_data.channel_data.list;
-    let values = |channel: &exr::prelude::AnyChannel<_>| channel_values(&channel.sample_data);
-    channels.iter().map(|channel| (channel.name.to_string(), values(channel))).collect()
+    let channels = channels.iter();
+    channels.map(|own| (own.name.to_string(), channel_values(&own.sample_data))).collect()
 }
 
 fn channel_values(samples: &exr::prelude::FlatSamples) -> Vec<f32> {

@@ -135,12 +135,12 @@ fn a_pair_that_cannot_be_mixed_and_what_is_left_out_are_said() {
     let mut five = five();
     five.pigments[3].identified = false;
     let report = report_of(&five, Some((PigmentId(3), PigmentId(1))));
-    let said = |title: &str| {
+    let [graded, mixed] = ["Graded mixtures", "What the paints mix"].map(|title| {
         let mut sections = report.sections.iter();
         sections.find(|section| section.title == title).unwrap().paragraphs.join(" ")
-    };
-    assert!(said("Graded mixtures").starts_with("blue"), "{}", said("Graded mixtures"));
-    assert!(said("What the paints mix").contains("blue"), "{}", said("What the paints mix"));
+    });
+    assert!(graded.starts_with("blue"), "{graded}");
+    assert!(mixed.contains("blue"), "{mixed}");
     assert!(report.figures().all(|figure| figure.name != "graded-mixture-1"));
     finite(&report);
 }

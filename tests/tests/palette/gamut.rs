@@ -64,14 +64,14 @@ fn a_band_of_lightness_lies_within_the_whole() {
 #[test]
 fn more_paints_mix_more_colors() {
     let viewing = Viewing::default();
-    let area = |count: usize| {
+    let areas = [1, 2, 3, 4].map(|count| {
         let mut library = five();
         library.pigments.truncate(count);
         let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
         sampled_gamut(&palette).in_lab([0.0, 100.0], 72).area()
-    };
-    assert!(area(1) < 1.0, "a white alone: {}", area(1));
-    assert!(area(2) < area(3) && area(3) < area(4), "{} {} {}", area(2), area(3), area(4));
+    });
+    assert!(areas[0] < 1.0, "a white alone: {}", areas[0]);
+    assert!(areas[1..].is_sorted_by(|a, b| a < b), "{areas:?}");
 }
 
 #[test]
@@ -88,10 +88,11 @@ fn where_nothing_is_mixed_the_outline_returns_to_grey() {
 #[test]
 fn the_locus_and_srgb_stand_where_the_standards_put_them() {
     let locus = spectral_locus(&Viewing::default());
-    let at = |wanted: f64| locus.iter().find(|(nm, _)| *nm == wanted).unwrap().1;
     // CIE 015:2018, chromaticities of the 1931 observer.
-    assert_near("520 nm", &at(520.0), &[0.0743, 0.8338], 1e-4);
-    assert_near("700 nm", &at(700.0), &[0.7347, 0.2653], 1e-4);
+    for (nm, wanted) in [(520.0, [0.0743, 0.8338]), (700.0, [0.7347, 0.2653])] {
+        let found = locus.iter().find(|(own, _)| *own == nm).unwrap().1;
+        assert_near(format!("{nm} nm"), &found, &wanted, 1e-4);
+    }
     let oils = Oils::fitted();
     let palette = oils.palette();
     let [red, green, blue] = srgb_primaries(palette.weights().white());
@@ -246,9 +247,10 @@ fn metamers_match_in_daylight_and_part_worst_first() {
         let worst = pair.indices.iter().copied().fold(0.0, f64::max);
         assert!(worst <= before && worst > 2.0, "{worst} after {before}");
         before = worst;
-        let paints =
-            |i: usize| -> BTreeSet<PigmentId> { pair.recipes[i].iter().map(|(p, _)| *p).collect() };
-        assert_ne!(paints(0), paints(1), "{:?}", pair.names);
+        let [one, other] = [0, 1].map(|i: usize| -> BTreeSet<PigmentId> {
+            pair.recipes[i].iter().map(|(p, _)| *p).collect()
+        });
+        assert_ne!(one, other, "{:?}", pair.names);
     }
     assert_eq!(found, metamers(&palette, &lights, &measured, 2.0, 8));
 }

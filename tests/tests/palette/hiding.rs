@@ -14,8 +14,8 @@ use crate::made::{Oils, band, even, grid, library};
 
 fn cards(black: f64, white: f64) -> Cards {
     let standard = Cards::standard(grid());
-    let even = |value| vec![value; grid().count()];
-    Cards { black: even(black), white: even(white), ..standard }
+    let [black, white] = [black, white].map(|value| vec![value; grid().count()]);
+    Cards { black, white, ..standard }
 }
 
 fn hides(pigment: Pigment, cards: Cards) -> Hides {
@@ -38,11 +38,11 @@ fn a_film_that_absorbs_nothing_hides_where_its_quadratic_says() {
 
 #[test]
 fn twice_the_paint_hides_at_half_the_thickness() {
-    let at = |factor: f64| {
+    let [twice, once] = [2.0, 1.0].map(|factor| {
         let paint = even("grey", 0.3 * factor, 0.7 * factor);
         hides(paint, Cards::standard(grid())).thickness().unwrap()
-    };
-    assert_near("half", &[at(2.0)], &[at(1.0) / 2.0], 1e-9);
+    });
+    assert_near("half", &[twice], &[once / 2.0], 1e-9);
 }
 
 #[test]
@@ -86,11 +86,11 @@ fn every_oil_hides_where_its_contrast_says_and_not_below() {
         let thickness = power.hides.thickness().unwrap_or_else(|| panic!("{name} never hides"));
         let contrast = |thickness: f64| {
             let mixture = oils.library.mix([(power.paint, 1.0)]).unwrap();
-            let y = |card: &[f64]| {
+            let [black, white] = [&palette.cards().black, &palette.cards().white].map(|card| {
                 let film = mixture.film(thickness, card, oils.library.film());
                 palette.weights().xyz(&film).y
-            };
-            y(&palette.cards().black) / y(&palette.cards().white)
+            });
+            black / white
         };
         assert_near(&name, &[contrast(thickness)], &[0.98], 1e-9);
         assert!(contrast(0.98 * thickness) < 0.98, "{name} hides below {thickness}");
@@ -117,12 +117,13 @@ fn the_white_of_a_library_hides_from_five_hundredths_of_a_millimetre_on() {
     let white = oils.mix([(oils.reference_id().unwrap(), 1.0)]).unwrap();
     let cards = Cards::standard(oils.grid);
     let weights = Viewing::default().weights(oils.grid).unwrap();
-    let contrast = |mm: f64| {
-        let luminance = |card: &[f64]| weights.xyz(&white.film(mm * per_mm, card, oils.film())).y;
-        luminance(&cards.black) / luminance(&cards.white)
-    };
-    assert!((contrast(0.05) - 0.98).abs() < 2e-4, "{}", contrast(0.05));
-    assert!(contrast(0.04) < 0.975, "{}", contrast(0.04));
+    let [hiding, thinner] = [0.05, 0.04].map(|mm| {
+        let [black, white] = [&cards.black, &cards.white]
+            .map(|card| weights.xyz(&white.film(mm * per_mm, card, oils.film())).y);
+        black / white
+    });
+    assert!((hiding - 0.98).abs() < 2e-4, "{hiding}");
+    assert!(thinner < 0.975, "{thinner}");
     oils.reference = None;
     assert_eq!(scattering_per_mm(&oils), None);
 }

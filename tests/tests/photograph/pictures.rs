@@ -37,7 +37,9 @@ fn near(found: [f32; 3], wanted: [f64; 3]) {
 
 #[test]
 fn every_depth_becomes_linear_light() {
-    let decoded = |value: f64| Rgb([value; 3]).linear().0[0];
+    fn decoded(value: f64) -> f64 {
+        Rgb([value; 3]).linear().0[0]
+    }
     near(one(&png(GrayImage::from_pixel(1, 1, [100].into()))), [decoded(100.0 / 255.0); 3]);
     let color = [10.0, 128.0, 250.0].map(|value| decoded(value / 255.0));
     near(one(&png(RgbImage::from_pixel(1, 1, [10, 128, 250].into()))), color);
@@ -107,17 +109,18 @@ fn turned(orientation: u8) -> Vec<u8> {
 
 #[test]
 fn photographs_are_turned_as_their_exif_says() {
-    let corners = |orientation| {
+    for (orientation, wanted) in [
+        (1, ((32, 16), [true, false, true])),
+        (3, ((32, 16), [false, true, false])),
+        (6, ((16, 32), [true, true, false])),
+        (8, ((16, 32), [false, false, true])),
+    ] {
         let photograph = Photograph::from_bytes("made.jpg", &turned(orientation)).unwrap();
         let (width, height) = photograph.size();
         let canvas = photograph.on_canvas(width, height);
-        let light = |x, y| canvas[(x, y)][0] > 0.5;
-        ((width, height), light(1, 1), light(width - 2, 1), light(1, height - 2))
-    };
-    assert_eq!(corners(1), ((32, 16), true, false, true));
-    assert_eq!(corners(3), ((32, 16), false, true, false));
-    assert_eq!(corners(6), ((16, 32), true, true, false));
-    assert_eq!(corners(8), ((16, 32), false, false, true));
+        let corners = [(1, 1), (width - 2, 1), (1, height - 2)].map(|at| canvas[at][0] > 0.5);
+        assert_eq!(((width, height), corners), wanted);
+    }
 }
 
 #[test]
@@ -230,16 +233,20 @@ fn wide_gamut_is_converted_by_its_primaries() {
     ];
     let adobe = [[1.398_284, -0.398_284, 0.0], [0.0, 1.0, 0.0], [0.0, -0.042_942, 1.042_942]];
     let values = [150_u8, 120, 100];
-    let srgb_curve = |v: f64| Rgb([v; 3]).linear().0[0];
-    let gamma = |v: f64| v.powf(563.0 / 256.0);
-    let curves: [&dyn Fn(f64) -> f64; 2] = [&srgb_curve, &gamma];
+    fn srgb_curve(v: f64) -> f64 {
+        Rgb([v; 3]).linear().0[0]
+    }
+    fn gamma(v: f64) -> f64 {
+        v.powf(563.0 / 256.0)
+    }
+    let curves: [fn(f64) -> f64; 2] = [srgb_curve, gamma];
     let profiles = [ColorProfile::new_display_p3(), ColorProfile::new_adobe_rgb()];
     let cases = profiles.into_iter().zip([p3, adobe]).zip(curves);
-    // Bytes as the file has them: a JPEG rounds colours before it stores them.
-    let stored = |file: &[u8]| {
+    // A JPEG rounds colours before it stores them, so we take the bytes of the file.
+    fn stored(file: &[u8]) -> [f64; 3] {
         let bytes = image::load_from_memory(file).unwrap().to_rgb8()[(4, 4)].0;
         bytes.map(|byte| f64::from(byte) / 255.0)
-    };
+    }
     for ((profile, matrix), curve) in cases {
         for file in with_profile(values, &profile) {
             let light = stored(&file).map(curve);

@@ -130,15 +130,15 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
         strokes::FilmMaterials { ground: &black, ..materials },
         &STUDIO.quadrature,
     );
-    let shows = |separation: &Separation| {
+    let [by_hiding, by_thin] = [&HIDING, &THIN].map(|separation| {
         let heights = separation.separate(&picture);
         let differences = heights.values().iter().map(|heights| {
             let heights = heights.map(f64::from);
             delta_e_ciede2000(over_black.lab(&heights), separation.film().lab(&heights))
         });
         differences.sum::<f64>() / 1000.0
-    };
-    assert!(shows(&HIDING) < 0.7 * shows(&THIN), "{} {}", shows(&HIDING), shows(&THIN));
+    });
+    assert!(by_hiding < 0.7 * by_thin, "{by_hiding} {by_thin}");
 }
 
 #[test]
@@ -165,8 +165,8 @@ fn shadows_brought_within_reach_keep_their_differences() {
 #[test]
 fn the_same_input_gives_the_same_table() {
     let settings = SeparationSettings { lattice: 7, ..SeparationSettings::default() };
-    let table = || Separation::new(STUDIO.film(), &settings).unwrap();
-    assert_eq!(table(), table());
+    let [one, again] = [(); 2].map(|()| Separation::new(STUDIO.film(), &settings).unwrap());
+    assert_eq!(one, again);
 }
 
 #[test]
@@ -212,9 +212,9 @@ fn chosen(picture: &Picture) -> ChosenPalette {
 
 /// Sixty tints and shades of one pigment: mixtures with lead white and bone black.
 fn tints(name: &str) -> Picture {
-    let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
     let mut slots: Slots = [None; SLOTS];
-    slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
+    let names = ["Lead White", name, "Bone Black"];
+    slots[..3].copy_from_slice(&names.map(|name| Some(STUDIO.library.find(name).unwrap())));
     let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
     let colors = (0..60).map(|at| {
         let white = 0.28 * (at % 10) as f32 / 10.0;

@@ -174,13 +174,15 @@ fn painted(case: &Case) -> RgbImage {
     if longest <= LONGEST {
         return picture;
     }
-    let side = |length: u32| (length * LONGEST / longest).max(1);
-    imageops::thumbnail(&picture, side(width), side(height))
+    let [width, height] = [width, height].map(|length| (length * LONGEST / longest).max(1));
+    imageops::thumbnail(&picture, width, height)
 }
 
 /// Got, wanted and their difference side by side, if they differ.
 fn difference(got: &RgbImage, wanted: &RgbImage) -> Option<RgbImage> {
-    let apart = |a: &Rgb<u8>, b: &Rgb<u8>| [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]));
+    fn apart(a: &Rgb<u8>, b: &Rgb<u8>) -> [u8; 3] {
+        [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]))
+    }
     let same_size = got.dimensions() == wanted.dimensions();
     let mut pairs = got.pixels().zip(wanted.pixels());
     if same_size && pairs.all(|(a, b)| apart(a, b).iter().all(|&part| part <= ROUNDING)) {

@@ -56,12 +56,12 @@ impl Bench {
                 let parts: Recipe =
                     self.pigments.iter().copied().zip(shares.iter().copied()).collect();
                 let truth = self.oils.mix(&parts).unwrap().hiding(surface);
-                let read = |value: &f64| {
+                let internal = truth.iter().map(|value| {
                     let error: f64 = StandardNormal.sample(&mut random);
                     let internal = surface.internal_from_measured(value + NOISE * error);
                     internal.unwrap_or(BLACK).clamp(BLACK, 1.0)
-                };
-                let internal: Vec<f64> = truth.iter().map(read).collect();
+                });
+                let internal: Vec<f64> = internal.collect();
                 let reflectance: Vec<f64> =
                     internal.iter().map(|&r| surface.measured_from_internal(r)).collect();
                 Observation {
@@ -189,30 +189,22 @@ fn no_single_exchange_improves_the_optimal_plan() {
 #[test]
 fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
     let bench = bench();
-    let shares = |design: &[usize]| -> Vec<Vec<f64>> {
-        design
-            .iter()
-            .map(|&index: &usize| {
+    for count in bench.paints.unknowns()..40 {
+        let start = usual(&bench.paints, &bench.pool, count).unwrap();
+        assert_eq!(start.len(), count);
+        let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
+        for (name, design) in [("usual", start), ("optimal", best)] {
+            let shares = design.iter().map(|&index| {
                 let mut shares = vec![0.0; bench.paints.names.len()];
                 for &(paint, share) in &bench.pool[index].shares() {
                     shares[paint.index()] = share;
                 }
                 shares
-            })
-            .collect()
-    };
-    for count in bench.paints.unknowns()..40 {
-        let start = usual(&bench.paints, &bench.pool, count).unwrap();
-        assert_eq!(start.len(), count);
-        assert!(
-            unidentified(shares(&start).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
-            "usual of {count}"
-        );
-        let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
-        assert!(
-            unidentified(shares(&best).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
-            "optimal of {count}"
-        );
+            });
+            let shares: Vec<Vec<f64>> = shares.collect();
+            let lost = unidentified(shares.iter().map(Vec::as_slice), PaintSet::WHITE);
+            assert!(lost.is_empty(), "{name} of {count}");
+        }
     }
 }
 

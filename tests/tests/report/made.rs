@@ -15,11 +15,11 @@ pub(crate) fn readings() -> String {
     let (header, rows) = oils.split_once('\n').unwrap();
     let renamed = header.replace(",Cobalt Blue,", ",\"<b>&\"\"\",");
     assert_ne!(renamed, header, "cobalt blue is among the oils");
-    let wanted = |row: &&str| {
+    let rows = rows.lines().filter(|row| {
         let chosen = ["07", "12", "13"].iter().any(|start| row.starts_with(start));
         chosen || row.split(',').nth(1) == Some("none")
-    };
-    let rows: Vec<&str> = rows.lines().filter(wanted).collect();
+    });
+    let rows: Vec<&str> = rows.collect();
     format!("{renamed}\n{}\n", rows.join("\n"))
 }
 

@@ -81,8 +81,10 @@ fn recipes_stand_beside_the_codes_of_samples() {
 fn legends_of_bands_change_with_the_bands_in_the_dark() {
     let svg = std::fs::read_to_string(whole().path("out/figures/residuals.svg")).unwrap();
     let color = reports::style::SERIES[0].hex();
-    let translucent = |line: &&str| line.starts_with("<polygon") && line.contains("\"0.25\"");
-    let areas: Vec<&str> = svg.lines().filter(translucent).collect();
+    let areas: Vec<&str> = svg
+        .lines()
+        .filter(|line| line.starts_with("<polygon") && line.contains("\"0.25\""))
+        .collect();
     // There are two bands in the chart. The key has one square for each, and a second for the inner
     // one.
     assert_eq!(areas.len(), 5, "{areas:?}");
@@ -263,13 +265,13 @@ fn pigments_without_a_known_s_are_marked() {
 #[test]
 fn wavelength_axes_are_all_the_same() {
     // Horizontal positions of the labels 400 and 700, in tenths of a pixel.
-    let places = |name: &str| {
+    fn places(name: &str) -> [Vec<f64>; 2] {
         let svg = text(name, "svg");
         ["400", "700"].map(|tick| -> Vec<f64> {
             let labelled = svg.split("<text ").filter(|t| t.contains(&format!(">\n{tick}\n<")));
             labelled.map(|t| t.split('"').nth(1).unwrap().parse().unwrap()).collect()
         })
-    };
+    }
     let [first, second] = places("residuals").map(|x| x[0]);
     for name in ["residuals", "light"] {
         let [short, long] = places(name);
@@ -302,13 +304,11 @@ fn names_are_text_in_every_drawing() {
 #[test]
 fn the_same_input_gives_the_same_bytes() {
     let work = Work::new();
-    let run = || {
+    let [first, second] = [(); 2].map(|()| {
         let run = work.report("out", &[&work.text("readings.csv")]);
         assert_eq!(run.status, 0, "{}", run.err);
         files(&work.path("out"))
-    };
-    let first = run();
-    let second = run();
+    });
     assert!(first.len() > 3 * FIGURES.len(), "{} files", first.len());
     assert_eq!(first.len(), second.len());
     for ((path, first), (_, second)) in first.iter().zip(&second) {

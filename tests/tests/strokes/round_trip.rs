@@ -21,7 +21,9 @@ use suite::oils::library;
 use crate::SOUND;
 
 fn sample() -> impl Strategy<Value = Sample> {
-    let tilt = || prop_oneof![Just(0.0), -90.0..=90.0];
+    fn tilt() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), -90.0..=90.0]
+    }
     let place = (-100.0..200.0, -100.0..200.0, 0.0..=1.0);
     (0.0..0.1, place, tilt(), tilt(), tilt()).prop_map(
         |(seconds, (x_mm, y_mm, pressure), a, b, c)| Sample {
@@ -237,10 +239,8 @@ fn resolved(from: &str, to: &str) -> Result<paint::strokes::Resolved, (String, S
 #[test]
 fn names_and_short_names_become_pigments() {
     let library = library();
-    let id = |name: &str| library.find(name).unwrap();
-    let white = id("Zinc White");
-    let blue = id("Prussian Blue");
-    let green = id("Viridian");
+    let [white, blue, green] =
+        ["Zinc White", "Prussian Blue", "Viridian"].map(|name| library.find(name).unwrap());
     let found = resolved("\"W\": 3", "\"zinc white\": 3").unwrap();
     assert_eq!(found.slots[..3], [Some(white), Some(blue), None]);
     let mut wanted = vec![(white, 3.0), (blue, 1.0)];

@@ -137,7 +137,7 @@ fn obj_with_colors_of_vertices_and_nothing_else() {
 
 #[test]
 fn ply_as_text_and_in_both_binaries() {
-    let header = |format: &str| {
+    fn header(format: &str) -> Vec<u8> {
         format!(
             "ply\nformat {format} 1.0\ncomment a square\nelement vertex 4\nproperty float x\n\
              property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n\
@@ -145,7 +145,7 @@ fn ply_as_text_and_in_both_binaries() {
              element face 1\nproperty list uchar int vertex_indices\nend_header\n"
         )
         .into_bytes()
-    };
+    }
     let mut text = header("ascii");
     let [mut low, mut high] = ["binary_little_endian", "binary_big_endian"].map(header);
     for ([x, y, z], red) in SQUARE.iter().zip([0u8, 51, 102, 255]) {
@@ -245,7 +245,6 @@ const POSITIONS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
 fn obj_files() {
-    let with = |rest: &str| format!("{POSITIONS}{rest}\n").into_bytes();
     for (rest, wanted) in [
         ("f 1 2 4", &["line 4", "no position `4`, there are 3"][..]),
         ("f 1 2 0", &["line 4", "no position `0`"]),
@@ -267,7 +266,7 @@ fn obj_files() {
         ("", &["no triangle"]),
         ("l 1 2\np 1", &["no triangle"]),
     ] {
-        refused(&[("a.obj", &with(rest))], wanted);
+        refused(&[("a.obj", format!("{POSITIONS}{rest}\n").as_bytes())], wanted);
     }
     refused(&[("a.obj", b"")], &["no triangle"]);
     refused(&[("a.obj", b"\xff\xfe\0\x01garbage")], &["no triangle"]);
@@ -278,7 +277,6 @@ fn materials_and_textures_of_obj_files() {
     let obj = format!("mtllib a.mtl\n{POSITIONS}usemtl red\nf 1 2 3\n").into_bytes();
     let error = opened(&[("a.obj", &obj)]).unwrap_err();
     assert!(matches!(&error, MeshError::Unreadable { name, .. } if name.ends_with("a.mtl")));
-    let with = |mtl: &str| opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
     for (mtl, wanted) in [
         ("newmtl red\nKd 1 0\n", "a.mtl: line 2: no colour of 3 numbers: `Kd 1 0`"),
         ("newmtl red\nKd spectral x.rfl\n", "a.mtl: line 2: not a finite number: `spectral`"),
@@ -287,7 +285,8 @@ fn materials_and_textures_of_obj_files() {
         ("newmtl red\nmap_Kd no.png\n", "the texture `no.png`"),
         ("newmtl red\nmap_Kd a.mtl\n", "the texture `a.mtl`"),
     ] {
-        let told = with(mtl).to_string();
+        let error = opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
+        let told = error.to_string();
         assert!(told.contains(wanted), "no `{wanted}` in: {told}");
     }
 }
@@ -297,8 +296,6 @@ fn ply_files() {
     let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
                   property float z\nelement face 1\nproperty list uchar int vertex_index\n\
                   end_header\n";
-    let with = |rest: &str| format!("{header}{rest}").into_bytes();
-    let places = "0 0 0\n1 0 0\n0 1 0\n";
     for (rest, wanted) in [
         ("3 0 1 3\n", &["triangle 0 has vertex 3, of 3"][..]),
         ("3 0 1 -1\n", &["triangle 0 has vertex 4294967295"]),
@@ -307,7 +304,8 @@ fn ply_files() {
         ("3 0 1 x\n", &["line 13", "x"]),
         ("", &["line 13", "end of file"]),
     ] {
-        refused(&[("a.ply", &with(&format!("{places}{rest}")))], wanted);
+        let text = format!("{header}0 0 0\n1 0 0\n0 1 0\n{rest}");
+        refused(&[("a.ply", text.as_bytes())], wanted);
     }
     let mut endless = header.replace("ascii", "binary_little_endian").into_bytes();
     for value in [0.0f32, 0.0, 0.0, 1.0, f32::INFINITY, 0.0, 0.0, 1.0, 0.0] {
@@ -316,7 +314,8 @@ fn ply_files() {
     endless.extend([3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
     refused(&[("a.ply", &endless)], &["vertex 1", "position", "inf"]);
     refused(&[("a.ply", &endless[..endless.len() - 2])], &["element `face`"]);
-    refused(&[("a.ply", &with("0 0 0\n1 0\n0 1 0\n3 0 1 2\n"))], &["line 11"]);
+    let short = format!("{header}0 0 0\n1 0\n0 1 0\n3 0 1 2\n");
+    refused(&[("a.ply", short.as_bytes())], &["line 11"]);
     refused(&[("a.ply", b"")], &["header"]);
     refused(&[("a.ply", b"ply\nformat ascii 1.0\nend_header\n")], &["`vertex`", "`x`"]);
     let binary =
@@ -448,31 +447,29 @@ fn closed_surfaces_are_told_from_open_and_inverted_ones() {
 
 #[test]
 fn what_cannot_be_drawn_is_found() {
-    let fault = |change: &dyn Fn(&mut Mesh)| {
+    type Change = (fn(&mut Mesh), &'static str);
+    let cases: [Change; 7] = [
+        (|mesh| mesh.triangles.clear(), "no triangle"),
+        (|mesh| mesh.colors.truncate(1), "1 colours for"),
+        (|mesh| mesh.positions[3][1] = f32::NAN, "vertex 3 has the position"),
+        (|mesh| mesh.triangles[2].corners[1] = 4000, "triangle 2 has vertex 4000"),
+        (|mesh| mesh.triangles[2].material = 1, "triangle 2 has material 1, of 1"),
+        (|mesh| mesh.materials[0].color[2] = 1.5, "material 0 has the colour"),
+        (
+            |mesh| {
+                let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
+                mesh.materials[0].texture = Some(texture);
+            },
+            "3 texels for 2 x 2",
+        ),
+    ];
+    let found = cases.map(|(change, words)| {
         let mut mesh = Mesh::sphere(100);
         change(&mut mesh);
-        mesh.check().unwrap_err()
-    };
-    let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
-    let found = [
-        fault(&|mesh| mesh.triangles.clear()),
-        fault(&|mesh| mesh.colors.truncate(1)),
-        fault(&|mesh| mesh.positions[3][1] = f32::NAN),
-        fault(&|mesh| mesh.triangles[2].corners[1] = 4000),
-        fault(&|mesh| mesh.triangles[2].material = 1),
-        fault(&|mesh| mesh.materials[0].color[2] = 1.5),
-        fault(&|mesh| mesh.materials[0].texture = Some(texture.clone())),
-    ];
-    assert_eq!(found[0], MeshFault::NoTriangle);
-    for (fault, words) in found.iter().zip([
-        "no triangle",
-        "1 colours for",
-        "vertex 3 has the position",
-        "triangle 2 has vertex 4000",
-        "triangle 2 has material 1, of 1",
-        "material 0 has the colour",
-        "3 texels for 2 x 2",
-    ]) {
+        (mesh.check().unwrap_err(), words)
+    });
+    assert_eq!(found[0].0, MeshFault::NoTriangle);
+    for (fault, words) in found {
         assert!(fault.to_string().contains(words), "{fault}");
         assert!(fault.hint().is_some());
     }

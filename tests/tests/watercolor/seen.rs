@@ -78,8 +78,12 @@ fn cross(a: Exact, b: Exact) -> Exact {
 /// Index of the nearest triangle on the ray through `at`, a position in the picture in pixels, or
 /// [`NO_TRIANGLE`]. Computes in f64.
 fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64; 2]) -> u32 {
-    let unit = |vector: Exact| sum([(vector, 1.0 / dot(vector, vector).sqrt())]);
-    let minus = |a: Exact, b: Exact| sum([(a, 1.0), (b, -1.0)]);
+    fn unit(vector: Exact) -> Exact {
+        sum([(vector, 1.0 / dot(vector, vector).sqrt())])
+    }
+    fn minus(a: Exact, b: Exact) -> Exact {
+        sum([(a, 1.0), (b, -1.0)])
+    }
     let eye = exact(camera.eye);
     let forward = unit(minus(exact(camera.target), eye));
     let right = unit(cross(forward, exact(camera.up)));
@@ -165,22 +169,24 @@ fn a_pixel_tells_the_place_that_it_sees() {
 
 /// A closed fan of triangles around a point that is not at the centre of a pixel.
 fn fan(spokes: usize) -> Mesh {
-    let rim = |i: usize| {
-        let angle = i as f32 / spokes as f32 * std::f32::consts::TAU;
-        Vec3::new(angle.cos(), angle.sin(), 0.0)
-    };
+    let rim: Vec<Vec3> = (0..=spokes)
+        .map(|i| {
+            let angle = (i % spokes) as f32 / spokes as f32 * std::f32::consts::TAU;
+            Vec3::new(angle.cos(), angle.sin(), 0.0)
+        })
+        .collect();
     let middle = Vec3::new(0.013, -0.027, 0.0);
-    let triangles: Vec<_> = (0..spokes).map(|i| [middle, rim(i), rim((i + 1) % spokes)]).collect();
+    let triangles: Vec<_> = rim.windows(2).map(|pair| [middle, pair[0], pair[1]]).collect();
     loose(&triangles)
 }
 
 /// 15 x 15 squares in clip coordinates with corners at the centres of pixels of a picture of 128 x
 /// 128. Each is two triangles with alternating diagonals.
 fn squares_on_middles() -> Mesh {
-    let place = |x: usize, y: usize| {
-        let at = |i: usize| (8 * i) as f32 / 64.0 + 4.5 / 64.0 - 1.0;
-        Vec3::new(at(x), at(y), 0.5)
-    };
+    fn place(x: usize, y: usize) -> Vec3 {
+        let [x, y] = [x, y].map(|i| (8 * i) as f32 / 64.0 + 4.5 / 64.0 - 1.0);
+        Vec3::new(x, y, 0.5)
+    }
     let squares = (0..15 * 15).map(|i| (i % 15, i / 15));
     let triangles: Vec<_> = squares
         .flat_map(|(x, y)| {
@@ -276,8 +282,7 @@ fn the_whole_box_is_framed_from_every_side() {
     let bounds = [Vec3::new(-3.0, 1.0, -0.5), Vec3::new(2.0, 2.5, 0.7)];
     let shares = |camera: &Camera, aspect: f32| {
         let corners = (0..8).map(|bits: usize| {
-            let pick = |axis: usize| bounds[bits >> axis & 1][axis];
-            Vec3::new(pick(0), pick(1), pick(2))
+            Vec3::from([0, 1, 2].map(|axis: usize| bounds[bits >> axis & 1][axis]))
         });
         let clips = corners.map(|corner| camera.clip_from_model(aspect) * corner.extend(1.0));
         clips.fold([0.0f32; 2], |[x, y], clip| {

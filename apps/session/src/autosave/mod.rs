@@ -134,12 +134,12 @@ impl Autosave {
         self.title = title_of(meta);
         let title = self.title.clone();
         let unusable = |error: std::io::Error| FileFailure::about(&title, "written", &error);
-        let bytes = |document: &Document| {
+        fn bytes(document: &Document) -> Result<Vec<u8>, FileFailure> {
             paint::file::write(document).map_err(|error| FileFailure::explained(&error))
-        };
-        let json = |value: Result<Vec<u8>, serde_json::Error>| {
+        }
+        fn json(value: Result<Vec<u8>, serde_json::Error>) -> Result<Vec<u8>, FileFailure> {
             value.map_err(|error| FileFailure::without_hint(&error))
-        };
+        }
         let recording = match &painting.recording {
             Some(tail) => self.recording.append(&folder, tail, start).map_err(unusable)?,
             None => None,
@@ -323,9 +323,9 @@ impl LostSession {
         if !disk::exists(&path) {
             return Ok(None);
         }
-        let read = |path: &Path| {
+        fn read(path: &Path) -> Result<Vec<u8>, FileFailure> {
             documents::file::read(path).map_err(|error| FileFailure::explained(&error))
-        };
+        }
         let work: WorkFile = serde_json::from_slice(&read(&path)?)
             .map_err(|error| FileFailure::io(&path, "read", &error.into()))?;
         work.read(&self.folder, (&brushes, &read(&brushes)?)).map(Some)

@@ -236,7 +236,7 @@ impl PressureCurve {
             Self::Power(power) => bounded(*power),
         };
         let count = if power == 1.0 { CurvePoints::LEAST } else { POINTS_OF_A_POWER };
-        let point = |at: usize| {
+        let points = (0..count).map(|at| {
             let share = at as f64 / (count - 1) as f64;
             // Close together where the curve is steep.
             let x = if power < 1.0 {
@@ -245,8 +245,8 @@ impl PressureCurve {
                 share
             };
             [x, x.powf(power)]
-        };
-        let points: Vec<[f64; 2]> = (0..count).map(point).collect();
+        });
+        let points: Vec<[f64; 2]> = points.collect();
         // Both coordinates rise with the index.
         CurvePoints::try_from(points).unwrap_or_else(|_| CurvePoints::straight())
     }
@@ -324,12 +324,15 @@ mod tests {
 
     #[test]
     fn points_that_are_no_curve_are_refused_with_their_number() {
-        let refused = |points: &[[f64; 2]]| CurvePoints::try_from(points.to_vec()).unwrap_err();
-        assert_eq!(refused(&[[0.0, 0.0]]), InvalidCurve::Count(1));
-        assert_eq!(refused(&[[0.0, 0.0]; 9]), InvalidCurve::Count(9));
-        assert_eq!(refused(&[[0.0, 0.0], [1.0, f64::NAN]]), InvalidCurve::Range(2));
-        assert_eq!(refused(&[[0.5, 0.0], [0.5, 1.0]]), InvalidCurve::Order(2));
-        assert_eq!(refused(&[[0.0, 0.5], [0.5, 0.6], [1.0, 0.4]]), InvalidCurve::Falls(3));
+        for (points, wanted) in [
+            (&[[0.0, 0.0]][..], InvalidCurve::Count(1)),
+            (&[[0.0, 0.0]; 9][..], InvalidCurve::Count(9)),
+            (&[[0.0, 0.0], [1.0, f64::NAN]][..], InvalidCurve::Range(2)),
+            (&[[0.5, 0.0], [0.5, 1.0]][..], InvalidCurve::Order(2)),
+            (&[[0.0, 0.5], [0.5, 0.6], [1.0, 0.4]][..], InvalidCurve::Falls(3)),
+        ] {
+            assert_eq!(CurvePoints::try_from(points.to_vec()).unwrap_err(), wanted);
+        }
     }
 
     #[test]
@@ -349,7 +352,7 @@ mod tests {
 
     #[test]
     fn a_power_becomes_points_that_hardly_differ() {
-        let worst = |power: f64| {
+        fn worst(power: f64) -> f64 {
             let curve = PressureCurve::Power(power);
             let points = PressureCurve::Power(power).points();
             (0..=1000)
@@ -357,7 +360,7 @@ mod tests {
                     (curve.at(f64::from(at) / 1e3) - points.at(f64::from(at) / 1e3)).abs()
                 })
                 .fold(0.0, f64::max)
-        };
+        }
         for power in [0.5, 0.625, 0.8, 1.0, 1.6, 2.5] {
             assert!(worst(power) < 0.025, "{power}: {}", worst(power));
         }

@@ -334,10 +334,10 @@ mod tests {
 
     #[test]
     fn a_faulty_file_is_refused_with_its_key() {
-        let file = |preset: &str| {
+        fn file(preset: &str) -> String {
             let head = r#""format": "impasto-brushes", "version": 1, "name": "A""#;
             format!("{{{head}, \"presets\": [{preset}]}}")
-        };
+        }
         let brush = r#""name": "a", "brush": {"shape": "flat", "size_mm": 4}"#;
         for (text, key, what) in [
             ("[]".to_owned(), "", "must be an object"),

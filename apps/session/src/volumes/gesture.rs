@@ -231,10 +231,10 @@ mod tests {
     #[test]
     fn a_dryer_dries_at_once_and_again_where_it_has_moved() {
         let mut hand = hand(SceneTool::Dry);
-        let dry = |step, x| {
+        fn dry(step: u32, x: f64) -> Option<Timed> {
             let ball = Some(Ball { center: [x, 1.0, 2.0], radius: 0.4 });
             Some(Timed { start: step, end: step + 1, action: Action::Dry(Dry { ball }) })
-        };
+        }
         assert_eq!(hand.next_action(12), dry(12, 0.123_457));
         assert_eq!(hand.next_action(13), None, "it rests");
         hand.move_to(DVec3::new(0.21, 1.0, 2.0), 1.0);

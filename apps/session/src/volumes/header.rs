@@ -58,7 +58,9 @@ pub(super) fn first_camera(script: &Script, mesh: &Mesh, flat: bool) -> Camera {
 
 /// A camera in the form of a script.
 pub(super) fn camera_table(camera: &Camera) -> CameraTable {
-    let row = |place: Vec3| Row(place.to_array().map(f64::from));
+    fn row(place: Vec3) -> Row<3> {
+        Row(place.to_array().map(f64::from))
+    }
     let keyframe = KeyframeTable {
         eye: row(camera.eye),
         target: row(camera.target),

@@ -87,7 +87,9 @@ mod tests {
     fn commands_keep_their_order_and_the_last_of_a_drag_wins() {
         let (sender, receiver) = channel();
         let mut inbox = Inbox::new(receiver);
-        let pen = |x| ScenePen { at: [x, 0.5], pressure: 1.0 };
+        fn pen(x: f32) -> ScenePen {
+            ScenePen { at: [x, 0.5], pressure: 1.0 }
+        }
         for command in
             [Seek(4), Seek(9), PenMove(pen(0.1)), PenMove(pen(0.2)), PenUp, PenMove(pen(0.3))]
         {

@@ -207,20 +207,21 @@ mod tests {
     #[test]
     fn regions_that_differ_keep_what_they_show_until_one_choice_is_made_for_all() {
         let mut script = Script::new("shape:village", 1.0);
-        let region = |name: &str, inside| RegionTable {
+        let regions = [("a", Some(settings::Inside::Glaze)), ("b", None)];
+        let regions = regions.map(|(name, inside)| RegionTable {
             name: name.to_owned(),
             inside,
             ..RegionTable::default()
-        };
-        script.regions = vec![region("a", Some(settings::Inside::Glaze)), region("b", None)];
+        });
+        script.regions = regions.into();
         let settings = script.settings().unwrap();
         let insides: Vec<_> = script.regions.iter().map(|region| region.inside).collect();
         let opened = Look::of(&script, &settings);
         assert_eq!(opened.inside, Inside::ByRegion);
-        let styles = |script: &Script| -> Vec<settings::Inside> {
+        fn styles(script: &Script) -> Vec<settings::Inside> {
             let styles = script.region_styles(&script.settings().unwrap());
             styles.into_iter().map(|style| style.inside).collect()
-        };
+        }
         let own = styles(&script);
         assert_eq!(own, [settings::Inside::Glaze, settings::Inside::OwnColors]);
         let darker = Look { hatching: false, ..opened };

@@ -126,7 +126,9 @@ fn a_script_is_saved_with_its_library_beside_it() {
     let elsewhere = tempfile::tempdir().unwrap();
     let file = |name: &str| elsewhere.path().join(name);
     recording.save(&file("s.toml")).unwrap();
-    let read = |path: &Path| std::fs::read(path).unwrap();
+    fn read(path: &Path) -> Vec<u8> {
+        std::fs::read(path).unwrap()
+    }
     assert_eq!(read(&file("mine.json")), read(&folder.path().join("mine.json")));
     let saved = Script::open(&file("s.toml")).unwrap();
     assert_eq!(saved.library.as_deref(), Some("mine.json"));
@@ -161,8 +163,8 @@ fn gesture(scene: &mut Scene, grip: Grip, from: [f32; 2], to: [f32; 2]) {
     assert!(scene.pen_down(&sight, grip, pen(from[0], from[1])).unwrap(), "there is a surface");
     for step in 0..30_u8 {
         let share = f32::from(step) / 29.0;
-        let between = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
-        scene.pen_move(&sight, pen(between(0), between(1)));
+        let at = [0, 1].map(|axis: usize| from[axis] + (to[axis] - from[axis]) * share);
+        scene.pen_move(&sight, pen(at[0], at[1]));
         scene.step().unwrap();
     }
     scene.pen_up().unwrap();
@@ -209,7 +211,9 @@ fn what_hands_do_is_what_the_saved_script_plays() {
     gesture(&mut scene, lift, [0.5, 0.5], [0.5, 0.5]);
     assert!(scene.on_scene() < before, "paint was taken up");
     gesture(&mut scene, Grip { tool: SceneTool::Dry, ..lift }, [0.5, 0.5], [0.5, 0.5]);
-    let dry = |scene: &Scene| scene.volumes().iter().filter(|volume| volume.dry).count();
+    fn dry(scene: &Scene) -> usize {
+        scene.volumes().iter().filter(|volume| volume.dry).count()
+    }
     let count = scene.volumes().len();
     assert!((1..count).contains(&dry(&scene)), "{} of {count} are dry", dry(&scene));
     scene.dry_all().unwrap();

@@ -154,11 +154,11 @@ impl Painters {
             Kind::Drawing => Inside::OwnColours,
             Kind::Painting(inside) => inside,
         };
-        let style = |style: &RegionStyle| RegionStyle {
+        let styles = self.styles.iter().map(|style| RegionStyle {
             inside: inside.as_setting().unwrap_or(style.inside),
             ..style.clone()
-        };
-        let styles: Vec<RegionStyle> = self.styles.iter().map(style).collect();
+        });
+        let styles: Vec<RegionStyle> = styles.collect();
         let pigments = self.pigments.clone().filter(|_| kind != Kind::Drawing);
         let scene = Arc::clone(&self.scene);
         let settings = self.settings.clone();

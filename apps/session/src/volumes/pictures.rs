@@ -135,11 +135,11 @@ pub(super) fn found_at(world: &World, hit: &Hit, profile: FilmProfile) -> Found 
 /// Colour of a picture at a share of its width and height.
 pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
     let sides = [picture.width(), picture.height()];
-    let index = |axis: usize| {
+    let [x, y] = [0, 1].map(|axis: usize| {
         let place = (at[axis] * sides[axis] as f32).max(0.0) as usize;
         place.min(sides[axis].saturating_sub(1))
-    };
-    let [red, green, blue, _] = picture[(index(0), index(1))];
+    });
+    let [red, green, blue, _] = picture[(x, y)];
     [red, green, blue].map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 

@@ -156,8 +156,8 @@ impl Recorded {
 
     /// `what`, and the pigments of a recipe.
     fn with_paint(&self, what: &str, recipe: &Recipe) -> String {
-        let name = |letter: &String| self.base.palette.get(letter).cloned();
-        let names: Vec<String> = recipe.keys().filter_map(name).collect();
+        let names = recipe.keys().filter_map(|letter| self.base.palette.get(letter).cloned());
+        let names: Vec<String> = names.collect();
         match names.is_empty() {
             true => format!("{what} colour"),
             false => format!("{what} {}", names.join(" and ")),
@@ -235,8 +235,9 @@ fn folder_of(path: &Path) -> Option<PathBuf> {
 
 /// Copies a library to `to`, unless it is there.
 fn copied(library: &Path, to: &Path) -> Result<(), FileFailure> {
-    let read =
-        |path: &Path| disk::read(path).map_err(|error| FileFailure::io(path, "read", &error));
+    fn read(path: &Path) -> Result<Vec<u8>, FileFailure> {
+        disk::read(path).map_err(|error| FileFailure::io(path, "read", &error))
+    }
     let bytes = read(library)?;
     if disk::exists(to) {
         if read(to)? == bytes {
@@ -279,11 +280,13 @@ mod tests {
     #[test]
     fn gestures_are_told_by_time_and_taken_back_as_they_were_added() {
         let mut recorded = recorded();
-        let told = |recorded: &Recorded| -> Vec<(String, u64, u64)> {
+        fn told(recorded: &Recorded) -> Vec<(String, u64, u64)> {
             let events = recorded.events().into_iter();
             events.map(|event| (event.label, event.from, event.to)).collect()
-        };
-        let line = |label: &str, from, to| (label.to_owned(), from, to);
+        }
+        fn line(label: &str, from: u64, to: u64) -> (String, u64, u64) {
+            (label.to_owned(), from, to)
+        }
         let [dry, blue, red] = [
             line("dry all paint", 6, 7),
             line("pour Ultramarine", 12, 36),
@@ -314,10 +317,10 @@ mod tests {
     #[test]
     fn a_drag_of_the_dryer_is_one_gesture_also_after_it_is_read() {
         let mut recorded = Recorded::of(&Script::new("shape:village", 2.0));
-        let dry = |start: u32, x: f64| {
+        fn dry(start: u32, x: f64) -> Timed {
             let ball = Some(Ball { center: [x, 0.0, 0.0], radius: 0.5 });
             Timed { start, end: start + 1, action: Action::Dry(Dry { ball }) }
-        };
+        }
         for drag in [vec![dry(5, 0.0), dry(9, 0.2), dry(30, 0.4)], vec![dry(40, 3.0)]] {
             recorded.begin();
             drag.into_iter().for_each(|action| recorded.add(action));

@@ -151,7 +151,7 @@ fn fill(bench: &Bench) -> CaseReport {
 
 const MIDDLE_MM: (f64, f64) = (25.0, 25.0);
 const RADIUS_MM: f64 = 8.0;
-/// Height in mm from which a cell counts as covered; thinner paint shows the ground.
+/// Height in mm from which a cell counts as covered. Thinner paint shows the ground.
 const COVERED_MM: f64 = 0.05;
 
 /// Path of `count` circles about the middle. Their centres move by 2 mm.
@@ -178,8 +178,8 @@ fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel
     easel.stroke(brush, &turning(Hand::across(PRESSURE).along(&circles(12))));
     let heights = easel.heights();
     let inside = |x: usize, y: usize| {
-        let centre = |cell: usize| (cell as f64 + 0.5) * heights.cell_mm();
-        (centre(x) - MIDDLE_MM.0).hypot(centre(y) - MIDDLE_MM.1) < RADIUS_MM + 2.0
+        let [x, y] = [x, y].map(|cell| (cell as f64 + 0.5) * heights.cell_mm());
+        (x - MIDDLE_MM.0).hypot(y - MIDDLE_MM.1) < RADIUS_MM + 2.0
     };
     let columns = heights.columns();
     let patch: Vec<usize> =

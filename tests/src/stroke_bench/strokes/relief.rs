@@ -128,9 +128,9 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
     let heights = easel.heights();
     let start_mm = Mark::along_x(&heights).map_or(START_MM, |mark| mark.start_mm);
     let steady = start_mm + 10.0..start_mm + 55.0;
-    let compared = |a: &[Vec<f64>], b: &[Vec<f64>]| {
+    fn compared(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
         mean(&a.iter().zip(b).map(|(a, b)| correlation(a, b)).collect::<Vec<_>>())
-    };
+    }
     let [first, second, other] =
         rows_mm.map(|y_mm| furrow_profiles(&heights, y_mm, steady.clone()));
     let lag = (LENGTH * SIZE_MM * 1.5) as usize;
@@ -153,14 +153,14 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
     }
     let heights = long.heights();
     let steady = Mark::along_x(&heights).map_or(0..0, |mark| mark.steady);
-    let line = |index: i32| {
+    let lines = (0..count).map(|index| {
         let middle = 8.0 + 16.0 * f64::from(index);
         let line = heights.along(heights.rows_in(middle - 3.0..middle + 3.0));
         rough(&line[steady.clone()], heights.cell_mm(), 40.0)
-    };
-    let lines: Vec<Vec<f64>> = (0..count).map(line).collect();
-    let cells = |mm: f64| (mm / heights.cell_mm()).round() as usize;
-    let correlations = autocorrelation(&lines, cells(3.0)..cells(20.0) + 1);
+    });
+    let lines: Vec<Vec<f64>> = lines.collect();
+    let [from, to] = [3.0, 20.0].map(|mm: f64| (mm / heights.cell_mm()).round() as usize);
+    let correlations = autocorrelation(&lines, from..to + 1);
     let (at, highest) =
         correlations.iter().enumerate().fold((0, f64::NEG_INFINITY), |best, (at, &value)| {
             if value > best.1 { (at, value) } else { best }
@@ -241,12 +241,14 @@ pub(super) fn saw_tooth(bench: &Bench) -> CaseReport {
 fn ridge(bench: &Bench) -> (f64, Easel) {
     const AT_MM: f64 = 10.0;
     const BASE_MM: f64 = 1.5;
-    let profile = |y: f64| (1.0 - (2.0 * (y - AT_MM) / BASE_MM).powi(2)).max(0.0);
+    fn profile(y: f64) -> f64 {
+        (1.0 - (2.0 * (y - AT_MM) / BASE_MM).powi(2)).max(0.0)
+    }
     let mut easel =
         Easel::new(bench, bench.cell_mm, (80.0, 48.0), GroundKind::Panel, |x: f64, y: f64| {
             ((15.0..65.0).contains(&x) && profile(y) > 0.0).then(|| (BLUE_SLOT, profile(y)))
         });
-    let crest = |heights: &Heights| {
+    fn crest(heights: &Heights) -> f64 {
         let columns = heights.columns_in(20.0..60.0);
         let rows = heights.rows_in(AT_MM - 1.0..AT_MM + 1.0);
         columns
@@ -254,7 +256,7 @@ fn ridge(bench: &Bench) -> (f64, Easel) {
             .map(|x: usize| rows.clone().map(|y| heights.at(x, y)).fold(0.0, f64::max))
             .sum::<f64>()
             / columns.len() as f64
-    };
+    }
     let before = crest(&easel.heights());
     let brush = easel.brush(HeadShape::Flat, 10.0);
     for y_mm in [AT_MM + 3.0 + 5.0, 38.0] {

@@ -240,15 +240,17 @@ fn indices_of_both_standards_under_every_kind_of_lamp() {
         let found = ColorRendering::of(&Illuminant::named(name).unwrap()).unwrap();
         // The file has two decimals of the temperature.
         assert_near(format!("{name}, K"), &[found.temperature.kelvin], &[case.kelvin], 0.03);
-        let near = |what: &str, found: &[f64], wanted: &[f64]| {
-            assert_near(format!("{name}, {what}"), found, wanted, golden.tolerance);
-        };
-        near("Ra", &[found.index.general], &[case.ra]);
-        near("R1 to R14", &found.index.special, &case.special);
-        near("Rf and Rg", &[found.fidelity.fidelity, found.fidelity.gamut], &[case.rf, case.rg]);
-        near("samples", &found.fidelity.samples, &case.samples);
         let bins: Vec<f64> = found.fidelity.hue_bins.iter().map(|bin| bin.unwrap()).collect();
-        near("hues", &bins, &case.hue_bins);
+        let indices = [found.fidelity.fidelity, found.fidelity.gamut];
+        for (what, found, wanted) in [
+            ("Ra", &[found.index.general][..], &[case.ra][..]),
+            ("R1 to R14", &found.index.special[..], &case.special[..]),
+            ("Rf and Rg", &indices[..], &[case.rf, case.rg][..]),
+            ("samples", &found.fidelity.samples[..], &case.samples[..]),
+            ("hues", &bins[..], &case.hue_bins[..]),
+        ] {
+            assert_near(format!("{name}, {what}"), found, wanted, golden.tolerance);
+        }
     }
 }
 

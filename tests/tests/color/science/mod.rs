@@ -252,13 +252,11 @@ fn chromaticity_from_xyz_and_back() {
         let xyz = Xyz::from(case.xyz);
         let xyy = xyz.to_xyy(white);
         let got = [xyy.x, xyy.y, xyy.luminance];
-        // Black has no chromaticity; it is given that of the white.
-        let of_white = || {
-            let [x, y, z] = case.white;
-            [x / (x + y + z), y / (x + y + z), 0.0]
-        };
+        // Black has no chromaticity, so it gets the chromaticity of the white.
+        let [x, y, z] = case.white;
+        let of_white = [x / (x + y + z), y / (x + y + z), 0.0];
         let told = format!("XYZ {:?}", case.xyz);
-        assert_near(&told, &got, &case.xyy.unwrap_or_else(of_white), golden.tolerance);
+        assert_near(&told, &got, &case.xyy.unwrap_or(of_white), golden.tolerance);
         let back = Xyz::from(xyy).to_array();
         assert_near(format!("back to {told}"), &back, &case.xyz, golden.tolerance);
     }
@@ -322,10 +320,10 @@ fn metamerism_of_pairs_from_light_to_light() {
             TristimulusWeights::new(grid, &light, observer, Interpolation::Sprague).unwrap()
         });
         let [one, two] = [&pair.one, &pair.two].map(|r| [reference.xyz(r), test.xyz(r)]);
-        let differences = |first: Xyz, second: Xyz, white: Xyz| {
+        fn differences(first: Xyz, second: Xyz, white: Xyz) -> [f64; 2] {
             let [first, second] = [first, second].map(|xyz| Lab::from_xyz(xyz, white));
             [delta_e_cie76(first, second), delta_e_ciede2000(first, second)]
-        };
+        }
 
         let apart = differences(one[0], two[0], reference.white());
         let wanted = [case.reference_cie1976, case.reference_ciede2000];
@@ -407,13 +405,14 @@ fn matrices_and_white_of_each_space() {
         let to_xyz = space.xyz_from_linear();
         let from_xyz = to_xyz.inverse();
         let wanted = &golden.shared.spaces[name];
-        let scaled = |matrix: [[f64; 3]; 3], scale: f64| -> Vec<f64> {
-            matrix.as_flattened().iter().map(|v| v * scale).collect()
-        };
         let to_wanted = wanted.to_xyz.as_flattened();
         let from_wanted = wanted.from_xyz.as_flattened();
-        assert_near(name, &scaled(to_xyz.0, 0.01), to_wanted, golden.tolerance);
-        assert_near(name, &scaled(from_xyz.0, 100.0), from_wanted, golden.tolerance);
+        for (matrix, scale, wanted) in
+            [(to_xyz.0, 0.01, to_wanted), (from_xyz.0, 100.0, from_wanted)]
+        {
+            let scaled: Vec<f64> = matrix.as_flattened().iter().map(|v| v * scale).collect();
+            assert_near(name, &scaled, wanted, golden.tolerance);
+        }
     }
 }
 

@@ -32,8 +32,8 @@ impl Folder {
 
     fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.0.path()).unwrap();
-        let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
-        let mut names: Vec<_> = entries.map(|entry| name(entry).into_string().unwrap()).collect();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<_> = names.collect();
         names.sort();
         names
     }
@@ -41,7 +41,7 @@ impl Folder {
     /// A picture of 200 x 120 pixels. Left of x = 100 there are light strokes at 60 degrees, 10 px
     /// apart, and right of it dark ones at 120 degrees, 8 px apart.
     fn strokes(&self) -> String {
-        let color = |i: usize| {
+        let colors = (0..200 * 120).map(|i| {
             let x = (i % 200) as f32;
             let y = (i / 200) as f32;
             let (degrees, spacing, grey) =
@@ -51,8 +51,8 @@ impl Folder {
             let light = 1.0 + 0.2 * (std::f32::consts::TAU * across).cos();
             let [r, g, b] = [1.0, 0.9, 0.7].map(|channel| channel * grey * light);
             [r, g, b, 1.0]
-        };
-        let picture = Field::from_values(200, 120, (0..200 * 120).map(color).collect());
+        });
+        let picture = Field::from_values(200, 120, colors.collect());
         self.write("strokes.png", png8(&picture, 1.0).unwrap().bytes)
     }
 }
@@ -105,12 +105,14 @@ fn a_map_has_a_tile_of_every_sample_that_agrees_with_the_first() {
     let told = done(&[&build[..], &["--sheet", &sheet, "--json"]].concat()).json();
     let tiles = told["tiles"].as_array().unwrap();
     assert_eq!((tiles.len(), told["size"].as_u64()), (3, Some(64)), "{told}");
-    let number = |index: usize, key: &str| tiles[index][key].as_f64().unwrap();
-    assert!(number(0, "lightness") + 5.0 < number(1, "lightness"), "{told}");
-    assert!(number(1, "lightness") + 5.0 < number(2, "lightness"), "{told}");
-    for index in 0..3 {
-        assert!(number(index, "coherence") >= 0.8, "painted with the same strokes: {told}");
-        assert!(number(index, "stroke_length") > 1.0, "{told}");
+    let lightness: Vec<f64> =
+        tiles.iter().map(|tile| tile["lightness"].as_f64().unwrap()).collect();
+    assert!(lightness[0] + 5.0 < lightness[1], "{told}");
+    assert!(lightness[1] + 5.0 < lightness[2], "{told}");
+    for tile in tiles {
+        let coherence = tile["coherence"].as_f64().unwrap();
+        assert!(coherence >= 0.8, "painted with the same strokes: {told}");
+        assert!(tile["stroke_length"].as_f64().unwrap() > 1.0, "{told}");
     }
     assert!(told["pigments"].as_array().unwrap().len() >= 3, "{told}");
     assert_eq!(done(&["show", &map, "--json"]).json(), told, "the file holds all that was told");
@@ -229,8 +231,9 @@ fn tones_are_painted_in_the_pigments_of_a_library_and_shown_again() {
     let told = done(&[&arguments[..], &["--pigments", &oils, "--json"]].concat()).json();
     let samples = told["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 3);
-    let lightness = |index: usize| samples[index]["lightness"].as_f64().unwrap();
-    assert!(lightness(0) + 5.0 < lightness(1) && lightness(1) + 5.0 < lightness(2), "{told}");
+    let lightness: Vec<f64> =
+        samples.iter().map(|sample| sample["lightness"].as_f64().unwrap()).collect();
+    assert!(lightness[0] + 5.0 < lightness[1] && lightness[1] + 5.0 < lightness[2], "{told}");
     for (index, sample) in samples.iter().enumerate() {
         assert_eq!(sample["name"], format!("tone {}", index + 1));
         assert_eq!((&sample["size"], &sample["mm_per_texel"]), (&json!([36, 36]), &json!(0.3)));

@@ -96,15 +96,13 @@ fn the_table_names_each_sample_once_and_files_are_the_same_bytes() {
     let folder = Folder::new();
     let picture = folder.strokes();
     let marks = folder.write("marks.toml", MARKS);
-    let run = |name: &str| {
+    let [first, second] = ["a.exr", "b.exr"].map(|name| {
         let output = folder.file(name);
         let sheet = folder.file(&format!("{name}.png"));
         let arguments = ["sample", &picture, "--marks", &marks, "--density", "width"];
         let more = ["--over", "mean-shift", "--output", &output, "--sheet", &sheet];
         done(&[arguments, more].concat())
-    };
-    let first = run("a.exr");
-    let second = run("b.exr");
+    });
     assert!(
         first.err.lines().all(|line| line.starts_with("Wrote ")),
         "nothing to remark: {}",
@@ -192,8 +190,12 @@ impl Folder {
     /// is
     /// `crowded`, there are touches of seven more below.
     fn painting(&self, crowded: bool) -> String {
-        let load = |pigment: &str, mm: f64| json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}});
-        let stroke = |samples: Value| json!({"stroke": {"brush": "flat", "samples": samples}});
+        fn load(pigment: &str, mm: f64) -> Value {
+            json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}})
+        }
+        fn stroke(samples: Value) -> Value {
+            json!({"stroke": {"brush": "flat", "samples": samples}})
+        }
         let wash = json!({"wash": {"brush": "flat"}});
         let mut actions: Vec<Value> = Vec::new();
         for (index, pigment) in NINE[2..].iter().enumerate().filter(|_| crowded) {
@@ -318,8 +320,8 @@ fn proposed_marks_can_be_sampled() {
     let samples = told["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 2, "{told}");
     // One scribble lies on each side.
-    let left = |index: usize| samples[index]["bounds"][0].as_f64().unwrap();
-    assert!(left(0) > 80.0 && left(1) < 10.0, "{told}");
+    let left = [0, 1].map(|index: usize| samples[index]["bounds"][0].as_f64().unwrap());
+    assert!(left[0] > 80.0 && left[1] < 10.0, "{told}");
     assert!(image::open(&marked).unwrap().width() == 200, "the picture with its marks");
     let told = done(&["sample", &picture, "--propose", "2", "--output", &marks, "--json"]).json();
     assert_eq!(told["samples"].as_array().unwrap().len(), 2, "{told}");
@@ -330,15 +332,15 @@ fn proposed_marks_can_be_sampled() {
 fn passages_whose_spacing_must_be_marked_are_told() {
     let folder = Folder::new();
     // Blotches of 5 px without any order.
-    let color = |i: usize| {
+    let colors = (0..200 * 120).map(|i| {
         let column = i % 200 / 5;
         let row = i / 200 / 5;
         let mixed = (column * 7919 + row * 104_729) as u32;
         let mixed = (mixed ^ (mixed >> 7)).wrapping_mul(0x9E37_79B1) >> 24;
         let grey = 0.3 + 0.1 * mixed as f32 / 255.0;
         [grey, grey, grey, 1.0]
-    };
-    let picture = Field::from_values(200, 120, (0..200 * 120).map(color).collect());
+    });
+    let picture = Field::from_values(200, 120, colors.collect());
     let picture = folder.write("blotches.png", png8(&picture, 1.0).unwrap().bytes);
     let marks = folder.file("m.toml");
     let run = done(&["sample", &picture, "--propose", "1", "--output", &marks]);

@@ -95,8 +95,8 @@ impl Session {
     fn gesture(&mut self, grip: Grip, from: [f32; 2], to: [f32; 2]) {
         let began = self.state().time.step;
         let pen = |share: f32, pressure: f32| {
-            let between = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
-            ScenePen { at: [between(0), between(1)], pressure }
+            let at = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share);
+            ScenePen { at, pressure }
         };
         self.ask(VolumeCommand::PenDown(grip, pen(0.0, 0.731)));
         for (share, steps) in [(0.31, 8), (0.64, 16), (1.0, 24)] {
@@ -155,8 +155,12 @@ impl Session {
 fn painted() -> Session {
     let mut session = Session::open(Subject::Shape("village".to_owned()));
     session.orbit(0.0);
-    let pour = |tube| Grip { tube, rate_mm3_s: 333.0, ..Grip::default() };
-    let with = |tool| Grip { tool, strength: 0.77, radius_mm: 31.7, ..Grip::default() };
+    fn pour(tube: usize) -> Grip {
+        Grip { tube, rate_mm3_s: 333.0, ..Grip::default() }
+    }
+    fn with(tool: SceneTool) -> Grip {
+        Grip { tool, strength: 0.77, radius_mm: 31.7, ..Grip::default() }
+    }
     session.gesture(pour(5), [0.45, 0.55], [0.55, 0.6]);
     session.orbit(12.34);
     session.gesture(pour(3), [0.5, 0.62], [0.41, 0.58]);
@@ -349,9 +353,10 @@ fn copied(from: &str, to: &str) {
 fn same_frames(whole: &str, other: &str) {
     let names = files(whole, ".png");
     assert_eq!((names.len(), &names), (157, &files(other, ".png")), "all frames, in both folders");
-    let read = |folder: &str, name: &String| fs::read(Path::new(folder).join(name)).unwrap();
     for name in &names {
-        assert!(read(whole, name) == read(other, name), "{other}: {name}");
+        let [first, second] =
+            [whole, other].map(|folder| fs::read(Path::new(folder).join(name)).unwrap());
+        assert!(first == second, "{other}: {name}");
     }
     assert_eq!(files(other, ".world"), [""; 0], "an animation that is complete needs none");
 }
@@ -365,18 +370,11 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     let told = |folder: &str| {
         let run = done(&[&scene[..], &[folder]].concat());
         let told = run.json();
-        (
-            [
-                told["frames_found"].clone(),
-                told["from_seconds"].clone(),
-                told["steps_computed"].clone(),
-            ],
-            run.err,
-        )
+        (["frames_found", "from_seconds", "steps_computed"].map(|key| told[key].clone()), run.err)
     };
-    let numbers = |found: u64, from: Option<f64>, steps: u64| {
+    fn numbers(found: u64, from: Option<f64>, steps: u64) -> [Value; 3] {
         [found.into(), from.map_or(Value::Null, Value::from), steps.into()]
-    };
+    }
     // Everything is played twice: before the first frame is painted, and for the frames.
     assert_eq!(told(&whole).0, numbers(0, None, 2 * 312));
     blocked(&whole, &cut, 121);

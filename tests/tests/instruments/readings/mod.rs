@@ -62,8 +62,8 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
         let found = read(file, bytes, None).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found.format, format, "{file}");
         assert_eq!(read(file, bytes, Some(format)).unwrap(), found, "{file}: format given");
-        let is_main = |record: &&MeasuredSpectrum| record.role == Role::Main;
-        let mains: Vec<&MeasuredSpectrum> = found.spectra.iter().filter(is_main).collect();
+        let mains: Vec<&MeasuredSpectrum> =
+            found.spectra.iter().filter(|record| record.role == Role::Main).collect();
         let found_names: Vec<&str> = mains.iter().map(|record| record.name.as_str()).collect();
         assert_eq!(found_names, names, "{file}");
         for (record, paint) in mains.iter().zip([MADDER, SLATE]) {
@@ -83,10 +83,10 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
 
 #[test]
 fn what_the_files_say_of_themselves_is_kept() {
-    let record = |file: &str| {
+    fn record(file: &str) -> MeasuredSpectrum {
         let bytes = std::fs::read(fixture(file)).unwrap();
         read(file, &bytes, None).unwrap().spectra.remove(0)
-    };
+    }
     for (file, quantity, unit) in [
         ("two.qtx", MeasuredQuantity::Reflectance, Unit::Percent),
         ("madder.sp", MeasuredQuantity::Reflectance, Unit::Percent),
@@ -116,10 +116,9 @@ fn every_file_gives_the_same_colors() {
         let found = run.json();
         for (index, name) in names.iter().enumerate() {
             assert_eq!(found[index]["sample"], *name, "{file}");
-            let lab = |json: &serde_json::Value| {
-                [0, 1, 2].map(|axis| json[index]["lab"][axis].as_f64().unwrap())
-            };
-            assert_near(file, &lab(&found), &lab(&sheet), 1e-6);
+            let [found, wanted] = [&found, &sheet]
+                .map(|json| [0, 1, 2].map(|axis| json[index]["lab"][axis].as_f64().unwrap()));
+            assert_near(file, &found, &wanted, 1e-6);
         }
     }
 }
@@ -130,8 +129,9 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     let file = folder.path().join("ends.dpt");
     let color = |bad: &[f64]| {
         let steps = (0..31).map(|i| 340.0 + 13.5 * f64::from(i));
-        let noise = |nm: f64| if bad.contains(&nm) { -0.05 } else { 0.5 };
-        let lines: String = steps.map(|nm| format!("{nm},{}\n", noise(nm))).collect();
+        let lines: String = steps
+            .map(|nm| format!("{nm},{}\n", if bad.contains(&nm) { -0.05 } else { 0.5 }))
+            .collect();
         std::fs::write(&file, lines).unwrap();
         impasto(&["color", file.to_str().unwrap()])
     };
@@ -160,18 +160,15 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
 fn readings_just_below_zero_count_as_zero_and_are_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("dark.dpt");
-    let color = |least: f64| {
+    let [zero, below, far] = [0.0, -0.019, -0.021].map(|least| {
         let steps = (0..31).map(|i| 400.0 + 10.0 * f64::from(i));
         let lines = steps.map(|nm| format!("{nm},{}\n", if nm < 425.0 { least } else { 0.5 }));
         std::fs::write(&file, lines.collect::<String>()).unwrap();
         impasto(&["color", file.to_str().unwrap()])
-    };
-    let zero = color(0.0);
-    let below = color(-0.019);
+    });
     assert_eq!((below.status, &below.out), (0, &zero.out), "{}", below.err);
     let said = "dark: 3 readings just below zero count as 0";
     assert!(below.err.contains(said) && !zero.err.contains(said), "{}", below.err);
-    let far = color(-0.021);
     assert!(far.status == 1 && far.err.contains("column `400 nm`"), "{}", far.err);
 }
 
@@ -179,12 +176,12 @@ fn readings_just_below_zero_count_as_zero_and_are_said() {
 fn a_jaz_file_holds_its_own_white_and_dark() {
     let jaz = fixture("madder.jaz");
     let [white, dark] = ["R", "D"].map(|letter| format!("{jaz}#madder ({letter})"));
-    let lab = |run: &Run| {
+    fn lab(run: &Run) -> [f64; 3] {
         assert_eq!(run.status, 0, "{}", run.err);
         let json = run.json();
         assert_eq!(json.as_array().unwrap().len(), 1, "one sample: {}", run.out);
         [0, 1, 2].map(|axis| json[0]["lab"][axis].as_f64().unwrap())
-    };
+    }
     let processed = impasto(&["color", &jaz, "--json"]);
     assert!(!processed.err.contains("left out"), "{}", processed.err);
     let counts = impasto(&["color", &jaz, "--white", &white, "--dark", &dark, "--json"]);
@@ -210,7 +207,9 @@ fn files_in_memory_give_the_readings_of_files_on_the_disk() {
         let path = path.to_str().unwrap();
         let options = ReadingOptions::default();
         let files = [(path, bytes)];
-        let told = |readings: Result<Readings, ReadingsError>| readings.map_err(|e| e.to_string());
+        fn told(readings: Result<Readings, ReadingsError>) -> Result<Readings, String> {
+            readings.map_err(|e| e.to_string())
+        }
         let whole = told(Readings::open_all(&[path], &options));
         assert_eq!(told(Readings::from_files(&files, &options)), whole, "{name}");
         let spectra = told(Readings::open_spectra(&[path], &options));
@@ -228,11 +227,11 @@ fn color(name: &str, content: &str) -> Run {
 fn colors(run: &Run) -> Vec<(String, Vec<f64>)> {
     assert_eq!(run.status, 0, "{}", run.err);
     let json = run.json();
-    let samples = json.as_array().unwrap().iter();
-    let lab = |sample: &serde_json::Value| {
-        [0, 1, 2].iter().map(|axis| sample["lab"][axis].as_f64().unwrap()).collect()
-    };
-    samples.map(|sample| (sample["sample"].as_str().unwrap().to_owned(), lab(sample))).collect()
+    let samples = json.as_array().unwrap().iter().map(|sample| {
+        let lab = [0, 1, 2].iter().map(|axis| sample["lab"][axis].as_f64().unwrap()).collect();
+        (sample["sample"].as_str().unwrap().to_owned(), lab)
+    });
+    samples.collect()
 }
 
 const PLAIN: &str = "sample,400,500,600,700\nRed,0.1,0.2,0.6,0.7\nBlue,0.5,0.4,0.2,0.1\n";
@@ -240,14 +239,16 @@ const PLAIN: &str = "sample,400,500,600,700\nRed,0.1,0.2,0.6,0.7\nBlue,0.5,0.4,0
 #[test]
 fn every_way_to_write_a_table_gives_the_same_colors() {
     let expected = colors(&color("plain.csv", PLAIN));
-    let heading = |name: &str| PLAIN.replace("sample", name);
-    let comma = |separator: &str| {
-        let quoted = |line: &str| {
+    fn heading(name: &str) -> String {
+        PLAIN.replace("sample", name)
+    }
+    fn comma(separator: &str) -> String {
+        let lines = PLAIN.lines().map(|line| {
             let cells = line.split(',').map(|cell| format!("\"{}\"", cell.replace('.', ",")));
-            cells.collect::<Vec<_>>().join(separator)
-        };
-        PLAIN.lines().map(|line| quoted(line) + "\r\n").collect::<String>()
-    };
+            cells.collect::<Vec<_>>().join(separator) + "\r\n"
+        });
+        lines.collect()
+    }
     let falling = "Name;700;600;500;400\nRed;0,7;0,6;0,2;0,1\nBlue;0,1;0,2;0,4;0,5\n";
     let words = PLAIN.replacen("400,500,600,700", "400[nm],500[nm],600[nm],700[nm]", 1);
     let minolta = "Konica Minolta\n\nData Name\tL*(D65)\tSCI 400nm\tSCI 500nm\tSCI 600nm\tSCI 700nm\t\

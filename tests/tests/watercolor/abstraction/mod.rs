@@ -161,20 +161,20 @@ fn photographs_become_flat_with_their_opacity() {
     let found = abstract_photograph(&mut Compute::cpu(), &photograph(), 90, &settings(3)).unwrap();
     assert_eq!((found.original.width(), found.original.height()), (90, 60));
     assert_eq!(found.regions, 4);
-    let near = |found: [f32; 4], wanted: [f32; 4]| {
+    fn near(found: [f32; 4], wanted: [u8; 4]) -> bool {
+        let wanted = wanted.map(|byte| f32::from(byte) / 255.0);
         found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 2e-5)
-    };
-    let bytes = |rgba: [u8; 4]| rgba.map(|byte| f32::from(byte) / 255.0);
+    }
     for stage in [&found.original, &found.segmented, &found.smoothed] {
-        assert!(near(stage[(5, 5)], bytes([200, 40, 30, 255])), "{:?}", stage[(5, 5)]);
-        assert!(near(stage[(45, 5)], bytes([30, 60, 180, 128])), "{:?}", stage[(45, 5)]);
+        assert!(near(stage[(5, 5)], [200, 40, 30, 255]), "{:?}", stage[(5, 5)]);
+        assert!(near(stage[(45, 5)], [30, 60, 180, 128]), "{:?}", stage[(45, 5)]);
         assert_eq!(stage[(80, 5)], [1.0, 1.0, 1.0, 0.0]);
     }
-    // One pixel of the red is a little lighter; segmentation gives its region one colour.
-    assert!(near(found.original[(20, 50)], bytes([203, 40, 30, 255])), "as it was read");
+    // One pixel of the red is a little lighter. Segmentation gives its region one colour.
+    assert!(near(found.original[(20, 50)], [203, 40, 30, 255]), "as it was read");
     assert_eq!(found.segmented[(20, 50)], found.segmented[(5, 5)], "one region, one colour");
-    assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));
-    assert!(near(found.smoothed[(10, 30)], bytes([200, 40, 30, 255])));
+    assert!(near(found.segmented[(10, 30)], [90, 90, 90, 255]));
+    assert!(near(found.smoothed[(10, 30)], [200, 40, 30, 255]));
 }
 
 #[test]
@@ -242,8 +242,10 @@ fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
 
 /// Share of the pixels `found` that have one of `wanted` within 2 px.
 fn near(found: &[(i32, i32)], wanted: &[(i32, i32)]) -> f64 {
-    let close = |a: &(i32, i32), b: &(i32, i32)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2) <= 4;
-    let count = found.iter().filter(|a| wanted.iter().any(|b| close(a, b))).count();
+    let close = found
+        .iter()
+        .filter(|a| wanted.iter().any(|b| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2) <= 4));
+    let count = close.count();
     if found.is_empty() { 0.0 } else { count as f64 / found.len() as f64 }
 }
 

@@ -340,13 +340,9 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     let heights = any_grey(200, 100, 7);
     let flow = Field::filled(200, 100, 0.5);
     let paint = Field::filled(200, 100, [0.2, 0.3, 0.4, 1.0]);
-    let reach = |threshold| DryBrushReach {
-        threshold,
-        softness: 1e-3,
-        patches: 0.0,
-        outline: 0.0,
-        darkest: 0.0,
-    };
+    fn reach(threshold: f32) -> DryBrushReach {
+        DryBrushReach { threshold, softness: 1e-3, patches: 0.0, outline: 0.0, darkest: 0.0 }
+    }
     for threshold in [0.1, 0.37, 0.8] {
         let found = apply_dry_brush(
             &mut Compute::Cpu,
@@ -401,13 +397,13 @@ fn a_dry_brush_keeps_from_outlines_and_from_dark_washes() {
         let paper = (&heights, &flow);
         apply_dry_brush(&mut Compute::Cpu, color, paper, reach, (edges, None))
     };
-    let bare = |found: &Field<[f32; 4]>, columns: std::ops::Range<usize>| {
+    fn bare(found: &Field<[f32; 4]>, columns: std::ops::Range<usize>) -> usize {
         let rows = (0..40).flat_map(|y| columns.clone().map(move |x| (x, y)));
         rows.filter(|&at| found[at][3] < 0.5).count()
-    };
-    // An outline along the middle.
-    let strength = |i: usize| if (25..35).contains(&(i % 60)) { 0.1 } else { 0.0 };
-    let edges = Field::from_values(60, 40, (0..2400).map(strength).collect());
+    }
+    // There is an outline along the middle.
+    let strength = (0..2400).map(|i| if (25..35).contains(&(i % 60)) { 0.1 } else { 0.0 });
+    let edges = Field::from_values(60, 40, strength.collect());
     let found = on(&light, Some(&edges));
     assert_eq!(bare(&found, 25..35), 0, "bare paper on the outline");
     assert!(bare(&found, 0..25) > 400, "{} bare away from it", bare(&found, 0..25));
@@ -439,11 +435,11 @@ fn wobble_on_finer_paper_is_the_mean_of_its_cells() {
 fn colors_alike_are_told_by_cielab() {
     let picture = any_picture(40, 40, 8);
     let like = Rgb::from_hex("#8060a0").unwrap();
-    let lab = |rgb: Rgb| {
+    fn lab(rgb: Rgb) -> [f64; 3] {
         let white = RgbSpace::Srgb.white();
         let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb.linear().0);
         Lab::from_xyz(xyz.into(), white).to_array()
-    };
+    }
     let range = ColorRange::around(like, 40.0);
     let found = color_mask(&mut Compute::Cpu, &picture, range, None);
     for (found, color) in found.values().iter().zip(picture.values()) {

@@ -38,8 +38,8 @@ impl Folder {
     /// Sorted names in the subfolder `inside`. There are none if the folder does not exist.
     fn names(&self, inside: &str) -> Vec<String> {
         let Ok(entries) = std::fs::read_dir(self.0.path().join(inside)) else { return Vec::new() };
-        let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
-        let mut names: Vec<_> = entries.map(|entry| name(entry).into_string().unwrap()).collect();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<_> = names.collect();
         names.sort();
         names
     }
@@ -47,7 +47,7 @@ impl Folder {
     /// A photograph of 160 x 120 pixels: red on the left, blue on the right, darker downwards, with
     /// a yellow disc in the middle.
     fn photograph(&self) -> String {
-        let color = |i: usize| {
+        let colors = (0..160 * 120).map(|i| {
             let x = (i % 160) as f32;
             let y = (i / 160) as f32;
             let light = 1.0 - 0.5 * y / 120.0;
@@ -57,8 +57,8 @@ impl Folder {
                 _ => [0.05, 0.15, 0.5],
             };
             [r * light, g * light, b * light, 1.0]
-        };
-        let picture = Field::from_values(160, 120, (0..160 * 120).map(color).collect());
+        });
+        let picture = Field::from_values(160, 120, colors.collect());
         self.write("photo.png", png8(&picture, 1.0).unwrap().bytes)
     }
 
@@ -195,7 +195,9 @@ fn glb() -> Vec<u8> {
     });
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
-    let number = |value: usize| (value as u32).to_le_bytes();
+    fn number(value: usize) -> [u8; 4] {
+        (value as u32).to_le_bytes()
+    }
     let mut glb = b"glTF\x02\0\0\0".to_vec();
     glb.extend(number(12 + 8 + text.len() + 8 + buffer.len()));
     glb.extend(number(text.len()));
@@ -312,8 +314,7 @@ fn a_device_paints_the_same_mesh() {
         let made = opened(&out);
         let (mean, _) = difference(&on_cpu, &made);
         let pairs = on_cpu.pixels().zip(made.pixels());
-        let far = |(a, b): &(&Rgb<u8>, &Rgb<u8>)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2);
-        let far = pairs.filter(far).count();
+        let far = pairs.filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2)).count();
         // At an edge between two triangles, CPU and GPU may choose different ones.
         assert!(far <= 19 && mean < 0.02, "{mesh}: {far} pixels, {mean} in the mean");
     }
@@ -406,8 +407,9 @@ fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
     let alone = folder.file("alone");
     painted(&photo, &["--stages", &alone, "--preset", "sketch"]);
     assert_eq!(folder.names("alone"), names);
-    let file = |folder: &str| std::fs::read(format!("{folder}/11-sheet.png")).unwrap();
-    assert!(file(&alone) == file(&stages), "the picture changed the stages");
+    let [one, other] =
+        [&alone, &stages].map(|folder| std::fs::read(format!("{folder}/11-sheet.png")).unwrap());
+    assert!(one == other, "the picture changed the stages");
 }
 
 #[test]
@@ -430,11 +432,8 @@ fn masks_say_where_density_changes_and_where_the_brush_is_dry() {
     let size: &[&str] = &["--width", "160", "--height", "120"];
     for (subject, size) in [(&photo, &[][..]), (&mesh, size)] {
         for (option, look) in [("--density-mask", &[][..]), ("--dry-brush-mask", dry)] {
-            let with =
-                |more: &[&str]| decoded(&picture(&folder, subject, &[size, look, more].concat()));
-            let all = with(&[]);
-            let half = with(&[option, &mask]);
-            let nothing = with(&[option, &none]);
+            let [all, half, nothing] = [&[][..], &[option, &mask], &[option, &none]]
+                .map(|more| decoded(&picture(&folder, subject, &[size, look, more].concat())));
             assert!(difference(&all, &nothing).0 > 0.5, "{option} does nothing");
             for (x, y, pixel) in half.enumerate_pixels() {
                 let wanted = if x < 80 { &all } else { &nothing };
@@ -533,9 +532,9 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
     let found = |options: &[&str]| turned(&folder, options).json()["frames_found"].as_u64();
     let wish: &[&str] = &["--frames", &frames, "--animation", &gif];
     assert_eq!(found(wish), Some(0));
-    let all = |folder: &Folder| -> Vec<Vec<u8>> {
+    fn all(folder: &Folder) -> Vec<Vec<u8>> {
         (1..=4).map(|n| std::fs::read(frame(folder, "frames", n)).unwrap()).collect()
-    };
+    }
     let first = all(&folder);
     let animation = std::fs::read(&gif).unwrap();
     // One frame is missing, one is truncated, and one is a picture of other software.
