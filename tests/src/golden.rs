@@ -1,6 +1,5 @@
-//! Reader of golden files: reference values of independent programs, with a tolerance.
-//!
-//! Comparison of numbers within a tolerance.
+//! Reads golden files, i.e. reference values of independent programs with a tolerance, and compares
+//! numbers with them.
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -8,8 +7,8 @@ use std::path::PathBuf;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-/// A golden file: its tolerance, its cases and, in `shared`, every other key: how the file was
-/// made, and data that several cases use.
+/// A golden file: its tolerance, its cases and, in `shared`, every other key, e.g. how the file was
+/// made or data that several cases use.
 #[derive(Debug, Deserialize)]
 pub struct Golden<Cases, Shared = serde_json::Value> {
     /// Largest difference allowed between a result and its reference value.
@@ -24,7 +23,7 @@ pub struct Golden<Cases, Shared = serde_json::Value> {
 /// Reads the golden file `tests/golden/NAME.json`.
 ///
 /// # Panics
-/// If the file is missing or has another form; the message names the file and the cause.
+/// If the file is missing or has another form. The message names the file and the cause.
 #[must_use]
 pub fn read<Cases: DeserializeOwned, Shared: DeserializeOwned>(
     name: &str,
@@ -44,7 +43,7 @@ pub fn read<Cases: DeserializeOwned, Shared: DeserializeOwned>(
 pub fn assert_near(case: impl Display, got: &[f64], wanted: &[f64], tolerance: f64) {
     assert_eq!(got.len(), wanted.len(), "{case}: number of values");
     for (index, (got, wanted)) in got.iter().zip(wanted).enumerate() {
-        // Infinities and NaN fail with a message of their own: their difference means nothing.
+        // The difference of an infinity or a NaN means nothing, so you get this message instead.
         assert!(got.is_finite() && wanted.is_finite(), "{case} [{index}]: {got} for {wanted}");
         assert!(
             (got - wanted).abs() <= tolerance,

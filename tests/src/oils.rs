@@ -10,7 +10,7 @@ use calibrate::swatch::SwatchSet;
 use documents::Task;
 use spectra::optics::{Specular, Surface};
 
-/// Saunderson surface for which the error limits of the oils are stated.
+/// The error limits of the oils assume this Saunderson surface.
 pub const SURFACE: Surface = Surface { k1: 0.03, k2: 0.6, specular: Specular::Included };
 
 /// Swatches of the shipped measurement file, and the index of zinc white.

@@ -1,8 +1,5 @@
-//! Runs of the program `impasto` in process, with captured output.
-//!
-//! Commands in the guides, taken from their pages as a reader copies them.
-//!
-//! The graphics device of the GPU tests.
+//! Runs the program `impasto` in process and captures its output, takes commands from the pages of
+//! the guides as a reader copies them, and opens the graphics device for tests.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -39,8 +36,9 @@ pub fn impasto(arguments: &[&str]) -> Run {
     let mut err = Vec::new();
     let all = std::iter::once("impasto").chain(arguments.iter().copied());
     let status = impasto::run(all, &mut out, &mut err, impasto::Screen::default());
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
-    Run { status, out: text(out), err: text(err) }
+    let [out, err] =
+        [out, err].map(|bytes| String::from_utf8(bytes).expect("the program writes UTF-8"));
+    Run { status, out, err }
 }
 
 /// Path of a file of the repository, valid from any working folder.
@@ -53,7 +51,7 @@ pub fn repository(file: &str) -> String {
 /// A command of a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Command {
-    /// The command as it is printed, on one line.
+    /// The command as the page prints it, but on one line.
     pub line: String,
     /// Its words, without comment and redirection.
     pub words: Vec<String>,
@@ -61,8 +59,8 @@ pub struct Command {
     pub output: Option<String>,
 }
 
-/// The commands of all blocks of `page` that a shell runs, in order. Blocks whose fence says `ignore`
-/// are passed over.
+/// The commands of all blocks of `page` that a shell runs, in order. Skips blocks with `ignore` in
+/// their fence.
 #[must_use]
 pub fn commands(page: &str) -> Vec<Command> {
     let mut found = Vec::new();
@@ -87,7 +85,7 @@ fn command(line: &str) -> Command {
     Command { line: line.split_whitespace().collect::<Vec<_>>().join(" "), words, output }
 }
 
-/// Splits a command into words as a shell does, with double quotes; a comment is left out.
+/// Splits a command into words as a shell does, with double quotes. Leaves out a comment.
 fn words(line: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut quoted = false;
@@ -116,9 +114,9 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Opens the graphics device for a test, a hardware adapter before a software one. `None` without
-/// an adapter, with a note on standard error. Appends the name of the adapter (or `none`) to the
-/// file that the environment variable `IMPASTO_GPU_TESTS` names, if it is set.
+/// Opens the graphics device for a test, and prefers a hardware adapter. Without an adapter you get
+/// `None` and a note on standard error. If the environment variable `IMPASTO_GPU_TESTS` names a file,
+/// this appends the name of the adapter (or `none`) to it.
 ///
 /// # Panics
 /// If that file cannot be written.

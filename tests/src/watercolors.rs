@@ -1,7 +1,6 @@
-//! Synthetic watercolours on white paper: ladders of every paint and mixtures of every pair.
-//!
-//! K and S are invented, not measured. The hard set adds the deviations of real washes from
-//! Kubelka-Munk theory: errors of amount, uneven films, a surface and noise.
+//! Synthetic watercolours on white paper: ladders of every paint and mixtures of every pair. Their
+//! K and S are invented. The hard set deviates from Kubelka-Munk theory as real washes do: by
+//! errors of amount, uneven films, a surface and noise.
 
 use calibrate::Curves;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
@@ -12,8 +11,8 @@ use rand_distr::{Distribution, StandardNormal};
 use spectra::Grid;
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
-/// Name; K per mL as a constant plus Gaussian bands (height, centre in nm, standard deviation in
-/// nm); S per mL at 550 nm.
+/// Name, then K per mL as a constant plus Gaussian bands (height, centre in nm, standard deviation
+/// in nm), then S per mL at 550 nm.
 type Paint = (&'static str, f64, &'static [(f64, f64, f64)], f64);
 
 /// Thirteen paints, from transparent (S of 1.5 per mL) to opaque (S of 55 per mL).
@@ -49,7 +48,7 @@ impl Watercolors {
         Self::made(even, &mut |amount| amount, &mut || 0.0)
     }
 
-    /// Readings with errors: log-normal errors of the measured-out amount (5 %) and of the amount
+    /// Readings with errors: log-normal errors of the amount in the pipette (5 %) and of the amount
     /// that stays on the paper (12 %), films of unevenness 0.5, a surface that the file does not
     /// state, and normal noise of 0.003 in the reflectance.
     #[must_use]
@@ -58,12 +57,14 @@ impl Watercolors {
         let film = UnevenFilm { surface, unevenness: 0.5 };
         let mut amounts = ChaCha8Rng::seed_from_u64(seed);
         let mut readings = ChaCha8Rng::seed_from_u64(seed + 1);
-        let normal = |random: &mut ChaCha8Rng| -> f64 { StandardNormal.sample(random) };
+        fn normal(random: &mut ChaCha8Rng) -> f64 {
+            StandardNormal.sample(random)
+        }
         Self::made(
             film,
             &mut |amount| {
                 let pipette = (0.05 * normal(&mut amounts)).exp();
-                // The film gets a smaller share of a larger amount: power 0.85, unchanged at 0.04
+                // The paper keeps a smaller share of a larger amount: power 0.85, unchanged at 0.04
                 // mL.
                 let kept: f64 = amount * pipette * (0.12 * normal(&mut amounts)).exp();
                 (kept / 0.04).powf(0.85) * 0.04
@@ -95,18 +96,22 @@ impl Watercolors {
         noise: &mut dyn FnMut() -> f64,
     ) -> Self {
         let grid = Grid::from_nm(400.0, 10.0, 31).expect("a grid");
-        let curve = |base: f64, bands: &[(f64, f64, f64)]| -> Vec<f64> {
-            let band = |nm: f64, &(height, middle, width): &(f64, f64, f64)| {
-                height * (-0.5 * ((nm - middle) / width).powi(2)).exp()
-            };
-            grid.wavelengths_nm()
-                .map(|nm| base + bands.iter().map(|b| band(nm, b)).sum::<f64>())
-                .collect()
-        };
-        let absorption: Vec<Vec<f64>> = PAINTS.iter().map(|p| curve(p.1, p.2)).collect();
-        let slope =
-            |s: f64| grid.wavelengths_nm().map(move |nm| s * (nm / 550.0).powf(-0.4)).collect();
-        let scattering: Vec<Vec<f64>> = PAINTS.iter().map(|p| slope(p.3)).collect();
+        let absorption: Vec<Vec<f64>> = PAINTS
+            .iter()
+            .map(|&(_, base, bands, _)| {
+                let at = grid.wavelengths_nm().map(|nm| {
+                    let heights = bands.iter().map(|&(height, middle, width)| {
+                        height * (-0.5 * ((nm - middle) / width).powi(2)).exp()
+                    });
+                    base + heights.sum::<f64>()
+                });
+                at.collect()
+            })
+            .collect();
+        let scattering: Vec<Vec<f64>> = PAINTS
+            .iter()
+            .map(|p| grid.wavelengths_nm().map(|nm| p.3 * (nm / 550.0).powf(-0.4)).collect())
+            .collect();
         let paper: Vec<f64> = grid
             .wavelengths_nm()
             .map(|nm| 0.86 + 0.04 * (nm - 550.0) / 300.0 - 0.1 * (-(nm - 400.0) / 18.0).exp())
@@ -139,11 +144,11 @@ impl Watercolors {
 /// Amounts in mL of each film: twelve steps of every paint, then every pair of paints in three
 /// ratios at three levels.
 fn recipes() -> Vec<Vec<f64>> {
-    let with = |parts: &[(usize, f64)]| {
+    fn with(parts: &[(usize, f64)]) -> Vec<f64> {
         let mut amounts = vec![0.0; PAINTS.len()];
         parts.iter().for_each(|&(paint, amount)| amounts[paint] = amount);
         amounts
-    };
+    }
     let mut recipes = Vec::new();
     for paint in 0..PAINTS.len() {
         for step in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16] {

@@ -10,12 +10,12 @@ use crate::failure::{Exception, Raised};
 /// A grid of wavelengths as first wavelength, step and count, in nm.
 pub(crate) type GridNumbers = (f64, f64, usize);
 
-/// The grid of these numbers.
+/// The grid that these numbers describe.
 pub(crate) fn grid(py: Python<'_>, (start, step, count): GridNumbers) -> PyResult<Grid> {
     Grid::from_nm(start, step, count).raised(py, Exception::Other)
 }
 
-/// Values of a matrix in order of rows, and its shape.
+/// Values of a matrix row by row, and its shape.
 pub(crate) fn rows<'a>(
     py: Python<'_>,
     matrix: &'a PyReadonlyArray2<'_, f64>,

@@ -10,7 +10,7 @@ use crate::failure::{Exception, Raised};
 use crate::light::{Light, viewing};
 use crate::running::beside;
 
-/// Spectra that one task of a thread takes.
+/// A thread takes this many spectra as one task.
 const SPECTRA_A_TASK: usize = 4096;
 
 /// XYZ of each row of reflectances, and XYZ of the white.

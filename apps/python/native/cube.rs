@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::failure::{Exception, Raised};
 
-/// Options for opening a scan, as the public face passes them.
+/// Options for opening a scan, as the public Python functions pass them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options {
@@ -53,12 +53,12 @@ pub(crate) struct Cube {
 }
 
 impl Cube {
-    /// The scan opened once more, for a survey that owns it.
+    /// Opens the scan again, for a survey that owns it.
     pub(crate) fn again(&self) -> Result<maps::Cube, maps::cube::CubeError> {
         maps::Cube::open_with(&self.path, &self.options)
     }
 
-    /// Noise of a band by the white reading.
+    /// Noise of a band, from the white reading.
     pub(crate) fn white_sd(&self) -> Option<f64> {
         let sd = self.cube.white_sd().filter(|sd| !sd.is_empty())?;
         Some((sd.iter().map(|sd| sd * sd).sum::<f64>() / sd.len() as f64).sqrt())

@@ -29,7 +29,7 @@ impl Exception {
         }
     }
 
-    /// The exception for `error`, with its causes in the message, its hint, and the place of a cell.
+    /// The exception for `error`: its message with the causes, its hint, and the place of a cell.
     pub(crate) fn of(self, py: Python<'_>, error: &dyn Explain) -> PyErr {
         let hint = error.hint().map(|hint| hint_text(&hint));
         self.with(py, error.fault(), &message(error), hint.as_deref())
@@ -51,7 +51,7 @@ impl Exception {
     }
 }
 
-/// A hint whose settings are arguments of the package.
+/// The text of a hint, with settings named as arguments of the package.
 pub(crate) fn hint_text(hint: &Hint) -> String {
     hint.with_settings(|name, value| {
         let argument = match name {
@@ -87,7 +87,7 @@ fn message(error: &dyn Explain) -> String {
     message
 }
 
-/// Results whose errors become exceptions.
+/// Turns the error of a result into an exception.
 pub(crate) trait Raised<T> {
     /// Turns the error into an exception of this class.
     fn raised(self, py: Python<'_>, exception: Exception) -> PyResult<T>;

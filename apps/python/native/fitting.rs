@@ -91,7 +91,7 @@ impl Validation {
     }
 }
 
-/// Options of a fit, as the public face passes them.
+/// Options of a fit, as the public Python functions pass them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options<'py> {
@@ -148,7 +148,6 @@ impl Options<'_> {
     }
 }
 
-/// The value with this name.
 fn chosen<T: Clone>(
     py: Python<'_>,
     (setting, name): (&str, &str),

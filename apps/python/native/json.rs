@@ -7,7 +7,6 @@ use crate::failure::hint_text;
 /// Whether a remark is a warning, its sentence, and its hint.
 pub(crate) type RemarkTuple = (bool, String, Option<String>);
 
-/// Remarks as Python takes them.
 pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Vec<RemarkTuple> {
     remarks
         .into_iter()

@@ -1,5 +1,5 @@
-//! The native part of the Python package `impasto`: the front doors of the libraries, over arrays,
-//! names and JSON. The typed public face is Python, in `impasto/`.
+//! The native part of the Python package `impasto`: it passes arrays, names and JSON to the
+//! libraries. You use the typed package in `impasto/`, which is Python and calls this.
 
 use pyo3::prelude::*;
 
@@ -48,7 +48,7 @@ mod _native {
     #[pymodule_export]
     use crate::survey::Survey;
 
-    /// Version of the libraries, which is that of the package.
+    /// Version of the libraries and of the package.
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name")]
     const __version__: &str = env!("CARGO_PKG_VERSION");

@@ -95,7 +95,7 @@ impl Library {
     }
 
     /// Values of a curve of every pigment: `absorption`, `scattering`, `absorption_sd` or
-    /// `scattering_sd`; NaN where a deviation is unknown.
+    /// `scattering_sd`. An unknown deviation is NaN.
     fn curves<'py>(&self, py: Python<'py>, curve: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let count = self.0.grid.count();
         let values = self.0.pigments.iter().flat_map(|pigment| {
@@ -111,8 +111,8 @@ impl Library {
         PyArray1::from_vec(py, values).reshape([self.0.pigments.len(), count])
     }
 
-    /// All but the curves, as JSON: title, licence, source, amounts, reference, surface, evidence, and
-    /// of each pigment its name, notes and whether its S is known.
+    /// All but the curves, as JSON: title, licence, source, amounts, reference, surface, evidence,
+    /// and of each pigment its name, notes and whether its S is known.
     fn about(&self) -> String {
         let library = &*self.0;
         let pigments = library.pigments.iter().map(|p| {
@@ -199,9 +199,9 @@ impl Library {
     }
 }
 
-/// A film whose reflectance is asked for.
+/// A film to mix.
 struct Film {
-    /// Thickness, and the ground on the library's grid; `None` for a film that hides.
+    /// Thickness, and the ground on the library's grid. A film that hides has neither.
     over: Option<(f64, Vec<f64>)>,
     remarks: Vec<RemarkTuple>,
 }

@@ -42,7 +42,7 @@ impl Target<'_> {
     }
 }
 
-/// Options of a search, as the public face passes them.
+/// Options of a search, as the public Python functions pass them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options<'py> {

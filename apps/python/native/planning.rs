@@ -11,7 +11,7 @@ use crate::json::{RemarkTuple, remarks};
 use crate::library::Library;
 use crate::running::run;
 
-/// Options of a plan, as the public face passes them.
+/// Options of a plan, as the public Python functions pass them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options<'py> {
@@ -25,7 +25,8 @@ pub(crate) struct Options<'py> {
     replicates: usize,
 }
 
-/// Plans swatches. Returns JSON with the keys of `impasto plan --json`, the measurement form as bytes, and remarks.
+/// Plans swatches. Returns JSON with the keys of `impasto plan --json`, the measurement form as
+/// bytes, and remarks.
 #[pyfunction]
 pub(crate) fn plan(
     py: Python<'_>,

@@ -18,7 +18,7 @@ use crate::json::{RemarkTuple, remarks};
 #[pyclass(frozen, module = "impasto._native")]
 pub(crate) struct Readings(pub(crate) Arc<calibrate::Readings>);
 
-/// A white with darks and tile: counts are measured against them.
+/// A white, darks and a tile, if there is one. Counts are measured against them.
 type References = (String, Vec<String>, Option<String>);
 
 #[pymethods]
@@ -61,7 +61,7 @@ impl Readings {
         read.map(|readings| Self(Arc::new(readings))).raised(py, Exception::Reading)
     }
 
-    /// Reads the measurement CSV in `bytes`; `name` stands in errors.
+    /// Reads the measurement CSV in `bytes`. Errors call it `name`.
     #[staticmethod]
     #[pyo3(signature = (name, bytes, pigments, percent))]
     fn from_csv(
@@ -111,7 +111,7 @@ impl Readings {
         self.0.table.readings.iter().map(|reading| reading.film != Film::Paint).collect()
     }
 
-    /// Amount of each pigment in each reading; NaN in bare cards.
+    /// Amount of each pigment in each reading. Bare cards have NaN.
     #[getter]
     fn amounts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let count = self.0.table.pigments.len();

@@ -15,10 +15,11 @@ use crate::light::{Light, viewing};
 use crate::readings::Readings;
 use crate::running::run;
 
-/// Numbers of wavelengths of the quadratures in a report.
+/// How many wavelengths the quadratures in a report have.
 const COUNTS: std::ops::RangeInclusive<usize> = 3..=12;
 
-/// Draws the page and its figures. Returns the path inside the report's folder and the bytes of each file.
+/// Draws the page and its figures. Returns the path inside the report's folder and the bytes of
+/// each file.
 #[pyfunction]
 #[pyo3(signature = (library, readings, light, observer, pair, validate, progress))]
 #[expect(clippy::too_many_arguments, reason = "the public face has them by name")]

@@ -12,10 +12,9 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Time between two looks for signals.
+/// How often we check for signals.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Name of the thread of the work.
 const THREAD: &str = "impasto-work";
 
 /// Does `work` on a thread of its own. Meanwhile `progress` is called with the stage at each report, and
@@ -52,14 +51,16 @@ pub(crate) fn run_with<T: Send + 'static>(
     if waited.is_err() {
         cancellation.cancel();
     }
-    // A thread that still computes while the program ends or goes on would take its processors and files.
+    // If the thread went on computing, it would use processors and files of a program that has
+    // moved on.
     let ended = py.detach(|| worker.join());
     ended.map_err(|_| PyRuntimeError::new_err("the thread of the work was lost"))?;
     waited?.map_err(|_| PyRuntimeError::new_err("a defect of impasto: please report it"))
 }
 
-/// Starts a thread that does `work`: alone if the process shares work among one thread only
-/// (`RAYON_NUM_THREADS=1`), which would have to do that of all others too.
+/// Starts a thread for `work`. If the process has only one thread for shared work
+/// (`RAYON_NUM_THREADS=1`), this thread does its shared work itself: one thread would otherwise
+/// have to do it for all.
 fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<()>> {
     let thread = || std::thread::Builder::new().name(THREAD.to_owned());
     if rayon::current_num_threads() > 1 {
@@ -70,18 +71,19 @@ fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<(
         worker = Some(thread().spawn(move || own.run())?);
         Ok(())
     });
-    // Once it is dropped, its thread ends with the work.
+    // We drop this, and its thread ends with the work.
     pool.build().map_err(std::io::Error::other)?.spawn(work);
     worker.ok_or_else(|| std::io::Error::other("no thread was started"))
 }
 
 thread_local! {
-    /// Pool whose only thread is the calling one; `None` if it could not be made.
+    /// Pool with the calling thread as its only one, or `None` if it could not be made.
     static OWN: OnceCell<Option<ThreadPool>> = const { OnceCell::new() };
 }
 
-/// Does short `work` while other threads of Python run: on the calling thread if the process shares work among
-/// one thread only, which would have to do that of all others too.
+/// Does short `work` while other threads of Python run. If the process has only one thread for
+/// shared work, this uses the calling thread, since one thread would otherwise have to do it for
+/// all.
 pub(crate) fn beside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     py.detach(|| {
         if rayon::current_num_threads() == 1 && rayon::current_thread_index().is_none() {
@@ -101,7 +103,7 @@ fn wait<T: Send>(
     stages: &Receiver<String>,
     result: Receiver<T>,
 ) -> PyResult<T> {
-    // A receiver cannot be shared between threads, a lock on it can.
+    // You cannot share a receiver between threads, but you can share a lock on it.
     let result = Mutex::new(result);
     loop {
         let received = py.detach(|| match result.lock() {

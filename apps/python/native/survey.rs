@@ -18,7 +18,7 @@ use crate::library::Library;
 use crate::residuals::Residuals;
 use crate::running::{run, run_with};
 
-/// Settings of a map, as the public face passes them.
+/// Settings of a map, as the public Python functions pass them.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Settings {
@@ -113,8 +113,8 @@ impl Survey {
         self.0.to_json(None, &[]).to_string()
     }
 
-    /// Begins or resumes the maps at `path`, and returns for each shard its name and how many of its pixels
-    /// are still to be mapped.
+    /// Begins or resumes the maps at `path`, and returns for each shard its name and how many of
+    /// its pixels are still to be mapped.
     fn begin(&self, py: Python<'_>, path: PathBuf, resume: bool) -> PyResult<Vec<(String, usize)>> {
         let mode = if resume { StoreMode::Resume } else { StoreMode::New };
         let store = py.detach(|| self.0.store(path, mode)).raised(py, Exception::Other)?;
@@ -140,8 +140,8 @@ impl Survey {
         mapped.raised(py, Exception::Other).map(drop)
     }
 
-    /// Maps the shards of the maps at `path` that are in `places` and not finished, one after another, and
-    /// returns the number of their pixels.
+    /// Maps the shards of the maps at `path` that are in `places` and not finished, one after
+    /// another, and returns the number of their pixels.
     fn map_shards(&self, py: Python<'_>, path: PathBuf, places: Vec<usize>) -> PyResult<u64> {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));

@@ -1,5 +1,5 @@
-//! Drives the worker without a window: opens a canvas, loads a brush, paints a stroke, undoes and
-//! repeats it, and saves the painting.
+//! Drives the worker without a window: opens a canvas, loads a brush, paints a stroke, undoes it,
+//! repeats it and saves the painting. Run it like this:
 //!
 //! `cargo run --release -p impasto-session --example drive_a_session [PAINTING.exr]`.
 

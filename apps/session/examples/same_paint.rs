@@ -1,11 +1,11 @@
-//! Whether a painting holds the paint that a script of strokes makes on this machine, to the last
-//! quantum.
+//! Checks that a painting holds exactly the paint that you get when this machine plays a script of
+//! strokes.
 //!
 //! ```text
 //! cargo run -p impasto-session --example same_paint -- strokes.json painting.exr
 //! ```
 //!
-//! The tests of the studio in a browser compare what was painted there.
+//! The tests of the studio in a browser use this to check a painting that was made there.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it did")]
 
@@ -40,7 +40,6 @@ fn main() -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(u8::from(same.iter().any(|(_, same)| !same))))
 }
 
-/// The canvas after all actions of a script.
 fn replayed(path: &Path) -> Result<Document, Failure> {
     let script =
         StrokeScript::from_json(&path.display().to_string(), &documents::file::read(path)?)?;

@@ -1,4 +1,4 @@
-//! Commands of the front end.
+//! Commands that the front end sends to the worker.
 
 use web_time::Instant;
 
@@ -17,23 +17,23 @@ use super::event::Picked;
 pub struct PenSample {
     /// Position, pressure and angles of the brush over the surface.
     pub sample: Sample,
-    /// Time at which the system reported it; latency is measured from here.
+    /// Time at which the system reported it. We measure latency from here.
     pub arrived: Instant,
 }
 
-/// Pace of a replay.
+/// How fast a replay runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
     /// Without pauses, as fast as the machine allows.
     Fast,
-    /// At the pace of the painter, by the seconds of the samples.
+    /// As fast as the painter painted, by the times of the samples.
     AsPainted,
 }
 
-/// State that a painting starts from.
+/// What a painting starts from.
 #[derive(Debug, Clone)]
 pub enum Origin {
-    /// A canvas without paint, described by the header of a script. Its actions are not played.
+    /// A canvas without paint as the header of a script describes it. The actions are not played.
     Blank {
         /// Script with canvas, pigments, medium and light.
         script: Box<StrokeScript>,
@@ -42,8 +42,7 @@ pub enum Origin {
     },
     /// A painting that was read from a file.
     Painting(Box<Document>),
-    /// A painting that was read from a file, with the palette and the brushes that were saved with
-    /// it.
+    /// A painting that was read from a file, with its saved palette and brushes.
     WithTable {
         /// Document of the canvas.
         canvas: Box<Document>,
@@ -56,15 +55,15 @@ pub enum Origin {
         canvas: Box<Document>,
         /// Document of the palette.
         palette: Box<Document>,
-        /// Brushes and recording; without them the painting has clean brushes, and is not recorded.
+        /// Brushes and recording. If this is `None`, the brushes are clean and nothing is recorded.
         kept: Option<Box<KeptSession>>,
     },
 }
 
-/// A request to the worker. Commands are executed in their order.
+/// A request to the worker, which executes commands in order.
 #[derive(Debug)]
 pub enum Command {
-    /// Opens a painting in place of the open one.
+    /// Opens a painting and closes the open one.
     Open(Origin),
     /// Adds a brush under a name, or replaces the one with that name.
     SetBrush {
@@ -73,16 +72,16 @@ pub enum Command {
         /// Shape and size of its head.
         spec: BrushSpec,
     },
-    /// Sets a brush down; samples follow.
+    /// Sets a brush down. Samples follow.
     PenDown {
         /// Surface to paint on.
         surface: SurfaceId,
         /// Name of the brush.
         brush: String,
-        /// Decimals that the samples of the stroke are rounded to.
+        /// To how many decimals the samples of the stroke are rounded.
         decimals: SampleDecimals,
     },
-    /// Sets the head of a brush down as a tool that works the wet paint; samples follow. They are
+    /// Sets the head of a brush down as a tool that works the wet paint. Samples follow and are
     /// rounded to [`SampleDecimals::PEN`].
     ToolDown {
         /// The tool that the head is used as.
@@ -98,18 +97,18 @@ pub enum Command {
     PenUp,
     /// Begins a group: its strokes are one step of undo and redo.
     BeginGroup,
-    /// Ends a group. One in which anything but strokes was done is none.
+    /// Ends a group. If anything but strokes was done in it, they are not grouped.
     EndGroup,
-    /// Applies an action. An open stroke is finished first.
+    /// Applies an action. This finishes an open stroke first.
     Apply(Action),
-    /// Applies an action of light, gloss, stiffness or opacity while its slider is dragged. All
+    /// Applies an action of light, gloss, stiffness or opacity while you drag its slider. All
     /// adjustments until [`Command::EndAdjustment`] become one action of the history.
     Adjust(Action),
-    /// Ends an adjustment: the slider was released.
+    /// Ends an adjustment when you release the slider.
     EndAdjustment,
-    /// Undoes or repeats actions until this number of actions of the history is done.
+    /// Undoes or repeats actions until this many actions of the history are done.
     GoTo(usize),
-    /// Sets the second light of the split view; `None` turns it off.
+    /// Sets the second light of the split view. Pass `None` to turn it off.
     SetSecondLight(Option<Lighting>),
     /// Asks for reflectance and paint at a position. The answer is
     /// [`Event::Picked`](super::Event::Picked).
@@ -120,18 +119,18 @@ pub enum Command {
         x_mm: f64,
         /// Distance from the upper edge in mm.
         y_mm: f64,
-        /// Radius of the circle that is averaged, in mm; 0 is one cell.
+        /// Radius of the averaged circle in mm. With 0 you get one cell.
         radius_mm: f64,
     },
-    /// Asks for the documents as they are now, for saving and exporting. The answer is
+    /// Asks for the present documents, to save or export them. The answer is
     /// [`Event::Snapshot`](super::Event::Snapshot) with this number.
     Snapshot(u64),
-    /// Asks for all that a later session needs to go on from here. The answer is
+    /// Asks for everything that a later session needs to continue from here. The answer is
     /// [`Event::Kept`](super::Event::Kept) with this number.
     Keep {
         /// Number of the request.
         number: u64,
-        /// Number of actions of the recording that are known already: the answer has the others.
+        /// How many actions of the recording you know already. The answer has the others.
         recorded: usize,
     },
     /// Asks for the recording since the painting was opened. The answer is
@@ -148,7 +147,7 @@ pub enum Command {
     },
     /// Ends a replay.
     Cancel,
-    /// Loads a brush with the mean wet paint that was picked, besides what it holds.
+    /// Loads a brush with the mean wet paint that was picked, and keeps what it already holds.
     LoadPicked {
         /// Name of the brush.
         brush: String,
@@ -157,8 +156,9 @@ pub enum Command {
         /// Height of the paint on the head, in mm.
         amount_mm: f64,
     },
-    /// Squeezes a heap of paint on the palette ([`Action::Squeeze`]) at the first of `places` that
-    /// has no wet paint around it; if all have some, at the one with the least.
+    /// Squeezes a heap of paint onto the palette ([`Action::Squeeze`]), at the first of `places`
+    /// without wet paint around it. If there is paint at all of them, it takes the place with the
+    /// least.
     SqueezeInFreeSpace {
         /// Parts of pigments by their names in the library.
         recipe: Recipe,
@@ -171,15 +171,15 @@ pub enum Command {
         /// Half the side of the square around a position that must be free, in mm.
         reach_mm: f64,
     },
-    /// Sets the limit of the memory for undo, in bytes.
+    /// Limits the memory for undo, in bytes.
     SetUndoBytes(u64),
     /// Ends the thread.
     Quit,
 }
 
 impl Command {
-    /// Whether it is answered while a stroke is open; other commands than those of the pen end the
-    /// stroke.
+    /// Whether the worker answers this while a stroke is open. Other commands end the stroke,
+    /// unless they belong to the pen.
     #[must_use]
     pub fn is_question(&self) -> bool {
         matches!(
@@ -193,7 +193,6 @@ impl Command {
         )
     }
 
-    /// Name of the command for messages.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Open(_) => "opening",

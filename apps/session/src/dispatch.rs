@@ -1,8 +1,5 @@
-//! Executes commands in their order.
-//!
-//! Picking paint and reflectance at a position.
-//!
-//! Free positions for a heap of paint.
+//! Executes commands in order, picks paint and reflectance at a position, and finds free places for
+//! heaps of paint.
 
 use std::sync::Arc;
 
@@ -22,7 +19,7 @@ use super::report::WorkerStatus;
 use super::state::PaintingState;
 use super::worker::{OpenPainting, WorkerLoop};
 
-/// Message of a broken invariant: every session of the worker has a palette.
+/// Message for a bug: every session of the worker has a palette.
 const PALETTE: &str = "every session of the worker has a palette";
 
 impl WorkerLoop<'_> {
@@ -43,7 +40,7 @@ impl WorkerLoop<'_> {
     }
 
     /// Continues the open stroke: adds all samples that arrived, then answers a question or paints
-    /// a slice. Any other command lifts the brush first.
+    /// a slice. Lifts the brush before any other command.
     fn paint(&mut self) -> Result<(), SessionError> {
         while let Some(Command::PenMove(samples)) =
             self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
@@ -90,7 +87,7 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Paints a slice of the open stroke; closes the stroke once all is painted.
+    /// Paints a slice of the open stroke, and closes the stroke once all of it is painted.
     pub(super) fn paint_slice(&mut self) -> Result<(), SessionError> {
         let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
         let session = &mut open.prepared.session;
@@ -103,7 +100,7 @@ impl WorkerLoop<'_> {
             self.stroke = None;
             let report = session.end_stroke()?;
             if let (Some(report), false) = (report, tool.is_paint()) {
-                // A replay would tell it of every stroke.
+                // In a replay this message would come after every stroke.
                 if self.playing.is_none() {
                     let (text, hint) = tally(tool, &report.taken, session.canvas());
                     (self.send)(Event::Message { text, hint, failed: false });
@@ -120,7 +117,7 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Executes one command while no stroke is open and nothing is played.
+    /// Executes a command while no stroke is open and no replay runs.
     fn execute(&mut self, command: Command) -> Result<(), SessionError> {
         match command {
             Command::Open(origin) => self.open(origin),
@@ -132,8 +129,8 @@ impl WorkerLoop<'_> {
                     self.state_stale = true;
                 }
             }
-            // A pen command without an open stroke belongs to a stroke that another command has
-            // ended or that could not begin. The inbox handles `Cancel` and `Quit` itself.
+            // A pen command without an open stroke belongs to a stroke that ended or could not
+            // begin. The inbox handles `Cancel` and `Quit` itself.
             Command::PenMove(_) | Command::PenUp | Command::Cancel | Command::Quit => {}
             Command::BeginGroup | Command::EndGroup if self.open.is_none() => {}
             command if self.open.is_some() => return self.execute_on_painting(command),
@@ -216,7 +213,7 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Undoes or repeats a whole group of strokes, if the action would do that to one of them.
+    /// Undoes or repeats a whole group if `action` would undo or repeat one of its strokes.
     fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, SessionError> {
         let OpenPainting { prepared, groups, .. } = self.open_mut();
         let session = &mut prepared.session;
@@ -257,7 +254,6 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Loads a brush with picked paint.
     fn load_picked(
         &mut self,
         brush: String,
@@ -350,7 +346,7 @@ impl WorkerLoop<'_> {
         Ok(snapshot)
     }
 
-    /// State of the painting besides its pixels.
+    /// Everything about the painting except its pixels.
     pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, SessionError> {
         let Some(OpenPainting { prepared, reporter, shots, .. }) = &mut self.open else {
             return Ok(None);
@@ -364,9 +360,6 @@ impl WorkerLoop<'_> {
     }
 
     /// Session of the painting.
-    ///
-    /// # Panics
-    /// If no painting is open.
     pub(super) fn session(&mut self) -> &mut PaintingSession {
         &mut self.open_mut().prepared.session
     }
@@ -391,7 +384,6 @@ impl WorkerLoop<'_> {
     }
 }
 
-/// A circle on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     pub(super) surface: SurfaceId,
@@ -400,11 +392,8 @@ pub(super) struct Place {
     pub(super) radius_mm: f64,
 }
 
-/// Mean reflectance and paint of the cells within `place`. `painting` must be that of
+/// Mean reflectance and paint of the cells within `place`. `painting` must be the one on
 /// `place.surface`. Returns `None` if the centre is outside the surface.
-///
-/// # Errors
-/// [`PaintingError`] if the device was lost.
 pub(super) fn pick(painting: &mut Painting, place: Place) -> Result<Option<Picked>, PaintingError> {
     let cell_mm = painting.cell_mm();
     let rows = rows(painting.bounds(), cell_mm, place);
@@ -434,7 +423,7 @@ pub(super) fn pick(painting: &mut Painting, place: Place) -> Result<Option<Picke
     Ok(Some(Picked { surface, x_mm, y_mm, reflectance, layers }))
 }
 
-/// Mean height of each slot and, last, of the vehicle over the cells of `rows`, in mm.
+/// Mean height of each slot and then of the vehicle over the cells of `rows`, in mm.
 fn mean_mm(
     rows: &[Rect],
     cell_mm: f64,
@@ -451,8 +440,8 @@ fn mean_mm(
     Ok(totals.map(|total| total as f64 / cells as f64 * mm_from_quanta(1, cell_mm)))
 }
 
-/// Cells whose centres lie within the circle, and always the cell that contains its centre: one
-/// rectangle per row. Empty if the centre is outside `bounds`.
+/// Cells with their centre in the circle, one rectangle per row, always including the cell under
+/// the centre. There are none if the centre is outside `bounds`.
 fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
     let [x, y, radius] = [place.x_mm, place.y_mm, place.radius_mm.max(0.0)].map(|mm| mm / cell_mm);
     if !(x >= 0.0 && y >= 0.0 && x < bounds.width as f64 && y < bounds.height as f64) {
@@ -480,10 +469,8 @@ fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
 }
 
 /// The first of `places`, in mm, that has no wet paint in the square of half side `reach_mm` around
-/// it; if all have some, the one with the least. `None` if no place is on the surface.
-///
-/// # Errors
-/// [`PaintingError`] if the device was lost.
+/// it. If there is paint at all of them, this is the place with the least. Returns `None` if no
+/// place is on the surface.
 pub(super) fn freest_place(
     painting: &mut Painting,
     places: &[[f64; 2]],
@@ -502,8 +489,8 @@ pub(super) fn freest_place(
     Ok(best.map(|(place, _)| place))
 }
 
-/// Wet paint in quanta within the square of half side `reach_mm` around a place; `None` if the
-/// place is outside the surface.
+/// Wet paint in quanta within the square of half side `reach_mm` around a place. Returns `None` for
+/// a place outside the surface.
 fn wet_paint_around(
     painting: &mut Painting,
     [x_mm, y_mm]: [f64; 2],

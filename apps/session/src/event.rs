@@ -16,7 +16,7 @@ use super::state::{PaintingState, Performance};
 /// Pixels of a rectangle of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TilePixels {
-    /// Cells of the rectangle; one pixel is one cell.
+    /// Cells of the rectangle. A pixel is a cell.
     pub rect: Rect,
     /// sRGB and alpha with 8 bits each, row by row.
     pub pixels: Vec<[u8; 4]>,
@@ -31,7 +31,7 @@ pub struct PickedLayer {
     pub slots: Slots,
     /// Mean height of each slot and, last, of the vehicle, in mm.
     pub amounts_mm: [f64; SLOTS + 1],
-    /// Factor of the optical thickness; 0 if the layer is hidden.
+    /// Factor of the optical thickness. A hidden layer has 0.
     pub opacity: f64,
 }
 
@@ -44,14 +44,14 @@ pub struct Picked {
     pub x_mm: f64,
     /// Distance from the upper edge in mm.
     pub y_mm: f64,
-    /// Mean reflectance on the grid of the library, as an instrument would measure it: without
+    /// Mean reflectance on the grid of the library as an instrument would measure it, without
     /// relief and gloss.
     pub reflectance: Vec<f64>,
     /// Dry layers from the lowest, then the wet layer.
     pub layers: Vec<PickedLayer>,
 }
 
-/// Copy of the painting at one moment.
+/// The painting at one moment.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
     /// Number of the request.
@@ -62,18 +62,18 @@ pub struct Snapshot {
     pub palette: Arc<Document>,
     /// All brushes with the paint that they hold.
     pub brushes: Arc<Vec<KeptBrush>>,
-    /// Counter of changes of the painting. If two snapshots have the same value, nothing changed
+    /// Counts changes of the painting: if two snapshots have the same value, nothing changed
     /// between them.
     pub revision: u64,
 }
 
-/// All that a later session needs to go on from one moment.
+/// Everything that a later session needs to continue from one moment.
 #[derive(Debug, Clone)]
 pub struct KeptPainting {
     /// Canvas and palette.
     pub snapshot: Snapshot,
-    /// The recording from the action that was asked for; `None` if nothing is recorded, or if
-    /// samples of a stroke that is played wait to be painted.
+    /// The recording from the action that you asked for. This is `None` if nothing is recorded, or
+    /// if samples of a replayed stroke still wait.
     pub recording: Option<RecordingTail>,
     /// All heads, with the paint on them.
     pub brushes: Vec<KeptHead>,
@@ -86,7 +86,7 @@ pub struct KeptPainting {
 pub enum Event {
     /// Another painting was opened. Both pictures follow completely.
     Opened(Arc<PaintingState>),
-    /// State besides pixels changed.
+    /// Something other than pixels changed.
     State(Arc<PaintingState>),
     /// Part of a picture changed.
     Tiles {
@@ -99,7 +99,7 @@ pub enum Event {
         /// Arrival time of the newest pen sample that the tiles show.
         newest: Option<Instant>,
     },
-    /// Shape of the head as it is bent now; `None` after it was lifted.
+    /// How the head is bent now, or `None` after it was lifted.
     Head(Option<Arc<HeadOnCanvas>>),
     /// Painting speed and latency changed.
     Performance(Performance),
@@ -125,8 +125,8 @@ pub enum Event {
     },
     /// A replay ended or was cancelled.
     Replayed,
-    /// A brush ended a stroke with other pigments at its tip than it was loaded with; the front
-    /// end advises to wash or wipe it. Sent once in the life of a worker.
+    /// After a stroke, a brush had pigments at its tip that it was not loaded with. The front end
+    /// advises you to wash or wipe it. A worker sends this only once.
     DirtyBrush(String),
     /// A message for the painter, for example that the recording ended early.
     Message {
@@ -139,7 +139,7 @@ pub enum Event {
     },
 }
 
-/// Surface of a head over the canvas, for drawing.
+/// The head over the canvas, to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeadOnCanvas {
     /// Surface that the head is over.
@@ -148,7 +148,7 @@ pub struct HeadOnCanvas {
     pub around: usize,
     /// Number of vertices from the ferrule to the tip.
     pub along: usize,
-    /// `around * along` vertices, the ferrule first: x and y in cells of the canvas, height in
+    /// `around * along` vertices, starting at the ferrule: x and y in cells of the canvas, height in
     /// cells.
     pub vertices: Vec<[f32; 3]>,
 }

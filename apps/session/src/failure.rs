@@ -1,14 +1,14 @@
-//! Errors of autosave files.
+//! Errors with files and folders of the session.
 
 use std::path::Path;
 
 use documents::hint::{Explain, Fault, Hint};
 
-/// A file or folder that cannot be used, with the causes in one sentence.
+/// A file or folder that cannot be used. The message is one sentence with the causes.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{what}")]
 pub struct FileFailure {
-    /// Path, and what is wrong with it.
+    /// The path, and what is wrong with it.
     pub what: String,
     /// Advice on what to do, if there is any.
     pub hint: Option<Hint>,
@@ -20,15 +20,15 @@ impl FileFailure {
         Self { what: with_causes(error), hint: error.hint() }
     }
 
-    /// A failure reported by the operating system: `path` cannot be read, written and so on;
-    /// `participle` is that word.
+    /// A failure that the operating system reports: `path` cannot be `participle`, e.g. "read" or
+    /// "written".
     pub fn io(path: &Path, participle: &str, error: &std::io::Error) -> Self {
         let what = format!("{}: cannot be {participle}: {error}", path.display());
         Self { what, hint: error.hint() }
     }
 
-    /// A failure of the operating system with something that the painter knows by another name
-    /// than its file, such as an autosave.
+    /// A failure that the operating system reports about a thing that the painter does not know by
+    /// its file, e.g. an autosave.
     pub(crate) fn about(thing: &str, participle: &str, error: &std::io::Error) -> Self {
         Self { what: format!("{thing}: cannot be {participle}: {error}"), hint: error.hint() }
     }

@@ -8,26 +8,23 @@ use paint::strokes::Action;
 
 use super::command::Command;
 
-/// Message to the worker thread.
 #[derive(Debug)]
 pub(super) enum Input {
-    /// A command to execute.
     Command(Command),
     /// The front end received this many parts of pictures.
     Confirmed(usize),
 }
 
-/// Commands in their order, and urgent requests.
+/// Commands in order, and urgent requests.
 #[derive(Debug)]
 pub(super) struct Inbox {
     receiver: Receiver<Input>,
     waiting: VecDeque<Command>,
-    /// Number of parts of pictures that the front end confirmed since this was last reset.
+    /// How many parts of pictures the front end confirmed since this was last reset.
     pub(super) confirmed: usize,
-    /// Whether the replay must end.
     pub(super) cancelled: bool,
-    /// Whether the thread must end: by [`Command::Quit`], or because the front end dropped its
-    /// handle.
+    /// Whether the thread must end, because of [`Command::Quit`] or because the front end dropped
+    /// its handle.
     pub(super) quit: bool,
 }
 
@@ -36,7 +33,7 @@ impl Inbox {
         Self { receiver, waiting: VecDeque::new(), confirmed: 0, cancelled: false, quit: false }
     }
 
-    /// Receives all messages; if there is none, waits for one as long as `wait` allows.
+    /// Receives all messages. If there are none, waits as long as `wait` allows.
     pub(super) fn receive(&mut self, wait: Wait) {
         let first = match wait {
             Wait::None => None,
@@ -81,7 +78,6 @@ impl Inbox {
         }
     }
 
-    /// Removes the next command.
     pub(super) fn next(&mut self) -> Option<Command> {
         self.waiting.pop_front()
     }
@@ -96,9 +92,9 @@ impl Inbox {
         self.waiting.front().is_some_and(wanted)
     }
 
-    /// Removes the commands that can be executed during a replay, out of their order.
+    /// Removes the commands that can be executed during a replay, even if others come before them.
     pub(super) fn take_questions(&mut self) -> Vec<Command> {
-        let is_question = |command: &Command| {
+        let (questions, others) = self.waiting.drain(..).partition(|command| {
             matches!(
                 command,
                 Command::Snapshot(_)
@@ -106,13 +102,11 @@ impl Inbox {
                     | Command::Pick { .. }
                     | Command::SetUndoBytes(_)
             )
-        };
-        let (questions, others) = self.waiting.drain(..).partition(is_question);
+        });
         self.waiting = others;
         Vec::from(questions)
     }
 
-    /// Whether no command waits.
     pub(super) fn is_empty(&self) -> bool {
         self.waiting.is_empty()
     }
@@ -129,7 +123,7 @@ impl Inbox {
     }
 }
 
-/// How long a worker may wait for commands.
+/// How long the worker may wait for commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Wait {
     /// Not at all: there is work to do.
@@ -141,7 +135,7 @@ pub enum Wait {
 }
 
 impl Wait {
-    /// The wait until `then`; forever if it is `None`.
+    /// Waits until `then`, or forever if this is `None`.
     pub(crate) fn until(then: Option<Instant>) -> Self {
         match then {
             None => Self::Forever,
@@ -151,7 +145,7 @@ impl Wait {
     }
 }
 
-/// Whether `new` replaces `waiting`: while a slider is dragged, only its last value counts.
+/// Whether `new` replaces `waiting`: only the last value counts while you drag a slider.
 fn is_outdated_by(waiting: &Command, new: &Command) -> bool {
     match (waiting, new) {
         (Command::Adjust(Action::Light(_)), Command::Adjust(Action::Light(_)))
@@ -191,9 +185,12 @@ mod tests {
 
     #[test]
     fn only_the_last_value_of_a_drag_is_kept() {
-        let opacity =
-            |layer, value| Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value });
-        let stiffness = |value| Command::Adjust(Action::Stiffness { value });
+        fn opacity(layer: usize, value: f64) -> Command {
+            Command::Adjust(Action::Opacity { layer: LayerRef::Dry(layer), value })
+        }
+        fn stiffness(value: f64) -> Command {
+            Command::Adjust(Action::Stiffness { value })
+        }
         let mut inbox = received(vec![
             Command::Adjust(light(1.0)),
             Command::Adjust(light(2.0)),

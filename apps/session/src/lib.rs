@@ -1,8 +1,8 @@
-//! A session of painting: the thread that owns the paint, and what keeps it safe.
+//! A session of painting: the thread that owns the paint, and the autosaves that protect it.
 //!
-//! A front end (a window, a browser, a test) sends [`Command`]s to the [`Worker`] and
-//! reads its [`Event`]s. [`Autosave`] keeps the paintings on the disk, and [`LostSession`]
-//! finds the autosaves of programs that were killed.
+//! A front end (e.g. a window, a browser or a test) sends [`Command`]s to the [`Worker`] and reads
+//! its [`Event`]s. [`Autosave`] saves the paintings to the disk, and [`LostSession`] finds the
+//! autosaves of programs that were killed.
 //!
 //! ```text
 //! front end -- Command --> Worker: inbox -> dispatch -> PaintingSession -> paint engine
@@ -40,7 +40,7 @@
 //! # Ok::<(), std::sync::mpsc::RecvError>(())
 //! ```
 //!
-//! Out of scope: windows, pens and pictures on a screen (crate `studio`).
+//! This crate knows nothing of windows, pens and pictures on a screen: see the crate `studio`.
 mod state;
 mod event;
 mod command;

@@ -1,6 +1,5 @@
-//! Performance of the worker: sub-steps per second and latency of samples.
-//!
-//! The paint that a tool took off a surface, in words for the painter.
+//! Measures how fast the worker paints and how long samples wait, and reports in words how much
+//! paint a tool took off a surface.
 
 use std::collections::VecDeque;
 
@@ -11,14 +10,14 @@ use web_time::{Duration, Instant};
 
 use super::state::Performance;
 
-/// Time that the performance is averaged over.
+/// The performance is averaged over this time.
 const SPAN: Duration = Duration::from_secs(1);
 
-/// Duration of a slice of painting. It is short, because commands are received and pictures are
-/// sent only between slices.
+/// Duration of a slice of painting. Keep this short: commands are received and pictures are sent
+/// only between slices.
 const SLICE: Duration = Duration::from_millis(8);
 
-/// Painting time in ms that may wait without the paint being behind: three frames of 50 ms.
+/// If more painting time than this waits, the paint is behind. This is three frames of 50 ms.
 const BEHIND_MS: f64 = 150.0;
 
 /// Measures painting speed and the latency of samples.
@@ -26,9 +25,9 @@ const BEHIND_MS: f64 = 150.0;
 pub(super) struct Meter {
     /// End, number of sub-steps and duration of the last slices.
     slices: VecDeque<(Instant, usize, Duration)>,
-    /// For the last samples, the time at which their tiles were sent and the latency in ms.
+    /// For each of the last samples, the time at which we sent its tiles, and its latency in ms.
     samples: VecDeque<(Instant, f64)>,
-    /// Smoothed number of sub-steps per second while painting.
+    /// Sub-steps per second while painting, smoothed.
     speed: f64,
 }
 
@@ -40,7 +39,6 @@ impl Default for Meter {
 }
 
 impl Meter {
-    /// Number of sub-steps of the next slice.
     pub(super) fn slice(&self) -> usize {
         ((self.speed * SLICE.as_secs_f64()) as usize).clamp(8, 4096)
     }
@@ -56,7 +54,7 @@ impl Meter {
         self.speed += 0.3 * (measured - self.speed);
     }
 
-    /// Adds a sample that arrived at `arrived` and whose tiles are sent at `now`.
+    /// Adds a sample that arrived at `arrived` and is shown by tiles sent at `now`.
     pub(super) fn add_sample(&mut self, now: Instant, arrived: Instant) {
         let ms = now.saturating_duration_since(arrived).as_secs_f64() * 1000.0;
         self.samples.push_back((now, ms));
@@ -67,7 +65,7 @@ impl Meter {
         self.slices.is_empty() && self.samples.is_empty()
     }
 
-    /// Performance of the last second; `behind` sub-steps wait.
+    /// Performance of the last second while `behind` sub-steps wait.
     pub(super) fn performance(&mut self, now: Instant, behind: usize) -> Performance {
         let old = |at: Instant| now.saturating_duration_since(at) > SPAN;
         while self.slices.front().is_some_and(|(at, ..)| old(*at)) {
@@ -88,8 +86,8 @@ impl Meter {
     }
 }
 
-/// Message after a stroke of `tool` that took `taken`, and advice or the parts of the paint in mm3.
-/// Canvas and palette have the pigments of `canvas` in their slots.
+/// Message after a stroke of `tool` that took `taken`, with advice or the parts of the paint in
+/// mm3. The pigments of `canvas` are in the slots of both surfaces.
 pub(super) fn tally(
     tool: StrokeTool,
     taken: &TakenPaint,

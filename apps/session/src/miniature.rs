@@ -1,8 +1,6 @@
-//! A small picture of the canvas that follows its changes.
-//!
-//! Summary of a dry layer: statistics of all cells, and some cells for a thumbnail.
-//!
-//! Pictures of the canvas after each action of the history, in a limited memory.
+//! Small pictures: a picture of the canvas that follows its changes, thumbnails of dry layers with
+//! statistics of their cells, and pictures of the canvas after each action of the history within
+//! limited memory.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,18 +19,19 @@ use super::state::{HistoryShot, HistoryShots, LayerState, Thumbnail};
 /// Longer side of the small picture in pixels, for canvases of up to `LONGEST * TILE` cells.
 const LONGEST: usize = 240;
 
-/// A small picture whose pixels are means of squares of cells, and the tiles that changed since.
+/// A small picture of the canvas. Each pixel is the mean of a square of cells. Also notes which
+/// tiles changed since.
 #[derive(Debug, Clone)]
 pub(super) struct Miniature {
     bounds: Rect,
-    /// Side of a pixel in cells, a power of two that divides a tile.
+    /// Side of a pixel in cells: a power of two that divides a tile.
     step: usize,
     picture: Thumbnail,
     stale: TileSet,
 }
 
 impl Miniature {
-    /// A picture of a canvas of `bounds`, all of which is still to be read.
+    /// A picture of a canvas of `bounds`. None of it has been read yet.
     pub(super) fn new(bounds: Rect) -> Self {
         let longer = bounds.width.max(bounds.height);
         let mut step = 1;
@@ -45,7 +44,6 @@ impl Miniature {
         Self { bounds, step, picture, stale: TileSet::all(bounds) }
     }
 
-    /// Canvas of the picture.
     pub(super) fn bounds(&self) -> Rect {
         self.bounds
     }
@@ -57,12 +55,9 @@ impl Miniature {
         }
     }
 
-    /// The picture with all changes. `read` returns a rectangle of the canvas in linear sRGB; it is
-    /// called once for each run of changed tiles in a row, as each call may be a transfer from the
-    /// device.
-    ///
-    /// # Errors
-    /// The errors of `read`.
+    /// The picture with all changes. `read` returns a rectangle of the canvas in linear sRGB. Each
+    /// call may transfer data from the device, so this calls it only once for each run of changed
+    /// tiles in a row.
     pub(super) fn picture<E>(
         &mut self,
         bytes: &SrgbBytes,
@@ -99,7 +94,7 @@ impl Miniature {
     }
 }
 
-/// The pixels in which two pictures of one size differ, as left, top, width and height; `None` if
+/// Where two pictures of one size differ: left, top, width and height in pixels. Returns `None` if
 /// they are equal.
 pub(super) fn difference(before: &Thumbnail, after: &Thumbnail) -> Option<[usize; 4]> {
     let pairs = before.pixels.iter().zip(&after.pixels).enumerate();
@@ -112,14 +107,13 @@ pub(super) fn difference(before: &Thumbnail, after: &Thumbnail) -> Option<[usize
     extent.map(|[x0, y0, x1, y1]| [x0, y0, x1 - x0 + 1, y1 - y0 + 1])
 }
 
-/// Longer side of a thumbnail in pixels: enough for a row of the panel on a screen with two pixels
-/// a point.
+/// Longer side of a thumbnail in pixels. This is enough for a row of the panel on a screen with two
+/// pixels per point.
 const LONGEST_THUMBNAIL: usize = 160;
 
-/// Number of cells per pixel in each direction.
+/// Sampled cells per pixel in each direction.
 const PROBES: usize = 2;
 
-/// Statistics and sampled cells of a dry layer.
 #[derive(Debug, Clone)]
 pub(super) struct LayerSummary {
     mean_mm: f64,
@@ -130,11 +124,8 @@ pub(super) struct LayerSummary {
 }
 
 impl LayerSummary {
-    /// Summary of a layer of `bounds`. `read` returns the paint of a rectangle; it is called
-    /// for rows of tiles.
-    ///
-    /// # Errors
-    /// The errors of `read`.
+    /// Summary of a layer of `bounds`. `read` returns the paint of a rectangle, and is called once
+    /// for each row of tiles.
     pub(super) fn new<E>(
         bounds: Rect,
         cell_mm: f64,
@@ -142,8 +133,9 @@ impl LayerSummary {
     ) -> Result<Self, E> {
         let (width, height) = size(bounds);
         let mut cells = Layer::empty(PROBES * width, PROBES * height);
-        let place =
-            |index: usize, count: usize, along: usize| (2 * index + 1) * along / (2 * count);
+        fn place(index: usize, count: usize, along: usize) -> usize {
+            (2 * index + 1) * along / (2 * count)
+        }
         let columns: Vec<usize> =
             (0..cells.width()).map(|x| place(x, cells.width(), bounds.width)).collect();
         let rows: Vec<usize> =
@@ -177,7 +169,7 @@ impl LayerSummary {
         })
     }
 
-    /// State of the layer whose properties are `dry`.
+    /// State of this layer, which has the properties `dry`.
     pub(super) fn state(
         &self,
         dry: &DryLayerState,
@@ -197,7 +189,7 @@ impl LayerSummary {
         }
     }
 
-    /// Picture of the layer alone over the ground, with its opacity, whether it is shown or not.
+    /// Picture of the layer alone over the ground. Uses its opacity, even if the layer is hidden.
     fn thumbnail(&self, dry: &DryLayerState, painting: &Painting, bytes: &SrgbBytes) -> Thumbnail {
         let columns = self.cells.width();
         let rows = self.cells.height();
@@ -205,8 +197,7 @@ impl LayerSummary {
         let layer = DryLayer { opacity: dry.opacity, ..layer };
         let document = document_of(painting, layer);
         let mut scene = scene::scene(&document, painting.light());
-        // Neighbouring sampled cells are not neighbours on the canvas, so their slopes have no
-        // meaning.
+        // The sampled cells are not neighbours on the canvas, so slopes between them mean nothing.
         scene.lamp.relief = 0.0;
         let picture = scene::picture(&document, &scene);
         let width = columns / PROBES;
@@ -253,17 +244,18 @@ fn document_of(painting: &Painting, layer: DryLayer) -> Document {
     document
 }
 
-/// Width and height of the thumbnail of a canvas in pixels, at most one pixel a cell.
+/// Width and height of the thumbnail of a canvas in pixels, at most one pixel per cell.
 fn size(bounds: Rect) -> (usize, usize) {
     let longer = bounds.width.max(bounds.height);
-    let side = |cells: usize| (cells * LONGEST_THUMBNAIL.min(longer) / longer.max(1)).max(1);
-    (side(bounds.width), side(bounds.height))
+    let [width, height] = [bounds.width, bounds.height]
+        .map(|cells| (cells * LONGEST_THUMBNAIL.min(longer) / longer.max(1)).max(1));
+    (width, height)
 }
 
-/// Memory of all pictures, in bytes.
+/// Memory of all pictures together.
 const MOST_BYTES: usize = 24 << 20;
 
-/// Pictures by the number of the state that they show.
+/// Pictures of the canvas. Each is known by the number of the state that it shows.
 #[derive(Debug, Clone)]
 pub(super) struct Shots {
     /// Numbers of the states that can be reached.
@@ -279,8 +271,8 @@ impl Default for Shots {
 }
 
 impl Shots {
-    /// Adopts the numbers of the states that can be reached now, the beginning first. Pictures of
-    /// others are dropped. The numbers rise.
+    /// Takes the numbers of the states that you can reach now, starting with the first. They rise.
+    /// Drops the pictures of all other states.
     pub(super) fn follow(&mut self, numbers: &[u64]) {
         self.order.clear();
         self.order.extend_from_slice(numbers);
@@ -292,14 +284,14 @@ impl Shots {
         self.order.get(done).is_some_and(|number| self.taken.contains_key(number))
     }
 
-    /// Keeps the picture after the first `done` actions. If the memory is full, the pictures of the
-    /// oldest actions are dropped.
+    /// Stores the picture after the first `done` actions. If the memory is full, this drops the
+    /// pictures of the oldest actions.
     pub(super) fn keep(&mut self, done: usize, picture: &Thumbnail) {
         let Some(&number) = self.order.get(done) else { return };
         let previous = done.checked_sub(1).and_then(|before| self.taken.get(&self.order[before]));
         let changed = previous.and_then(|previous| difference(&previous.picture, picture));
         let same = previous.filter(|previous| *previous.picture == *picture);
-        // Actions on the palette leave the canvas as it was.
+        // Actions on the palette do not change the canvas.
         let picture =
             same.map_or_else(|| Arc::new(picture.clone()), |same| Arc::clone(&same.picture));
         self.taken.insert(number, HistoryShot { picture, changed });
@@ -314,7 +306,7 @@ impl Shots {
         }
     }
 
-    /// Memory that the pictures take, in bytes; a picture that several actions share counts once.
+    /// Memory of the pictures. A picture that several actions share counts once.
     fn bytes(&self) -> usize {
         let in_order = self.order.iter().filter_map(|number| self.taken.get(number));
         let mut last: Option<&Arc<Thumbnail>> = None;
@@ -357,7 +349,7 @@ mod tests {
     #[test]
     fn pixels_are_the_means_of_linear_light_also_at_the_rim() {
         let bytes = SrgbBytes::new();
-        // 500 cells need squares of 4; the last column of pixels has 2 cells.
+        // 500 cells need squares of 4. The last column of pixels has 2 cells.
         let checks = canvas(498, 70, |x, y| ((x + y) % 2) as f32);
         let mut small = Miniature::new(checks.bounds());
         let picture = small.picture(&bytes, read(&checks)).unwrap().clone();
@@ -416,7 +408,7 @@ mod tests {
             assert!(shots.has(number as usize));
         }
         assert_eq!(shades(&shots), [Some(10), Some(11), Some(12), Some(13)]);
-        // Two actions undone, another done in their place.
+        // Two actions were undone and another was done.
         shots.follow(&[0, 1, 4]);
         assert_eq!(shades(&shots), [Some(10), Some(11), None]);
         assert_eq!(shots.taken.len(), 2, "pictures of what was undone for good are dropped");

@@ -1,4 +1,4 @@
-//! Opening paintings, playing recordings, and recovering after a lost device.
+//! Opens paintings, plays recordings, and recovers the painting when the graphics device is lost.
 
 use documents::hint::{Explain, Hint};
 use paint::session::SessionError;
@@ -20,19 +20,15 @@ const GO_ON: &str = "paint on, or save the painting";
 /// Advice after a recording that was not played to its end.
 const STAYS: &str = "what was played stays, open the recording again to play it from its start";
 
-/// How a replay ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ending {
-    /// All actions were played.
     Played,
-    /// The painter stopped it.
     Stopped,
-    /// An action was refused.
     Refused,
 }
 
 impl WorkerLoop<'_> {
-    /// Opens a painting in place of the open one. If that fails, the error is reported and the open
+    /// Opens a painting and closes the open one. If this fails, it reports the error and the open
     /// painting stays.
     pub(super) fn open(&mut self, origin: Origin) {
         let prepared = prepare(origin, &mut self.backend, self.undo_bytes);
@@ -72,10 +68,10 @@ impl WorkerLoop<'_> {
         true
     }
 
-    /// Starts to play a script on the painting that it describes.
+    /// Opens the painting that a script describes and starts to play the script.
     pub(super) fn replay(&mut self, script: StrokeScript, library: &PigmentLibrary, pace: Pace) {
-        // Checked before the open painting is replaced. The pigments of a script that
-        // continues a painting are known only with that painting.
+        // We check this before we replace the open painting. If the script continues a painting,
+        // its pigments are known only once that painting is open.
         if script.start.is_none()
             && let Err(error) = script.resolve(library)
         {
@@ -137,11 +133,11 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Ends the replay, and says how far it came and what to do.
+    /// Ends the replay, and reports how far it came and what you can do.
     fn end_replay(&mut self, ending: Ending) -> Result<(), SessionError> {
         self.pause = None;
         let Some(playing) = self.playing.take() else { return Ok(()) };
-        // The samples of the open stroke that were already added are still painted.
+        // Some samples of the open stroke were added already: paint them.
         self.lift()?;
         (self.send)(playing.progress_now());
         let unwritten = match playing.unsaved {
@@ -153,7 +149,7 @@ impl WorkerLoop<'_> {
         let told = match ending {
             Ending::Played => Some((format!("the recording was played, {count}"), GO_ON)),
             Ending::Stopped => Some((format!("the recording was stopped after {count}"), STAYS)),
-            // The reason was told.
+            // The user has seen the reason already.
             Ending::Refused => None,
         };
         if let Some((text, hint)) = told {
@@ -164,15 +160,15 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Keeps `snapshot` for [`Self::recover`] if the paint is on a graphics device.
+    /// Stores `snapshot` for [`Self::recover`] if the paint is on a graphics device.
     pub(super) fn keep(&mut self, snapshot: &Snapshot) {
         if self.backend.is_device() {
             self.kept = Some(snapshot.clone());
         }
     }
 
-    /// Opens the last snapshot on the processor after the device was lost. Without a snapshot, the
-    /// painting is lost, which is reported.
+    /// Opens the last snapshot on the processor after the device was lost. Without a snapshot the
+    /// painting is gone, and this reports it.
     pub(super) fn recover(&mut self) {
         (self.open, self.stroke, self.playing, self.pause) = (None, None, None, None);
         self.backend.fall_back();
@@ -206,8 +202,8 @@ mod tests {
     use std::sync::Arc;
     use std::sync::mpsc::channel;
 
-    /// Paints and loses the device; returns the snapshot, if the painting was recovered, and the
-    /// events since. `saved` is whether a snapshot was sent before.
+    /// Paints and loses the device. Returns the snapshot if the painting was recovered, and the
+    /// events since. Pass `saved` if a snapshot was sent before.
     fn lost(saved: bool) -> (Option<Snapshot>, Vec<Event>) {
         let events = RefCell::new(Vec::new());
         let (_sender, receiver) = channel();
@@ -230,7 +226,7 @@ mod tests {
         let palette = Arc::new(palette.unwrap());
         let brushes = Arc::new(worker.session().kept_brushes().unwrap());
         let snapshot = Snapshot { number: 1, canvas, palette, brushes, revision: 1 };
-        // Set by hand, because a worker without a graphics device keeps no snapshot.
+        // Set by hand, because a worker without a graphics device stores no snapshot.
         worker.kept = saved.then(|| snapshot.clone());
         events.borrow_mut().clear();
         let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };
@@ -252,10 +248,12 @@ mod tests {
         let [first, Event::Opened(_), last] = &events[..] else {
             panic!("three events: {events:?}")
         };
-        let message = |event: &Event| match event {
-            Event::Message { text, failed, .. } => (text.clone(), *failed),
-            other => panic!("no message: {other:?}"),
-        };
+        fn message(event: &Event) -> (String, bool) {
+            match event {
+                Event::Message { text, failed, .. } => (text.clone(), *failed),
+                other => panic!("no message: {other:?}"),
+            }
+        }
         assert!(message(first).0.contains("pulled out") && message(first).1, "the loss is told");
         assert!(message(last).0.contains("processor") && !message(last).1, "and the way on");
     }

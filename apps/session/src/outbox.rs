@@ -1,6 +1,5 @@
-//! Sends pictures to the front end, never more than it receives.
-//!
-//! Painting the open stroke in slices, and the latency of its samples.
+//! Sends pictures to the front end, but never more than it can take, paints the open stroke in
+//! slices, and measures the latency of its samples.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -18,27 +17,26 @@ use super::miniature::Miniature;
 use super::srgb::{SrgbBytes, encode};
 use super::state::Thumbnail;
 
-/// Maximum number of parts sent and not confirmed: a little more than two frames. Without this
-/// limit, a slow front end would receive outdated pictures first.
+/// Most parts that may be sent without being confirmed: a little more than two frames. Without this
+/// limit, a slow front end would first receive pictures that are out of date.
 const MOST_UNCONFIRMED: usize = 4;
 
-/// Maximum number of tiles in a part.
 const PART_TILES: usize = 128;
 
-/// Minimum time between two renderings: 60 a second.
+/// Shortest time between two renderings: 60 a second.
 const SHORTEST_INTERVAL: Duration = Duration::from_micros(16_000);
 
-/// Maximum time between two renderings, if they take long.
+/// Longest time between two renderings, if they are slow.
 const LONGEST_INTERVAL: Duration = Duration::from_millis(33);
 
-/// Least time between two renderings, as a multiple of the time that one takes. In a page, rendering and
-/// painting share a thread.
+/// The time between two renderings is at least this multiple of the time that one takes. In a page,
+/// rendering and painting share a thread.
 const RENDERING_TIMES: u32 = if cfg!(target_arch = "wasm32") { 6 } else { 3 };
 
 /// Time between two renderings while the paint is behind the pen: 20 a second.
 const INTERVAL_BEHIND: Duration = Duration::from_millis(48);
 
-/// One picture and the tiles that must be sent.
+/// A picture and the tiles that must be sent.
 #[derive(Debug)]
 struct UnsentTiles {
     surface: SurfaceId,
@@ -47,7 +45,7 @@ struct UnsentTiles {
 }
 
 impl UnsentTiles {
-    /// Renders what changed. The tiles must be sent, and read anew for the small picture.
+    /// Renders what changed. These tiles must be sent, and read again for the small picture.
     fn refresh(
         &mut self,
         painting: &mut Painting,
@@ -72,20 +70,22 @@ impl UnsentTiles {
 pub(super) struct Outbox {
     bytes: SrgbBytes,
     views: [UnsentTiles; 4],
-    /// Small picture of the canvas; `None` until it was needed.
+    /// Small picture of the canvas. It is `None` until someone asks for it.
     small: Option<Miniature>,
-    /// Number of parts sent and not confirmed.
+    /// Parts that were sent but not confirmed.
     unconfirmed: usize,
     next: Instant,
-    /// Arrival times of the samples that are painted and whose tiles are not all sent yet.
+    /// When the samples arrived that are painted, but with tiles that are not all sent yet.
     arrived: VecDeque<Instant>,
-    /// Whether the paint is behind the pen, so that pictures give way to it.
+    /// If this is true, the paint is behind the pen and goes before pictures.
     pub(super) paint_is_behind: bool,
 }
 
 impl Outbox {
     pub(super) fn new() -> Self {
-        let view = |surface, second| UnsentTiles { surface, second, unsent: TileSet::default() };
+        fn view(surface: SurfaceId, second: bool) -> UnsentTiles {
+            UnsentTiles { surface, second, unsent: TileSet::default() }
+        }
         Self {
             bytes: SrgbBytes::new(),
             views: [
@@ -106,7 +106,7 @@ impl Outbox {
         &self.bytes
     }
 
-    /// Drops everything that was not sent. Called when another painting was opened.
+    /// Drops everything that was not sent. Call this when another painting was opened.
     pub(super) fn clear(&mut self) {
         for view in &mut self.views {
             view.unsent = TileSet::default();
@@ -120,7 +120,7 @@ impl Outbox {
         self.unconfirmed = self.unconfirmed.saturating_sub(parts);
     }
 
-    /// Adds a sample that the paint has reached, by its arrival time.
+    /// Adds a sample that is painted now, by the time of its arrival.
     pub(super) fn add_reached(&mut self, arrived: Instant) {
         self.arrived.push_back(arrived);
     }
@@ -130,12 +130,12 @@ impl Outbox {
         self.unconfirmed < MOST_UNCONFIRMED && now >= self.next
     }
 
-    /// Time of the next rendering; `None` while too many parts are not confirmed.
+    /// Time of the next rendering, or `None` while too many parts are not confirmed.
     pub(super) fn due(&self) -> Option<Instant> {
         (self.unconfirmed < MOST_UNCONFIRMED).then_some(self.next)
     }
 
-    /// Sends the head; it counts as a part.
+    /// Sends the head, which counts as a part.
     pub(super) fn send_head(&mut self, head: HeadOnCanvas, send: &dyn Fn(Event)) {
         send(Event::Head(Some(Arc::new(head))));
         self.unconfirmed += 1;
@@ -147,9 +147,6 @@ impl Outbox {
     }
 
     /// Small picture of the canvas as it is now.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
     pub(super) fn small_picture(
         &mut self,
         canvas: &mut Painting,
@@ -165,9 +162,6 @@ impl Outbox {
     }
 
     /// Renders the changed tiles and sends as many as the front end can receive.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
     pub(super) fn send_changes(
         &mut self,
         session: &mut PaintingSession,
@@ -177,9 +171,8 @@ impl Outbox {
         let start = Instant::now();
         for view in &mut self.views {
             let painting = session.painting_mut(view.surface);
-            let exists =
-                |painting: &&mut Painting| !view.second || painting.second_light().is_some();
-            let Some(painting) = painting.filter(exists) else {
+            let shown = painting.filter(|own| !view.second || own.second_light().is_some());
+            let Some(painting) = shown else {
                 view.unsent = TileSet::default();
                 continue;
             };
@@ -223,25 +216,21 @@ fn take_first_tiles(set: &mut TileSet, most: usize) -> TileSet {
     first
 }
 
-/// Arrival times of the samples of the session's open stroke, and the work done for it. The
-/// stroke itself is in the session ([`PaintingSession::stroke_progress`]).
+/// When the samples of the open stroke arrived, and how much of it is painted. The session holds
+/// the stroke itself ([`PaintingSession::stroke_progress`]).
 #[derive(Debug, Default)]
 pub(super) struct StrokeTiming {
-    /// Arrival times of the samples up to which the stroke is not painted yet.
+    /// When the samples that are not painted yet arrived.
     arrived: VecDeque<Instant>,
-    /// Number of samples up to which the stroke is painted.
+    /// How many samples are painted.
     reached: usize,
-    /// Number of sub-steps painted.
     painted: usize,
-    /// Whether a sample was refused.
     pub(super) refused: bool,
 }
 
 impl StrokeTiming {
-    /// Adds a sample to the open stroke.
-    ///
-    /// # Errors
-    /// [`SessionError`] for an impossible sample; the stroke goes on without it.
+    /// Adds a sample to the open stroke. An impossible sample is an error, and the stroke goes on
+    /// without it.
     pub(super) fn extend(
         &mut self,
         session: &mut PaintingSession,
@@ -253,11 +242,7 @@ impl StrokeTiming {
         Ok(())
     }
 
-    /// Paints one slice of the open stroke, about 8 ms of work. Returns whether anything was
-    /// painted.
-    ///
-    /// # Errors
-    /// [`SessionError`] if the device was lost.
+    /// Paints one slice of the open stroke, about 8 ms of work. Returns whether there was work.
     pub(super) fn paint_slice(
         &mut self,
         session: &mut PaintingSession,
@@ -286,7 +271,7 @@ impl StrokeTiming {
     }
 }
 
-/// Number of sub-steps of the open stroke that follow from its samples and are not painted yet.
+/// Sub-steps of the open stroke that follow from its samples and wait to be painted.
 pub(super) fn waiting_substeps(session: &PaintingSession) -> usize {
     session.stroke_progress().map_or(0, OpenStroke::waiting)
 }
@@ -296,7 +281,7 @@ pub(super) fn is_lifted(session: &PaintingSession) -> bool {
     session.stroke_progress().is_some_and(OpenStroke::is_lifted)
 }
 
-/// Head of the brush of the open stroke, as it is bent now.
+/// How the head of the open stroke is bent now.
 pub(super) fn head_on_canvas(session: &PaintingSession) -> Option<HeadOnCanvas> {
     let (surface, brush) = session.open_stroke()?;
     let id = session.brush_id_on(brush, surface)?;

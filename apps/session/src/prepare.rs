@@ -1,6 +1,4 @@
-//! Preparing paintings to be worked on.
-//!
-//! Default canvas, palette and brushes.
+//! Prepares paintings to be worked on, with default canvas, palette and brushes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,18 +21,15 @@ use pigment::library::PigmentLibrary;
 use super::backend::Backend;
 use super::command::{Command, Origin};
 
-/// A session and its constant properties.
 #[derive(Debug)]
 pub(super) struct PreparedPainting {
     pub(super) session: PaintingSession,
     pub(super) library: Arc<PigmentLibrary>,
     /// Reflectance of the ground on the grid of the library.
     pub(super) ground: Arc<Vec<f64>>,
-    /// Messages about differences from the request.
     pub(super) remarks: Vec<String>,
 }
 
-/// Why a painting cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
     #[error(transparent)]
@@ -62,9 +57,6 @@ impl Explain for OpenError {
 }
 
 /// Prepares the painting of `origin`.
-///
-/// # Errors
-/// [`OpenError`]; nothing is changed then.
 pub(super) fn prepare(
     origin: Origin,
     backend: &mut Backend,
@@ -106,11 +98,8 @@ pub(super) fn prepare(
     }
 }
 
-/// Prepares the surfaces that a script starts on. A script without a palette gets one; the
-/// painting that it continues is read from its path.
-///
-/// # Errors
-/// [`OpenError`]; nothing is changed then.
+/// Prepares the surfaces that a script starts on. If the script has no palette, it gets one. If it
+/// continues a painting, this reads that painting from its path.
 pub(super) fn prepare_script(
     script: &StrokeScript,
     library: &PigmentLibrary,
@@ -136,7 +125,7 @@ pub(super) fn prepare_script(
     surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
 }
 
-/// Reads a painting, and the palette and the brushes saved with it if they are asked for.
+/// Reads a painting and, if you ask for them, the palette and the brushes saved with it.
 fn read(path: &str, with_table: bool) -> Result<(Document, Option<SideTable>), OpenError> {
     let bytes = disk::read(path)
         .map_err(|error| OpenError::Start { path: path.to_owned(), reason: error.to_string() })?;
@@ -144,7 +133,7 @@ fn read(path: &str, with_table: bool) -> Result<(Document, Option<SideTable>), O
     Ok((file::read(path, &bytes)?, table))
 }
 
-/// Name of the file that a recording on a painting names as its start.
+/// The file that a recording names as its start if it continues this painting.
 fn path_of(canvas: &Document) -> String {
     let title = if canvas.title.is_empty() { "painting" } else { canvas.title.as_str() };
     format!("{title}.exr")
@@ -159,9 +148,7 @@ fn continue_from(canvas: &Document) -> StrokeScript {
 
 /// How a session begins on its surfaces.
 enum Beginning<'a> {
-    /// It is recorded under this header.
     Recorded(&'a StrokeScript),
-    /// It goes on from another one.
     Kept(Box<KeptSession>),
 }
 
@@ -179,8 +166,8 @@ type SurfacesOfScript = (Document, Option<Document>, Vec<KeptBrush>);
 
 impl Surfaces {
     /// Makes the surfaces while another thread computes the light, since both take about as long.
-    /// If the light cannot be found, such as a lamp whose file is missing, the default light is
-    /// used and a remark says so.
+    /// If the light cannot be found, e.g. because the file of a lamp is missing, this uses the
+    /// default light and adds a remark.
     fn new(
         library: &PigmentLibrary,
         lighting: &Lighting,
@@ -205,7 +192,7 @@ impl Surfaces {
         Ok(Self { canvas, palette, brushes, light, remarks })
     }
 
-    /// A session on these surfaces. If it has no brushes, it gets the usual ones.
+    /// A session on these surfaces. Without brushes it gets the default ones.
     fn into_session(
         self,
         beginning: Beginning<'_>,
@@ -221,7 +208,7 @@ impl Surfaces {
             (palette, engine)
         });
         remarks.extend(reason.map(|reason| format!("{reason}; painting on the processor")));
-        // Both paintings share one light, because lights are compared by address.
+        // Lights are compared by address, so both paintings must share this one.
         let light = Arc::new(light);
         let (canvas, palette) = rayon::join(
             || Painting::open_under(canvas, Arc::clone(&light), engine, undo_bytes),
@@ -257,7 +244,7 @@ impl Surfaces {
     }
 }
 
-/// Pigments of the default palette: white, a cool and a warm one of each primary, black.
+/// Pigments of the default palette: white, a cool and a warm one of each primary, and black.
 const TUBES: [&str; 8] = [
     "Zinc White",
     "Chrome Yellow (Otero)",
@@ -297,9 +284,9 @@ pub fn default_mixing_canvas(cell_mm: f64) -> Canvas {
     Canvas { width_mm, height_mm, cell_mm, ground }
 }
 
-/// A canvas of `width_mm` x `height_mm` mm of primed linen with cells of `cell_mm` mm, pigments
-/// of `library` and the default brushes. The Van Gogh oils give a painter's choice of eight
-/// pigments, any other library its white and the first pigments whose scattering is known.
+/// A canvas of `width_mm` x `height_mm` mm of primed linen with cells of `cell_mm` mm, pigments of
+/// `library` and the default brushes. If you pass the Van Gogh oils, you get a painter's choice of
+/// eight pigments. Any other library gives its white and the first pigments with known scattering.
 #[must_use]
 pub fn blank_canvas(
     library: PigmentLibrary,
@@ -317,7 +304,7 @@ pub fn blank_canvas(
     Origin::Blank { script: Box::new(script), library: Box::new(library) }
 }
 
-/// The usual tubes of a library: see [`blank_canvas`].
+/// The default tubes of a library, see [`blank_canvas`].
 pub(super) fn tubes_of(library: &PigmentLibrary) -> Vec<String> {
     let mixed = library.pigments.iter().filter(|pigment| pigment.identified);
     let mut names: Vec<&str> = mixed.map(|pigment| pigment.name.as_str()).collect();
@@ -327,8 +314,8 @@ pub(super) fn tubes_of(library: &PigmentLibrary) -> Vec<String> {
     tubes.into_iter().take(TUBES.len()).map(str::to_owned).collect()
 }
 
-/// First commands of a front end: a linen canvas of 1920 x 1080 cells (192 x 108 mm), and blue
-/// on the round brush.
+/// First commands of a front end: a linen canvas of 1920 x 1080 cells (192 x 108 mm), and blue on
+/// the round brush.
 #[must_use]
 pub fn initial_commands() -> Vec<Command> {
     let paint = Load {

@@ -1,8 +1,8 @@
-//! A recording that is played, and actions that are undone together.
+//! Plays a recording, and undoes actions together.
 //!
-//! The painting is known by the numbers of
-//! [`PaintingSession::history_numbers`](paint::session::PaintingSession::history_numbers), which rise
-//! and are never given twice.
+//! States of the painting have the numbers of
+//! [`PaintingSession::history_numbers`](paint::session::PaintingSession::history_numbers). These
+//! rise and are never used twice.
 
 use paint::session::{PaintingSession, SessionError};
 use paint::strokes::{Action, SampleDecimals, Stroke, StrokeScript};
@@ -12,11 +12,10 @@ use super::command::Pace;
 use super::event::Event;
 use super::outbox::{StrokeTiming, waiting_substeps};
 
-/// Maximum number of samples added in one step of a fast replay. A cancelled replay still paints
-/// the samples that were added, so this keeps the delay short.
+/// Most samples that one step of a fast replay adds. If you cancel a replay, the samples that were
+/// added are still painted, so this limits the delay.
 const AHEAD: usize = 64;
 
-/// Minimum time between two reports of progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// A script and the position in it.
@@ -26,51 +25,41 @@ pub(super) struct Replay {
     pace: Pace,
     /// Index of the next action, or of the open stroke.
     pub(super) next: usize,
-    /// Number of samples of the open stroke that were added.
+    /// Samples of the open stroke that were added.
     added: usize,
-    /// Time at which the first sample of the open stroke was due.
+    /// When the first sample of the open stroke was due.
     start: Instant,
-    /// Number of save actions so far; a replay skips them.
+    /// Save actions so far. A replay skips them.
     pub(super) unsaved: usize,
-    /// Time of the next report of progress.
     progress_due: Instant,
 }
 
-/// Next step of a replay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
-    /// Paint the samples of the open stroke.
     Paint,
-    /// Wait until this time.
     Wait(Instant),
-    /// Apply the next action.
     Next,
-    /// The script has ended.
     End,
 }
 
 impl Replay {
-    /// A replay from the first action.
     pub(super) fn new(script: StrokeScript, pace: Pace) -> Self {
         let now = Instant::now();
         Self { script, pace, next: 0, added: 0, start: now, unsaved: 0, progress_due: now }
     }
 
-    /// Index and key of the current action, such as `action 3 (stroke)`.
+    /// Index and key of the current action, e.g. `action 3 (stroke)`.
     pub(super) fn current_action(&self) -> String {
         let kind = self.script.actions.get(self.next).map_or("end", Action::kind);
         format!("action {} ({kind})", self.next)
     }
 
-    /// Number of actions played, such as `3 of 12 actions`.
+    /// How many actions were played, e.g. `3 of 12 actions`.
     pub(super) fn count(&self) -> String {
         format!("{} of {} actions", self.next, self.script.actions.len())
     }
 
     /// Applies the next action, or begins its stroke.
-    ///
-    /// # Errors
-    /// [`SessionError`] if the session refuses the action.
     pub(super) fn next_action(
         &mut self,
         session: &mut PaintingSession,
@@ -94,10 +83,7 @@ impl Replay {
         Ok(Step::Next)
     }
 
-    /// Adds the samples that are due to the open stroke.
-    ///
-    /// # Errors
-    /// [`SessionError`] for an impossible sample.
+    /// Adds the samples that are due to the open stroke. Impossible samples are an error.
     pub(super) fn add_samples(
         &mut self,
         session: &mut PaintingSession,
@@ -134,7 +120,7 @@ impl Replay {
         Ok(Step::Paint)
     }
 
-    /// The progress, if it is due for a report.
+    /// The progress, if it is time to report it.
     pub(super) fn progress(&mut self, now: Instant) -> Option<Event> {
         if now < self.progress_due {
             return None;
@@ -148,23 +134,22 @@ impl Replay {
     }
 }
 
-/// Groups of actions of the history.
 #[derive(Debug, Default)]
 pub(super) struct Groups {
-    /// Number of the state before the group that is being made.
+    /// Number of the state before the open group.
     open: Option<u64>,
-    /// Numbers of the states before and after each group.
+    /// Numbers of the states before and after each finished group.
     whole: Vec<(u64, u64)>,
 }
 
 impl Groups {
-    /// Begins a group with the next action. `numbers` are those of all states that can be reached,
-    /// and `done` is the index of the present one.
+    /// Begins a group with the next action. `numbers` are all states that you can reach, and `done`
+    /// is the index of the present one.
     pub(super) fn begin(&mut self, numbers: &[u64], done: usize) {
         self.open = numbers.get(done).copied();
     }
 
-    /// Ends the group that is being made. It counts if it has two actions or more.
+    /// Ends the open group. It counts if it has at least two actions.
     pub(super) fn end(&mut self, numbers: &[u64], done: usize) {
         let (Some(before), Some(&now)) = (self.open.take(), numbers.get(done)) else { return };
         self.whole.retain(|(_, after)| numbers.contains(after));
@@ -173,21 +158,21 @@ impl Groups {
         }
     }
 
-    /// Gives up the group that is being made: another action came between its own.
+    /// Drops the open group, because another action came between its strokes.
     pub(super) fn give_up(&mut self) {
         self.open = None;
     }
 
-    /// Index of the state to which one undo leads, if the last action belongs to a group.
+    /// Index of the state that one undo leads to, if the last action belongs to a group.
     pub(super) fn undo_to(&self, numbers: &[u64], done: usize) -> Option<usize> {
         let now = *numbers.get(done)?;
         let (before, _) =
             self.whole.iter().find(|(before, after)| (before + 1..=*after).contains(&now))?;
-        // The state before the group may be forgotten: then the first one that is known.
+        // The state before the group may be forgotten: then use the first one that is known.
         Some(numbers.partition_point(|number| number < before))
     }
 
-    /// Index of the state to which one redo leads, if the next action belongs to a group.
+    /// Index of the state that one redo leads to, if the next action belongs to a group.
     pub(super) fn redo_to(&self, numbers: &[u64], done: usize) -> Option<usize> {
         let now = *numbers.get(done)?;
         let (_, after) =
@@ -200,7 +185,7 @@ impl Groups {
 mod tests {
     use super::*;
 
-    /// States 0 to 5, of which 2 to 4 are a group.
+    /// States 0 to 5. The actions 2 to 4 are a group.
     fn grouped() -> Groups {
         let mut groups = Groups::default();
         groups.begin(&[0, 1], 1);
@@ -212,20 +197,25 @@ mod tests {
     fn one_undo_and_one_redo_lead_over_a_whole_group() {
         let groups = grouped();
         let numbers = [0, 1, 2, 3, 4, 5];
-        let undo = |done| groups.undo_to(&numbers, done);
-        assert_eq!([undo(0), undo(1), undo(5)], [None; 3], "single actions");
-        // Also from within: the history panel leads there.
-        assert_eq!([undo(2), undo(3), undo(4)], [Some(1); 3]);
-        let redo = |done| groups.redo_to(&numbers, done);
-        assert_eq!([redo(0), redo(4), redo(5)], [None; 3]);
-        assert_eq!([redo(1), redo(2), redo(3)], [Some(4); 3]);
+        for (at, undo, redo) in [
+            (0, None, None),
+            (1, None, Some(4)),
+            // This also works from within a group, since the history panel leads there.
+            (2, Some(1), Some(4)),
+            (3, Some(1), Some(4)),
+            (4, Some(1), None),
+            (5, None, None),
+        ] {
+            assert_eq!(groups.undo_to(&numbers, at), undo, "undo from {at}");
+            assert_eq!(groups.redo_to(&numbers, at), redo, "redo from {at}");
+        }
     }
 
     #[test]
     fn a_group_whose_beginning_is_forgotten_is_undone_as_far_as_it_is_known() {
         let groups = grouped();
         assert_eq!(groups.undo_to(&[2, 3, 4], 2), Some(0));
-        // Another action took the place of its last ones.
+        // Another action replaced the last ones.
         assert_eq!(groups.redo_to(&[0, 1, 2, 9], 2), None);
         assert_eq!(groups.undo_to(&[0, 1, 2, 9], 3), None);
     }

@@ -1,12 +1,6 @@
-//! State of the painting besides its pixels, for the front end.
-//!
-//! Colours of opaque films of paint.
-//!
-//! Summaries of the dry layers, computed while the worker is idle.
-//!
-//! The mask of the canvas, for the front end.
-//!
-//! Films of the paint that a brush holds: what it covers, and what it would lay now.
+//! Reports everything about the painting except its pixels to the front end: colours of opaque
+//! films, summaries of the dry layers (computed while the worker is idle), the mask of the canvas,
+//! and films of the paint on a brush (how it covers, and what it would lay now).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -39,14 +33,14 @@ pub(super) struct Reporter {
     colors: Colors,
     pub(super) layers: Layers,
     masks: Masks,
-    /// Paint on brushes, by name. Entries that may have changed are removed.
+    /// Paint on brushes, by name. We remove entries that may have changed.
     brushes: BTreeMap<String, BrushLoad>,
-    /// Whether brushes had the pigment of each slot before their strokes, by name.
+    /// For each brush, whether it held the pigment of each slot before its strokes.
     clean: BTreeMap<String, [bool; SLOTS]>,
 }
 
-/// Paint on a brush: mean heights in mm of each slot and, last, of the vehicle, on its whole head
-/// and at its tip, and the largest load that it can take besides.
+/// Paint on a brush, as mean heights in mm of each slot and then of the vehicle: on its whole head
+/// and at its tip. Also the largest load that it can still take.
 #[derive(Debug, Clone, Copy)]
 struct BrushLoad {
     head: [f64; SLOTS + 1],
@@ -54,18 +48,15 @@ struct BrushLoad {
     most_load_mm: f64,
 }
 
-/// Share of the pigment at the tip, picked up from a surface, from which a brush is dirty: less
-/// does not change its colour much.
+/// A brush is dirty if this share of the pigment at its tip came from a surface. Less does not
+/// change its colour much.
 const DIRTY: f64 = 0.05;
 
-/// State that the worker adds to each report.
+/// What the worker adds to each report.
 #[derive(Debug, Clone)]
 pub(super) struct WorkerStatus {
-    /// Counter of changes of the painting.
     pub(super) revision: u64,
-    /// Whether a stroke is open.
     pub(super) stroke_open: bool,
-    /// Pictures of the history.
     pub(super) history_shots: HistoryShots,
 }
 
@@ -78,27 +69,23 @@ impl Reporter {
         Self { colors, layers: Layers::default(), masks: Masks::default(), brushes, clean }
     }
 
-    /// Forgets a brush, which was loaded, wiped or washed.
+    /// Forgets a brush that was loaded, wiped or washed.
     pub(super) fn brush_changed(&mut self, name: &str) {
         self.brushes.remove(name);
         self.clean.remove(name);
     }
 
-    /// Forgets the load of a brush whose head was clean for a tool while states were made.
+    /// Forgets the load of a brush that was used as a tool, because its head was clean meanwhile.
     pub(super) fn tool_ended(&mut self, name: &str) {
         self.brushes.remove(name);
     }
 
-    /// Forgets all brushes.
     pub(super) fn brushes_changed(&mut self) {
         self.brushes.clear();
         self.clean.clear();
     }
 
-    /// Remembers the pigments of a brush that begins its first stroke since it was loaded.
-    ///
-    /// # Errors
-    /// [`SessionError`] if the device was lost.
+    /// Remembers the pigments of a brush before its first stroke since it was loaded.
     pub(super) fn stroke_begins(
         &mut self,
         session: &mut PaintingSession,
@@ -111,10 +98,7 @@ impl Reporter {
         Ok(())
     }
 
-    /// Whether a brush that ends a stroke has picked up other pigments than it began with.
-    ///
-    /// # Errors
-    /// [`SessionError`] if the device was lost.
+    /// Whether a brush has other pigments after a stroke than when it began.
     pub(super) fn is_dirty_after_stroke(
         &mut self,
         session: &mut PaintingSession,
@@ -143,9 +127,6 @@ impl Reporter {
     }
 
     /// The whole state as it is now.
-    ///
-    /// # Errors
-    /// [`SessionError`] if the device was lost.
     pub(super) fn state(
         &mut self,
         prepared: &mut PreparedPainting,
@@ -194,7 +175,7 @@ impl Reporter {
         })
     }
 
-    /// States of all brushes, in the order of their names.
+    /// States of all brushes, sorted by name.
     fn brush_states(
         &mut self,
         session: &mut PaintingSession,
@@ -207,11 +188,13 @@ impl Reporter {
         for (name, spec) in specs {
             let BrushLoad { head, tip, most_load_mm } = self.load(session, &name)?;
             let amount_mm: f64 = head.iter().sum();
-            let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
-            let parts_of = |heights: &[f64; SLOTS + 1]| -> [f64; SLOTS] {
+            fn share(whole: f64, part: f64) -> f64 {
+                if whole > 0.0 { part / whole } else { 0.0 }
+            }
+            fn parts_of(heights: &[f64; SLOTS + 1]) -> [f64; SLOTS] {
                 let pigments: f64 = heights[..SLOTS].iter().sum();
                 std::array::from_fn(|slot| share(pigments, heights[slot]))
-            };
+            }
             let parts = parts_of(&head);
             let of_tip = self.colors.of_slots(&slots, &parts_of(&tip));
             let of_tip_film = self.colors.swatch(&slots, &tip, films);
@@ -232,12 +215,11 @@ impl Reporter {
     }
 }
 
-/// Paint on a brush.
 fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, SessionError> {
     let clean =
         BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1], most_load_mm: f64::INFINITY };
     let Some(paint) = session.brush_paint(name)? else { return Ok(clean) };
-    // The head is the same on both surfaces.
+    // Both surfaces have the same head.
     let used = [SurfaceId::Canvas, SurfaceId::Palette].into_iter().find_map(|surface| {
         Some((session.painting(surface)?, session.brush_id_on(name, surface)?))
     });
@@ -254,7 +236,7 @@ fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, Se
     })
 }
 
-/// Parts of white to one part of pigment in a tint.
+/// A tint has this many parts of white to one part of pigment.
 const TINT: f64 = 9.0;
 
 /// Colours of the paint of tubes and brushes under one light.
@@ -263,7 +245,6 @@ pub(super) struct Colors {
     pub(super) library: Arc<PigmentLibrary>,
     light: Arc<Light>,
     pub(super) weights: TristimulusWeights,
-    /// Pigment used to lighten.
     white: Option<PigmentId>,
 }
 
@@ -282,7 +263,7 @@ impl Colors {
         Arc::ptr_eq(&self.library, library) && Arc::ptr_eq(&self.light, light)
     }
 
-    /// The reference white, or else the lightest pigment whose scattering is known.
+    /// The reference white, or else the lightest pigment with known scattering.
     fn lightener(&self) -> Option<PigmentId> {
         let mixed = || self.library.ids().filter(|id| self.library[*id].identified);
         let reference = self.library.reference_id();
@@ -300,8 +281,8 @@ impl Colors {
         Some(mixture.hiding(self.library.saunderson))
     }
 
-    /// sRGB of a recipe, adapted from the light to the screen; `None` for a recipe without
-    /// parts.
+    /// sRGB of a recipe, adapted from the light to the screen. A recipe without parts has no
+    /// colour.
     pub(super) fn of(&self, recipe: &[(PigmentId, f64)]) -> Option<[u8; 3]> {
         let xyz = self.weights.xyz(&self.film(recipe)?);
         let srgb = Appearance::of(xyz, self.weights.white()).srgb;
@@ -315,13 +296,12 @@ impl Colors {
         self.of(&recipe)
     }
 
-    /// sRGB of the pigment of each slot alone.
     pub(super) fn masstones(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| self.of(&[(slot?, 1.0)]))
     }
 
-    /// sRGB of one part of the pigment of each slot in nine parts of white; `None` for a
-    /// pigment whose scattering is unknown.
+    /// sRGB of one part of the pigment of each slot in nine parts of white. A pigment with unknown
+    /// scattering has no tint.
     pub(super) fn tints(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| {
             let pigment = slot?;
@@ -332,18 +312,16 @@ impl Colors {
     }
 }
 
-/// Summary of one layer.
 #[derive(Debug)]
 struct LayerEntry {
     id: LayerId,
-    /// Whether the summary describes the dry paint as it is now.
+    /// Whether the summary still describes the dry paint.
     current: bool,
     summary: Option<LayerSummary>,
-    /// State that was sent last, and the light under which its thumbnail was rendered.
+    /// The state that we sent last, and the light of its thumbnail.
     sent: Option<(LayerState, Arc<Light>)>,
 }
 
-/// Summaries of all dry layers.
 #[derive(Debug, Default)]
 pub(super) struct Layers {
     changes: u64,
@@ -351,9 +329,9 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    /// Marks all summaries as outdated if dry paint of `painting` changed. Outdated summaries are
-    /// used until [`Self::summarize_next`] replaces them, each for the layer that it was made of,
-    /// wherever that lies now.
+    /// Marks all summaries as outdated if dry paint of `painting` changed. You still get outdated
+    /// summaries until [`Self::summarize_next`] replaces them. Each stays with its layer, even if
+    /// the layer moves.
     pub(super) fn update(&mut self, painting: &Painting) {
         let dry = &painting.state().dry;
         let same = dry.iter().map(|layer| layer.id).eq(self.entries.iter().map(|entry| entry.id));
@@ -380,16 +358,12 @@ impl Layers {
             .collect();
     }
 
-    /// Whether a summary is outdated.
     pub(super) fn is_behind(&self) -> bool {
         self.entries.iter().any(|entry| !entry.current)
     }
 
-    /// Computes the first summary that is outdated. Layers may have come or gone since the last
-    /// update, as states are sent less often than paint changes.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
+    /// Computes the first summary that is outdated. We send states less often than paint changes,
+    /// so layers may have come or gone since the last update.
     pub(super) fn summarize_next(&mut self, painting: &mut Painting) -> Result<(), PaintingError> {
         self.update(painting);
         let outdated = self.entries.iter().position(|entry| !entry.current);
@@ -443,7 +417,7 @@ fn blank(dry: &DryLayerState) -> LayerState {
 /// Most lines of an outline: more would be slow to draw.
 const MOST_LINES: usize = 20_000;
 
-/// The state of the mask, made anew only when the mask is another one.
+/// The state of the mask. We make it again only when the mask changes.
 #[derive(Debug, Default)]
 pub(super) struct Masks {
     made: Option<(Arc<Mask>, Arc<MaskState>)>,
@@ -476,7 +450,7 @@ fn state_of(mask: &Mask) -> MaskState {
     MaskState { outline, covered: mask.covered() as f64 / cells as f64 }
 }
 
-/// Ground and paint that films of a painting are made of.
+/// Ground and reference white for films of a painting.
 #[derive(Debug, Clone)]
 pub(super) struct FilmSetting {
     /// Measured reflectance of the ground on the grid of the library.
@@ -486,8 +460,8 @@ pub(super) struct FilmSetting {
 }
 
 impl Colors {
-    /// Films of paint with these heights in mm by slot, of which the last is the vehicle. There
-    /// is none without pigment.
+    /// Films of paint with these heights in mm, by slot and then for the vehicle. Returns `None`
+    /// without pigment.
     pub(super) fn swatch(
         &self,
         slots: &Slots,
@@ -557,8 +531,8 @@ mod tests {
         let tints = colors.tints(&slots);
         assert_eq!(tints[2], Some(palette.color(&palette.tint(blue, TINT)).srgb.to_bytes()));
         assert_eq!((tints[0], tints[5]), (None, None), "an empty slot; no known scattering");
-        let green = |color: Option<[u8; 3]>| color.map(|color| color[1]);
-        assert!(green(tints[2]) > green(masstones[2]), "white lightens");
+        let [tint, masstone] = [&tints, &masstones].map(|colors| colors[2].map(|color| color[1]));
+        assert!(tint > masstone, "white lightens");
     }
 
     #[test]
@@ -636,12 +610,10 @@ mod tests {
     #[test]
     fn a_thin_film_shows_what_is_below_and_a_thick_one_hides_it() {
         let (colors, slots) = colors("D65");
-        let swatch = |scale: f64| {
+        let [thin, thick] = [0.1, 400.0].map(|scale| {
             let paint = heights(0.01 * scale, 0.02 * scale, 0.005 * scale);
             colors.swatch(&slots, &paint, &setting(0.7)).unwrap()
-        };
-        let thin = swatch(0.1);
-        let thick = swatch(400.0);
+        });
         assert!(thin.contrast < 0.5 && thick.contrast > 0.999, "{thin:?} {thick:?}");
         assert!((thin.thickness_mm - 0.0035).abs() < 1e-12, "{}", thin.thickness_mm);
         let apart = (thick.over_cards[0].lab.lightness - thick.opaque.lab.lightness).abs();
@@ -682,11 +654,11 @@ mod tests {
     #[test]
     fn the_swatch_follows_the_light_and_medium_alone_has_none() {
         let paint = heights(0.02, 0.01, 0.0);
-        let under = |light: &str| {
+        let [day, lamp] = ["D65", "A"].map(|light| {
             let (colors, slots) = colors(light);
             colors.swatch(&slots, &paint, &setting(0.7)).unwrap().opaque.lab
-        };
-        assert_ne!(under("D65"), under("A"));
+        });
+        assert_ne!(day, lamp);
         let (colors, slots) = colors("D65");
         assert_eq!(colors.swatch(&slots, &heights(0.0, 0.0, 0.3), &setting(0.7)), None);
     }

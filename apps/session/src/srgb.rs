@@ -1,6 +1,4 @@
-//! Linear light to 8-bit sRGB by a table: the bytes of the PNG export.
-//!
-//! Encoding tiles of a picture as sRGB.
+//! Encodes linear light as 8-bit sRGB by a table. You get the same bytes as from the PNG export.
 
 use graphics::field::Field;
 use graphics::tile::{Rect, TileSet};
@@ -13,18 +11,17 @@ use super::event::TilePixels;
 /// distance between two entries of `least` (1 / 255 / 12.92), so it contains at most one of them.
 const BUCKETS: usize = 4096;
 
-/// Tables from linear sRGB to the bytes of a PNG of the same picture
-/// ([`graphics::export::png8`]).
+/// Tables from linear sRGB to the bytes of a PNG of the same picture ([`graphics::export::png8`]).
 #[derive(Debug, Clone)]
 pub(super) struct SrgbBytes {
     /// Byte at the lower end of each bucket.
     lowest: Vec<u8>,
-    /// Smallest linear value that gives each byte; the last entry, for 256, is infinite.
+    /// Smallest linear value for each byte. The last entry, for 256, is infinite.
     least: [f32; 257],
 }
 
 impl SrgbBytes {
-    /// Computes the tables, in about 0.1 ms.
+    /// Takes about 0.1 ms.
     pub(super) fn new() -> Self {
         let mut least = [f32::INFINITY; 257];
         for (byte, least) in least.iter_mut().enumerate().take(256) {
@@ -39,7 +36,7 @@ impl SrgbBytes {
         }
     }
 
-    /// Byte of one channel; values outside 0 to 1 are clipped.
+    /// Byte of one channel. Clips values outside 0 to 1.
     #[inline(always)]
     pub(super) fn byte(&self, linear: f32) -> u8 {
         let linear = linear.clamp(0.0, 1.0);
@@ -49,7 +46,7 @@ impl SrgbBytes {
         lowest + u8::from(linear >= self.least[usize::from(lowest) + 1])
     }
 
-    /// The opaque pixel of a colour. Outside the gamut it keeps hue and lightness.
+    /// The opaque pixel of a colour. Outside the gamut this preserves hue and lightness.
     #[inline(always)]
     pub(super) fn pixel(&self, [r, g, b, _]: [f32; 4]) -> [u8; 4] {
         if [r, g, b].iter().all(|value| (0.0..=1.0).contains(value)) {
@@ -67,13 +64,12 @@ fn mapped(linear: [f32; 3]) -> [u8; 4] {
     [r, g, b, 255]
 }
 
-/// Byte computed by the sRGB curve.
 fn exact(linear: f32) -> u8 {
     Rgb([f64::from(linear); 3]).encoded().to_bytes()[0]
 }
 
-/// Smallest value from 0 to 1 whose byte is at least `byte`. Bisects the bit patterns, which have
-/// the same order as the non-negative numbers that they represent.
+/// Smallest value from 0 to 1 that gives at least `byte`. Bisects the bit patterns, because they
+/// have the same order as the non-negative numbers that they represent.
 fn least_giving(byte: u8) -> f32 {
     let mut low = 0;
     let mut high = 1.0_f32.to_bits();
@@ -88,12 +84,9 @@ fn least_giving(byte: u8) -> f32 {
     f32::from_bits(high)
 }
 
-/// Pixels of `tiles` on a canvas of `bounds`. `read` returns a rectangle of the picture in
-/// linear sRGB; it is called once for each run of neighbouring tiles, as each call may be a
-/// transfer from the device.
-///
-/// # Errors
-/// The errors of `read`.
+/// Pixels of `tiles` on a canvas of `bounds`. `read` returns a rectangle of the picture in linear
+/// sRGB. Each call may transfer data from the device, so this calls it only once for each run of
+/// neighbouring tiles.
 pub(super) fn encode<E: Send>(
     tiles: &TileSet,
     bounds: Rect,
@@ -169,8 +162,9 @@ mod tests {
             height,
             (0..width * height)
                 .map(|index: usize| {
-                    let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
-                    [value(1), value(31), value(577), 1.0]
+                    let [r, g, b] =
+                        [1, 31, 577].map(|k| ((index * k) % 1009) as f32 / 1000.0 - 0.004);
+                    [r, g, b, 1.0]
                 })
                 .collect(),
         )
@@ -213,7 +207,7 @@ mod tests {
         tiles.insert(Rect { x: 10, y: 10, width: 130, height: 60 });
         tiles.insert(Rect { x: 280, y: 10, width: 1, height: 1 });
         let found: Vec<Rect> = runs(&tiles, bounds).into_iter().map(|(run, _)| run).collect();
-        let rect = |x, y, width| Rect { x, y, width, height: 64 };
-        assert_eq!(found, [rect(0, 0, 192), rect(256, 0, 44), rect(0, 64, 192)]);
+        let wanted = [(0, 0, 192), (256, 0, 44), (0, 64, 192)];
+        assert_eq!(found, wanted.map(|(x, y, width)| Rect { x, y, width, height: 64 }));
     }
 }

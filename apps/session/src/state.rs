@@ -1,4 +1,4 @@
-//! State of the painting besides its pixels.
+//! The state of the painting as the front end shows it: everything except the pixels.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub struct Thumbnail {
     pub width: usize,
     /// Height in pixels.
     pub height: usize,
-    /// Pixels with alpha row by row; transparent where there is no paint.
+    /// Pixels with alpha row by row. They are transparent where there is no paint.
     pub pixels: Vec<[u8; 4]>,
 }
 
@@ -25,7 +25,7 @@ pub struct Thumbnail {
 pub struct LayerState {
     /// Its identity within the painting.
     pub id: LayerId,
-    /// Its name; empty if it has none.
+    /// Its name, which may be empty.
     pub name: String,
     /// Whether it is shown.
     pub visible: bool,
@@ -60,7 +60,7 @@ pub struct FilmColor {
     pub srgb: [u8; 3],
 }
 
-/// Films of the paint that a brush paints with now, as a paint maker draws it down.
+/// Films of the paint that a brush holds now, as a paint maker draws them down on cards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BrushSwatch {
     /// Film so thick that it hides everything below.
@@ -73,8 +73,8 @@ pub struct BrushSwatch {
     pub cards: [FilmColor; 2],
     /// Film of the present thickness over these cards.
     pub over_cards: [FilmColor; 2],
-    /// Contrast ratio of that film: Y over the black card relative to Y over the white one, 0 to
-    /// 1. From 0.98 on it hides.
+    /// Contrast ratio of this film, 0 to 1: Y over the black card divided by Y over the white one.
+    /// From 0.98 on it hides.
     pub contrast: f64,
     /// Thickness of the film with its vehicle, in mm.
     pub thickness_mm: f64,
@@ -87,20 +87,21 @@ pub struct BrushState {
     pub name: String,
     /// Shape and size of its head.
     pub spec: BrushSpec,
-    /// Mean height of the paint on its whole head, in mm; 0 if it is clean.
+    /// Mean height of the paint on its whole head in mm. A clean brush has 0.
     pub amount_mm: f64,
     /// Fraction of vehicle in this paint, 0 to 1.
     pub vehicle: f64,
-    /// Parts by slot of the palette, with sum 1; all 0 without pigment.
+    /// Parts by slot of the palette. Their sum is 1, or 0 without pigment.
     pub parts: [f64; paint::layer::SLOTS],
-    /// Mean height of the paint at its tip, in mm: what it paints with now.
+    /// Mean height of the paint at its tip in mm: this is what it paints with now.
     pub tip_mm: f64,
-    /// Largest load that it can take besides, in mm; infinite for a brush that was never used.
+    /// Largest load that it can still take, in mm. This is infinite for a brush that was never
+    /// used.
     pub most_load_mm: f64,
-    /// sRGB of the mixture at its tip in an opaque film, or of the whole head if the tip is
-    /// clean; `None` without pigment.
+    /// sRGB of the mixture at its tip in an opaque film. If the tip is clean, this is the mixture
+    /// of the whole head. Without pigment it is `None`.
     pub color: Option<[u8; 3]>,
-    /// Films of that mixture; `None` without pigment.
+    /// Films of this mixture, or `None` without pigment.
     pub swatch: Option<Box<BrushSwatch>>,
 }
 
@@ -109,15 +110,15 @@ pub struct BrushState {
 pub struct HistoryShot {
     /// Small picture of the canvas.
     pub picture: Arc<Thumbnail>,
-    /// Pixels of the picture that the action changed, as left, top, width and height; `None` if
-    /// it changed none, or if the state before it is not known.
+    /// Pixels of the picture that the action changed, as left, top, width and height. This is
+    /// `None` if it changed none, or if the state before it is unknown.
     pub changed: Option<[usize; 4]>,
 }
 
 /// Small pictures of the history.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct HistoryShots {
-    /// The canvas before the first action and after each; `None` where none was kept.
+    /// The canvas before the first action and after each one. Some pictures may be missing.
     pub shots: Vec<Option<HistoryShot>>,
     /// Memory that they take, in bytes.
     pub bytes: usize,
@@ -128,8 +129,8 @@ pub struct HistoryShots {
 /// Mask of the canvas, for drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MaskState {
-    /// Lines between covered and open cells, from corner to corner in cells, along x or along y.
-    /// Where there are very many, they follow blocks of cells.
+    /// Lines between covered and open cells, from corner to corner in cells, along x or y. If there
+    /// are very many, they follow blocks of cells instead.
     pub outline: Vec<[(u32, u32); 2]>,
     /// Share of the canvas that is covered, 0 to 1.
     pub covered: f64,
@@ -166,7 +167,7 @@ pub struct PaintingState {
     pub medium: Medium,
     /// Reflectance of the ground on the grid of the library.
     pub ground_reflectance: Arc<Vec<f64>>,
-    /// Labels of the actions of the history, the oldest first. Those from `history_done` on
+    /// Labels of the actions of the history, the oldest first. The actions from `history_done` on
     /// were undone.
     pub history: Vec<String>,
     /// Number of actions of the history that are done.
@@ -194,11 +195,10 @@ pub struct Performance {
     pub substeps_per_second: f64,
     /// Number of sub-steps that wait to be painted.
     pub waiting_substeps: usize,
-    /// Mean time from the arrival of a sample until its tiles are sent, in ms, over the last
-    /// second.
+    /// Mean time in ms from the arrival of a sample until its tiles are sent, over the last second.
     pub mean_latency_ms: f64,
     /// Longest such time of the last second, in ms.
     pub max_latency_ms: f64,
-    /// Whether the paint is so far behind the pen that pictures should give way to it.
+    /// Whether the paint is so far behind the pen that pictures should wait.
     pub paint_is_behind: bool,
 }

@@ -1,12 +1,6 @@
-//! Mixtures that a painter keeps: recipes with names, their file, and their colours.
-//!
-//! Why a file of kept mixtures cannot be read.
-//!
-//! One kept mixture.
-//!
-//! The list of kept mixtures, and changes of it.
-//!
-//! The file of kept mixtures: JSON, `impasto-swatches` version 1.
+//! Mixtures that a painter saves: recipes with names, their file, and their colours. The file is
+//! JSON,
+//! `impasto-swatches` version 1:
 //!
 //! ```json
 //! {
@@ -25,7 +19,7 @@
 //! }
 //! ```
 //!
-//! `vehicle` and `light` may be left out.
+//! You may leave out `vehicle` and `light`.
 
 use documents::hint::{Explain, Hint};
 use paint::document::Slots;
@@ -40,7 +34,7 @@ use spectra::TristimulusWeights;
 use spectra::color::Rgb;
 use spectra::swatch_file::{SwatchColor, SwatchEntry, SwatchFile};
 
-/// Fault of a file of kept mixtures.
+/// Why a file of saved mixtures cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SwatchBookError {
     /// The file is not JSON.
@@ -68,7 +62,7 @@ pub enum SwatchBookError {
     Value {
         /// Name of the file.
         file: String,
-        /// Path of the key, such as `swatches[3].vehicle`.
+        /// Path of the key, e.g. `swatches[3].vehicle`.
         key: String,
         /// Expected value, and the one found.
         reason: String,
@@ -88,10 +82,9 @@ impl Explain for SwatchBookError {
     }
 }
 
-/// Longest name of a mixture, in characters.
 const LONGEST_NAME: usize = 60;
 
-/// A recipe with a name, kept for later.
+/// A recipe that is saved under a name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptMixture {
@@ -99,22 +92,22 @@ pub struct KeptMixture {
     pub name: String,
     /// Title of the library of its pigments.
     pub library: String,
-    /// Parts by the names of the pigments, each above 0.
+    /// Parts by pigment name. Each must be above 0.
     pub recipe: Recipe,
     /// Share of clear medium in a load of it, 0 to 1.
     #[serde(default)]
     pub vehicle: f64,
-    /// Colour when it was kept, as `#rrggbb`: shown while its pigments are not at hand.
+    /// Colour when it was saved, as `#rrggbb`. We show this while its pigments are missing.
     pub color: String,
     /// Light under which it had that colour.
     #[serde(default)]
     pub light: String,
 }
 
-/// Whether a mixture can be loaded, and if not, for lack of which pigments.
+/// Whether you can load a mixture now or, if not, which pigments are missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usable {
-    /// Nothing: all its pigments are on the palette.
+    /// All its pigments are on the palette.
     Now,
     /// These pigments of the library are not on the palette.
     NotOnPalette(Vec<PigmentId>),
@@ -123,8 +116,8 @@ pub enum Usable {
 }
 
 impl KeptMixture {
-    /// A mixture of pigments of `library`, named after the two of which it has most; `None` for a
-    /// recipe without pigment.
+    /// Makes a mixture of pigments of `library` and names it after its two largest parts. Returns
+    /// `None` for a recipe without pigment.
     #[must_use]
     pub fn of(
         library: &PigmentLibrary,
@@ -149,10 +142,10 @@ impl KeptMixture {
         Some(kept)
     }
 
-    /// Pigments with their parts; the names that `library` does not have.
+    /// Pigments with their parts.
     ///
     /// # Errors
-    /// The names that are missing.
+    /// The names that `library` does not have.
     pub fn pigments(&self, library: &PigmentLibrary) -> Result<Vec<(PigmentId, f64)>, Vec<String>> {
         let find = |name: &String| library.ids().find(|id| library[*id].name == *name);
         let missing = self.recipe.keys().filter(|name| find(name).is_none());
@@ -163,7 +156,7 @@ impl KeptMixture {
         Ok(self.recipe.iter().filter_map(|(name, part)| Some((find(name)?, *part))).collect())
     }
 
-    /// Whether it can be loaded now, and if not, what is missing.
+    /// Whether you can load it now or, if not, what is missing.
     #[must_use]
     pub fn usable(&self, library: &PigmentLibrary, slots: &Slots) -> Usable {
         match self.pigments(library) {
@@ -177,8 +170,8 @@ impl KeptMixture {
         }
     }
 
-    /// Colour of a film that hides, under the light of `weights`; `None` if `library` cannot mix
-    /// it.
+    /// Colour of an opaque film under the light of `weights`. Returns `None` if `library` cannot
+    /// mix it.
     #[must_use]
     pub fn appearance(
         &self,
@@ -190,17 +183,20 @@ impl KeptMixture {
         Some(Appearance::of(weights.xyz(&film), weights.white()))
     }
 
-    /// Colour of the mixture on the screen: under the light of `weights` if `library` can mix it,
-    /// else as it was when it was kept.
+    /// Colour of the mixture on the screen. If `library` can mix it, this is its colour under the
+    /// light of
+    /// `weights`, else the colour that was saved.
     #[must_use]
     pub fn screen_color(&self, library: &PigmentLibrary, weights: &TristimulusWeights) -> [u8; 3] {
         let now = self.appearance(library, weights).map(shown);
         now.or_else(|| Rgb::from_hex(&self.color)).unwrap_or(Rgb([0.5; 3])).to_bytes()
     }
 
-    /// Key and fault of the first value that cannot be used.
+    /// Key and problem of the first value that cannot be used.
     fn fault(&self) -> Option<(String, String)> {
-        let fault = |key: &str, reason: String| Some((key.to_owned(), reason));
+        fn fault(key: &str, reason: String) -> Option<(String, String)> {
+            Some((key.to_owned(), reason))
+        }
         let name = self.name.trim();
         if name.is_empty() || name.chars().count() > LONGEST_NAME {
             return fault(
@@ -231,17 +227,17 @@ fn shown(appearance: Appearance) -> Rgb {
     appearance.srgb.linear().mapped_into_gamut().encoded()
 }
 
-/// Kept mixtures in the painter's order.
+/// Saved mixtures in the painter's order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SwatchBook {
     /// Mixtures of all libraries.
     pub swatches: Vec<KeptMixture>,
 }
 
-/// A change of the list. Indices beyond its end change nothing.
+/// A change of the list. An index beyond its end changes nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SwatchChange {
-    /// Adds a mixture at the end; a name that is taken gets a number.
+    /// Adds a mixture at the end. If its name is taken, it gets a number.
     Keep(Box<KeptMixture>),
     /// Gives another name to the mixture at an index. An empty name changes nothing.
     Rename(usize, String),
@@ -249,7 +245,7 @@ pub enum SwatchChange {
     Move(usize, usize),
     /// Removes the mixture at an index.
     Remove(usize),
-    /// Adds those mixtures of another list that this one does not have.
+    /// Adds the mixtures of another list that this one lacks.
     Merge(SwatchBook),
 }
 
@@ -289,8 +285,8 @@ impl SwatchBook {
         }
     }
 
-    /// The colours of the mixtures as a painting program reads them, in sRGB: under the light of
-    /// `weights` where `library` can mix them, else as they were kept.
+    /// The colours of the mixtures for other painting programs, in sRGB. If `library` can mix one,
+    /// this is its colour under the light of `weights`, else the colour that was saved.
     #[must_use]
     pub fn colors(&self, library: &PigmentLibrary, weights: &TristimulusWeights) -> SwatchFile {
         let swatches = self
@@ -305,7 +301,7 @@ impl SwatchBook {
         SwatchFile { name: format!("{}: kept mixtures", library.title), swatches }
     }
 
-    /// `name`, or `name 2` and so on if another mixture than that at `own` has it.
+    /// `name`, or `name 2` and so on if a mixture at another index than `own` has it.
     fn free_name(&self, name: &str, own: Option<usize>) -> String {
         let taken = |name: &str| {
             let mut others = self.swatches.iter().enumerate();
@@ -336,7 +332,7 @@ impl SwatchBook {
         }))
     }
 
-    /// Reads a list; `file` names it in errors.
+    /// Reads a list. Errors call the file `file`.
     ///
     /// # Errors
     /// [`SwatchBookError`] naming the file and the key.

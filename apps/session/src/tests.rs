@@ -15,17 +15,16 @@ use web_time::Instant;
 
 use super::{Command, Event, PenSample, Wait, Worker, WorkerOptions, blank_canvas};
 
-/// Events of a worker. A batch may go beyond the event that a test waits for; the rest is kept for
-/// the next wait.
+/// Events of a worker. A batch may go beyond the event that a test waits for. The next wait looks
+/// at the rest.
 #[derive(Default)]
 struct Events {
-    /// Events that were examined, in order.
     seen: Vec<Event>,
-    /// Events that arrived but were not examined yet.
+    /// Events that no wait has looked at yet.
     pending: VecDeque<Event>,
 }
 
-/// Collects events until one of them gives a value.
+/// Collects events until `find` gives a value for one of them.
 fn wait<T>(
     worker: &Worker,
     woken: &Receiver<()>,
@@ -45,7 +44,6 @@ fn wait<T>(
     }
 }
 
-/// Requests the recording.
 fn recording(worker: &Worker, woken: &Receiver<()>, events: &mut Events) -> StrokeScript {
     worker.ask(Command::Recording(1));
     wait(worker, woken, events, |event| match event {
@@ -71,7 +69,7 @@ fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
         let _ = wake.send(());
     });
     worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 4.0, 3.0, 0.5)));
-    // Each new head takes a name in the recording once it is used, here for a wipe.
+    // Each new head gets a name in the recording when you use it, e.g. for a wipe.
     let wipe = Action::Wipe { brush: "round".to_owned(), keep: 0.5 };
     let use_head = |head: usize| {
         let spec = BrushSpec { shape: HeadShape::Round, size_mm: 1.0 + 0.01 * head as f64 };
@@ -150,7 +148,7 @@ fn a_worker_in_turns_paints_like_one_on_a_thread() {
     let mut in_turns = Vec::new();
     let mut turns = 0;
     while in_turns.len() < 3 {
-        // A deadline that is over: one slice or command each turn.
+        // The deadline is over, so each turn does one slice or command.
         worker.turn(Instant::now());
         worker.events().for_each(|event| snapshot(&mut in_turns, event));
         turns += 1;

@@ -1,10 +1,6 @@
-//! The worker as the front end sees it.
-//!
-//! A thread that is waited for when its owner is dropped.
-//!
-//! The place where the work of a session is done: a thread, or the turns that a front end gives.
-//!
-//! Work beside the window: on a thread of its own, or in a page, which has none, between its frames.
+//! Where the work of a session is done. The front end talks to a [`Worker`]. It works on a thread,
+//! which we wait for when its owner is dropped, or in the turns that a front end gives. A page has
+//! no threads, so other work runs there between its frames.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -26,9 +22,9 @@ use super::worker::WorkerLoop;
 /// Settings of a worker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WorkerOptions {
-    /// Backend that computes the paint; the best one there is by default.
+    /// Backend that computes the paint. The default is the best one available.
     pub backend: BackendChoice,
-    /// Limit of the memory for undo, in bytes; 512 MiB by default.
+    /// Limit of the memory for undo, in bytes. The default is 512 MiB.
     pub undo_bytes: u64,
 }
 
@@ -38,22 +34,22 @@ impl Default for WorkerOptions {
     }
 }
 
-/// Handle of the worker that owns the paint. Dropping it ends its thread and waits for that, at most
-/// five seconds.
+/// Handle of the worker that owns the paint. If you drop this, the thread ends, and the drop waits
+/// for it for at most five seconds.
 #[derive(Debug)]
 pub struct Worker {
-    // Dropped first, which tells the thread to end.
+    // Dropped first, so that the thread ends.
     inputs: Sender<Input>,
     events: Receiver<Event>,
     works: Works<WorkerLoop<'static>>,
 }
 
 impl Worker {
-    /// Starts the thread. It has no painting until [`Command::Open`]. `wake` is called on the
-    /// thread after each event, so that a window can be drawn again.
+    /// Starts the thread. There is no painting until you send [`Command::Open`]. The thread calls
+    /// `wake` after each event, so that you can draw the window again.
     ///
-    /// The worker sends at most a few parts of pictures until the front end receives them with
-    /// [`Worker::events`]. A front end that reads rarely gets the changes in between combined.
+    /// The worker sends only a few parts of pictures until you receive them with
+    /// [`Worker::events`]. If you read rarely, you get the changes in between combined.
     #[must_use]
     pub fn start(options: WorkerOptions, wake: impl Fn() + Send + 'static) -> Self {
         let (inputs, receiver) = channel();
@@ -72,8 +68,8 @@ impl Worker {
         Self { inputs, events, works: Works::OnThread { _thread: thread } }
     }
 
-    /// A worker without a thread, which works only while the front end calls [`Worker::turn`]: for a
-    /// page in a browser. `wake` is called after each event.
+    /// A worker without a thread, for a page in a browser. It works only while you call
+    /// [`Worker::turn`], and calls `wake` after each event.
     #[must_use]
     pub fn in_turns(options: WorkerOptions, wake: impl Fn() + 'static) -> Self {
         let (inputs, receiver) = channel();
@@ -88,15 +84,15 @@ impl Worker {
         Self { inputs, events, works: Works::in_turns(work) }
     }
 
-    /// Lets a worker of [`Worker::in_turns`] work until `deadline`, or until it must wait; what it has
-    /// begun by then, at most a slice of 8 ms or one command, it finishes. Returns how long it
-    /// may wait for the next turn; [`Wait::Forever`] is until the next command. A worker on a thread
-    /// does nothing here.
+    /// Lets a worker of [`Worker::in_turns`] work until `deadline`, or until it must wait. It
+    /// finishes what it has begun by then, at most a slice of 8 ms or one command. Returns how long
+    /// you may wait until the next turn, where [`Wait::Forever`] means until the next command. On a
+    /// worker with a thread this does nothing.
     pub fn turn(&self, deadline: Instant) -> Wait {
         self.works.turn(|work| work.turn(deadline))
     }
 
-    /// Sends a command. Has no effect after the worker has ended.
+    /// Sends a command. This has no effect after the worker has ended.
     pub fn ask(&self, command: Command) {
         let _ = self.inputs.send(Input::Command(command));
     }
@@ -128,20 +124,17 @@ fn report_panic(send: &dyn Fn(Event), work: impl FnOnce()) {
     });
 }
 
-/// Longest wait: a file that is being read may take longer, and nobody waits that long for a window to
-/// close.
+/// Longest wait. Reading a file may take longer, but nobody waits that long for a window to close.
 const LONGEST: Duration = Duration::from_secs(5);
 
-/// Time between two looks whether it has ended.
 const LOOK: Duration = Duration::from_millis(1);
 
-/// A thread that works on paint. Drivers of graphics devices end with the process and crash if a thread
-/// still uses them, so the owner, who has told the thread to end, waits for it.
+/// A thread that works on paint. Drivers of graphics devices end with the process and crash if a
+/// thread still uses them. So tell the thread to end before you drop this, which waits for it.
 #[derive(Debug)]
 pub(crate) struct Awaited(JoinHandle<()>);
 
 impl Awaited {
-    /// Starts the thread.
     pub(crate) fn spawn(work: impl FnOnce() + Send + 'static) -> Self {
         Self(thread::spawn(work))
     }
@@ -156,25 +149,24 @@ impl Drop for Awaited {
     }
 }
 
-/// The thread of a loop, or the loop itself.
+/// Work that runs on a thread, or in turns.
 pub(crate) enum Works<Loop> {
-    /// On a thread, which is waited for.
+    /// Runs on a thread. Dropping this waits for it.
     OnThread { _thread: Awaited },
-    /// In the turns that the front end gives; nothing after the command to quit.
+    /// Runs in the turns that the front end gives. It is `None` after the command to quit.
     InTurns(RefCell<Option<Box<Loop>>>),
 }
 
 impl<Loop> Works<Loop> {
-    /// A loop that works in turns.
     pub(crate) fn in_turns(work: Loop) -> Self {
         Self::InTurns(RefCell::new(Some(Box::new(work))))
     }
 
-    /// Calls `turn` of a loop that works in turns, and ends the loop if it returns `None`. Returns how long
-    /// it may wait for the next turn.
+    /// Calls `turn` if the loop works in turns, and ends the loop if `turn` returns `None`. Returns
+    /// how long the front end may wait for the next turn.
     pub(crate) fn turn(&self, turn: impl FnOnce(&mut Loop) -> Option<Wait>) -> Wait {
         let Self::InTurns(work) = self else { return Wait::Forever };
-        // A wake that calls back finds the loop at work.
+        // If a wake calls back here, the loop is borrowed already.
         let Ok(mut work) = work.try_borrow_mut() else { return Wait::Forever };
         let wait = work.as_mut().and_then(|work| turn(work));
         if wait.is_none() {
@@ -193,7 +185,7 @@ impl<Loop> fmt::Debug for Works<Loop> {
     }
 }
 
-/// Starts `work`: on a thread, or in a page when [`next`] is called.
+/// Starts `work` on a thread. In a page it waits until you call [`next`].
 pub fn start(work: impl FnOnce() + Send + 'static) {
     #[cfg(target_arch = "wasm32")]
     waiting::WAITING.with_borrow_mut(|waiting| waiting.push_back(Box::new(work)));
@@ -201,8 +193,8 @@ pub fn start(work: impl FnOnce() + Send + 'static) {
     thread::spawn(work);
 }
 
-/// In a page does the work that waits longest. Returns whether there was any; where there are
-/// threads, there never is.
+/// In a page, does the work that has waited longest. Returns whether there was any. On machines
+/// with threads this always returns false.
 pub fn next() -> bool {
     #[cfg(target_arch = "wasm32")]
     if let Some(work) = waiting::WAITING.with_borrow_mut(std::collections::VecDeque::pop_front) {
@@ -246,7 +238,7 @@ mod tests {
 
     #[test]
     fn the_thread_has_ended_when_its_owner_is_gone() {
-        /// Told to end by the end of its sender, like the workers.
+        /// Like the workers, this thread ends when its sender is dropped.
         struct Owner {
             _inputs: Sender<()>,
             _thread: Awaited,

@@ -1,7 +1,7 @@
-//! Strokes that nobody sees, which a page paints before the painter's first one.
+//! Paints strokes that nobody sees in a page, before the painter's first one.
 //!
-//! A browser compiles the functions of a module for speed once they have run for a while. Without
-//! these strokes, the first second of the first stroke is painted by slow functions.
+//! A browser compiles the functions of a module for speed only after they have run for a while.
+//! Without these strokes, slow functions would paint the first second of the first stroke.
 
 use paint::brush::HeadShape;
 use paint::canvas::Canvas;
@@ -13,19 +13,19 @@ use pigment::library::PigmentLibrary;
 
 use super::srgb::{SrgbBytes, encode};
 
-/// Number of strokes, each of some 20 sub-steps.
+/// Number of strokes. Each has about 20 sub-steps.
 const STROKES: usize = 30;
 
 /// Size of the canvas in mm, and of its cells.
 const SIZE_MM: (f64, f64) = (16.0, 12.0);
 const CELL_MM: f64 = 0.1;
 
-/// Brush and paint of the strokes: those that the studio opens with.
+/// The brush and the paint that the studio opens with.
 const BRUSH: &str = "round";
 const BRUSH_MM: f64 = 6.0;
 const PAINT: [(&str, f64); 2] = [("Zinc White", 1.0), ("Ultramarine", 1.0)];
 
-/// The strokes that are still to be painted, on a canvas of their own.
+/// The strokes that still have to be painted, on their own canvas.
 #[derive(Debug)]
 pub struct WarmUp {
     left: usize,
@@ -39,13 +39,14 @@ impl Default for WarmUp {
 }
 
 impl WarmUp {
-    /// Paints the next stroke and its picture, up to some 50 ms of work. Returns whether there was one.
+    /// Paints the next stroke and its picture, up to about 50 ms of work. Returns whether there was
+    /// one.
     pub fn step(&mut self) -> bool {
         if self.left == 0 {
             return false;
         }
         self.left -= 1;
-        // An error here comes again, and is shown, when the painter begins to paint.
+        // If this fails, the same error comes again when the painter begins, and is shown then.
         if self.paint().is_err() {
             self.left = 0;
         }
@@ -91,10 +92,10 @@ mod tests {
         let mut warm_up = WarmUp::default();
         assert!(warm_up.step() && warm_up.session.is_some());
         warm_up.paint().unwrap();
-        let painted = |warm_up: &mut WarmUp| {
+        fn painted(warm_up: &mut WarmUp) -> u64 {
             let canvas = warm_up.session.as_mut().unwrap().canvas_mut();
-            canvas.wet().unwrap().totals().iter().sum::<u64>()
-        };
+            canvas.wet().unwrap().totals().iter().sum()
+        }
         let first = painted(&mut warm_up);
         warm_up.paint().unwrap();
         assert!(first > 0 && painted(&mut warm_up) > first);

@@ -1,4 +1,4 @@
-//! The loop of the worker thread: receives commands, paints for a moment, sends events.
+//! The loop of the worker thread: it receives commands, paints for a moment and sends events.
 
 use web_time::{Duration, Instant};
 
@@ -30,7 +30,6 @@ const IDLE_REPORT_INTERVAL: Duration = Duration::from_secs(1);
 /// Shortest time between two pictures of the history during a replay.
 const REPLAY_SHOT_INTERVAL: Duration = Duration::from_millis(500);
 
-/// State of the worker thread.
 pub(super) struct WorkerLoop<'a> {
     pub(super) send: Box<dyn Fn(Event) + 'a>,
     pub(super) inbox: Inbox,
@@ -42,34 +41,30 @@ pub(super) struct WorkerLoop<'a> {
     /// Timing of the open stroke, if one is open.
     pub(super) stroke: Option<StrokeTiming>,
     pub(super) playing: Option<Replay>,
-    /// Time at which a replay at the pace of the painter continues; `None` while it need not wait.
+    /// When a replay at the pace of the painter continues. It is `None` if it need not wait.
     pub(super) pause: Option<Instant>,
-    /// The last snapshot sent, kept while the paint is on a device that may be lost.
+    /// The last snapshot that was sent. We keep it while the paint is on a device that may be lost.
     pub(super) kept: Option<Snapshot>,
-    /// Counter of changes of the painting.
+    /// Counts changes of the painting.
     pub(super) revision: u64,
-    /// Whether a state must be sent.
     pub(super) state_stale: bool,
     /// Whether pictures may have changed since they were last rendered.
     pub(super) picture_stale: bool,
     state_due: Instant,
     performance_sent: Option<Instant>,
     performance: Performance,
-    /// Whether the front end was told of a dirty brush.
+    /// Whether the front end knows of a dirty brush.
     pub(super) dirty_told: bool,
-    /// Whether the front end shows the head.
     head_shown: bool,
-    /// Counter of changes of the painting when the history was last looked at for pictures.
+    /// The count of changes when we last checked whether the history needs a picture.
     pub(super) shot_revision: Option<u64>,
-    /// Time before which a fast replay takes no picture for the history.
+    /// Before this time, a fast replay takes no picture for the history.
     shot_due: Instant,
 }
 
-/// The open painting and its reporter.
 pub(super) struct OpenPainting {
     pub(super) prepared: PreparedPainting,
     pub(super) reporter: Reporter,
-    /// Pictures of the history.
     pub(super) shots: Shots,
     /// Strokes that are undone together.
     pub(super) groups: Groups,
@@ -116,7 +111,6 @@ impl<'a> WorkerLoop<'a> {
         }
     }
 
-    /// Works until the command to quit.
     pub(super) fn run(mut self) {
         loop {
             self.inbox.receive(self.wait_time());
@@ -127,8 +121,8 @@ impl<'a> WorkerLoop<'a> {
         }
     }
 
-    /// Works until `deadline`, or until it must wait: then it returns how long. A slice of painting or
-    /// one command that has begun is finished first. `None` after the command to quit.
+    /// Works until `deadline`, or until it must wait, and returns for how long. It finishes a slice
+    /// of painting or a command that has begun. Returns `None` after the command to quit.
     pub(super) fn turn(&mut self, deadline: Instant) -> Option<Wait> {
         loop {
             self.inbox.receive(Wait::None);
@@ -180,8 +174,8 @@ impl<'a> WorkerLoop<'a> {
         times.into_iter().flatten().min().map_or(Wait::Forever, Wait::Until)
     }
 
-    /// Takes a picture for the history if an action has ended. Replays end actions faster than
-    /// anyone looks; they take few.
+    /// Takes a picture for the history if an action has ended. In a replay, actions end faster than
+    /// anyone looks, so this takes few.
     fn take_shot(&mut self) -> Result<(), SessionError> {
         let Some(OpenPainting { prepared, shots, .. }) = &mut self.open else { return Ok(()) };
         let session = &mut prepared.session;
@@ -201,7 +195,7 @@ impl<'a> WorkerLoop<'a> {
         Ok(())
     }
 
-    /// Renders and sends the changed parts of the pictures, and the head with them.
+    /// Renders and sends the changed parts of the pictures, and the head.
     fn send_pictures(&mut self) -> Result<(), SessionError> {
         let Some(open) = &mut self.open else { return Ok(()) };
         let session = &mut open.prepared.session;
@@ -240,7 +234,7 @@ impl<'a> WorkerLoop<'a> {
         Ok(())
     }
 
-    /// Sends a message, once for each painting, if its recording ended early.
+    /// Sends a message if the recording ended early, once per painting.
     pub(super) fn report_recording_stop(&mut self) {
         let Some(open) = &mut self.open else { return };
         if let Some(reason) = open.prepared.session.recording_stopped()
@@ -255,7 +249,7 @@ impl<'a> WorkerLoop<'a> {
         }
     }
 
-    /// Sends the performance, often while a stroke is open, if it changed.
+    /// Sends the performance if it changed. This happens more often while a stroke is open.
     fn send_performance(&mut self) {
         let now = Instant::now();
         if self.performance_due().is_some_and(|due| now < due) {
@@ -284,12 +278,11 @@ impl<'a> WorkerLoop<'a> {
         Some(self.performance_sent? + interval)
     }
 
-    /// Sends a message to the painter.
     pub(super) fn send_message(&self, text: String, hint: Option<Hint>, failed: bool) {
         (self.send)(Event::Message { text, hint, failed });
     }
 
-    /// Sends the message of an error. The painting is unchanged, unless its device was lost:
+    /// Sends the message of an error. The painting has not changed, unless the device was lost:
     /// then it is recovered on the processor.
     pub(super) fn report_failure(&mut self, error: &SessionError) {
         self.send_message(error.to_string(), error.hint(), true);

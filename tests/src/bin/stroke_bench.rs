@@ -19,7 +19,6 @@ Paints a fixed set of strokes, measures them in mm, and writes strokes.txt, stro
 and one PNG a case to FOLDER (stroke-bench by default). --small takes cells of 0.2 mm and fewer
 strokes.";
 
-/// Arguments of the program.
 struct Arguments {
     out: PathBuf,
     cases: Vec<String>,

@@ -1,4 +1,4 @@
-//! Setting up a canvas, brushes and hands for the strokes of the bench.
+//! Sets up a canvas, brushes and hands for the strokes of the bench.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -21,7 +21,6 @@ use super::heights::Heights;
 use super::measure::extent_mm;
 use super::report::{Curve, Panel};
 
-/// Pigments of the bench by slot.
 const PIGMENTS: [&str; 3] = ["Ultramarine", "Chrome Yellow", "Zinc White"];
 /// Slot of the blue.
 pub const BLUE_SLOT: usize = 0;
@@ -32,7 +31,7 @@ pub const YELLOW: [f64; SLOTS] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// Recipe of a light, hiding blue, in which relief shows.
 pub const BODY: [f64; SLOTS] = [1.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
-/// Bytes for undo; the bench takes nothing back.
+/// The bench never undoes anything.
 const UNDO_BYTES: u64 = 1 << 20;
 
 /// Settings of a run.
@@ -76,8 +75,7 @@ pub struct Easel {
 }
 
 impl Easel {
-    /// A canvas with wet paint: `paint` tells the slot and the height in mm of the paint at a
-    /// place in mm.
+    /// A canvas with wet paint. For a place in mm, `paint` returns the slot and the height in mm.
     ///
     /// # Panics
     /// If the canvas cannot be made.
@@ -253,13 +251,13 @@ impl Easel {
             pictures.push(cut(&picture, columns.clone(), rows.clone()));
         }
         self.painting.relight(Lighting::default()).expect("a light that has a name");
-        let mm = |cells: usize| cells as f64 * heights.cell_mm();
-        let size_mm = (mm(columns.len()), mm(rows.len()));
+        let cell_mm = heights.cell_mm();
+        let size_mm = (columns.len() as f64 * cell_mm, rows.len() as f64 * cell_mm);
         let curves = sections(&heights, &columns, &rows);
         Panel { caption: caption.into(), size_mm, zoom: 1.0, pictures, curves }
     }
 
-    /// Pictures like those of [`Easel::show`], so large that single cells can be seen.
+    /// Pictures like [`Easel::show`], but large enough to see single cells.
     ///
     /// # Panics
     /// If the part is empty.
@@ -277,7 +275,7 @@ fn sections(heights: &Heights, columns: &Range<usize>, rows: &Range<usize>) -> V
     let quarter = columns.len() / 4;
     let across = [middle..middle + 1, middle - quarter..middle + quarter]
         .map(|columns| heights.across(columns)[rows.clone()].to_vec());
-    // Along the middle 60 % of the first mark, or of the picture where there is none.
+    // Use the middle 60 % of the first mark, or of the picture if there is no mark.
     let (top, bottom) =
         first_mark_mm(&across[1], step_mm).unwrap_or((0.0, rows.len() as f64 * step_mm));
     let row = |share: f64| {
@@ -286,8 +284,8 @@ fn sections(heights: &Heights, columns: &Range<usize>, rows: &Range<usize>) -> V
     };
     let along = [row(0.5)..row(0.5) + 1, row(0.2)..row(0.8) + 1]
         .map(|rows| heights.along(rows)[columns.clone()].to_vec());
-    let curve = |caption, lines: [Vec<f64>; 2]| Curve { caption, step_mm, lines: lines.into() };
-    vec![curve("across", across), curve("along", along)]
+    let sections = [("across", across), ("along", along)];
+    sections.map(|(caption, lines)| Curve { caption, step_mm, lines: lines.into() }).into()
 }
 
 /// Both edges in mm of the first mark of a profile. Gaps below 1 mm belong to it.

@@ -21,7 +21,7 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// An upright brush whose broad side lies across strokes along x.
+    /// An upright brush with its broad side across strokes along x.
     #[must_use]
     pub fn across(pressure: f64) -> Self {
         Self { pressure, tilt_deg: (0.0, 0.0), twist_deg: 90.0 }
@@ -92,11 +92,11 @@ mod tests {
 
     #[test]
     fn a_turning_hand_follows_two_circles_without_spinning_back() {
-        let point = |step: i32| {
+        let point = (0..=96).map(|step| {
             let (sin, cos) = (f64::from(step) / 48.0 * TAU).sin_cos();
             (20.0 + 8.0 * cos, 20.0 + 8.0 * sin)
-        };
-        let points: Vec<(f64, f64)> = (0..=96).map(point).collect();
+        });
+        let points: Vec<(f64, f64)> = point.collect();
         let samples = turning(Hand::across(0.4).along(&points));
         let turns: Vec<f64> =
             samples.windows(2).map(|pair| pair[1].twist_deg - pair[0].twist_deg).collect();

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Heights of paint or ground in mm, row by row; row 0 is the upper edge of the canvas.
+/// Heights of paint or ground in mm, row by row from the upper edge of the canvas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heights {
     cell_mm: f64,
@@ -21,8 +21,8 @@ impl Heights {
         Self { cell_mm, columns, mm }
     }
 
-    /// Heights in mm of a surface `width_mm` x `height_mm`, told by their place: `height` gets
-    /// the centre of a cell in mm from the left and the upper edge.
+    /// Heights in mm of a surface `width_mm` x `height_mm`. You pass `height`, which gets the
+    /// centre of a cell in mm from the left and the upper edge.
     #[must_use]
     pub fn from_places(
         cell_mm: f64,
@@ -30,9 +30,12 @@ impl Heights {
         height: impl Fn(f64, f64) -> f64,
     ) -> Self {
         let [columns, rows] = [width_mm, height_mm].map(|mm| (mm / cell_mm).round() as usize);
-        let centre = |cell: usize| (cell as f64 + 0.5) * cell_mm;
-        let cells = (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y)));
-        Self::new(cell_mm, columns, cells.map(|(x, y)| height(centre(x), centre(y))).collect())
+        let cells = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
+        let heights = cells.map(|cell| {
+            let [x, y] = cell.map(|at| (at as f64 + 0.5) * cell_mm);
+            height(x, y)
+        });
+        Self::new(cell_mm, columns, heights.collect())
     }
 
     /// Width of a cell in mm.
@@ -86,7 +89,7 @@ impl Heights {
         start..(end as usize).clamp(start, count)
     }
 
-    /// Rows between two distances in mm from the upper edge, as heights of their own.
+    /// Cuts out the rows between two distances in mm from the upper edge.
     #[must_use]
     pub fn band(&self, mm: Range<f64>) -> Self {
         let rows = self.rows_in(mm);
@@ -98,16 +101,16 @@ impl Heights {
     #[must_use]
     pub fn across(&self, columns: Range<usize>) -> Vec<f64> {
         let count = columns.len().max(1) as f64;
-        let sum = |y: usize| columns.clone().map(|x| self.at(x, y)).sum::<f64>();
-        (0..self.rows()).map(|y| sum(y) / count).collect()
+        let sums = (0..self.rows()).map(|y| columns.clone().map(|x| self.at(x, y)).sum::<f64>());
+        sums.map(|sum| sum / count).collect()
     }
 
     /// Mean over `rows` of each column: the profile along a stroke that runs along x, in mm.
     #[must_use]
     pub fn along(&self, rows: Range<usize>) -> Vec<f64> {
         let count = rows.len().max(1) as f64;
-        let sum = |x: usize| rows.clone().map(|y| self.at(x, y)).sum::<f64>();
-        (0..self.columns).map(|x| sum(x) / count).collect()
+        let sums = (0..self.columns).map(|x| rows.clone().map(|y| self.at(x, y)).sum::<f64>());
+        sums.map(|sum| sum / count).collect()
     }
 
     /// Heights in mm of the cells in `columns` and `rows`, row by row.
@@ -117,7 +120,7 @@ impl Heights {
         cells.map(|(x, y)| self.at(x, y)).collect()
     }
 
-    /// Height in mm of the highest cell; 0 without paint.
+    /// Height in mm of the highest cell. Without paint this is 0.
     #[must_use]
     pub fn highest_mm(&self) -> f64 {
         self.mm.iter().fold(0.0, |highest: f64, &mm| highest.max(mm))

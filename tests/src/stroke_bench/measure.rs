@@ -1,14 +1,7 @@
-//! Pure measures of heights in mm.
-//!
-//! The outline of a mark: how far its edges deviate from straight lines.
-//!
-//! The surface of a patch: saw-tooth, pits, evenness and colour.
-//!
-//! Waves in a profile: filters and spectra over wavelengths in mm.
-//!
-//! Series of numbers: means, deviations, trends and correlations.
-//!
-//! The mark of a stroke that runs along x: its width, its film, its lips and its ends.
+//! Pure measures of heights in mm: how far the edges of a mark deviate from straight lines, how
+//! even a surface is (saw-tooth, pits, colour), which waves a profile has, and where the mark of a
+//! stroke along x begins and ends, how wide and thick it is and which lips it has. Also means,
+//! trends and correlations of series.
 
 use std::f64::consts::{LN_2, PI, TAU};
 use std::ops::Range;
@@ -17,11 +10,11 @@ use spectra::color::{Lab, delta_e_ciede2000};
 
 use super::heights::Heights;
 
-/// Root of the mean squared distance in mm of the upper and of the lower edge of a mark from the
-/// straight line nearest to each, over `columns`. The edge of a column is where the height, going
-/// inwards, first reaches half of the film, between the centres of cells. The film of a column is
-/// the mean over the middle 60 % of its width, smoothed over 5 mm along the mark.
-/// `None` where a column has no paint.
+/// How far the upper and the lower edge of a mark deviate from straight lines, in mm, over
+/// `columns`: root of the mean squared distance from the nearest line. Going inwards, the edge of a
+/// column is where the height first reaches half of the film, between the centres of cells. The
+/// film of a column is the mean over the middle 60 % of its width, smoothed over 5 mm along the
+/// mark. Returns `None` if a column has no paint.
 #[must_use]
 pub fn edge_deviations_mm(heights: &Heights, columns: Range<usize>) -> Option<[f64; 2]> {
     let cell_mm = heights.cell_mm();
@@ -47,8 +40,8 @@ pub fn edge_deviations_mm(heights: &Heights, columns: Range<usize>) -> Option<[f
     ])
 }
 
-/// Root of the mean squared distance of `places`, told every `step`, from the nearest straight
-/// line; perpendicular to that line.
+/// Root of the mean squared distance of `places` from the nearest straight line, perpendicular to
+/// the line. There is a place every `step`.
 #[must_use]
 pub fn line_deviation(places: &[f64], step: f64) -> f64 {
     let along: Vec<f64> = (0..places.len()).map(|index| index as f64 * step).collect();
@@ -62,7 +55,7 @@ pub fn line_deviation(places: &[f64], step: f64) -> f64 {
 }
 
 /// Root of the mean squared second difference between neighbouring cells along x and along y, in
-/// mm: 4 a for a chequerboard of amplitude a, 0 for a plane.
+/// mm. A chequerboard of amplitude a gives 4 a, for example, and a plane gives 0.
 #[must_use]
 pub fn second_differences_mm(
     heights: &Heights,
@@ -112,16 +105,16 @@ pub fn color_spread(colors: &[Lab]) -> f64 {
     mean(&colors.iter().map(|&lab| delta_e_ciede2000(center, lab)).collect::<Vec<_>>())
 }
 
-/// Profile without waves shorter than `cut_mm`: the Gaussian filter of surface texture (ISO
-/// 16610-21:2011, equation 1), which passes half of a wave of that length. Near the ends the
-/// weights inside are normalised. `step_mm` is the distance of two values.
+/// Profile without waves shorter than `cut_mm`. This is the Gaussian filter of surface texture (ISO
+/// 16610-21:2011, equation 1), which passes half of a wave of that length. Near the ends it
+/// normalises the weights inside. `step_mm` is the distance of two values.
 #[must_use]
 pub fn smoothed(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
     let width = (LN_2 / PI).sqrt() * cut_mm;
     let reach = (2.0 * width / step_mm).ceil() as usize;
-    let weight = |lag: usize| (-PI * (lag as f64 * step_mm / width).powi(2)).exp();
-    let weights: Vec<f64> = (0..=reach).map(weight).collect();
-    let at = |index: usize| {
+    let weights: Vec<f64> =
+        (0..=reach).map(|lag| (-PI * (lag as f64 * step_mm / width).powi(2)).exp()).collect();
+    let values = (0..profile.len()).map(|index| {
         let first = index.saturating_sub(reach);
         let last = (index + reach).min(profile.len() - 1);
         let mut sum = 0.0;
@@ -132,8 +125,8 @@ pub fn smoothed(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
             whole += weight;
         }
         sum / whole
-    };
-    (0..profile.len()).map(at).collect()
+    });
+    values.collect()
 }
 
 /// Profile minus [`smoothed`]: waves shorter than `cut_mm`.
@@ -157,9 +150,9 @@ fn power(profile: &[f64], step_mm: f64, per_mm: f64) -> f64 {
     (real * real + imaginary * imaginary) / (count * count)
 }
 
-/// Wavelength in mm at the peak of the mean power spectrum of several profiles of one length,
-/// each without its parabola. Searched from two cells to the length of a profile over 1.5, in
-/// steps of a quarter of a wave over the length. Not a number without profiles or relief.
+/// Wavelength in mm at the peak of the mean power spectrum of several profiles of one length. First
+/// subtracts the parabola of each. Searches from two cells to 1 / 1.5 of the length, in steps of a
+/// quarter of a wave over the length. Returns NaN without profiles or relief.
 #[must_use]
 pub fn peak_wavelength_mm(profiles: &[Vec<f64>], step_mm: f64) -> f64 {
     let length_mm = profiles.first().map_or(0.0, |profile| profile.len() as f64 * step_mm);
@@ -177,13 +170,13 @@ pub fn peak_wavelength_mm(profiles: &[Vec<f64>], step_mm: f64) -> f64 {
     best.1
 }
 
-/// Mean; not a number for an empty series.
+/// Mean. An empty series gives NaN.
 #[must_use]
 pub fn mean(series: &[f64]) -> f64 {
     series.iter().sum::<f64>() / series.len() as f64
 }
 
-/// Root of the mean square; not a number for an empty series.
+/// Root of the mean square. An empty series gives NaN.
 #[must_use]
 pub fn rms(series: &[f64]) -> f64 {
     (series.iter().map(|value| value * value).sum::<f64>() / series.len() as f64).sqrt()
@@ -210,13 +203,13 @@ pub fn ends(series: &[f64]) -> (f64, f64) {
     series.iter().fold(start, |(low, high), &value| (low.min(value), high.max(value)))
 }
 
-/// Smallest ratio of a value to the one before it: above 1 where all values rise.
+/// Smallest ratio of a value to the one before it. This is above 1 if all values rise.
 #[must_use]
 pub fn least_rise(series: &[f64]) -> f64 {
     series.windows(2).map(|pair| pair[1] / pair[0]).fold(f64::INFINITY, f64::min)
 }
 
-/// Share `quantile` (0 to 1) of the values lies below; not a number for an empty series.
+/// The value with the share `quantile` (0 to 1) of the values below it. An empty series gives NaN.
 #[must_use]
 pub fn quantile(series: &[f64], quantile: f64) -> f64 {
     let mut sorted = series.to_vec();
@@ -225,8 +218,8 @@ pub fn quantile(series: &[f64], quantile: f64) -> f64 {
     sorted.get(place.min(sorted.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
 }
 
-/// Polynomial of degree `N - 1` nearest to `values` at `places` (least squares), as its values
-/// there.
+/// Polynomial of degree `N - 1` nearest to `values` at `places` (least squares). Returns its values
+/// at these places.
 #[must_use]
 pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
     let middle = mean(places);
@@ -234,7 +227,7 @@ pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
     let powers = |x: f64| -> [f64; N] {
         std::array::from_fn(|power| ((x - middle) / reach).powi(power as i32))
     };
-    // Normal equations, solved by elimination; the powers are of the order of 1.
+    // Solves the normal equations by elimination. The powers are of the order of 1.
     let mut rows = vec![vec![0.0; N + 1]; N];
     for (&x, &value) in places.iter().zip(values) {
         let powers = powers(x);
@@ -253,11 +246,12 @@ pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
             }
         }
     }
-    let factor =
-        |row: usize| if rows[row][row] == 0.0 { 0.0 } else { rows[row][N] / rows[row][row] };
+    let factors: Vec<f64> = (0..N)
+        .map(|row| if rows[row][row] == 0.0 { 0.0 } else { rows[row][N] / rows[row][row] })
+        .collect();
     places
         .iter()
-        .map(|x: &f64| powers(*x).iter().enumerate().map(|(i, power)| factor(i) * power).sum())
+        .map(|&x| factors.iter().zip(powers(x)).map(|(factor, power)| factor * power).sum())
         .collect()
 }
 
@@ -269,20 +263,20 @@ pub fn without_parabola(series: &[f64]) -> Vec<f64> {
     series.iter().zip(trend).map(|(value, trend)| value - trend).collect()
 }
 
-/// Pearson's correlation of two series of one length; 0 if one is constant.
+/// Pearson's correlation of two series of one length. If one is constant, this is 0.
 #[must_use]
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let mean_a = mean(a);
     let mean_b = mean(b);
-    let pairs = || a.iter().zip(b).map(|(a, b)| (a - mean_a, b - mean_b));
-    let covariance: f64 = pairs().map(|(a, b)| a * b).sum();
-    let power: f64 =
-        pairs().map(|(a, _)| a * a).sum::<f64>() * pairs().map(|(_, b)| b * b).sum::<f64>();
+    let pairs: Vec<(f64, f64)> = a.iter().zip(b).map(|(a, b)| (a - mean_a, b - mean_b)).collect();
+    let covariance: f64 = pairs.iter().map(|(a, b)| a * b).sum();
+    let power: f64 = pairs.iter().map(|(a, _)| a * a).sum::<f64>()
+        * pairs.iter().map(|(_, b)| b * b).sum::<f64>();
     if power > 0.0 { covariance / power.sqrt() } else { 0.0 }
 }
 
-/// Slope of the line that fits `b` best as a function of `a`: the share of a relief `a` that
-/// shows in `b`.
+/// Slope of the best line for `b` as a function of `a`: the share of a relief `a` that you see in
+/// `b`.
 #[must_use]
 pub fn slope(a: &[f64], b: &[f64]) -> f64 {
     let mean_a = mean(a);
@@ -292,8 +286,8 @@ pub fn slope(a: &[f64], b: &[f64]) -> f64 {
     if variance > 0.0 { covariance / variance } else { 0.0 }
 }
 
-/// Autocorrelation at `lags` (in values), averaged over several series: the sum of products over
-/// that of squares, each per value. The series have no trend.
+/// Autocorrelation at `lags` (in values), averaged over several series: the mean product divided by
+/// the mean square. The series must have no trend.
 #[must_use]
 pub fn autocorrelation(all: &[Vec<f64>], lags: Range<usize>) -> Vec<f64> {
     let product = |lag: usize| {
@@ -370,7 +364,7 @@ fn extent_at_mm(profile: &[f64], step_mm: f64, share: f64) -> Option<(f64, f64)>
 }
 
 impl Mark {
-    /// The only mark in `heights`. `None` without paint, or with less than 20 mm of it.
+    /// The only mark in `heights`. Returns `None` if there is less than 20 mm of paint.
     #[must_use]
     pub fn along_x(heights: &Heights) -> Option<Self> {
         Self::within(heights, 0.0..heights.columns() as f64 * heights.cell_mm())
@@ -412,21 +406,20 @@ impl Mark {
         mean(&heights.part(columns, self.middle.clone()))
     }
 
-    /// Highest place of the mean profile across near the upper and near the lower edge, over
-    /// the film.
+    /// Highest place of the mean profile across, near the upper and near the lower edge, relative
+    /// to the film.
     #[must_use]
     pub fn side_lips(&self, heights: &Heights) -> [f64; 2] {
         let profile = heights.across(self.steady.clone());
-        let highest = |from: f64, to: f64| {
-            let rows = heights.rows_in(from..to);
-            profile[rows].iter().fold(0.0, |a: f64, &b| a.max(b)) / self.film_mm
-        };
         let (top, bottom) = self.edges_mm;
-        [highest(top - LIP_MM, top + LIP_MM), highest(bottom - LIP_MM, bottom + LIP_MM)]
+        [top, bottom].map(|edge| {
+            let rows = heights.rows_in(edge - LIP_MM..edge + LIP_MM);
+            profile[rows].iter().fold(0.0, |a: f64, &b| a.max(b)) / self.film_mm
+        })
     }
 
-    /// Highest place of the mean profile along the last `LIP_MM` mm before the mark's end, over
-    /// the film from 15 to 5 mm before it.
+    /// Highest place of the mean profile along the last `LIP_MM` mm before the mark's end, relative
+    /// to the film from 15 to 5 mm before it.
     #[must_use]
     pub fn end_lip(&self, heights: &Heights) -> f64 {
         let profile = heights.along(self.middle.clone());
@@ -436,8 +429,8 @@ impl Mark {
         last.iter().fold(0.0, |a: f64, &b| a.max(b)) / film
     }
 
-    /// Places in mm along x where the mean film begins and ends: where it crosses half of the
-    /// film of the first and of the last 10 mm of the steady part.
+    /// Places in mm along x where the mean film begins and ends: where it crosses half of the film
+    /// of the first and of the last 10 mm of the steady part.
     #[must_use]
     pub fn ends_mm(&self, heights: &Heights) -> Option<(f64, f64)> {
         let profile = heights.along(self.middle.clone());
@@ -478,8 +471,10 @@ mod series_tests {
     #[test]
     fn a_parabola_is_taken_away_and_a_wave_on_it_stays() {
         let wave = wave(200, 10.0);
-        let bent = |index: usize| 3.0 + 0.2 * index as f64 - 0.01 * (index * index) as f64;
-        let on_it: Vec<f64> = wave.iter().enumerate().map(|(i, value)| value + bent(i)).collect();
+        let on_it: Vec<f64> = (0_u32..)
+            .zip(&wave)
+            .map(|(i, value)| value + (3.0 + 0.2 * f64::from(i) - 0.01 * f64::from(i * i)))
+            .collect();
         let left = without_parabola(&on_it);
         assert_near("rms of the wave", &[rms(&left)], &[0.5f64.sqrt()], 0.01);
         let line = fitted::<2>(&[1.0, 2.0, 4.0], &[3.0, 5.0, 9.0]);
@@ -489,21 +484,18 @@ mod series_tests {
     #[test]
     fn waves_correlate_with_themselves_and_not_across_a_quarter() {
         let wave = wave(400, 20.0);
-        let shifted = |lag: usize| correlation(&wave[..380], &wave[lag..380 + lag]);
-        assert_near(
-            "correlation",
-            &[shifted(20), shifted(10), shifted(5)],
-            &[1.0, -1.0, 0.0],
-            1e-9,
-        );
+        let found = [20, 10, 5].map(|lag| correlation(&wave[..380], &wave[lag..380 + lag]));
+        assert_near("correlation", &found, &[1.0, -1.0, 0.0], 1e-9);
         assert_eq!(correlation(&[1.0, 1.0], &[1.0, 2.0]), 0.0);
     }
 
     #[test]
     fn a_relief_shows_by_the_slope_whatever_lies_beside_it() {
         let relief: Vec<f64> = (0..300).map(|i| (f64::from(i) * 0.7).sin()).collect();
-        let other = |i: usize| 5.0 + (i as f64 * 0.31).cos();
-        let top: Vec<f64> = relief.iter().enumerate().map(|(i, z)| 0.25 * z + other(i)).collect();
+        let top: Vec<f64> = (0_u32..)
+            .zip(&relief)
+            .map(|(i, z)| 0.25 * z + (5.0 + (f64::from(i) * 0.31).cos()))
+            .collect();
         let found = slope(&relief, &top);
         assert!((found - 0.25).abs() < 0.02, "{found}");
         assert_eq!(slope(&[1.0; 9], &[2.0; 9]), 0.0);
@@ -524,10 +516,10 @@ mod mark_tests {
 
     /// A mark from x 8 to 62.3 mm and y 5.03 to 15.03 mm, `film` high, with lips 0.5 mm wide.
     fn stroke(film: impl Fn(f64) -> f64, side: f64, end: f64) -> Heights {
+        fn inside(at: f64, from: f64, to: f64) -> f64 {
+            ((at - from) / 0.1 + 0.5).clamp(0.0, 1.0) * ((to - at) / 0.1 + 0.5).clamp(0.0, 1.0)
+        }
         Heights::from_places(0.1, (80.0, 20.0), |x, y| {
-            let inside = |at: f64, from: f64, to: f64| {
-                ((at - from) / 0.1 + 0.5).clamp(0.0, 1.0) * ((to - at) / 0.1 + 0.5).clamp(0.0, 1.0)
-            };
             let near_side = (5.5..14.5).contains(&y);
             let lip = if x > 61.5 {
                 end
@@ -553,7 +545,9 @@ mod mark_tests {
 
     #[test]
     fn ends_are_found_where_half_of_the_near_film_is_left() {
-        let falling = |x: f64| 0.4 - 0.005 * x;
+        fn falling(x: f64) -> f64 {
+            0.4 - 0.005 * x
+        }
         let heights = stroke(falling, 1.0, 1.0);
         let mark = Mark::along_x(&heights).unwrap();
         let (from, to) = mark.ends_mm(&heights).unwrap();
@@ -586,10 +580,12 @@ mod tests {
     use crate::golden::assert_near;
     use std::f64::consts::TAU;
 
-    /// A mark 6 mm wide whose upper edge lies at `edge(x)`; cells hold their covered share.
+    /// A mark 6 mm wide with its upper edge at `edge(x)`. Cells hold their covered share.
     fn mark(edge: impl Fn(f64) -> f64) -> Heights {
+        fn share(inside: f64) -> f64 {
+            (inside / 0.1 + 0.5).clamp(0.0, 1.0)
+        }
         Heights::from_places(0.1, (40.0, 30.0), |x, y| {
-            let share = |inside: f64| (inside / 0.1 + 0.5).clamp(0.0, 1.0);
             0.1 * share(y - edge(x)) * share(edge(x) + 6.0 - y)
         })
     }
@@ -608,7 +604,7 @@ mod tests {
         let heights = mark(|x| 10.0 + 0.3 * (x / 5.0 * TAU).sin());
         let found = edge_deviations_mm(&heights, 0..400).unwrap();
         assert_near("wave", &found, &[0.3 * 0.5f64.sqrt(); 2], 0.01);
-        // Whole cells only: the error is even over a cell, with a deviation of 1 / sqrt 12.
+        // With whole cells, the error is even over a cell, with a deviation of 1 / sqrt 12.
         let slope = 10f64.to_radians().tan();
         let stairs = mark(|x| ((10.0 + slope * x) / 0.1).round() * 0.1);
         let [upper, _] = edge_deviations_mm(&stairs, 0..400).unwrap();
@@ -626,20 +622,23 @@ mod tests {
         let board =
             Heights::new(0.1, 20, (0..400).map(|i| 0.01 * f64::from((i / 20 + i) % 2)).collect());
         let plane = Heights::from_places(0.1, (2.0, 2.0), |x, y| 0.3 * x + 0.1 * y);
-        let of = |heights: &Heights| second_differences_mm(heights, 0..20, 0..20);
-        assert_near("board", &of(&board), &[4.0 * 0.005; 2], 1e-12);
-        assert_near("plane", &of(&plane), &[0.0; 2], 1e-12);
         let ribs =
             Heights::from_places(0.1, (2.0, 2.0), |_, y| 0.01 * ((y / 0.1) as usize % 2) as f64);
-        assert_near("ribs along x", &of(&ribs), &[0.0, 0.02], 1e-12);
+        for (name, heights, wanted) in [
+            ("board", board, [4.0 * 0.005; 2]),
+            ("plane", plane, [0.0; 2]),
+            ("ribs along x", ribs, [0.0, 0.02]),
+        ] {
+            assert_near(name, &second_differences_mm(&heights, 0..20, 0..20), &wanted, 1e-12);
+        }
     }
 
     #[test]
     fn pits_are_counted_within_the_patch() {
         // One cell in 100 is a hole.
         let heights = Heights::from_places(0.1, (10.0, 10.0), |x, y| {
-            let cell = |mm: f64| (mm / 0.1) as usize % 10;
-            if cell(x) == 5 && cell(y) == 5 { 0.01 } else { 0.2 }
+            let hole = [x, y].iter().all(|mm| (mm / 0.1) as usize % 10 == 5);
+            if hole { 0.01 } else { 0.2 }
         });
         let all = pits(&heights, |_, _| true);
         assert_near(
@@ -652,7 +651,9 @@ mod tests {
 
     #[test]
     fn colors_spread_about_their_mean() {
-        let gray = |lightness: f64| Lab { lightness, a: 0.0, b: 0.0 };
+        fn gray(lightness: f64) -> Lab {
+            Lab { lightness, a: 0.0, b: 0.0 }
+        }
         assert_near("no spread", &[color_spread(&[gray(50.0); 4])], &[0.0], 1e-12);
         let spread = color_spread(&[gray(48.0), gray(52.0)]);
         assert!((1.7..2.3).contains(&spread), "CIEDE2000 is about 1 a step at L* 50: {spread}");
@@ -666,12 +667,11 @@ mod tests {
 
     #[test]
     fn the_filter_halves_a_wave_of_its_length_and_keeps_long_ones() {
-        let part = |wavelength_mm: f64| {
+        let passed = [3.0, 30.0, 0.6].map(|wavelength_mm| {
             let wave = wave(90.0, wavelength_mm, 1.0);
-            let inner = |profile: &[f64]| rms(&profile[150..750]);
-            inner(&smoothed(&wave, 0.1, 3.0)) / inner(&wave)
-        };
-        assert_near("passed", &[part(3.0), part(30.0), part(0.6)], &[0.5, 0.993, 0.0], 0.005);
+            rms(&smoothed(&wave, 0.1, 3.0)[150..750]) / rms(&wave[150..750])
+        });
+        assert_near("passed", &passed, &[0.5, 0.993, 0.0], 0.005);
         let level = smoothed(&[2.0; 30], 0.1, 3.0);
         assert_near("a level", &level, &[2.0; 30], 1e-12);
         assert_near("nothing rough on a level", &rough(&[2.0; 30], 0.1, 3.0), &[0.0; 30], 1e-12);

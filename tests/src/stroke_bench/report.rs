@@ -1,13 +1,12 @@
-//! The table of figures as text and as JSON.
-//!
-//! Results of a case: figures with the bounds that are wanted, pictures and curves.
+//! Results of a case: figures with the bounds that are wanted, pictures and curves. Writes the
+//! table of figures as text and as JSON.
 
 use std::fmt::Write;
 
 use image::RgbImage;
 use serde_json::{Value, json};
 
-/// A number with four significant digits, or `-` if it is none.
+/// A number with four significant digits, or `-` if it is not finite.
 #[must_use]
 pub fn number(value: f64) -> String {
     if !value.is_finite() {
@@ -18,10 +17,12 @@ pub fn number(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Bounds of a figure in words; empty without bounds.
+/// Bounds of a figure in words. They are empty without bounds.
 #[must_use]
 pub fn bounds(wanted: Wanted) -> String {
-    let plain = |value: f64| format!("{}", (value * 1e6).round() / 1e6);
+    fn plain(value: f64) -> String {
+        format!("{}", (value * 1e6).round() / 1e6)
+    }
     match (wanted.low, wanted.high) {
         (Some(low), Some(high)) => format!("{} to {}", plain(low), plain(high)),
         (Some(low), None) => format!(">= {}", plain(low)),
@@ -40,7 +41,7 @@ pub fn verdict(figure: &Figure) -> &'static str {
     }
 }
 
-/// All figures as lines of text, and how many of those with bounds are met.
+/// All figures as lines of text, and how many of them meet their bounds.
 #[must_use]
 pub fn table(reports: &[CaseReport]) -> String {
     let mut text = String::new();
@@ -93,7 +94,7 @@ pub fn json(cell_mm: f64, small: bool, reports: &[CaseReport]) -> Value {
     })
 }
 
-/// Bounds that a figure is wanted in, both inclusive.
+/// Wanted bounds of a figure, both inclusive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wanted {
     /// Lowest wanted value.
@@ -107,11 +108,11 @@ pub struct Wanted {
 pub struct Figure {
     /// Name, unique within its case.
     pub name: String,
-    /// Value; not a number where there was nothing to measure.
+    /// Value, or NaN if there was nothing to measure.
     pub value: f64,
     /// Unit, empty for a ratio.
     pub unit: &'static str,
-    /// Bounds; none for a figure that is told for information.
+    /// Bounds. A figure that is only for information has none.
     pub wanted: Wanted,
 }
 
@@ -122,22 +123,22 @@ impl Figure {
         Self { name: name.into(), value, unit, wanted: Wanted::default() }
     }
 
-    /// A figure wanted at `low` or above.
+    /// Sets the lower bound.
     #[must_use]
     pub fn at_least(mut self, low: f64) -> Self {
         self.wanted.low = Some(low);
         self
     }
 
-    /// A figure wanted at `high` or below.
+    /// Sets the upper bound.
     #[must_use]
     pub fn at_most(mut self, high: f64) -> Self {
         self.wanted.high = Some(high);
         self
     }
 
-    /// Whether the value lies within its bounds; `None` without bounds. A value that is not a
-    /// number lies within none.
+    /// Whether the value is within its bounds, or `None` without bounds. NaN is never within
+    /// bounds.
     #[must_use]
     pub fn is_met(&self) -> Option<bool> {
         let Wanted { low, high } = self.wanted;
@@ -166,7 +167,7 @@ pub struct Panel {
     pub caption: String,
     /// Width and height of the part in mm.
     pub size_mm: (f64, f64),
-    /// Magnification on the sheet; 1 for whole strokes.
+    /// Magnification on the sheet. Whole strokes have 1.
     pub zoom: f64,
     /// Pictures from above, one pixel a cell.
     pub pictures: Vec<RgbImage>,
@@ -175,7 +176,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// The panel with its pictures `zoom` times as large as those of whole strokes.
+    /// The panel with its pictures enlarged by `zoom`.
     #[must_use]
     pub fn zoomed(self, zoom: f64) -> Self {
         Self { zoom, ..self }
@@ -222,14 +223,16 @@ mod tests {
         let text = table(std::slice::from_ref(&report));
         assert!(text.contains("1 of 2 figures"), "{text}");
         let json = json(0.25, true, &[report]);
-        let told = |at: usize| json["figures"][at]["ok"].clone();
-        assert_eq!([told(0), told(1), told(2)], [json!(true), json!(false), Value::Null]);
+        let told = [0, 1, 2].map(|at: usize| json["figures"][at]["ok"].clone());
+        assert_eq!(told, [json!(true), json!(false), Value::Null]);
         assert_eq!(json["figures"][1]["value"], Value::Null);
     }
 
     #[test]
     fn bounds_are_met_within_and_never_by_no_number() {
-        let figure = |value: f64| Figure::new("film", value, "mm");
+        fn figure(value: f64) -> Figure {
+            Figure::new("film", value, "mm")
+        }
         assert_eq!(figure(0.1).is_met(), None);
         assert_eq!(
             [0.09, 0.1, 0.2, 0.21]

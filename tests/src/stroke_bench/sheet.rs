@@ -1,5 +1,5 @@
-//! The picture sheet: each case's strokes from above under two lights, sections through the paint,
-//! and its figures beside them.
+//! The picture sheet: the strokes of each case from above under two lights, sections through the
+//! paint, and the figures beside them.
 
 use std::fmt::Write;
 
@@ -11,15 +11,14 @@ use reports::svg::{escaped, opening};
 
 use super::report::{CaseReport, Curve, Panel, bounds, number, verdict};
 
-/// Width of the sheet in units; the PNG has two pixels a unit.
+/// Width of the sheet in units. The PNG has two pixels per unit.
 const WIDTH: f64 = 1180.0;
 const SCALE: f64 = 2.0;
-/// Units per mm of canvas where nothing is magnified: six pixels of the PNG.
+/// Units per mm of canvas if nothing is magnified: six pixels of the PNG.
 const PER_MM: f64 = 3.0;
 const MARGIN: f64 = 14.0;
 const GAP: f64 = 16.0;
 const HEADER: f64 = 34.0;
-/// Left edge of the figures.
 const FIGURES: f64 = 800.0;
 const LINE: f64 = 12.5;
 const TEXT: f64 = 9.5;
@@ -42,7 +41,7 @@ impl Panel {
     }
 }
 
-/// Upper left corners of the panels, which flow in lines, and the lower end of the last line.
+/// Upper left corners of the panels, arranged in lines, and the lower end of the last line.
 fn places(panels: &[Panel]) -> (Vec<(f64, f64)>, f64) {
     let mut x = MARGIN;
     let mut y = HEADER;
@@ -169,10 +168,9 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     let text = image::load_from_memory(&png(&drawing.0)?).expect("a PNG of the drawing");
     let mut sheet = text.to_rgb8();
     for (picture, (x, y), panel) in pictures {
-        let pixels = |mm: f64| (SCALE * panel.per_mm() * mm).round() as u32;
-        let width = pixels(panel.size_mm.0);
-        let height = pixels(panel.size_mm.1);
-        // Single cells stay squares where they are larger than a pixel.
+        let [width, height] = [panel.size_mm.0, panel.size_mm.1]
+            .map(|mm| (SCALE * panel.per_mm() * mm).round() as u32);
+        // If a cell is larger than a pixel, it should stay a square.
         let larger = width > 2 * picture.width();
         let filter = if larger { FilterType::Nearest } else { FilterType::Triangle };
         let scaled = resize(picture, width, height, filter);
@@ -232,14 +230,19 @@ mod tests {
         assert_eq!(places[0].1, places[2].1, "three in a line");
         assert_eq!(places[3].1, places[0].1 + report.panels[0].height() + GAP);
         let picture = picture(&report).unwrap();
-        let red = |(x, y): (f64, f64)| {
-            let at = |units: f64| (SCALE * units) as u32;
-            *picture.get_pixel(at(x + 100.0), at(y + LINE + 20.0)) == Rgb([200, 0, 0])
-        };
-        assert!(places.iter().all(|&place| red(place)), "each picture lies in its panel");
+        for (x, y) in places {
+            let [x, y] = [x + 100.0, y + LINE + 20.0].map(|units| (SCALE * units) as u32);
+            assert_eq!(
+                *picture.get_pixel(x, y),
+                Rgb([200, 0, 0]),
+                "each picture lies in its panel"
+            );
+        }
         let corner = picture.get_pixel(0, picture.height() - 1);
         assert_eq!(*corner, Rgb(PAPER.0), "paper up to the last row");
-        let ink = |pixels: &RgbImage| pixels.pixels().filter(|pixel| pixel.0[0] < 0x60).count();
+        fn ink(pixels: &RgbImage) -> usize {
+            pixels.pixels().filter(|pixel| pixel.0[0] < 0x60).count()
+        }
         assert!(ink(&picture) > 500, "there is text");
         let sheet = sheet(&vec![report; 6]).unwrap();
         assert_eq!(sheet.dimensions(), (3 * picture.width(), 2 * picture.height()));

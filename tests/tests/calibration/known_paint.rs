@@ -1,9 +1,6 @@
-//! Fits of synthetic mixtures whose K and S are known.
-//!
-//! Calibration with absolute amounts on one backing: ladders and mixtures of synthetic
-//! watercolours.
-//!
-//! Swatches from the rows of a measurement file: scale, grid, repeated readings, backings, faults.
+//! Fits of synthetic mixtures with known K and S, calibration with absolute amounts on one backing
+//! (from ladders and mixtures of synthetic watercolours), and swatches read from the rows of a
+//! measurement file.
 
 use std::sync::{Arc, Mutex};
 
@@ -60,12 +57,11 @@ fn every_method_recovers_known_k_and_s_from_readings_without_noise() {
 fn at_the_papers_size_the_fit_is_nearer_to_the_truth_than_its_readings() {
     for seed in [11, 12] {
         let made = SyntheticMixtures::paper_size(seed, 0.002);
-        let rms = |fit: &Refined| made.rms_to_truth(&fit.curves);
         // Noise of 0.002 in 71 mixtures with 21 unknowns leaves 0.002 sqrt(21 / 71) = 0.00109
         // without smoothing.
-        let rough = rms(&refined(&made, Smoothness::None));
+        let rough = made.rms_to_truth(&refined(&made, Smoothness::None).curves);
         assert!(rough < 0.00115, "seed {seed}: {rough}");
-        let smooth = rms(&refined(&made, Smoothness::Auto));
+        let smooth = made.rms_to_truth(&refined(&made, Smoothness::Auto).curves);
         assert!(smooth < 0.0007, "seed {seed}: {smooth}");
     }
 }
@@ -136,12 +132,12 @@ fn any_number_of_wavelengths_will_do() {
     let made = SyntheticMixtures::paper_size(4, 0.001);
     for count in [1, 2, 3, 7] {
         let grid = spectra::Grid::from_nm(500.0, 3.0, count).unwrap();
-        let cut = |o: &Observation| Observation {
+        let cut = made.observations.iter().map(|o| Observation {
             ratio: o.ratio[..count].to_vec(),
             reflectance: o.reflectance[..count].to_vec(),
             ..o.clone()
-        };
-        let observations: Vec<Observation> = made.observations.iter().map(cut).collect();
+        });
+        let observations: Vec<Observation> = cut.collect();
         let problem = Problem::new(grid, made.surface, &observations, PigmentId(0)).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         let how = Refinement::whole(Smoothness::Auto);
@@ -184,13 +180,14 @@ fn pigments_always_mixed_alike_lower_the_rank() {
         condition(&problem, &made.curves).rank
     };
     assert_eq!(rank(&made.observations), 21);
-    // The mixtures determine only the sums of the two K and of the two S: two unknowns fewer.
+    // The mixtures determine only the sum of the two K and of the two S, so there are two unknowns
+    // fewer.
     assert_eq!(rank(&tied), 19);
 }
 
 #[test]
 fn a_fit_is_the_same_to_the_bit_on_any_number_of_threads_and_tells_its_stages() {
-    // Wide enough that panels of the factor are shared out to threads.
+    // This is wide enough that the solver shares out panels of the factor to threads.
     let grid = spectra::Grid::from_nm(400.0, 20.0, 16).unwrap();
     let made = SyntheticMixtures::of_size(7, 0.002, grid, 30, 120);
     let weights = Viewing::default().weights(grid).unwrap();
@@ -245,7 +242,7 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
         for at in 0..library.grid.count() {
             let found = pigment.absorption[at];
             let truth = made.absorption[index][at];
-            // K below 1 per mL, about a hundredth of the peaks, hardly changes these films.
+            // K below 1 per mL is about a hundredth of the peaks and hardly changes these films.
             if truth > 1.0 {
                 assert!(
                     (found / truth).ln().abs() < 0.05,
@@ -259,8 +256,8 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
 
 #[test]
 fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
-    // The deviations are as large as reported for real watercolour: an even film without a surface
-    // predicts these mixtures with a mean error of about 2.2.
+    // The deviations are as large as reported for real watercolour. If you assume an even film
+    // without a surface, the mean error of these mixtures is about 2.2.
     let set = Watercolors::hard(1).swatches();
     let problem = films(&set).unwrap();
     let film = chosen_film(&problem, Surface::NONE, &Task::default()).unwrap();
@@ -281,8 +278,11 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
     let fitted =
         calibrate_absolute(&set, film, &settings, &viewing, &Task::default()).unwrap().library;
     let fitted = fitted.evidence.unwrap().per_sample;
-    let error = |name: &String| fitted.iter().find(|f| f.sample == *name).unwrap().delta_e;
-    let same_films = chosen.per_sample.iter().map(|s| error(&s.sample)).sum::<f64>() / 702.0;
+    let errors = chosen
+        .per_sample
+        .iter()
+        .map(|sample| fitted.iter().find(|f| f.sample == sample.sample).unwrap().delta_e);
+    let same_films = errors.sum::<f64>() / 702.0;
     let ratio = chosen.delta_e.mean / same_films;
     assert!(ratio > 1.02, "{ratio}");
     let plain = leave_out_films(&set, EVEN, &plan).unwrap();
@@ -363,20 +363,15 @@ fn few_films_are_fitted_without_holding_any_back() {
 fn thin_films_that_tell_little_of_scattering_are_told() {
     let set = Watercolors::hard(2).swatches();
     let white = set.pigments.iter().position(|p| p == "chinese white").unwrap();
-    // Keeps chinese white only in its thinnest wash, which on white paper shows only noise.
-    let kept = |s: &calibrate::swatch::Swatch| {
+    // Keeps chinese white only in its thinnest wash, where white paper shows nothing but noise.
+    let ladders = set.retaining(|s| {
         let alone = s.amounts.iter().filter(|a| **a > 0.0).count() == 1;
         alone && (s.amounts[white] == 0.0 || s.amounts[white] < 0.015)
-    };
-    let ladders = set.retaining(kept);
-    let library = calibrate_absolute(
-        &ladders,
-        EVEN,
-        &FitSettings::default(),
-        &Viewing::default(),
-        &Task::default(),
-    )
-    .unwrap();
+    });
+    let settings = FitSettings::default();
+    let library =
+        calibrate_absolute(&ladders, EVEN, &settings, &Viewing::default(), &Task::default())
+            .unwrap();
     let library = library.library;
     let warnings = &library.evidence.as_ref().unwrap().warnings;
     let said = |name: &str| {
@@ -436,11 +431,9 @@ fn the_ratio_of_a_film_that_does_not_hide_comes_from_two_backings() {
     let k = 0.3;
     let s = 0.8;
     let d = 1.1;
-    let over = |g: f64| Layer::new(k, s, d).over(g);
+    let [white, black] = [0.9, 0.04].map(|g| Layer::new(k, s, d).over(g));
     let text = format!(
-        "sample,film,backing,W,400\na,paint,white,1,{}\na,paint,black,1,{}\na,none,white,,0.9\na,none,black,,0.04\n",
-        over(0.9),
-        over(0.04)
+        "sample,film,backing,W,400\na,paint,white,1,{white}\na,paint,black,1,{black}\na,none,white,,0.9\na,none,black,,0.04\n"
     );
     let set = SwatchSet::from_table(&table(&text)).unwrap();
     let observed = observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap();
@@ -521,15 +514,13 @@ fn films_whose_readings_deny_that_they_hide_are_told_apart() {
 
 #[test]
 fn thicknesses_that_a_gauge_cannot_tell_apart_are_one() {
-    let text = |second: &str| {
-        format!(
+    fn hiding(second: &str) -> Hiding {
+        let text = format!(
             "sample,film,backing,thickness_mm,W,400\na,paint,white,0.101,1,0.5\na,paint,black,{second},1,0.4\na,none,white,,,0.9\na,none,black,,,0.04\n"
-        )
-    };
-    let hiding = |second: &str| {
-        let set = SwatchSet::from_table(&table(&text(second))).unwrap();
+        );
+        let set = SwatchSet::from_table(&table(&text)).unwrap();
         observations(&set, Surface::NONE, BelowSurface::Refuse).unwrap()[0].hiding
-    };
+    }
     assert!(matches!(hiding("0.099"), Hiding::Difference(_)), "{:?}", hiding("0.099"));
     assert!(matches!(hiding("0.080"), Hiding::Assumed(Some(_))), "{:?}", hiding("0.080"));
 }

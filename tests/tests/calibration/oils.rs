@@ -1,8 +1,6 @@
-//! Error limits of fits to the Van Gogh oils, in CIEDE2000 under D65 for the CIE 1931 observer.
-//!
-//! Quadrature rules of few wavelengths: colour errors on mixtures of the oils, weights and nodes.
-//!
-//! Long work that is asked to end: it ends where it stands, with an error that says so.
+//! Fits to the Van Gogh oils: error limits in CIEDE2000 under D65 for the CIE 1931 observer,
+//! quadrature rules with their colour errors on mixtures of the oils, and long work that is asked
+//! to end.
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 
@@ -28,8 +26,8 @@ use suite::watercolors::Watercolors;
 
 #[test]
 fn the_published_program_is_as_far_off_as_it_is_known_to_be() {
-    // Mean error 12.1 over all 84 samples, including the two of pigments whose K and S this program
-    // does not determine.
+    // The mean error is 12.1 over all 84 samples. Two of them are of pigments with undetermined K
+    // and S.
     let mean = fitted(Method::Qp, Surface::NONE).library.evidence.unwrap().delta_e.mean;
     assert!((11.8..12.3).contains(&mean), "{mean}");
 }
@@ -60,7 +58,7 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
         folds: None,
         task: &Task::default(),
     };
-    // The four mixtures with both white and black are not left out: their errors are small and
+    // We do not leave out the four mixtures with both white and black: their errors are small and
     // would lower the mean.
     let found = leave_out(&set, white, SURFACE, &plan, |o| {
         (o.shares[white.index()] > 0.0) != (o.shares[black] > 0.0)
@@ -69,7 +67,7 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
     assert_eq!(found.per_sample.len(), 52);
     let error = found.delta_e;
     assert!(error.mean < 2.8 && error.p90 < 6.0 && error.max < 9.0, "{error:?}");
-    // What carries the error: over a third of it is strength, most of the mixtures are with white.
+    // Over a third of the error is strength, and most of the mixtures are with white.
     let free = found.strength_free.unwrap();
     assert!(free.mean < 0.65 * error.mean && free.mean > 0.3 * error.mean, "{free:?} {error:?}");
     let part = |name: &str| found.by_pigment.iter().find(|p| p.pigment == name).unwrap();
@@ -131,11 +129,13 @@ fn pigments_known_only_from_a_masstone_are_said_not_invented() {
 #[test]
 fn odd_recipes_and_outlying_samples_are_named() {
     let warnings = fitted(Method::Refined, SURFACE).library.evidence.unwrap().warnings;
-    let named =
-        |start: &str, word: &str| warnings.iter().any(|w| w.starts_with(start) && w.contains(word));
-    assert!(named("recipes that do not sum", "08F (100.30 %)"), "{warnings:?}");
-    assert!(named("17D", "disagrees with its recipe"), "{warnings:?}");
-    assert!(named("readings below", "11A (34)"), "{warnings:?}");
+    for (start, word) in [
+        ("recipes that do not sum", "08F (100.30 %)"),
+        ("17D", "disagrees with its recipe"),
+        ("readings below", "11A (34)"),
+    ] {
+        assert!(warnings.iter().any(|w| w.starts_with(start) && w.contains(word)), "{warnings:?}");
+    }
 }
 
 #[test]
@@ -190,9 +190,9 @@ fn the_errors_are_told_under_the_light_asked_for_but_k_and_s_stay() {
     .unwrap();
     let under_d65 = fitted(Method::Refined, SURFACE);
     assert_eq!(under_a.library.pigments, under_d65.library.pigments);
-    let mean =
-        |c: &calibrate::calibration::Calibration| c.library.evidence.as_ref().unwrap().delta_e.mean;
-    assert!((mean(&under_a) - mean(&under_d65)).abs() > 1e-3, "the errors depend on the light");
+    let [one, other] =
+        [under_a, under_d65].map(|fit| fit.library.evidence.as_ref().unwrap().delta_e.mean);
+    assert!((one - other).abs() > 1e-3, "the errors depend on the light");
 }
 
 fn library() -> PigmentLibrary {
@@ -222,13 +222,15 @@ fn fitting_beats_moments_and_moments_beat_the_papers_weights() {
             observer: Observer::Cie1964Deg10,
         };
         let mixtures = held_out(&library, &viewing);
-        let mean = |rule: Quadrature| rule.error(&mixtures).mean;
-        let gauss = mean(Quadrature::gauss(&viewing, 8).unwrap());
-        let moments = mean(Quadrature::moments(&viewing, 8).unwrap());
-        let fitted = mean(Quadrature::library(&viewing, &library, 8).unwrap());
+        let [gauss, moments, fitted] = [
+            Quadrature::gauss(&viewing, 8).unwrap(),
+            Quadrature::moments(&viewing, 8).unwrap(),
+            Quadrature::library(&viewing, &library, 8).unwrap(),
+        ]
+        .map(|rule| rule.error(&mixtures).mean);
         assert!(fitted < moments && fitted < gauss, "{light}: {fitted} {moments} {gauss}");
-        // FL11 has emission lines, so its weight function is not smooth; there the weights of the
-        // paper may have the smaller error.
+        // The emission lines of FL11 make its weight function rough, so the paper's weights may be
+        // better.
         assert!(light == "FL11" || moments < gauss, "{light}: {moments} {gauss}");
     }
 }
@@ -258,8 +260,8 @@ fn the_weights_of_each_channel_sum_to_the_white() {
 fn the_same_library_gives_the_same_wavelengths() {
     let library = library();
     let viewing = Viewing::default();
-    let rule = || Quadrature::library(&viewing, &library, 8).unwrap();
-    assert_eq!(rule(), rule());
+    let [rule, again] = [(); 2].map(|()| Quadrature::library(&viewing, &library, 8).unwrap());
+    assert_eq!(rule, again);
 }
 
 #[test]
@@ -286,10 +288,11 @@ fn none_or_too_many_wavelengths_are_refused() {
 fn unseen_mixtures_are_other_mixtures_for_another_seed() {
     let library = library();
     let weights = Viewing::default().weights(library.grid).unwrap();
-    let set = |seed| MixtureSet::random(&library, &weights, 50, seed);
-    assert_eq!(set(1), set(1));
-    assert_ne!(set(1), set(2));
-    assert_eq!(set(1).len(), 50);
+    let [one, again, other] =
+        [1, 1, 2].map(|seed| MixtureSet::random(&library, &weights, 50, seed));
+    assert_eq!(one, again);
+    assert_ne!(one, other);
+    assert_eq!(one.len(), 50);
 }
 
 #[test]

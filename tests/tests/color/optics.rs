@@ -1,9 +1,6 @@
-//! Properties that Kubelka-Munk films and surfaces have with any paint.
-//!
-//! Properties of Kubelka-Munk layers: energy balance, monotonicity, limits and derivatives.
-//!
-//! Properties of quantities computed from readings: K/S, scattering power S d, and the reflectance
-//! below a surface.
+//! Properties of Kubelka-Munk films and surfaces with any paint: energy balance, monotonicity,
+//! limits and derivatives, and quantities computed from readings: K/S, scattering power S d, and
+//! the reflectance below a surface.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -12,8 +9,8 @@ use spectra::optics::{
     film_over_two_backings, infinite_film, infinite_film_from_ratio, infinite_film_slope,
 };
 
-/// A random paint film over a backing. A failed assertion prints it with its seed, from which
-/// [`Film::random`] makes it again.
+/// A random paint film over a backing. A failed assertion prints it with its seed. Pass this seed
+/// to [`Film::random`] to make it again.
 #[derive(Debug, Clone, Copy)]
 struct Film {
     #[expect(dead_code, reason = "read through Debug, when a law fails")]
@@ -25,8 +22,8 @@ struct Film {
 }
 
 impl Film {
-    /// A random film, from a glaze to a film that hides. K and S are each 0 in a tenth of the
-    /// films, otherwise 0.001 to 100 on a logarithmic scale.
+    /// A random film, from a glaze to a film that hides. In a tenth of the films K is 0, and in a
+    /// tenth S. Otherwise they are 0.001 to 100 on a logarithmic scale.
     fn random(seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut coefficient =
@@ -55,7 +52,7 @@ fn random_films() -> impl Iterator<Item = Film> {
     (0..2000).map(Film::random)
 }
 
-/// Tolerance: a few rounding errors of numbers of size 1.
+/// A few rounding errors of numbers of size 1.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 #[test]
@@ -162,16 +159,16 @@ fn slopes_are_the_limit_of_difference_quotients() {
         let s = film.scattering * film.thickness;
         let [value, over_k, over_s] = Layer::over_with_slopes(k, s, g);
         assert!((value - film.over_backing()).abs() <= ROUNDING, "{value}: {film:?}");
-        // Forward difference, because K and S may be 0; of second order in the step.
-        let quotient = |at: &dyn Fn(f64) -> f64, size: f64| {
+        // A forward difference of second order, because K and S may be 0.
+        fn quotient(at: impl Fn(f64) -> f64, size: f64) -> f64 {
             let step = 1e-5 * (1.0 + size);
             (4.0 * at(step) - at(2.0 * step) - 3.0 * at(0.0)) / (2.0 * step)
-        };
-        let by_k = quotient(&|h| Layer::new(k + h, s, 1.0).over(g), k);
-        let by_s = quotient(&|h| Layer::new(k, s + h, 1.0).over(g), s);
+        }
+        let by_k = quotient(|h| Layer::new(k + h, s, 1.0).over(g), k);
+        let by_s = quotient(|h| Layer::new(k, s + h, 1.0).over(g), s);
         let by_g = Layer::new(k, s, 1.0).over_slope(g);
         // Backwards, because no backing reflects more than 1.
-        let wanted = -quotient(&|h| Layer::new(k, s, 1.0).over(g - h), 0.0);
+        let wanted = -quotient(|h| Layer::new(k, s, 1.0).over(g - h), 0.0);
         assert!((by_g - wanted).abs() <= 1e-6 * (1.0 + wanted), "{by_g} for {wanted}: {film:?}");
         let size = 1.0 + s.powi(2);
         assert!((over_k - by_k).abs() <= 1e-6 * size, "dR/dK {over_k} for {by_k}: {film:?}");
@@ -213,7 +210,7 @@ fn two_backings_recover_the_ratio_of_any_film() {
         let [black, white] = over_two_backings(&film, 0.05, 0.95);
         let found = film_over_two_backings(black, white).unwrap();
         let ratio = film.absorption / film.scattering;
-        // A film of small S d reflects little by itself, so that a rounding error of the reading is
+        // A film of small S d reflects little by itself. So a rounding error of the reading is
         // larger by 1 / `shown` in 1 + K/S.
         let power = film.scattering * film.thickness;
         let shown = (power / (1.0 + power)).min(1.0 / (1.0 + ratio));
@@ -276,8 +273,7 @@ fn the_ratio_of_a_film_that_hides_is_the_inverse_of_its_reflectance() {
         let from_ratio = infinite_film_from_ratio(k / s);
         let relative = ROUNDING * reflectance;
         assert!((reflectance - from_ratio).abs() <= relative, "{from_ratio}: {film:?}");
-        // A relative rounding error of R grows as K/S in dark films and as its square root near
-        // white.
+        // A rounding error of R grows as K/S in dark films, and as its square root near white.
         let found = absorption_over_scattering(reflectance);
         let tolerance = ROUNDING * (k / s + (k / s).sqrt() + f64::EPSILON);
         assert!((found - k / s).abs() <= tolerance, "{found} for {}: {film:?}", k / s);

@@ -1,10 +1,6 @@
-//! Properties of colours, lights and spectra that hold for any values.
-//!
-//! Properties of colour differences, CIELAB, chromatic adaptation, display RGB and metamerism.
-//!
-//! Inputs of spectra, grids, lamps and lights: which are refused, and with which error.
-//!
-//! Properties of the weighted sums that give XYZ from a spectrum.
+//! Properties of colours, lights and spectra for any values: colour differences, CIELAB, chromatic
+//! adaptation, display RGB, metamerism, refused inputs with their errors, and the weighted sums
+//! that give XYZ.
 
 use documents::hint::Explain;
 use rand::{RngExt, SeedableRng};
@@ -22,23 +18,23 @@ use spectra::{
 };
 use suite::golden::assert_near;
 
-/// Tolerance: a few rounding errors of numbers of size 100, the range of XYZ and Lab.
+/// A few rounding errors of numbers of size 100, the range of XYZ and Lab.
 const ROUNDING: f64 = 1600.0 * f64::EPSILON;
 
-/// Random pairs of colours, each with its seed.
+/// Pairs of colours, each with its seed.
 fn random_pairs() -> impl Iterator<Item = (u64, Lab, Lab)> {
     (0..2000).map(|seed| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut lab = || Lab {
+        let [one, two] = [(); 2].map(|()| Lab {
             lightness: rng.random_range(0.0..=100.0),
             a: rng.random_range(-100.0..=100.0),
             b: rng.random_range(-100.0..=100.0),
-        };
-        (seed, lab(), lab())
+        });
+        (seed, one, two)
     })
 }
 
-/// XYZ of the whites of D65, A and F11, which differ strongly.
+/// XYZ of the whites of D65, A and F11. They differ strongly.
 const WHITES: [[f64; 3]; 3] =
     [[95.04, 100.0, 108.88], [109.85, 100.0, 35.58], [100.96, 100.0, 64.37]];
 
@@ -100,13 +96,11 @@ fn slopes_of_lab_are_the_limit_of_difference_quotients() {
         let xyz = lab.to_xyz(white).to_array().map(|v| v.abs() + 0.01);
         let Matrix3(slopes) = Lab::slopes_over_xyz(xyz.into(), white);
         for column in 0..3 {
-            let at = |step: f64| {
+            let [below, above] = [-1e-6, 1e-6].map(|step| {
                 let mut moved = xyz;
                 moved[column] *= 1.0 + step;
                 Lab::from_xyz(moved.into(), white).to_array()
-            };
-            let below = at(-1e-6);
-            let above = at(1e-6);
+            });
             for row in 0..3 {
                 let quotient = (above[row] - below[row]) / 2e-6;
                 let slope = slopes[row][column] * xyz[column];
@@ -281,7 +275,7 @@ fn outside_the_band_is_refused_or_held() {
         let refused = spectrum.at(nm, linear, Extrapolation::Refuse);
         assert!(matches!(refused, Err(InterpolateError::Outside { .. })), "at {nm}: {refused:?}");
     }
-    // NaN is nearer to neither end, so no end value can be held.
+    // NaN is not nearer to either end, so we cannot hold an end value.
     assert!(samples.at_linear(f64::NAN, Extrapolation::Hold).is_err(), "held at NaN");
     assert!(spectrum.at(f64::NAN, linear, Extrapolation::Hold).is_err(), "held at NaN");
 }
@@ -302,8 +296,9 @@ fn a_lamp_is_read_from_a_file() {
     let file = folder.path().join("lamp.csv");
     std::fs::write(&file, "# desk lamp\nnm,power\n400,1\n700,4\n").unwrap();
     let lamp = light_from_text(file.to_str().unwrap()).unwrap();
-    let at = |nm: f64| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap();
-    assert_eq!([at(360.0), at(500.0), at(800.0)], [1.0, 2.0, 4.0], "{}", lamp.name());
+    let found = [360.0, 500.0, 800.0]
+        .map(|nm| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap());
+    assert_eq!(found, [1.0, 2.0, 4.0], "{}", lamp.name());
 
     std::fs::write(&file, "400,1\n600,-3\n").unwrap();
     let error = light_from_text(file.to_str().unwrap()).unwrap_err();
@@ -366,8 +361,8 @@ fn grids() -> [Grid; 4] {
         .map(|(start, step, count)| Grid::from_nm(start, step, count).unwrap())
 }
 
-/// Weights of every tabulated illuminant and of a black body and a daylight of 5600 K, for every
-/// observer (each on another grid), with both interpolations.
+/// Weights of every tabulated illuminant, and of a black body and a daylight of 5600 K. For every
+/// observer, each on a different grid, with both interpolations.
 fn weights() -> impl Iterator<Item = (String, TristimulusWeights)> {
     let by_temperature = [black_body(5600.0).unwrap(), daylight(5600.0).unwrap()];
     let lights = Illuminant::names().map(|name| Illuminant::named(name).unwrap());

@@ -1,12 +1,7 @@
-//! Errors of the program: exit status 2 if it cannot run, 1 if it refuses the data.
-//!
-//! Exit status: the same fault has the same status in every verb, as docs/guide/command-line.md says.
-//!
-//! `impasto fit` on files with one fault each: exit status 1, an error with place and reason, and
-//! no output file.
-//!
-//! Files that could be read as something else than they are: each is told, none gives a wrong
-//! result in silence.
+//! Errors of the program: exit status 2 if it cannot run, 1 if it refuses the data, and the same
+//! for the same fault in every verb, as docs/guide/command-line.md says. `impasto fit` refuses
+//! files with one fault each, with place and reason and without an output file. Files that could be
+//! taken for something else are reported, and none gives a wrong result silently.
 
 use suite::program::{Run, impasto, repository};
 
@@ -158,7 +153,7 @@ fn an_input_is_never_written_over() {
     let file = folder.path().join("oils.csv");
     std::fs::copy(oils(), &file).unwrap();
     let before = std::fs::read(&file).unwrap();
-    // Another path of the input file.
+    // This is another path of the input file.
     let round_about = folder.path().join("./oils.csv");
     let run = impasto(&["fit", file.to_str().unwrap(), "--output", round_about.to_str().unwrap()]);
     assert_eq!(run.status, 2, "{}", run.err);
@@ -216,9 +211,9 @@ fn spectra_beyond_the_visible_have_no_color() {
 
 #[test]
 fn a_ground_must_be_one_spectrum() {
-    let over = |ground: &str| {
+    fn over(ground: &str) -> Run {
         impasto(&["mix", &library(), "Viridian=1", "--thickness", "1", "--over", ground])
-    };
+    }
     let run = over(&oils());
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("expected one spectrum of a ground"), "{}", run.err);
@@ -243,7 +238,7 @@ fn samples_fitted_exactly_are_no_proof_and_this_is_said() {
     assert!(run.err.contains("would not be identified (c)"), "{}", run.err);
 }
 
-/// Runs the commands, which all have one fault, and asserts one status and a message with `words`.
+/// Runs commands that all have the same fault, and asserts one status and a message with `words`.
 fn all(status: u8, words: &[&str], commands: &[&[&str]]) {
     for arguments in commands {
         let run = impasto(arguments);
@@ -257,29 +252,21 @@ fn all(status: u8, words: &[&str], commands: &[&[&str]]) {
 #[test]
 fn the_same_fault_has_the_same_status_in_every_verb() {
     let folder = tempfile::tempdir().unwrap();
-    let place = |name: &str| folder.path().join(name).display().to_string();
-    let library = repository("measurements/van-gogh-oils.pigments.json");
-    let oils = repository("measurements/van-gogh-oils.csv");
-    let photo = repository("docs/images/photograph.png");
-    let library = library.as_str();
-    let oils = oils.as_str();
-    let photo = photo.as_str();
-    let png = place("a.png");
-    let json = place("a.json");
-    let exr = place("a.exr");
-    let out = place("out");
-    let png = png.as_str();
-    let json = json.as_str();
-    let exr = exr.as_str();
-    let out = out.as_str();
-    let painted = place("painted.exr");
-    let painted = painted.as_str();
-    let script = place("script.json");
+    let [library, oils, photo] = [
+        "measurements/van-gogh-oils.pigments.json",
+        "measurements/van-gogh-oils.csv",
+        "docs/images/photograph.png",
+    ]
+    .map(repository);
+    let [library, oils, photo] = [&library, &oils, &photo].map(String::as_str);
+    let names = ["a.png", "a.json", "a.exr", "out", "painted.exr", "script.json"];
+    let paths = names.map(|name| folder.path().join(name).display().to_string());
+    let [png, json, exr, out, painted, script] = paths.each_ref().map(String::as_str);
     let text = r#"{"format": "strokes", "version": 1, "title": "A",
         "canvas": {"width_mm": 4, "height_mm": 4, "cell_mm": 0.2}, "palette": {"W": "Lead White"},
         "brushes": {}, "actions": []}"#;
-    std::fs::write(&script, text).unwrap();
-    assert_eq!(impasto(&["paint", &script, "-o", painted]).status, 0);
+    std::fs::write(script, text).unwrap();
+    assert_eq!(impasto(&["paint", script, "-o", painted]).status, 0);
 
     let absent = &["Viridan", "did you mean Viridian?"];
     all(
@@ -368,7 +355,7 @@ fn the_same_fault_has_the_same_status_in_every_verb() {
         &["unknown key `strenght`", "did you mean strength?"],
         &[&["watercolor", photo, "--set", "edges.strenght=1", "-o", png]],
     );
-    let nowhere = place("no/such/folder/a.json");
+    let nowhere = folder.path().join("no/such/folder/a.json").display().to_string();
     all(
         2,
         &["cannot be"],
@@ -412,7 +399,7 @@ fn messages_hold_no_types_long_numbers_or_temporary_paths() {
     }
 }
 
-/// A small valid file; each test changes it to make one fault.
+/// A small valid file. Each test makes one fault in it.
 const SOUND: &str = "\
 sample,film,backing,White,Red,400,410,420
 a,paint,card,100,,90,91,92
@@ -421,8 +408,7 @@ c,paint,card,50,50,20,22,70
 d,paint,card,90,10,40,42,80
 ";
 
-/// Runs `fit` on a file of these bytes. Asserts that only a successful run leaves a file, the
-/// library.
+/// Runs `fit` on a file of these bytes. Asserts that only a successful run leaves a library.
 fn fit(bytes: &[u8]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.csv");
@@ -634,7 +620,7 @@ fn a_reading_below_a_k1_that_was_asked_for() {
     assert!(floored.out.contains("b (1)"), "the reading is named: {}", floored.out);
 }
 
-/// Runs impasto with `content` in a file, whose path replaces `FILE` among `arguments`.
+/// Writes `content` to a file and runs impasto with its path in place of `FILE`.
 fn run(name: &str, content: &[u8], arguments: &[&str]) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -644,7 +630,7 @@ fn run(name: &str, content: &[u8], arguments: &[&str]) -> Run {
     impasto(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// Asserts that the run failed for its input, with all of `words` in the error.
+/// Asserts that the run refused its input, with all of `words` in the error.
 fn refused_by_name(run: &Run, words: &[&str]) {
     assert_eq!(run.status, 1, "{}{}", run.out, run.err);
     for word in words {
@@ -670,17 +656,13 @@ fn rows_are_those_of_the_file_with_crlf_and_blank_lines() {
 #[test]
 fn lamps_and_paint_are_not_taken_for_each_other() {
     let grey = repository("spectra/examples/paints.csv");
-    let lamp = |name: &str, text: &str| {
-        run(name, text.as_bytes(), &["color", grey.as_str(), "--illuminant", "FILE"])
-    };
-    refused_by_name(
-        &lamp("narrow.csv", "nm,power\n500,1\n510,2\n"),
-        &["420 to 680 nm", "narrow.csv"],
-    );
-    refused_by_name(
-        &lamp("paint.csv", "nm,%R\n400,10\n700,20\n"),
-        &["found `reflectance`", "hint: "],
-    );
+    for (name, text, words) in [
+        ("narrow.csv", "nm,power\n500,1\n510,2\n", ["420 to 680 nm", "narrow.csv"]),
+        ("paint.csv", "nm,%R\n400,10\n700,20\n", ["found `reflectance`", "hint: "]),
+    ] {
+        let lamp = run(name, text.as_bytes(), &["color", grey.as_str(), "--illuminant", "FILE"]);
+        refused_by_name(&lamp, &words);
+    }
     let irradiance = "Jaz Absolute Irradiance File\n>>>>>Begin Processed\nW\tD\tS\tP\n\
         400\t1\t50\t0.5\n500\t1\t50\t0.5\n700\t1\t20\t0.7\n>>>>>End\n";
     let paint = run("sun.JazIrrad", irradiance.as_bytes(), &["color", "FILE"]);

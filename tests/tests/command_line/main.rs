@@ -1,4 +1,4 @@
-//! The program `impasto` on the command line, run in process: output, files, errors, exit status.
+//! The program `impasto`, run in process: output, files, errors and exit status.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 

@@ -1,8 +1,5 @@
-//! `impasto match`: targets, prices, limits, lights and films on the command line.
-//!
-//! `impasto correct`: batches, recipes and stock on the command line.
-//!
-//! `impasto match --by spectrum`: the table, its figures, and the case for which it is made.
+//! `impasto match` (targets, prices, limits, lights and films), `impasto correct` (batches, recipes and
+//! stock), and `impasto match --by spectrum` with its table and the case that it is made for.
 
 use serde_json::Value;
 use suite::program::{impasto, repository};
@@ -41,8 +38,9 @@ fn a_hex_color_and_its_lab_are_one_target() {
         .map(|v| v.as_f64().unwrap().to_string())
         .collect();
     let again = matched(&[&lab.join(",")]);
-    let name = |value: &Value| value[0]["recipes"][0]["pigments"][0]["name"].clone();
-    assert_eq!(name(&both), name(&again));
+    let [one, other] =
+        [&both, &again].map(|told| told[0]["recipes"][0]["pigments"][0]["name"].clone());
+    assert_eq!(one, other);
     assert_eq!(again[0]["reached"], true);
 }
 
@@ -53,9 +51,9 @@ fn grams_sum_to_what_is_wanted_and_parts_are_whole() {
     assert_eq!(recipes.len(), 3);
     for recipe in recipes {
         let pigments = recipe["pigments"].as_array().unwrap();
-        let sum = |key: &str| pigments.iter().map(|p| p[key].as_f64().unwrap()).sum::<f64>();
-        assert!((sum("grams") - 40.0).abs() < 1e-9, "{recipe}");
-        let parts = sum("parts");
+        let [grams, parts] = ["grams", "parts"]
+            .map(|key| pigments.iter().map(|p| p[key].as_f64().unwrap()).sum::<f64>());
+        assert!((grams - 40.0).abs() < 1e-9, "{recipe}");
         assert!((1.0..=12.0).contains(&parts) && parts.fract() == 0.0, "{recipe}");
         for pigment in pigments {
             let share = pigment["share"].as_f64().unwrap();
@@ -84,26 +82,27 @@ fn every_spectrum_of_a_file_is_a_target_of_a_batch() {
 #[test]
 fn bare_cards_are_targets_only_if_named_or_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let written = |name: &str, rows: &str| {
+    let cards = "card,none,white,0.9,0.9,0.9,0.9\ncard,none,black,0.05,0.05,0.05,0.05\n";
+    let paint = "sand,paint,white,0.3,0.4,0.5,0.55\nsand,paint,black,0.2,0.3,0.4,0.5\n\
+                sand,none,white,0.9,0.9,0.9,0.8\n";
+    let files = [("cards.csv", cards.to_owned()), ("both.csv", paint.to_owned() + cards)];
+    let [alone, both] = files.map(|(name, rows)| {
         let path = folder.path().join(name);
         std::fs::write(&path, format!("sample,film,backing,400,500,600,700\n{rows}")).unwrap();
         path.display().to_string()
-    };
-    let cards = "card,none,white,0.9,0.9,0.9,0.9\ncard,none,black,0.05,0.05,0.05,0.05\n";
-    let paint = "sand,paint,white,0.3,0.4,0.5,0.55\nsand,paint,black,0.2,0.3,0.4,0.5\n\
-                 sand,none,white,0.9,0.9,0.9,0.8\n";
-    let alone = written("cards.csv", cards);
-    let both = written("both.csv", &(paint.to_owned() + cards));
-    let names = |target: &str| -> Vec<String> {
-        let told = matched(&[target, "--at-most", "2", "--count", "1"]);
+    });
+    for (target, wanted) in [
+        (both.clone(), &["sand on white", "sand on black"][..]),
+        (format!("{both}#sand"), &["sand on white", "sand on black"][..]),
+        (format!("{both}#sand bare white"), &["sand bare white"][..]),
+        (format!("{both}#card"), &["card bare white", "card bare black"][..]),
+        (alone, &["card bare white", "card bare black"][..]),
+    ] {
+        let told = matched(&[&target, "--at-most", "2", "--count", "1"]);
         let targets = told.as_array().unwrap().iter();
-        targets.map(|target| target["target"].as_str().unwrap().to_owned()).collect()
-    };
-    assert_eq!(names(&both), ["sand on white", "sand on black"]);
-    assert_eq!(names(&format!("{both}#sand")), ["sand on white", "sand on black"]);
-    assert_eq!(names(&format!("{both}#sand bare white")), ["sand bare white"]);
-    assert_eq!(names(&format!("{both}#card")), ["card bare white", "card bare black"]);
-    assert_eq!(names(&alone), ["card bare white", "card bare black"]);
+        let names: Vec<&str> = targets.map(|target| target["target"].as_str().unwrap()).collect();
+        assert_eq!(names, wanted);
+    }
     let run = impasto(&["match", &library(), &both, "--at-most", "1"]);
     assert!(run.err.contains("skipped 3 bare cards"), "{}", run.err);
 }
@@ -115,7 +114,7 @@ fn a_target_out_of_reach_gets_the_nearest_and_is_told_so() {
     assert!(told[0]["nearest"].as_f64().unwrap() > 5.0);
     let run = impasto(&["match", &library(), "#ff00ff"]);
     assert!(run.out.contains("out of reach"), "{}", run.out);
-    // In CIEDE2000 the colour nearest to this magenta is a grey; in CIE 1976 it is chromatic.
+    // In CIEDE2000 the nearest colour to this magenta is a grey. In CIE 1976 it is chromatic.
     let lab = &told[0]["by_cie1976"][0]["lab"]["D65"];
     assert!(lab[1].as_f64().unwrap() > 30.0, "{lab}");
     assert!(matched(&["#7a6a50"])[0]["by_cie1976"].as_array().unwrap().is_empty());
@@ -186,7 +185,11 @@ fn what_cannot_be_is_refused_with_a_way_out() {
     }
 }
 
-/// Pigment names and shares of the first recipe for the first target.
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+/// Pigments and shares of the first recipe for the first target.
 fn first(told: &Value) -> Vec<(String, f64)> {
     let pigments = told[0]["recipes"][0]["pigments"].as_array().unwrap().iter();
     pigments
@@ -196,9 +199,9 @@ fn first(told: &Value) -> Vec<(String, f64)> {
 
 #[test]
 fn what_is_required_forbidden_and_bounded_reaches_the_search() {
-    let share = |told: &Value, name: &str| {
+    fn share(told: &Value, name: &str) -> Option<f64> {
         first(told).into_iter().find(|(known, _)| known == name).map(|(_, share)| share)
-    };
+    }
     let plain = matched(&["#4a7d8c"]);
     let (taken, _) = first(&plain).remove(0);
     assert_eq!(share(&matched(&["#4a7d8c", "--without", &taken]), &taken), None);
@@ -212,21 +215,18 @@ fn what_is_required_forbidden_and_bounded_reaches_the_search() {
 
 #[test]
 fn the_weights_of_lights_count() {
-    let under = |weights: [&str; 2]| {
-        let [first, second] = weights;
+    let [day, lamp] = [["D65=9", "A"], ["D65", "A=9"]].map(|[first, second]| {
         let lights = ["--illuminant", first, "--illuminant", second, "--tolerance", "0.05"];
         let told = matched(&[&["#4a7d8c"], &lights[..]].concat());
         let differences = told[0]["recipes"][0]["delta_e"].clone();
         (differences["D65"].as_f64().unwrap(), differences["A"].as_f64().unwrap())
-    };
-    let day = under(["D65=9", "A"]);
-    let lamp = under(["D65", "A=9"]);
+    });
     assert!(day.0 < lamp.0 && lamp.1 < day.1, "{day:?} {lamp:?}");
 }
 
 #[test]
 fn a_film_is_laid_over_the_ground_that_is_told() {
-    let over = |ground: &str, thickness: &str| {
+    fn over(ground: &str, thickness: &str) -> f64 {
         let told = matched(&["#c8b080", "--thickness", thickness, "--over", ground]);
         let recipe = told[0]["recipes"][0].clone();
         let recipe_text: Vec<String> = recipe["pigments"]
@@ -241,13 +241,10 @@ fn a_film_is_laid_over_the_ground_that_is_told() {
         mix.push(&told_thickness);
         mix.extend(recipe_text.iter().map(String::as_str));
         let mixed = impasto(&mix).json();
-        let numbers = |value: &Value| -> Vec<f64> {
-            value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-        };
         let told = numbers(&recipe["lab"]["D65"]);
         suite::golden::assert_near("Lab", &told, &numbers(&mixed["lab"]), 1e-6);
         recipe["thickness"].as_f64().unwrap()
-    };
+    }
     let chosen = over("0.3", "0.2:3");
     assert!((0.2..3.0 - 1e-6).contains(&chosen), "{chosen}");
     assert_eq!(over("0.8", "0.5"), 0.5);
@@ -300,9 +297,6 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
         pigments.map(|p| format!("{}={}", p["name"].as_str().unwrap(), p["amount"])).collect();
     let mut mix = vec!["mix", &path, "--over", "0.85", "--json"];
     mix.extend(amounts.iter().map(String::as_str));
-    let numbers = |value: &Value| -> Vec<f64> {
-        value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-    };
     let mixed = numbers(&impasto(&mix).json()["lab"]);
     suite::golden::assert_near("Lab", &numbers(&recipe["lab"]["D65"]), &mixed, 1e-6);
     let grams = impasto(&["match", &path, "#c8b080", "--grams", "4"]);
@@ -313,14 +307,15 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
 fn the_tolerance_follows_the_library_and_is_told() {
     let usual = matched(&["61.2,0.3,-44.5"]);
     let fine = matched(&["61.2,0.3,-44.5", "--tolerance", "0"]);
-    let count = |told: &Value| told[0]["recipes"][0]["pigments"].as_array().unwrap().len();
+    let [few, many] =
+        [&usual, &fine].map(|told| told[0]["recipes"][0]["pigments"].as_array().unwrap().len());
     assert_eq!(usual[0]["tolerance_origin"], "library");
     assert!(usual[0]["tolerance"].as_f64().unwrap() > 1.0, "{}", usual[0]["tolerance"]);
     assert_eq!(
         (&fine[0]["tolerance"], &fine[0]["tolerance_origin"]),
         (&0.0.into(), &"given".into())
     );
-    assert!(count(&usual) == 2 && count(&fine) > 2, "{} and {}", count(&usual), count(&fine));
+    assert!(few == 2 && many > 2, "{few} and {many}");
     assert_eq!(usual[0]["nearest"], fine[0]["nearest"]);
     let run = impasto(&["match", &library(), "61.2,0.3,-44.5"]);
     assert!(run.out.contains("the mean error of this library's fit"), "{}", run.out);
@@ -362,26 +357,20 @@ fn amounts_at_their_measured_limit_are_told() {
     assert!(amounts(&["--json", "--beyond-measured"]).iter().any(|amount| *amount < 0.2));
 }
 
-/// A file with spectra of a standard and of a batch with less blue than was meant, both of zinc white and
-/// cobalt blue.
+/// A file with two spectra of zinc white and cobalt blue: a standard, and a batch with too little
+/// blue.
 fn spectra(folder: &tempfile::TempDir) -> String {
     let library = repository("measurements/van-gogh-oils.pigments.json");
-    let mixed = |blue: &str| {
+    let [standard, batch] = ["12", "8"].map(|blue| {
         impasto(&["mix", &library, "Zinc White=88", &format!("Cobalt Blue={blue}"), "--json"])
             .json()
-    };
-    let list = |json: &Value| -> String {
+    });
+    let lists = [&standard["wavelengths_nm"], &standard["reflectance"], &batch["reflectance"]];
+    let [wavelengths, standard, batch] = lists.map(|json| {
         let values = json.as_array().unwrap().iter();
-        values.map(|value| format!(",{value}")).collect()
-    };
-    let standard = mixed("12");
-    let batch = mixed("8");
-    let csv = format!(
-        "sample{}\nstandard{}\nbatch{}\n",
-        list(&standard["wavelengths_nm"]),
-        list(&standard["reflectance"]),
-        list(&batch["reflectance"])
-    );
+        values.map(|value| format!(",{value}")).collect::<String>()
+    });
+    let csv = format!("sample{wavelengths}\nstandard{standard}\nbatch{batch}\n");
     let file = folder.path().join("pot.csv");
     std::fs::write(&file, csv).unwrap();
     file.to_str().unwrap().to_owned()
@@ -403,7 +392,7 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let json = impasto(&[&all[..], &["--json", "--at-most", "1"]].concat()).json();
     let first = &json["corrections"][0];
     assert_eq!(first["additions"][0]["name"], "Cobalt Blue");
-    // 12 parts to 88 instead of 8 are 23 g more; less is within the tolerance.
+    // 12 parts to 88 instead of 8 are 23 g more. Less is within the tolerance.
     let grams = first["grams"].as_f64().unwrap();
     assert!((10.0..23.0).contains(&grams), "{grams}");
     assert!(first["delta_e"]["D65"].as_f64().unwrap() <= 0.5, "{first}");
@@ -447,7 +436,7 @@ fn run(arguments: &[&str]) -> suite::program::Run {
     impasto(&[&["match", library.as_str()], arguments].concat())
 }
 
-/// A measured yellow, whose paint is in the library with others that make the same colour.
+/// A measured yellow. The library has its paint and others that make the same colour.
 fn sample() -> String {
     repository("measurements/van-gogh-oils.csv") + "#14B"
 }
@@ -464,17 +453,20 @@ fn best(arguments: &[&str]) -> Value {
 #[test]
 fn a_recipe_by_spectrum_is_less_metameric_than_one_by_colour() {
     let lights = ["--illuminant", "D65", "--illuminant", "A=1e-6", "--illuminant", "FL11=1e-6"];
-    let by = |by: &str| best(&[&[sample().as_str(), "--by", by], &lights[..]].concat());
-    let color = by("color");
-    let spectrum = by("spectrum");
-    let index = |recipe: &Value, at: usize| recipe["metamerism"][at]["index"].as_f64().unwrap();
-    let rms = |recipe: &Value| recipe["rms_percent"].as_f64().unwrap();
-    let under = |recipe: &Value, light: &str| recipe["delta_e"][light].as_f64().unwrap();
-    // By colour the recipe is exact under daylight and far off under lamps.
+    let [color, spectrum] = ["color", "spectrum"]
+        .map(|by| best(&[&[sample().as_str(), "--by", by], &lights[..]].concat()));
+    fn index(recipe: &Value, at: usize) -> f64 {
+        recipe["metamerism"][at]["index"].as_f64().unwrap()
+    }
+    fn under(recipe: &Value, light: &str) -> f64 {
+        recipe["delta_e"][light].as_f64().unwrap()
+    }
+    // The recipe by colour is exact under daylight and far off under lamps.
     assert!(under(&color, "D65") < 0.01 && index(&color, 0) > 1.0 && index(&color, 1) > 3.0);
     assert!(index(&spectrum, 0) < 0.2 && index(&spectrum, 1) < 0.6, "{spectrum}");
     assert!(under(&spectrum, "D65") < 0.7 && under(&spectrum, "FL11") < 0.7, "{spectrum}");
-    assert!(rms(&spectrum) < 0.3 * rms(&color), "{} {}", rms(&spectrum), rms(&color));
+    let rms = [&spectrum, &color].map(|recipe| recipe["rms_percent"].as_f64().unwrap());
+    assert!(rms[0] < 0.3 * rms[1], "{rms:?}");
     let told = &spectrum["metamerism"][1];
     assert_eq!(told["kind"], "special metamerism index, change of illuminant");
     assert_eq!((&told["from"], &told["to"]), (&"D65".into(), &"FL11".into()));
@@ -500,7 +492,7 @@ fn the_table_says_what_is_matched_and_under_which_lights_it_is_told() {
     for column in ["distance", "rms_percent", "delta_e_FL11", "metamerism_D65 to A"] {
         assert!(heading.split(',').any(|one| one == column), "{heading}");
     }
-    // A colour has no spectrum to compare.
+    // You cannot compare the spectrum of a colour.
     let colour = run(&["#4a7d8c", "--count", "1"]);
     assert!(colour.out.contains("(CIEDE2000)") && !colour.out.contains("rms"), "{}", colour.out);
     let refused = run(&["#4a7d8c", "--by", "spectrum"]);

@@ -1,8 +1,4 @@
-//! The command `impasto painterly`.
-//!
-//! Models in the brushwork of a map.
-//!
-//! Photographs in the brushwork of a map.
+//! The command `impasto painterly`: models and photographs in the brushwork of a map.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -11,9 +7,9 @@ use image::{Rgb, RgbImage};
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
-/// A folder with the map `m.exr` of three tones painted in small dabs, its samples `s.exr` and `style.toml`.
+/// A folder with the map `m.exr` of three tones painted in small dabs, its samples `s.exr` and its
+/// `style.toml`. It is painted once for all tests.
 pub(super) fn folder() -> TempDir {
-    // Painted once for all tests.
     static FILES: OnceLock<[(&str, Vec<u8>); 3]> = OnceLock::new();
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in FILES.get_or_init(painted) {
@@ -22,26 +18,22 @@ pub(super) fn folder() -> TempDir {
     folder
 }
 
-/// Paints the samples and builds the map.
 fn painted() -> [(&'static str, Vec<u8>); 3] {
     let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str| path(&folder, name);
-    let run = |arguments: &[&str]| {
+    let [style, samples, map] = ["style.toml", "s.exr", "m.exr"].map(|name| path(&folder, name));
+    fn run(arguments: &[&str]) -> Run {
         let run = impasto(arguments);
         assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
         run
-    };
+    }
     let text = run(&["artmap", "paint", "--show-style", "dabs"]).out;
     let small = text
         .replace("side_cells = 300", "side_cells = 64")
         .replace("cell_mm = 0.18", "cell_mm = 0.36");
     std::fs::write(folder.path().join("style.toml"), small).unwrap();
-    let style = file("style.toml");
-    let samples = file("s.exr");
-    let map = file("m.exr");
     run(&["artmap", "paint", "--style", &style, "--tones", "3", "--output", &samples]);
     run(&["artmap", "build", &samples, "--size", "64", "--output", &map]);
-    ["style.toml", "s.exr", "m.exr"].map(|name| (name, std::fs::read(file(name)).unwrap()))
+    ["style.toml", "s.exr", "m.exr"].map(|name| (name, std::fs::read(path(&folder, name)).unwrap()))
 }
 
 fn path(folder: &TempDir, name: &str) -> String {
@@ -59,7 +51,7 @@ fn done(arguments: &[&str]) -> Run {
     run
 }
 
-/// Mean of the channels of the pixels of a picture in a rectangle.
+/// Mean of the channels over a rectangle of a picture.
 fn mean(picture: &str, [x, y, width, height]: [u32; 4]) -> f64 {
     let picture = image::open(picture).unwrap().to_rgb8();
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
@@ -102,13 +94,11 @@ fn a_painting_with_the_pigments_of_the_map_is_relit_like_any_other() {
         ["relight", &painting, "--azimuth", "90", "--elevation", "12", "--picture", &raking];
     let run = impasto(&relit);
     assert_eq!(run.status, 0, "{}", run.err);
-    let pixels = |name: &str| image::open(name).unwrap().to_rgb8();
-    let lit = pixels(&lit);
-    let raking = pixels(&raking);
+    let [lit, raking] = [lit, raking].map(|name| image::open(name).unwrap().to_rgb8());
     assert_eq!(lit.dimensions(), (120, 90));
-    // The light from the right changes the strokes, not only their brightness.
-    let ratio = |x: u32| f64::from(raking[(x, 45)].0[1]) / f64::from(lit[(x, 45)].0[1]);
-    let ratios: Vec<f64> = (45..75).map(ratio).collect();
+    // The light from the right changes the strokes in more than their brightness.
+    let ratios: Vec<f64> =
+        (45..75).map(|x| f64::from(raking[(x, 45)].0[1]) / f64::from(lit[(x, 45)].0[1])).collect();
     let range = ratios.iter().fold([f64::MAX, 0.0_f64], |[a, b], &r| [a.min(r), b.max(r)]);
     assert!(range[1] > 1.1 * range[0], "{range:?}");
     assert!(std::fs::read_dir(&maps).unwrap().count() >= 3, "a map of each pigment");
@@ -122,15 +112,13 @@ fn strokes_flow_in_a_loop_and_around_a_turntable() {
     let flow = ["--set", "flow.periods=1", "--loop", "3", "--animation", &looped];
     let told = done(&[&model[..], &flow].concat()).json();
     assert_eq!((&told["frames"], &told["frames_found"]), (&3.into(), &0.into()), "{told}");
-    let frame = |index: usize| {
-        let frames = Path::new(&looped).with_extension("frames");
-        let mut names: Vec<_> =
-            std::fs::read_dir(frames).unwrap().map(|entry| entry.unwrap().path()).collect();
-        names.retain(|name| name.extension().is_some_and(|ending| ending == "png"));
-        names.sort();
-        std::fs::read(&names[index]).unwrap()
-    };
-    assert!(frame(0) != frame(1) && frame(1) != frame(2), "strokes flow");
+    let frames = Path::new(&looped).with_extension("frames");
+    let mut names: Vec<_> =
+        std::fs::read_dir(frames).unwrap().map(|entry| entry.unwrap().path()).collect();
+    names.retain(|name| name.extension().is_some_and(|ending| ending == "png"));
+    names.sort();
+    let frames: Vec<Vec<u8>> = names.iter().map(|name| std::fs::read(name).unwrap()).collect();
+    assert!(frames[0] != frames[1] && frames[1] != frames[2], "strokes flow");
     let again = done(&[&model[..], &flow].concat()).json();
     assert_eq!(again["frames_found"], 3, "finished frames are kept");
     let told = done(&[&model[..], &["--turntable", "2", "--animation", &turning]].concat()).json();
@@ -215,7 +203,7 @@ fn frames_for_compositing_hold_cover_depth_height_and_direction() {
     assert_eq!(channel("A")[middle], 1.0);
     assert!(channel("R")[middle] > 0.02 && channel("height")[middle] > 0.0);
     let depth = channel("Z");
-    // The ball has radius 1: its outline is farther away than its middle by less than that.
+    // The ball has radius 1. Its outline is farther away than its middle, but by less than that.
     let edge = (0..64).filter(|x| depth[24 * 64 + x].is_finite()).min().unwrap();
     let behind = depth[24 * 64 + edge] - depth[middle];
     assert!(depth[0] == f32::INFINITY && depth[middle] > 1.0, "{}", depth[middle]);
@@ -235,7 +223,7 @@ fn colours_of_a_model_are_painted_with_pigments_of_their_own() {
     let exports = ["--output", &painting, "--picture", &picture, "--pigment-maps", &maps];
     done(&[&model[..], &exports, &["--set", "colour.from=model"]].concat());
     let read = image::open(&picture).unwrap().to_rgb8();
-    // The knot is blue, the pigments of the map are not.
+    // The knot is blue, but the pigments of the map are not.
     let blue = read.pixels().filter(|pixel| pixel.0[2] > pixel.0[0].saturating_add(15)).count();
     assert!(blue > 500, "{blue} blue pixels");
     let names = std::fs::read_dir(&maps).unwrap().map(|entry| entry.unwrap().file_name());
@@ -266,7 +254,7 @@ fn guides_turn_the_strokes_of_a_model() {
     assert!(run.status == 1 && run.err.contains("g.toml"), "{}", run.err);
 }
 
-/// Writes a picture of 60 x 40 px of a colour for each pixel.
+/// Writes a picture of 60 x 40 px.
 fn write(path: &str, color: impl Fn(u32, u32) -> [u8; 3]) {
     RgbImage::from_fn(60, 40, |x, y| Rgb(color(x, y))).save(path).unwrap();
 }
@@ -324,22 +312,17 @@ fn regions_and_flow_move_strokes_of_a_photograph_in_a_loop() {
     let told = done(&[&arguments[..], &moving].concat()).json();
     assert_eq!((&told["frames"], &told["maps"]), (&3.into(), &2.into()), "{told}");
     let frames = Path::new(&looped).with_extension("frames");
-    let read = |index: usize| {
-        let names = std::fs::read_dir(&frames).unwrap().map(|entry| entry.unwrap().path());
-        let mut names: Vec<_> =
-            names.filter(|name| name.extension() == Some("png".as_ref())).collect();
-        names.sort();
-        image::open(&names[index]).unwrap().to_rgb8()
-    };
-    let change = |rows: std::ops::Range<u32>| {
-        let first = read(0);
-        let then = read(1);
+    let names = std::fs::read_dir(&frames).unwrap().map(|entry| entry.unwrap().path());
+    let mut names: Vec<_> = names.filter(|name| name.extension() == Some("png".as_ref())).collect();
+    names.sort();
+    let [first, then] = [0, 1].map(|index: usize| image::open(&names[index]).unwrap().to_rgb8());
+    let [sky, rest] = [0..16, 32..40].map(|rows: std::ops::Range<u32>| {
         let pixels = rows.flat_map(|y| (0..60).map(move |x| (x, y)));
         let off = pixels.map(|at| i64::from(first[at].0[0]).abs_diff(i64::from(then[at].0[0])));
         off.sum::<u64>()
-    };
-    assert!(change(0..16) > 200, "the sky moves: {}", change(0..16));
-    assert_eq!(change(32..40), 0, "nothing else does");
+    });
+    assert!(sky > 200, "the sky moves: {sky}");
+    assert_eq!(rest, 0, "nothing else does");
 }
 
 #[test]
@@ -370,15 +353,16 @@ fn wrong_files_of_pictures_are_refused_with_their_place() {
     let [map, photo, picture] = ["m.exr", "photo.png", "p.png"].map(|name| path(&folder, name));
     let regions = path(&folder, "regions.toml");
     write(&photo, |_, _| [90; 3]);
-    let refused = |text: &str, words: &str| {
+    for (text, words) in [
+        ("[[region]]\nname = \"a\"\ncolor = 1", "line 3"),
+        ("[[region]]\nname = \"a\"\nmaterial = \"b\"", "material is an area of models"),
+        ("[[region]]\nname = \"a\"\nlabel = \"#000000\"", "needs a picture of labels"),
+    ] {
         std::fs::write(&regions, text).unwrap();
         let run = painterly(&[&photo, "--map", &map, "--regions", &regions, "--picture", &picture]);
         assert!(run.status != 0 && run.err.contains(words), "{text}: {}", run.err);
         assert!(run.err.contains("regions.toml"), "{}", run.err);
-    };
-    refused("[[region]]\nname = \"a\"\ncolor = 1", "line 3");
-    refused("[[region]]\nname = \"a\"\nmaterial = \"b\"", "material is an area of models");
-    refused("[[region]]\nname = \"a\"\nlabel = \"#000000\"", "needs a picture of labels");
+    }
     for (option, file) in [("--directions", "none.png"), ("--depth", "none.png")] {
         let run = painterly(&[&photo, "--map", &map, option, file, "--picture", &picture]);
         assert!(run.status != 0 && run.err.contains("none.png"), "{}", run.err);

@@ -1,8 +1,5 @@
-//! JSON output of the verbs: its keys, and values with known results.
-//!
-//! `impasto light`: lamps by name and by file, in every form of output.
-//!
-//! `impasto demo`: its output, and that it reproduces the shipped library.
+//! JSON output of the verbs, `impasto light` in every form of output, and `impasto demo`, which
+//! reproduces the shipped library.
 
 use serde_json::Value;
 use suite::program::{Run, impasto, repository};
@@ -130,7 +127,7 @@ fn color_prints_its_keys_with_white_at_100() {
     assert_eq!(keys(&list[0]), known);
     assert_eq!(list[0]["sample"], "white");
     assert!((list[0]["xyz"][1].as_f64().unwrap() - 100.0).abs() < 1e-9, "{}", list[0]);
-    // White of illuminant A for the 10 degree observer in CIE 15: 111.14, 100, 35.20.
+    // CIE 15 gives 111.14, 100, 35.20 for the white of illuminant A and the 10 degree observer.
     assert!((list[0]["xyz"][0].as_f64().unwrap() - 111.14).abs() < 0.02, "{}", list[0]);
     assert!((list[0]["xyz"][2].as_f64().unwrap() - 35.20).abs() < 0.02, "{}", list[0]);
     assert_eq!(list[0]["hex"], "#ffffff");
@@ -173,7 +170,7 @@ fn color_tells_differences_and_metamerism() {
     assert_eq!(keys(difference), ["from", "ciede2000", "cie1976", "cie94", "cmc_2_1"]);
     assert!(difference["ciede2000"].as_f64().unwrap() > 10.0, "{difference}");
     assert_eq!(list[2]["difference"]["ciede2000"], 0.0);
-    // Computed from the four XYZ with CIEDE2000 of colour-science.
+    // colour-science computes this from the four XYZ with CIEDE2000.
     let index = list[1]["metamerism"]["index"].as_f64().unwrap();
     assert!((index - 4.6387).abs() < 5e-4, "{index}");
     assert_eq!(list[1]["metamerism"]["kind"], "special metamerism index, change of illuminant");
@@ -201,11 +198,9 @@ fn color_shows_the_columns_that_are_asked_for_within_100() {
     for words in ["x       y       Y", "L*      C*       h", "W       T", "-4 < T < 2"] {
         assert!(chosen.contains(words), "{words}: {chosen}");
     }
-    let line = |name: &str| chosen.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
-    assert!(
-        line("ochre").contains("not white") && !line("paper").contains("not white"),
-        "{chosen}"
-    );
+    let [ochre, paper] =
+        ["ochre", "paper"].map(|name| chosen.lines().find(|line| line.starts_with(name)).unwrap());
+    assert!(ochre.contains("not white") && !paper.contains("not white"), "{chosen}");
     let lamp = table(&["--show", "whiteness", "--illuminant", "A"]);
     assert!(lamp.contains("not under A") && !lamp.contains("not white"), "{lamp}");
     let list = json(&["color", file, "--json"]);
@@ -279,26 +274,18 @@ fn mix_prints_its_keys_and_a_masstone_is_its_sample() {
         ["wavelengths_nm", "reflectance", "xyz", "lab", "srgb", "hex", "in_gamut"]
     );
     assert_eq!(mix["wavelengths_nm"].as_array().unwrap().len(), 31);
-    // Sample 09A, a film that hides, reads 6.1 % at 410 nm.
+    // Sample 09A is a film that hides. It reads 6.1 % at 410 nm.
     let at_410 = mix["reflectance"][1].as_f64().unwrap();
     assert!((at_410 - 0.061).abs() < 0.004, "{at_410}");
 }
 
 #[test]
 fn a_thick_film_hides_and_a_thin_one_shows_its_ground() {
-    let film = |thickness: &str, over: &str| {
-        let mix = json(&[
-            "mix",
-            &library(),
-            "Viridian=1",
-            "--thickness",
-            thickness,
-            "--over",
-            over,
-            "--json",
-        ]);
+    fn film(thickness: &str, over: &str) -> f64 {
+        let film = ["--thickness", thickness, "--over", over, "--json"];
+        let mix = json(&[&["mix", &library(), "Viridian=1"], &film[..]].concat());
         mix["reflectance"][10].as_f64().unwrap()
-    };
+    }
     let hiding = json(&["mix", &library(), "Viridian=1", "--json"]);
     let hiding = hiding["reflectance"][10].as_f64().unwrap();
     assert!((film("1000", "black") - hiding).abs() < 1e-6);
@@ -309,10 +296,11 @@ fn a_thick_film_hides_and_a_thin_one_shows_its_ground() {
 
 #[test]
 fn parts_are_shares_so_that_thickness_keeps_its_meaning() {
-    let film = |parts: &str| json(&["mix", &library(), parts, "--thickness", "0.2", "--json"]);
-    let one = film("Viridian=1");
-    let seven = film("Viridian=7");
-    assert_eq!(one["reflectance"], seven["reflectance"]);
+    let [one, seven] = ["Viridian=1", "Viridian=7"].map(|parts| {
+        let mix = json(&["mix", &library(), parts, "--thickness", "0.2", "--json"]);
+        mix["reflectance"].clone()
+    });
+    assert_eq!(one, seven);
 }
 
 #[test]
@@ -349,14 +337,15 @@ fn quadrature_prints_its_keys_and_its_error_on_unseen_mixtures() {
     assert_eq!(other["nodes_nm"], rule["nodes_nm"], "the seed only selects the unseen mixtures");
     assert_ne!(other["error"], rule["error"]);
     let effective = json(&["quadrature", &library(), "--method", "effective", "--json"]);
-    let nodes =
-        |rule: &Value| -> Vec<f64> { serde_json::from_value(rule["nodes_nm"].clone()).unwrap() };
-    for (moved, begun) in nodes(&effective).into_iter().zip(nodes(&rule)) {
+    let [moved, begun] = [&effective, &rule]
+        .map(|rule| -> Vec<f64> { serde_json::from_value(rule["nodes_nm"].clone()).unwrap() });
+    for (moved, begun) in moved.into_iter().zip(begun) {
         assert!((moved - begun).abs() < 15.0 && moved != begun, "{moved} from {begun}");
     }
-    let of = |key: &str| effective[key]["mean"].as_f64().unwrap();
-    assert!(of("error") < 0.06 && of("error_over_grounds") < 0.12, "{effective}");
-    assert!(of("error_over_grounds") > of("error"), "{effective}");
+    let [error, over_grounds] =
+        ["error", "error_over_grounds"].map(|key| effective[key]["mean"].as_f64().unwrap());
+    assert!(error < 0.06 && over_grounds < 0.12, "{effective}");
+    assert!(over_grounds > error, "{effective}");
     assert_eq!(effective["pigments"][1]["name"], "Zinc White");
     assert_eq!(effective["pigments"][1]["absorption"].as_array().unwrap().len(), 8);
     let paper =
@@ -410,8 +399,11 @@ fn lamps_are_described_by_name_and_by_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bulb.csv");
     // A black body of 2700 K, measured at steps of 10 nm.
-    let power = |nm: f64| (560.0 / nm).powi(5) / (1.4388e7 / (nm * 2700.0)).exp_m1();
-    let lines = (36..=83).map(|ten| format!("{},{:e}\n", ten * 10, power(f64::from(ten * 10))));
+    let lines = (36..=83).map(|ten| {
+        let nm = f64::from(ten * 10);
+        let power = (560.0 / nm).powi(5) / (1.4388e7 / (nm * 2700.0)).exp_m1();
+        format!("{nm},{power:e}\n")
+    });
     std::fs::write(&path, "nm,power\n".to_owned() + &lines.collect::<String>()).unwrap();
     let bulb = path.to_str().unwrap();
     let run = impasto(&["light", "FL11", bulb, "FL2", "--json"]);
@@ -427,7 +419,7 @@ fn lamps_are_described_by_name_and_by_file() {
     assert_eq!(told[1]["light"], bulb);
     assert_eq!(told[2]["special"].as_array().unwrap().len(), 14);
     assert_eq!(told[2]["samples"].as_array().unwrap().len(), 99);
-    // R9 of the tube FL2 is below 0: reds look brown.
+    // R9 of the tube FL2 is below 0, so reds look brown.
     assert!(told[2]["special"][8].as_f64().unwrap() < 0.0, "{}", told[2]["special"]);
 }
 
@@ -463,8 +455,9 @@ fn lights_without_colour_rendering_are_refused_or_marked() {
     let unknown = impasto(&["light", "F11"]);
     assert!(unknown.status == 2 && unknown.err.contains("did you mean FL11?"), "{}", unknown.err);
     let far = impasto(&["light", "FL3.3", "HP1", "LED-V1"]).out;
-    let marked = |name: &str| far.lines().find(|l| l.starts_with(name)).unwrap().ends_with('*');
-    assert!(marked("FL3.3") && !marked("HP1") && !marked("LED-V1"), "{far}");
+    let marked = ["FL3.3", "HP1", "LED-V1"]
+        .map(|name| far.lines().find(|l| l.starts_with(name)).unwrap().ends_with('*'));
+    assert_eq!(marked, [true, false, false], "{far}");
     assert!(far.lines().last().unwrap().starts_with("* farther than 0.0054"), "{far}");
 }
 
@@ -498,20 +491,17 @@ fn the_library_records_its_input() {
         std::fs::read_to_string(repository("measurements/van-gogh-oils.pigments.json")).unwrap();
     let library: Value = serde_json::from_str(&library).unwrap();
     let recorded = library["inputs"][0]["sha256"].as_str().unwrap();
-    // A fit of the same bytes records the same hash, a fit of other bytes another hash.
+    // A fit of the same bytes records the same hash, and a fit of other bytes records another one.
     let folder = tempfile::tempdir().unwrap();
-    let fitted = |bytes: &[u8]| {
-        let csv = folder.path().join("a.csv");
-        let out = folder.path().join("a.json");
+    let hashes = [text.clone(), [text, b"\n".to_vec()].concat()].map(|bytes| {
+        let [csv, out] = ["a.csv", "a.json"].map(|name| folder.path().join(name));
         std::fs::write(&csv, bytes).unwrap();
-        let csv = csv.to_str().unwrap();
-        let out = out.to_str().unwrap();
-        let run = impasto(&["fit", csv, "--output", out]);
+        let run = impasto(&["fit", csv.to_str().unwrap(), "--output", out.to_str().unwrap()]);
         assert_eq!(run.status, 0, "{}", run.err);
         let text = std::fs::read_to_string(out).unwrap();
         let library: Value = serde_json::from_str(&text).unwrap();
         library["inputs"][0]["sha256"].as_str().unwrap().to_owned()
-    };
-    assert_eq!(fitted(&text), recorded);
-    assert_ne!(fitted(&[text, b"\n".to_vec()].concat()), recorded);
+    });
+    assert_eq!(hashes[0], recorded);
+    assert_ne!(hashes[1], recorded);
 }

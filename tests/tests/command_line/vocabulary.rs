@@ -1,5 +1,5 @@
-//! One vocabulary over all verbs: old spellings do what the new ones do, tables are CSV too, and
-//! every verb tells what it wrote.
+//! All verbs share one vocabulary: old spellings do the same as new ones, tables are CSV too, and
+//! every verb says what it wrote.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ fn done(arguments: &[&str]) -> Run {
     run
 }
 
-/// Counts of a spectrometer: white, dark and a swatch.
+/// Counts of a spectrometer for white, dark and a swatch.
 fn counts(folder: &Path) -> [String; 3] {
     [("white.txt", 20_000.0), ("dark.txt", 200.0), ("swatch.txt", 9_000.0)].map(|(name, light)| {
         let path = place(folder, name);
@@ -38,7 +38,7 @@ fn counts(folder: &Path) -> [String; 3] {
     })
 }
 
-/// The results of two commands, which are the same, and their remarks.
+/// Asserts that two commands give the same results, and returns their remarks.
 fn same(new: &[&str], old: &[&str]) {
     assert_eq!(done(new).out, done(old).out, "{new:?} and {old:?}");
 }
@@ -68,22 +68,24 @@ fn old_spellings_of_the_laboratory_do_what_the_new_ones_do() {
     for (verb, words) in
         [("convert", &[][..]), ("subset", &["Zinc White", "Lead White", "Viridian"][..])]
     {
-        let write = |option: &str, name: &str| {
-            let out = place(folder, name);
-            let head = ["library", verb, &library];
-            done(&[&head[..], words, &[option, "Lead White", "-o", &out]].concat());
-            std::fs::read(out).unwrap()
-        };
-        assert_eq!(write("--white", "new.json"), write("--reference", "old.json"), "{verb}");
+        let [new, old] =
+            [("--white", "new.json"), ("--reference", "old.json")].map(|(option, name)| {
+                let out = place(folder, name);
+                let head = ["library", verb, &library];
+                done(&[&head[..], words, &[option, "Lead White", "-o", &out]].concat());
+                std::fs::read(out).unwrap()
+            });
+        assert_eq!(new, old, "{verb}");
     }
     let part = place(folder, "part.json");
     done(&["library", "subset", &library, "Zinc White", "Lead White", "-o", &part]);
-    let merged = |option: &str, name: &str| {
-        let out = place(folder, name);
-        done(&["library", "merge", &library, &part, option, "Lead White", "-o", &out]);
-        std::fs::read(out).unwrap()
-    };
-    assert_eq!(merged("--white", "new.json"), merged("--reference", "old.json"), "merge");
+    let [new, old] =
+        [("--white", "new.json"), ("--reference", "old.json")].map(|(option, name)| {
+            let out = place(folder, name);
+            done(&["library", "merge", &library, &part, option, "Lead White", "-o", &out]);
+            std::fs::read(out).unwrap()
+        });
+    assert_eq!(new, old, "merge");
     let demo = place(folder, "demo");
     done(&["demo", "--out", &demo]);
     assert!(Path::new(&demo).is_dir(), "demo --out");
@@ -96,7 +98,6 @@ fn old_spellings_of_the_laboratory_do_what_the_new_ones_do() {
 
 #[test]
 fn old_spellings_are_not_in_the_help() {
-    let help = |verb: &[&str]| done(&[verb, &["--help"]].concat()).out;
     let cases: [(&[&str], &[&str]); 9] = [
         (&["fit"], &["--reference", "--dark "]),
         (&["plan"], &["--prior"]),
@@ -109,7 +110,7 @@ fn old_spellings_are_not_in_the_help() {
         (&["stencil"], &["--pigments"]),
     ];
     for (verb, old) in cases {
-        let told = help(verb);
+        let told = done(&[verb, &["--help"]].concat()).out;
         for word in old {
             assert!(!told.contains(word), "{verb:?} tells {word}: {told}");
         }
@@ -130,7 +131,7 @@ fn a_file_after_the_white_of_a_fit_is_still_a_reading() {
 
 #[test]
 fn old_spellings_of_the_painter_do_what_the_new_ones_do() {
-    // With a small map `m.exr`, and a small style.
+    // There is a small map `m.exr` and a small style.
     let folder = super::painterly::folder();
     let folder = folder.path();
     let map = place(folder, "m.exr");
@@ -183,11 +184,10 @@ fn old_spellings_of_the_painter_do_what_the_new_ones_do() {
 #[test]
 fn the_ending_of_the_output_chooses_what_is_written() {
     let photo = repository("docs/images/photograph.png");
-    let watercolor = |out: &str| impasto(&["watercolor", &photo, "--width", "48", "-o", out]);
-    let wrong = watercolor("a.jpg");
+    let [wrong, painting] =
+        ["a.jpg", "a.exr"].map(|out| impasto(&["watercolor", &photo, "--width", "48", "-o", out]));
     assert_eq!(wrong.status, 2, "{}", wrong.err);
     assert!(wrong.err.contains("try a.png for a picture, or a.exr"), "{}", wrong.err);
-    let painting = watercolor("a.exr");
     assert_eq!(painting.status, 2, "{}", painting.err);
     assert!(painting.err.contains("name a LIBRARY"), "{}", painting.err);
     let two = impasto(&["watercolor", &photo, "-o", "a.png", "-o", "b.tif"]);

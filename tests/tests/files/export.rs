@@ -1,10 +1,6 @@
-//! Exported pictures, read back with independent readers.
-//!
-//! Export of pigment maps: scale, file names, table of volumes, refused maps.
-//!
-//! OpenEXR export of linear RGB and of spectra.
-//!
-//! PNG export: sRGB curve, chunks of colour space and size, clipping, refused pictures.
+//! Exported pictures, read back with independent readers: pigment maps with scale, file names and
+//! volumes, OpenEXR of linear RGB and of spectra, and PNG with sRGB curve, chunks of colour space
+//! and size, clipping and refusals.
 
 use std::io::Cursor;
 
@@ -40,7 +36,7 @@ fn maps_give_millimetres_back_by_their_scale() {
     let sidecar: serde_json::Value =
         serde_json::from_slice(file(&files, "study.maps.json")).unwrap();
     let scale = sidecar["mm_at_65535"].as_f64().unwrap();
-    // The scale is the thickness of the thickest cell: 0.11 mm of white and 0.09 mm of blue.
+    // The thickest cell gives the scale: 0.11 mm of white and 0.09 mm of blue.
     assert_near("scale", &[scale], &[0.2], 1e-7);
     assert_eq!(sidecar["width_mm"], 0.8);
     for (index, map) in three().iter().enumerate() {
@@ -73,13 +69,16 @@ fn the_recipe_tells_volumes_and_shares() {
     let mut table = csv::Reader::from_reader(file(&files, "study.recipe.csv"));
     let rows: Vec<_> = table.records().map(|row| row.unwrap()).collect();
     assert_eq!(rows[1][0], *"Blue, \"dark\"");
-    let figures = |row: usize| -> Vec<f64> {
-        rows[row].iter().skip(1).map(|text| text.parse().unwrap()).collect()
-    };
-    // The heights of white sum to 0.66 mm over 12 cells of 0.04 mm2; one cell has 0.09 mm of blue.
-    assert_near("white", &figures(0), &[0.0264, 0.88, 0.055, 0.11, 11.0 / 12.0], 1e-5);
-    assert_near("blue", &figures(1), &[0.0036, 0.12, 0.0075, 0.09, 1.0 / 12.0], 1e-5);
-    assert_near("none", &figures(2), &[0.0; 5], 0.0);
+    // The heights of white sum to 0.66 mm over 12 cells of 0.04 mm2. One cell has 0.09 mm of blue.
+    for (row, name, wanted, tolerance) in [
+        (0_usize, "white", [0.0264, 0.88, 0.055, 0.11, 11.0 / 12.0], 1e-5),
+        (1, "blue", [0.0036, 0.12, 0.0075, 0.09, 1.0 / 12.0], 1e-5),
+        (2, "none", [0.0; 5], 0.0),
+    ] {
+        let figures: Vec<f64> =
+            rows[row].iter().skip(1).map(|text| text.parse().unwrap()).collect();
+        assert_near(name, &figures, &wanted, tolerance);
+    }
 }
 
 #[test]
@@ -172,7 +171,9 @@ fn spectra_stand_in_the_published_channels() {
 
 #[test]
 fn spectra_that_do_not_fit_are_refused() {
-    let plane = |value: f32| Field::filled(5, 3, value);
+    fn plane(value: f32) -> Field<f32> {
+        Field::filled(5, 3, value)
+    }
     let small = Field::filled(4, 3, 0.5);
     let cases = [
         (vec![400.0], vec![plane(0.1), plane(0.2)], "found `1 wavelengths` for plane 2"),
@@ -254,8 +255,9 @@ fn pictures_say_what_they_are_and_how_large() {
         assert_eq!(chunk(&png.bytes, b"cICP"), Some(&[1, 13, 0, 1][..]));
         let [x, y] = [10_000_u32; 2].map(u32::to_be_bytes);
         assert_eq!(chunk(&png.bytes, b"pHYs"), Some(&[&x[..], &y[..], &[1]].concat()[..]));
-        let at = |name: &[u8]| png.bytes.windows(4).position(|window| window == name).unwrap();
-        assert!(at(b"cICP") < at(b"IDAT"), "the colour space must precede the pixels");
+        let [profile, pixels] = [b"cICP", b"IDAT"]
+            .map(|name| png.bytes.windows(4).position(|window| window == name).unwrap());
+        assert!(profile < pixels, "the colour space must precede the pixels");
     }
 }
 
@@ -264,7 +266,7 @@ fn colors_out_of_gamut_keep_hue_and_lightness_and_are_counted() {
     let mut picture = ramp();
     picture[(3, 0)] = [1.5, -0.25, 0.5, 1.0];
     picture[(4, 0)] = [0.0, 0.0, -0.1, 1.0];
-    // An excess of the size of a rounding error is not counted.
+    // An excess of the size of a rounding error does not count.
     picture[(5, 0)] = [1.000_000_1, 0.0, 0.0, 1.0];
     let png = png8(&picture, 0.1).unwrap();
     assert_eq!(png.outside, 2);

@@ -1,10 +1,5 @@
-//! Painting files: a painting is read back unchanged, and any other file is refused.
-//!
-//! Documents of paintings with random amounts of paint.
-//!
-//! A painting that is written and read back is the same to the quantum.
-//!
-//! Faulty and damaged painting files: refused with the place, without a panic, and before memory is
+//! Painting files. A painting with random amounts of paint is read back the same to the quantum.
+//! Faulty and damaged files are refused with the place, without a panic, and before memory is
 //! allocated.
 
 use std::io::Cursor;
@@ -52,8 +47,8 @@ fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), slots: &Slots, highest: u32
     layer
 }
 
-/// A painting of `width` x `height` cells with `dry` dry layers. `highest` is the largest amount of
-/// a pigment in a cell, in quanta.
+/// A painting of `width` x `height` cells with `dry` dry layers and at most `highest` quanta of a
+/// pigment in a cell.
 pub(crate) fn painting(
     seed: u64,
     (width, height): (usize, usize),
@@ -63,10 +58,13 @@ pub(crate) fn painting(
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let library = library();
     let count = library.pigments.len();
-    let mut slots = || -> Slots {
-        std::array::from_fn(|_| rng.random_bool(0.7).then(|| PigmentId(rng.random_range(0..count))))
-    };
-    let palettes: Vec<Slots> = (0..=dry).map(|_| slots()).collect();
+    let palettes: Vec<Slots> = (0..=dry)
+        .map(|_| {
+            std::array::from_fn(|_| {
+                rng.random_bool(0.7).then(|| PigmentId(rng.random_range(0..count)))
+            })
+        })
+        .collect();
     let rise = i32::try_from(highest.min(i32::MAX as u32)).unwrap();
     let heights = (0..width * height).map(|_| rng.random_range(-rise..=rise)).collect();
     let mut layers: Vec<DryLayer> = palettes
@@ -180,13 +178,11 @@ fn other_programs_find_parts_and_channels_in_millimetres() {
     let y = wet.attributes.layer_position.y();
     let first = y as usize * document.wet.width() + x;
     let cell = document.wet.cell(first);
-    let value = |name: &str| {
+    let assert_mm = |name: &str, quanta: u32| {
         let list = &wet.channel_data.list;
         let channel = list.iter().find(|channel| channel.name.eq(name));
-        channel.unwrap_or_else(|| panic!("no `{name}`")).sample_data.value_by_flat_index(0).to_f32()
-    };
-    let assert_mm = |name: &str, quanta: u32| {
-        let got = value(name);
+        let channel = channel.unwrap_or_else(|| panic!("no `{name}`"));
+        let got = channel.sample_data.value_by_flat_index(0).to_f32();
         let wanted = mm_from_quanta(quanta, document.cell_mm) as f32;
         assert_eq!(got, wanted, "{name}");
     };
@@ -216,7 +212,7 @@ fn image(bytes: &[u8]) -> FlatImage {
         .unwrap()
 }
 
-/// Error of reading a valid file after `change`. Asserts that the error names the file.
+/// Error of reading a valid file after `change`. Asserts that it names the file.
 fn refused(change: impl FnOnce(&mut FlatImage)) -> PaintingFileError {
     let mut image = image(&write(&small()).unwrap());
     change(&mut image);
@@ -383,11 +379,12 @@ fn a_painting_beyond_the_memory_limit_is_refused_before_it_is_read() {
     assert_eq!(error, wanted);
 }
 
-/// The size stated in a header allocates no memory before the file is long enough for it.
+/// A header may state a huge size: no memory is allocated before the file is long enough for it.
 #[test]
 fn a_short_file_cannot_promise_a_huge_canvas() {
     let mut bytes = write(&painting(5, (40, 33), 0, 0)).unwrap();
-    // Change the canvas size in both parts, then data window and chunk count of the first, `base`.
+    // Change the canvas size in both parts, then data window and chunk count of the first part,
+    // `base`.
     let mut patch = |key: &[u8], skip: usize, value: i32, times: usize| {
         let places: Vec<_> =
             (0..bytes.len() - key.len()).filter(|&at| bytes[at..].starts_with(key)).collect();
@@ -400,7 +397,9 @@ fn a_short_file_cannot_promise_a_huge_canvas() {
         patch(window, 4 + 12, 32_999, times);
     }
     patch(b"chunkCount\0int\0", 4, 33_000 / 32 + 1, 1);
-    let at = |bytes: &[u8], key: &[u8]| bytes.windows(key.len()).position(|w| w == key).unwrap();
+    fn at(bytes: &[u8], key: &[u8]) -> usize {
+        bytes.windows(key.len()).position(|w| w == key).unwrap()
+    }
     let json = at(&bytes, b"\"width\":40,\"height\":33");
     bytes.splice(json..json + 22, *b"\"width\":40000,\"height\":33000");
     let size = at(&bytes, b"impasto\0string\0") + 15;
@@ -429,7 +428,7 @@ fn fuzz() -> ProptestConfig {
 proptest! {
     #![proptest_config(fuzz())]
 
-    /// Reading a damaged file gives an error or another painting, never a panic.
+    /// If you read a damaged file, you get an error or another painting, but never a panic.
     #[test]
     fn damage_never_panics(
         flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
@@ -437,7 +436,7 @@ proptest! {
     ) {
         let mut bytes = sound().to_vec();
         for (index, byte) in flips {
-            // Half of the cases damage only the first bytes, which hold the headers.
+            // Half of the cases damage only the first bytes, where the headers are.
             let at = if early { index.index(1200) } else { index.index(bytes.len()) };
             bytes[at] = byte;
         }
@@ -452,8 +451,8 @@ proptest! {
     }
 }
 
-/// A valid file, made once. Its library has only two pigments: a whole library is far longer than
-/// the rest of the file, and damage would rarely hit anything else.
+/// A valid file, made once. Its library has only two pigments. A whole library would be far longer
+/// than the rest of the file, so damage would rarely hit anything else.
 fn sound() -> &'static [u8] {
     static BYTES: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
     BYTES.get_or_init(|| {
@@ -462,13 +461,10 @@ fn sound() -> &'static [u8] {
         document.library.evidence = None;
         document.library.reference = None;
         document.library.pigments.truncate(2);
-        let fewer = |slots: &mut Slots| {
-            for slot in slots.iter_mut().flatten() {
-                *slot = PigmentId(slot.index() * 2 / all);
-            }
-        };
-        fewer(&mut document.slots);
-        document.dry.iter_mut().for_each(|layer| fewer(&mut layer.slots));
+        let layers = document.dry.iter_mut().map(|layer| &mut layer.slots);
+        for slot in layers.chain([&mut document.slots]).flatten().flatten() {
+            *slot = PigmentId(slot.index() * 2 / all);
+        }
         let bytes = write(&document).unwrap();
         // The file must contain compressed blocks, so that damage hits them too.
         let image = image(&bytes);

@@ -1,8 +1,6 @@
-//! Checks of GPU kernels without an adapter: validity, bindings and layouts of structs.
-//!
-//! Errors of the graphics device: sizes beyond its limits, and a lost device.
-//!
-//! `impasto gpu`: the adapters that it lists, and the one that painting would use.
+//! Checks GPU kernels without an adapter (validity, bindings and layouts of structs), errors of the
+//! graphics device (sizes beyond its limits, a lost device), and `impasto gpu` with the adapters
+//! that it lists.
 
 use documents::hint::Explain;
 use graphics::field::Field;
@@ -45,7 +43,7 @@ fn every_kernel_is_valid_in_the_base_profile() {
 fn every_kernel_is_bound_as_it_says() {
     for kernel in kernels() {
         let module = parsed(kernel);
-        // Memory that a workgroup shares is bound to nothing.
+        // Memory that a workgroup shares has no binding.
         let bound = module.global_variables.iter().map(|(_, v)| v).filter(|v| v.binding.is_some());
         let mut found: Vec<_> = bound.collect();
         found.sort_by_key(|variable| variable.binding.map(|binding| binding.binding));
@@ -64,15 +62,16 @@ fn every_kernel_is_bound_as_it_says() {
     }
 }
 
-/// Size in bytes of a WGSL struct, and its fields with their offsets, as a [`Layout`] has them.
+/// Size in bytes of a WGSL struct, and its fields with their offsets as in a [`Layout`].
 fn fields(module: &naga::Module, name: &str) -> Option<(u32, Vec<(String, usize)>)> {
-    let of_name = |ty: &&naga::Type| ty.name.as_deref() == Some(name);
-    let ty = module.types.iter().map(|(_, ty)| ty).find(of_name)?;
+    let mut types = module.types.iter().map(|(_, ty)| ty);
+    let ty = types.find(|ty| ty.name.as_deref() == Some(name))?;
     let TypeInner::Struct { members, span } = &ty.inner else { return None };
-    let field = |m: &naga::StructMember| (m.name.clone().unwrap(), m.offset as usize);
     // An array of words does not fit uniforms, so each word of a padding has a name.
-    let more_padding = |field: &(String, usize)| field.0.starts_with("padding_");
-    let found = members.iter().map(field).filter(|field| !more_padding(field));
+    let found = members
+        .iter()
+        .map(|m| (m.name.clone().unwrap(), m.offset as usize))
+        .filter(|(name, _)| !name.starts_with("padding_"));
     Some((*span, found.collect()))
 }
 
@@ -118,7 +117,8 @@ fn shaders_that_count_faces_are_valid_and_bound_as_they_say() {
 fn a_canvas_beyond_the_device_is_told_with_both_sizes() {
     let Some(device) = crate::device() else { return };
     let limit = device.adapter().limits.binding_bytes;
-    // A strip of cells whose pigments, 32 bytes a cell, exceed the limit; the floor has 4 bytes.
+    // The pigments of this strip of cells, 32 bytes each, exceed the limit. The floor has 4 bytes
+    // per cell.
     let cells = (limit / 32 + 1) as usize;
     if cells > 1 << 26 {
         return;
@@ -135,18 +135,19 @@ fn a_lost_device_is_an_error_of_every_call() {
     let mut engine = PaintEngine::on_device(device, &Field::filled(70, 70, 0)).unwrap();
     let brush = engine.add_brush(4, 4).unwrap();
     engine.device().unwrap().close();
-    let lost = |found: Result<(), DeviceError>| {
+    for found in [
+        engine.set_wet(&Layer::empty(70, 70)),
+        engine.set_brush_paint(brush, &Layer::empty(4, 4)),
+        engine.wet().map(drop),
+        engine.brush_paint(brush).map(drop),
+        engine.dry(100),
+        engine.floor().map(drop),
+        engine.picture().map(drop),
+        engine.add_brush(4, 4).map(drop),
+        engine.finish(),
+    ] {
         assert!(matches!(found, Err(DeviceError::Lost { .. })), "{found:?}");
-    };
-    lost(engine.set_wet(&Layer::empty(70, 70)));
-    lost(engine.set_brush_paint(brush, &Layer::empty(4, 4)));
-    lost(engine.wet().map(drop));
-    lost(engine.brush_paint(brush).map(drop));
-    lost(engine.dry(100));
-    lost(engine.floor().map(drop));
-    lost(engine.picture().map(drop));
-    lost(engine.add_brush(4, 4).map(drop));
-    lost(engine.finish());
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Rendering on the GPU against the layer and shading formulas in f64.
+//! Rendering on the GPU compared with the layer and shading formulas in f64.
 
 use graphics::field::Field;
 use graphics::tile::TileSet;
@@ -12,11 +12,11 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
-/// Tolerance in linear RGB for f32 with the inexact `exp`, `sqrt` and division of WGSL. Largest
-/// error measured on lavapipe: 4e-7.
+/// Tolerance in linear RGB for f32 with the inexact `exp`, `sqrt` and division of WGSL. On lavapipe
+/// the largest error is 4e-7.
 const NEAR: f64 = 3e-6;
 
-/// Tolerance for three films with relief and gloss. Largest error on lavapipe: 1.9e-6.
+/// Tolerance for three films with relief and gloss. On lavapipe the largest error is 1.9e-6.
 const NEAR_STACK: f64 = 2e-5;
 
 const NO_LAYER: LayerOptics =
@@ -24,14 +24,15 @@ const NO_LAYER: LayerOptics =
 
 fn flat_scene(ground: f32, wet: LayerOptics, dry: Vec<LayerOptics>) -> Scene {
     let gloss = Gloss { strength: 0.25, exponent: 60.0 };
-    // Channels with different weights: red even, green of the first four nodes, blue rising.
-    let rgb = |node: usize| [0.125, if node < 4 { 0.25 } else { 0.0 }, (node as f32) / 28.0];
     Scene {
         ground: [ground; NODES],
         dry,
         wet,
         surface: SceneSurface { k1: 0.03, k2: 0.5, specular: 0.03 },
-        rgb_from_nodes: std::array::from_fn(rgb),
+        // Channels with different weights: red even, green of the first four nodes, blue rising.
+        rgb_from_nodes: std::array::from_fn(|node| {
+            [0.125, if node < 4 { 0.25 } else { 0.0 }, (node as f32) / 28.0]
+        }),
         lamp: Lamp {
             direction: [-0.45, -0.45, 0.771],
             relief: 0.0,
@@ -57,11 +58,11 @@ fn color(scene: &Scene, internal: [f64; NODES]) -> [f64; 3] {
 }
 
 fn film(coat: &LayerOptics, cell: &Cell, node: usize, backing: f64) -> f64 {
-    let of = |per: &[[f32; NODES]; SLOTS]| -> f64 {
+    let [k, s] = [&coat.absorption, &coat.scattering].map(|per| -> f64 {
         let parts = per.iter().zip(cell.pigments);
         parts.map(|(per, amount)| f64::from(per[node]) * f64::from(amount)).sum()
-    };
-    Film::new(of(&coat.absorption), of(&coat.scattering), 1.0).over(backing)
+    });
+    Film::new(k, s, 1.0).over(backing)
 }
 
 /// Largest difference of a channel, and its cell. Panics if a value is not finite or alpha is not
@@ -99,7 +100,7 @@ fn a_film_is_that_of_the_layer_equations_from_nothing_to_huge() {
     for per_quantum in [1e-9, 1e-7, 1e-5] {
         for ground in [0.0, 0.04, 0.5, 1.0] {
             let mut coat = NO_LAYER;
-            // Absorption falls over the wavelengths, scattering rises.
+            // Absorption falls over the wavelengths, while scattering rises.
             coat.absorption[0] = std::array::from_fn(|i| per_quantum * (8 - i) as f32);
             coat.scattering[1] = std::array::from_fn(|i| per_quantum * (1 + i) as f32);
             let scene = flat_scene(ground, coat, Vec::new());
@@ -154,7 +155,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     let mut scene = flat_scene(0.8, coats[2], coats[..2].to_vec());
     scene.lamp.relief = 0.7;
     let all = TileSet::all(engine.bounds());
-    // The first call bakes the dry layers, the second only composites the wet layer over them.
+    // The first call bakes the dry layers. The second only composites the wet layer over them.
     engine.render(View::First, &scene, &all, &TileSet::default()).unwrap();
     scene.lamp.ambient = 0.2;
     engine.render(View::First, &scene, &TileSet::default(), &all).unwrap();
@@ -184,8 +185,9 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
 }
 
-/// Light of a cell whose level colour is `flat`, by the formulas of [`paint::shade`] in f64. `top`
-/// gives heights around the cell in quanta.
+/// Light of a cell by the formulas of [`paint::shade`] in f64. `flat` is the colour of a level
+/// cell, and
+/// `top` gives heights around the cell in quanta.
 fn shaded(
     prepared: &ReliefLamp,
     lamp: &Lamp,
@@ -210,9 +212,9 @@ fn shaded(
     let slope_y = relief * (top(0, 1) - top(0, -1)) / (2.0 * unit);
     let normal = [-slope_x, -slope_y, 1.0];
     let size = normal.map(|v| v * v).iter().sum::<f64>().sqrt();
-    let along =
-        |way: [f64; 3]| -> f64 { normal.iter().zip(way).map(|(n, w)| n * w).sum::<f64>() / size };
-    let direct = free * along(light).max(0.0) / light[2];
+    let [by_light, by_halfway] = [light, [light[0], light[1], light[2] + 1.0]]
+        .map(|way| normal.iter().zip(way).map(|(n, w)| n * w).sum::<f64>() / size);
+    let direct = free * by_light.max(0.0) / light[2];
     let diffuse = ambient * open + (1.0 - ambient) * direct;
     let most = flat.into_iter().fold(0.0, f64::max);
     let more = (diffuse - 1.0).max(0.0);
@@ -223,15 +225,17 @@ fn shaded(
     let length = halfway.map(|v| v * v).iter().sum::<f64>().sqrt();
     let exponent = f64::from(gloss.exponent);
     let level = (halfway[2] / length).powf(exponent);
-    let mirrored = (along(halfway).max(0.0) / length).powf(exponent) - level;
+    let mirrored = (by_halfway.max(0.0) / length).powf(exponent) - level;
     let shine = f64::from(gloss.strength) * (1.0 - ambient) * free * mirrored.max(0.0);
     flat.map(|value| value * factor + shine / (1.0 + shine) * (1.0 - value * factor))
 }
 
 /// Topmost material of a cell: 0 wet paint (the last of `layers`), 1 dry paint, 2 the ground.
 fn bare(layers: &[Layer], cell: usize) -> u8 {
-    let has = |layer: &Layer| layer.cell(cell).volume() > 0;
-    match (has(&layers[2]), layers[..2].iter().any(has)) {
+    fn has(layer: &Layer, cell: usize) -> bool {
+        layer.cell(cell).volume() > 0
+    }
+    match (has(&layers[2], cell), layers[..2].iter().any(|layer| has(layer, cell))) {
         (true, _) => 0,
         (false, true) => 1,
         (false, false) => 2,

@@ -1,8 +1,5 @@
-//! Sub-steps on the GPU equal the reference on the CPU bit for bit, and conserve paint.
-//!
-//! Random paint and contacts to test with.
-//!
-//! Drying, dry layers and undo tiles on the GPU: exact amounts, and exact restoring.
+//! On the GPU, sub-steps equal the reference on the CPU bit for bit and conserve paint. Drying, dry
+//! layers and undo tiles are exact. Includes random paint and contacts to test with.
 
 use graphics::field::Field;
 use graphics::tile::{Rect, TILE, Tile, TileSet};
@@ -43,7 +40,9 @@ fn engine(start: &Reference) -> Option<(PaintEngine, BrushId)> {
 /// Rectangles in the middle, at every edge, of one cell, and of the whole canvas.
 fn rects() -> Vec<Rect> {
     let (width, height) = SIZE;
-    let rect = |x, y, width, height| Rect { x, y, width, height };
+    fn rect(x: usize, y: usize, width: usize, height: usize) -> Rect {
+        Rect { x, y, width, height }
+    }
     vec![
         rect(20, 10, 24, 17),
         rect(0, 0, 5, 6),
@@ -74,7 +73,7 @@ fn a_sub_step_is_that_of_the_processor_over_all_regimes() {
         let (mut wanted, wanted_brush) = start.on_cpu();
         let motion = MotionConstants::new(0.1, 0.7);
         for rect in rects().into_iter().chain(rects()) {
-            // Some paint bears the hair, as if a stroke began here.
+            // Some paint carries the hair, as if a stroke began here.
             for tile in TileSet::all(engine.bounds()).iter().filter(|_| rng.random_bool(0.3)) {
                 wanted.note_bed(tile).unwrap();
                 engine.note_bed(tile).unwrap();
@@ -153,7 +152,7 @@ fn ten_thousand_sub_steps_keep_every_pigment() {
     assert!(most.max() < Some(&(1 << 31)), "an amount below zero");
 }
 
-/// A canvas (floor and wet paint) and the paint on one brush head.
+/// A canvas (floor and wet paint), and the paint on one brush head.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reference {
     pub(crate) floor: Field<i32>,
@@ -162,13 +161,13 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    /// The canvas and the brush in an engine on the processor, whose sub-steps are tested
-    /// against the specification.
+    /// The canvas and the brush on the processor. Its sub-steps are tested against the
+    /// specification.
     pub(crate) fn on_cpu(&self) -> (PaintEngine, BrushId) {
         self.in_engine(PaintEngine::on_cpu(self.floor.clone()))
     }
 
-    /// The canvas and the brush in `engine`, which was made for this floor.
+    /// The canvas and the brush in `engine`. You must make it for this floor.
     pub(crate) fn in_engine(&self, mut engine: PaintEngine) -> (PaintEngine, BrushId) {
         let brush = engine.add_brush(self.brush.width(), self.brush.height()).unwrap();
         engine.set_wet(&self.wet).unwrap();
@@ -176,7 +175,7 @@ impl Reference {
         (engine, brush)
     }
 
-    /// Paint on canvas and head in quanta: by slot, vehicle last.
+    /// Paint on canvas and head in quanta, by slot and then the vehicle.
     pub(crate) fn totals(&self) -> [u64; 9] {
         let wet = self.wet.totals();
         let brush = self.brush.totals();
@@ -187,13 +186,13 @@ impl Reference {
 /// Range of the random amounts in a cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Amounts {
-    /// No paint.
     None,
-    /// Up to 1000 quanta per slot: columns below and above the adhesion.
+    /// Up to 1000 quanta per slot, for columns below and above the adhesion.
     Thin,
     /// Up to a quarter of a cell per slot, as in a painting.
     Usual,
-    /// Up to 2^28 quanta in all: a cell and the inflow of eight such neighbours fit in 32 bits.
+    /// Up to 2^28 quanta in all, so that a cell and the inflow of eight such neighbours fit in 32
+    /// bits.
     Full,
 }
 
@@ -217,8 +216,8 @@ pub(crate) fn paint(rng: &mut ChaCha8Rng, size: (usize, usize), amounts: Amounts
     layer
 }
 
-/// A random contact over `rect`: heights near the tops of the paint, head cells that several
-/// canvas cells share, and an eighth of the canvas cells without a head cell. Half of the heads are
+/// A random contact over `rect`: heights near the tops of the paint, head cells that several canvas
+/// cells share, and an eighth of the canvas cells without a head cell. Half of the heads are
 /// stripes across the rows.
 pub(crate) fn contact(
     rng: &mut ChaCha8Rng,
@@ -236,8 +235,9 @@ pub(crate) fn contact(
             }
             let around = [0, -1, 1, -(1 << 22), 1 << 10][rng.random_range(0..5)];
             let height = tops(x, y) + around + rng.random_range(-(1 << 18)..1 << 16);
-            let mut along = || [0, 256, -256, rng.random_range(-300..300)][rng.random_range(0..4)];
-            let velocity = (along(), along());
+            let [x, y] = [(); 2]
+                .map(|()| [0, 256, -256, rng.random_range(-300..300)][rng.random_range(0..4)]);
+            let velocity = (x, y);
             let speed = [0, 256, rng.random_range(0..=256)][rng.random_range(0..3)];
             let mut touch =
                 Touch::new(height, rng.random_range(0..brush_cells), velocity, speed, 0);
@@ -336,8 +336,10 @@ fn undo_then_redo_is_the_identity() {
     let tiles: Vec<_> = (0..DRIED_SIZE.1.div_ceil(TILE))
         .flat_map(|row| (0..DRIED_SIZE.0.div_ceil(TILE)).map(move |column| Tile { row, column }))
         .collect();
-    // Slots in several blocks of undo memory, in descending order.
-    let slot = |i: usize| UndoSlot(200 - 30 * i);
+    // These slots lie in several blocks of undo memory, in descending order.
+    fn slot(i: usize) -> UndoSlot {
+        UndoSlot(200 - 30 * i)
+    }
     for (i, &tile) in tiles.iter().enumerate() {
         engine.save_tile(tile, slot(i)).unwrap();
     }

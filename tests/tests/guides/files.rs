@@ -1,4 +1,4 @@
-//! Files that the commands of the guides read: small copies of those that ship, and those that a
+//! Files for the commands of the guides: small copies of the files that ship, and files that a
 //! reader brings.
 
 use std::path::Path;
@@ -7,14 +7,13 @@ use calibrate::PigmentLibrary;
 use image::imageops::FilterType;
 use suite::program::{impasto, repository};
 
-/// Longer side of a picture in pixels.
 const LONGEST: u32 = 96;
 
-/// A small style of brushwork, and a small map of it.
+/// A small style of brushwork. There is a small map of it, too.
 pub(crate) const STYLE: &str = "small.toml";
 pub(crate) const MAP: &str = "small.artmap.exr";
 
-/// Puts the files that the commands of `page` need into `folder`, where they run.
+/// Puts the files for the commands of `page` into `folder`, where they run.
 pub(crate) fn prepare(folder: &Path, page: &str) {
     for inside in ["measurements", "paintings", "docs/images"] {
         std::fs::create_dir_all(folder.join(inside)).unwrap();
@@ -28,7 +27,7 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
         let picture = image::open(repository(&file)).unwrap();
         picture.resize(LONGEST, LONGEST, FilterType::Triangle).save(folder.join(file)).unwrap();
     }
-    // Passages of this one must hold several strokes.
+    // Passages of this picture must hold several strokes.
     let painted = "docs/images/coffee-painted.jpg";
     std::fs::copy(repository(painted), folder.join(painted)).unwrap();
     if page.contains("impasto painterly") {
@@ -47,18 +46,18 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
     std::fs::write(folder.join("recipes.csv"), RECIPES).unwrap();
 }
 
-/// The text of the style `dabs` on few and large cells; any other text as it is.
+/// The style `dabs` with few large cells. Returns any other text as it is.
 pub(crate) fn small_style(text: &str) -> String {
     text.replace("side_cells = 300", "side_cells = 64").replace("cell_mm = 0.18", "cell_mm = 0.36")
 }
 
 /// A style of small dabs, and a map of three tones.
 fn brushwork(folder: &Path) {
-    let run = |arguments: &[&str]| {
+    fn run(arguments: &[&str]) -> String {
         let run = impasto(arguments);
         assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
         run.out
-    };
+    }
     let shown = run(&["artmap", "paint", "--show-style", "dabs"]);
     let style = small_style(&shown);
     assert!(style != shown, "the style has another size: {shown}");
@@ -67,7 +66,6 @@ fn brushwork(folder: &Path) {
     run(&["artmap", "build", "small.exr", "--size", "64", "-o", MAP]);
 }
 
-/// Scripts of paintings on coarse canvases.
 fn coarse_scripts(folder: &Path) {
     for file in ["paintings/landscape.json", "paintings/colour-study.json"] {
         let text = std::fs::read_to_string(repository(file)).unwrap();
@@ -77,7 +75,6 @@ fn coarse_scripts(folder: &Path) {
     }
 }
 
-/// A scan of eight pixels of one green.
 fn scan(folder: &Path) {
     let oils = PigmentLibrary::van_gogh_oils();
     let recipe = oils.recipe([("Lead White", 4.0), ("Viridian", 1.0)]).unwrap();

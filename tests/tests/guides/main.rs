@@ -1,8 +1,9 @@
-//! The commands of the README and of the guides, run as they are printed.
+//! Runs the commands of the README and of the guides as they are printed.
 //!
-//! They run in a folder with the files that ship, small, and with the files that a page asks its
-//! reader for. Nothing of a command is changed but its size: `SMALL` adds options to those that would
-//! paint large pictures. The page on measuring has a test of its own in `plan`, which fills in readings.
+//! They run in a folder with small copies of the files that ship, and with the files that a page
+//! asks its reader for. We change only the size of a command: `SMALL` adds options to commands that
+//! would paint large pictures. The page on measuring has its own test in `plan`, which fills in
+//! readings.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
@@ -12,7 +13,7 @@ use std::path::Path;
 
 use suite::program::{Command, commands, impasto, repository};
 
-/// Pages, in the order in which a reader meets them.
+/// Pages, in the order of reading.
 const PAGES: [&str; 12] = [
     "README.md",
     "docs/guide/command-line.md",
@@ -28,8 +29,9 @@ const PAGES: [&str; 12] = [
     "docs/guide/figures.md",
 ];
 
-/// Programs whose commands are not run here: those of Rust have tests of their own, the studio needs a
-/// display, the package of Python and the pages in `web` are tested with them, and folders are the reader's.
+/// We do not run the commands of these programs. Rust has its own tests, the studio needs a
+/// display, the Python package and the pages in `web` are tested with their commands, and folders
+/// belong to the reader.
 const OTHERS: [&str; 8] = [
     "cargo",
     "IMPASTO_TURNTABLE=1",
@@ -41,7 +43,7 @@ const OTHERS: [&str; 8] = [
     "apps/web/serve",
 ];
 
-/// Verbs, words that the command holds, and options that make its work small.
+/// Verbs, words of the command, and options that make its work small.
 const SMALL: [(&str, &[&str], &[&str]); 8] = [
     ("paint", &["--from"], &["--width-mm", "24"]),
     ("paint", &["--from"], &["--palette", "Lead White,Ultramarine,Chrome Yellow,Vermilion"]),
@@ -53,11 +55,13 @@ const SMALL: [(&str, &[&str], &[&str]); 8] = [
     ("report", &["-o"], &["--no-validation"]),
 ];
 
-/// The words of a command, made small: with the options of [`SMALL`], few frames, and a small style
-/// and a map of it in place of those that ship.
+/// Makes a command small: with the options of [`SMALL`], few frames, and a small style and map
+/// instead of those that ship.
 fn small(words: &[String]) -> Vec<String> {
     let mut words = words.to_vec();
-    let has = |words: &[String], part: &str| words.iter().any(|word| word.contains(part));
+    fn has(words: &[String], part: &str) -> bool {
+        words.iter().any(|word| word.contains(part))
+    }
     for (verb, parts, more) in SMALL {
         let meant = words[1] == verb && parts.iter().all(|part| has(&words, part));
         if meant && !has(&words, more[0]) {
@@ -65,25 +69,23 @@ fn small(words: &[String]) -> Vec<String> {
         }
     }
     let own_style = words.iter().any(|word| word == "mine.toml");
-    let replaced = |words: &mut Vec<String>, option: &str, by: [&str; 2]| match words
-        .iter()
-        .position(|word| word == option)
-    {
-        Some(at) => words[at..at + 2].clone_from_slice(&by.map(str::to_owned)),
-        None => words.extend(by.map(str::to_owned)),
-    };
+    fn replaced(words: &mut Vec<String>, option: &str, by: [&str; 2]) {
+        match words.iter().position(|word| word == option) {
+            Some(at) => words[at..at + 2].clone_from_slice(&by.map(str::to_owned)),
+            None => words.extend(by.map(str::to_owned)),
+        }
+    }
     match (words[1].as_str(), words.get(2).map(String::as_str)) {
         ("artmap", Some("paint")) if !own_style && !has(&words, "--show-style") => {
             replaced(&mut words, "--style", ["--style", files::STYLE]);
         }
         ("artmap", Some("build")) => replaced(&mut words, "--size", ["--size", "64"]),
-        // A map for a material does not replace that of everything else.
+        // The map for a material does not replace the map for everything else.
         ("painterly", _) if has(&words, "--style") || !has(&words, "--map") => {
             replaced(&mut words, "--style", ["--map", files::MAP]);
         }
         _ => {}
     }
-    // Few frames.
     for index in 1..words.len() {
         if ["--turntable", "--loop"].contains(&words[index - 1].as_str()) {
             words[index] = "2".to_owned();
@@ -112,7 +114,7 @@ fn run(page: &str, command: &Command) {
     }
 }
 
-/// One test, since the folder in which commands run belongs to the whole process.
+/// This is one test, since the working folder belongs to the whole process.
 #[test]
 fn every_command_of_the_guides_runs_as_it_is_printed() {
     let mut ran = 0;

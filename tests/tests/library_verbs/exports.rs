@@ -1,8 +1,6 @@
-//! `impasto library export`: palettes, CxF spectra and tables of K and S for other programs.
-//!
-//! Swatch files (ASE, ACO, GPL): a round trip of random palettes, and errors of faulty files.
-//!
-//! Pigments guessed from a colour: mixing gives the colour back, and the guess is marked.
+//! `impasto library export`: palettes, CxF spectra and tables of K and S for other programs, a round trip of
+//! random palettes in swatch files (ASE, ACO, GPL), and errors of faulty ones. Also pigments
+//! guessed from a colour: mixing gives the colour back, and the guess is marked.
 
 use calibrate::PigmentId;
 use calibrate::curation::{Body, guessed_pigment};
@@ -19,7 +17,7 @@ use suite::program::impasto;
 
 use crate::{Shelf, done, oils, read, refused};
 
-/// Exports the oils as `format` with the further arguments `more`, and reads the file back.
+/// Exports the oils as `format` with `more` arguments, and reads the file back.
 fn exported(format: &str, more: &[&str]) -> SwatchFile {
     let shelf = Shelf::new();
     let file = shelf.path("palette");
@@ -128,10 +126,14 @@ fn a_table_of_curves_makes_the_same_library_again() {
     assert_eq!((again.reference.as_deref(), again.title.as_str()), (Some("Zinc White"), "Oils"));
     assert_eq!((again.grid, again.saunderson), (first.grid, first.saunderson));
     for (a, b) in first.pigments.iter().zip(&again.pigments) {
-        let curves = |p: &calibrate::library::Pigment| {
-            [&p.absorption, &p.scattering, &p.absorption_sd, &p.scattering_sd].map(Clone::clone)
-        };
-        assert_eq!((curves(a), a.identified, &a.name), (curves(b), b.identified, &b.name));
+        let [one, other] = [a, b].map(|p| {
+            (
+                [&p.absorption, &p.scattering, &p.absorption_sd, &p.scattering_sd],
+                p.identified,
+                &p.name,
+            )
+        });
+        assert_eq!(one, other);
     }
     assert!(again.inputs[0].path.ends_with("curves.csv"));
 }
@@ -170,10 +172,14 @@ fn a_faulty_table_is_refused_with_its_place() {
     assert!(!library.pigments[1].identified, "K/S alone");
 }
 
-/// Colours whose components are exact in 8 bits, in 16 bits and in 32-bit floats.
+/// Colours with components that are exact in 8 bits, in 16 bits and in 32-bit floats.
 fn color() -> impl Strategy<Value = SwatchColor> {
-    let step = || (0..=1u8).prop_map(f64::from);
-    let quarter = |from: i32, to: i32| (from * 4..=to * 4).prop_map(|q| f64::from(q) / 4.0);
+    fn step() -> impl Strategy<Value = f64> {
+        (0..=1u8).prop_map(f64::from)
+    }
+    fn quarter(from: i32, to: i32) -> impl Strategy<Value = f64> {
+        (from * 4..=to * 4).prop_map(|q| f64::from(q) / 4.0)
+    }
     prop_oneof![
         [step(), step(), step()].prop_map(|rgb| SwatchColor::Rgb(Rgb(rgb))),
         (step(), quarter(-128, 127), quarter(-128, 127))
@@ -276,9 +282,9 @@ fn a_small_ase_is_byte_for_byte_as_other_programs_write_it() {
 
 #[test]
 fn errors_name_file_and_byte_or_line() {
-    let error = |result: Result<SwatchFile, spectra::swatch_file::SwatchFileError>| {
+    fn error(result: Result<SwatchFile, spectra::swatch_file::SwatchFileError>) -> String {
         result.unwrap_err().to_string()
-    };
+    }
     assert_eq!(
         error(read_ase("a.ase", b"ASEX\x00\x01\x00\x00")),
         "a.ase, byte 0: expected `ASEF`, found `ASEX`"
@@ -301,7 +307,7 @@ fn errors_name_file_and_byte_or_line() {
 
 #[test]
 fn hue_saturation_and_brightness_are_read_as_rgb() {
-    // A hue of 120 degrees with full saturation and brightness is green.
+    // A hue of 120 degrees is green at full saturation and brightness.
     let bytes = b"\x00\x01\x00\x01\x00\x01\x55\x55\xff\xff\xff\xff\x00\x00";
     let SwatchColor::Rgb(rgb) = read_aco("a.aco", bytes).unwrap().swatches[0].color else {
         panic!("RGB")
@@ -336,8 +342,9 @@ fn a_thousand_colors_come_back_from_mixing() {
             Body::Hiding => mixture.hiding(library.saunderson),
             Body::Glaze => mixture.film(1.0, &[1.0; 31], library.film()),
         };
-        let lab = |xyz| Lab::from_xyz(xyz, weights.white());
-        let off = delta_e_ciede2000(lab(wanted), lab(weights.xyz(&film)));
+        let [wanted, found] =
+            [wanted, weights.xyz(&film)].map(|xyz| Lab::from_xyz(xyz, weights.white()));
+        let off = delta_e_ciede2000(wanted, found);
         assert!(
             off < 0.05 && film.iter().all(|r| *r > 0.03 && *r < 1.0),
             "{}: {off}",
@@ -383,13 +390,11 @@ fn a_glaze_shows_its_color_over_white_and_its_ground_elsewhere() {
     let with = shelf.path("with.json");
     let glaze = ["from-rgb", &oils(), "lab(60, 40, 20)", "--name", "Rose", "--glaze"];
     done(&[&glaze[..], &["--output", &with]].concat());
-    let lab = |over: &str| {
+    let [on_white, on_black] = ["white", "black"].map(|over| -> Vec<f64> {
         let mix = impasto(&["mix", &with, "Rose=1", "--thickness", "1", "--over", over, "--json"]);
         mix.json()["lab"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-    };
-    let on_white: Vec<f64> = lab("white");
+    });
     suite::golden::assert_near("over white", &on_white, &[60.0, 40.0, 20.0], 0.01);
-    let on_black: Vec<f64> = lab("black");
     assert!(on_black[0] < 30.0, "{on_black:?}");
 }
 
@@ -416,8 +421,8 @@ fn options_may_stand_between_library_and_color() {
     let between = shelf.path("between.json");
     done(&["from-rgb", &oils(), "40,5,-45", "--name", "Sky", "--output", &bare]);
     done(&["from-rgb", &oils(), "--name", "Sky", "lab(40, 5, -45)", "--output", &between]);
-    let sky = |path: &str| read(path).pigments.pop().unwrap().absorption;
-    assert_eq!(sky(&bare), sky(&between));
+    let [one, other] = [&bare, &between].map(|path| read(path).pigments.pop().unwrap().absorption);
+    assert_eq!(one, other);
     let new = shelf.path("new.json");
     done(&["from-rgb", "--name", "White", "--output", &new, "#f4f4f0"]);
     let list = impasto(&["library", "list", &new]);

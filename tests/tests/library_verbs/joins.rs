@@ -1,6 +1,5 @@
-//! `impasto library merge`, `convert`, `rename` and `subset`: the colours of mixtures are kept.
-//!
-//! `impasto library check` and `diff`: doubtful data, faults, and differences of two libraries.
+//! `impasto library merge`, `convert`, `rename` and `subset` preserve the colours of mixtures. `check` and
+//! `diff` report doubtful data, faults, and differences of two libraries.
 
 use calibrate::library::{AmountKind, Pigment};
 use serde_json::Value;
@@ -8,7 +7,7 @@ use suite::golden::assert_near;
 
 use crate::{Shelf, done, furthest, oils, read, refused, text, tried};
 
-/// Bound on the change of a reflectance when K and S are rounded to six digits.
+/// Largest change of a reflectance when K and S are rounded to six digits.
 const ROUNDING: f64 = 1e-5;
 
 #[test]
@@ -99,7 +98,9 @@ fn two_pigments_of_one_name_need_a_choice() {
     let clash = ["merge", &oils(), &batch, "--output", &merged];
     refused(&clash, 1, &["`Viridian`", "--prefer first", "library rename"]);
     assert!(!std::path::Path::new(&merged).exists(), "nothing half written");
-    let k = |path: &str| read(path)[read(path).find("Viridian").unwrap()].absorption[0];
+    fn k(path: &str) -> f64 {
+        read(path)[read(path).find("Viridian").unwrap()].absorption[0]
+    }
     done(&[&clash[..], &["--prefer", "first"]].concat());
     assert_eq!(k(&merged), k(&oils()));
     done(&[&clash[..], &["--prefer", "last"]].concat());
@@ -112,20 +113,13 @@ fn two_pigments_of_one_name_need_a_choice() {
 fn what_does_not_fit_together_is_refused_with_its_reason() {
     let shelf = Shelf::new();
     let merged = shelf.path("merged.json");
-    let merge = |other: &str, more: &[&str]| {
-        let mut arguments = vec!["merge".to_owned(), oils(), other.to_owned()];
-        arguments.extend(["--output".to_owned(), merged.clone()]);
-        arguments.extend(more.iter().map(|word| (*word).to_owned()));
-        arguments
-    };
+    let end = ["--output", &merged];
     let refuse = |other: &str, words: &[&str]| {
-        let arguments = merge(other, &[]);
-        refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), 1, words);
+        refused(&[&["merge", &oils(), other], &end[..]].concat(), 1, words);
     };
     let surface = shelf.changed("surface.json", &oils(), |library| library.saunderson.k1 = 0.02);
     refuse(&surface, &["the surface differs", "k1 = 0.02", "--any-surface"]);
-    let arguments = merge(&surface, &["--any-surface"]);
-    let run = done(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    let run = done(&[&["merge", &oils(), &surface], &end[..], &["--any-surface"]].concat());
     assert!(run.err.contains("do not hold under the first's"), "{}", run.err);
     let amounts = shelf.changed("amounts.json", &oils(), |library| {
         library.amounts = AmountKind::Absolute;
@@ -196,15 +190,15 @@ fn a_library_on_other_wavelengths_joins_with_a_warning() {
     assert!(run.err.contains("to 400 to 700 nm in steps of 10 nm (sprague)"), "{}", run.err);
     assert_eq!(read(&merged).pigments.len(), 20, "the same figures at the same wavelengths");
     let coarse = shelf.path("coarse.json");
-    let lost = |method: &str| {
+    let [sprague, linear] = ["sprague", "linear"].map(|method| {
         done(&["convert", &oils(), "--grid", "400,700,20", "--output", &coarse]);
         let more = ["--grid", "400,700,10", "--interpolation", method, "--output", &fine];
         done(&[&["convert", &coarse][..], &more].concat());
         let found = tried(&["diff", &oils(), &fine, "--json"]).json();
         let pairs = found["lights"][0]["pairs"].as_array().unwrap();
         pairs.iter().map(|pair| pair["ciede2000"].as_f64().unwrap()).sum::<f64>()
-    };
-    assert!(lost("sprague") < 0.5 * lost("linear"), "{} {}", lost("sprague"), lost("linear"));
+    });
+    assert!(sprague < 0.5 * linear, "{sprague} {linear}");
     let few = ["convert", &oils(), "--grid", "400,700,100", "--output", &coarse];
     done(&few);
     let more = ["--grid", "400,700,10", "--interpolation", "sprague", "--output", &fine];
@@ -361,7 +355,8 @@ fn a_batch_that_differs_is_told_and_fails() {
     let shelf = Shelf::new();
     let batch = shelf.changed("batch.json", &oils(), |library| {
         let cobalt = library.find("Cobalt").unwrap();
-        // Half of both K and S leaves the masstone unchanged but halves the strength in mixtures.
+        // If both K and S are halved, the masstone stays, but the pigment is half as strong in
+        // mixtures.
         for curve in [0, 1] {
             let pigment = &mut library[cobalt];
             let curve = [&mut pigment.absorption, &mut pigment.scattering].into_iter().nth(curve);

@@ -11,7 +11,6 @@ use calibrate::library::PigmentLibrary;
 use suite::program::{Run, impasto, repository};
 use tempfile::TempDir;
 
-/// Path of the shipped library of the Van Gogh oils.
 fn oils() -> String {
     repository("measurements/van-gogh-oils.pigments.json")
 }
@@ -24,7 +23,7 @@ fn read(path: &str) -> PigmentLibrary {
     PigmentLibrary::from_json(path, &text(path)).unwrap()
 }
 
-/// A temporary folder for the files of a test.
+/// A temporary folder for files.
 struct Shelf(TempDir);
 
 impl Shelf {
@@ -37,7 +36,7 @@ impl Shelf {
         path.to_str().unwrap().to_owned()
     }
 
-    /// Writes the library `from`, changed by `change`, as the file `name`; returns its path.
+    /// Writes the library `from` with a `change` to the file `name`. Returns its path.
     fn changed(&self, name: &str, from: &str, change: impl FnOnce(&mut PigmentLibrary)) -> String {
         let mut library = read(from);
         change(&mut library);
@@ -58,7 +57,7 @@ fn tried(arguments: &[&str]) -> Run {
     impasto(&[&["library"], arguments].concat())
 }
 
-/// Asserts that the command ends with `status` and an error that has a hint and all of `words`.
+/// Asserts that the command ends with `status` and an error with a hint and all of `words`.
 fn refused(arguments: &[&str], status: u8, words: &[&str]) {
     let run = tried(arguments);
     assert_eq!(run.status, status, "{arguments:?}: {}", run.err);
@@ -67,18 +66,18 @@ fn refused(arguments: &[&str], status: u8, words: &[&str]) {
     }
 }
 
-/// Largest difference of reflectance between the libraries, over masstones and 1:1 mixtures of two
-/// pigments that both have. Pigments with unknown S are left out.
+/// Largest difference of reflectance between the libraries, over masstones and 1:1 mixtures of
+/// pigments that both have. Leaves out pigments with unknown S.
 fn furthest(first: &PigmentLibrary, second: &PigmentLibrary) -> f64 {
     let known: Vec<&str> = (first.pigments.iter())
         .filter(|p| p.identified && second.pigments.iter().any(|q| q.name == p.name))
         .map(|p| p.name.as_str())
         .collect();
     assert!(known.len() > 1, "pigments in common: {known:?}");
-    let film = |library: &PigmentLibrary, names: [&str; 2]| {
+    fn film(library: &PigmentLibrary, names: [&str; 2]) -> Vec<f64> {
         let recipe = library.recipe(names.map(|name| (name, 1.0))).unwrap();
         library.mix(recipe).unwrap().hiding(library.saunderson)
-    };
+    }
     let mut largest: f64 = 0.0;
     for a in &known {
         for b in &known {

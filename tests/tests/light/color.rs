@@ -1,11 +1,6 @@
-//! Colour of paint: eight wavelengths against the full spectrum, and mixtures of pigments against
-//! mixtures of lights.
-//!
-//! Colours of thin films that no screen shows.
-//!
-//! Light seen by an eye that adapted to it in part.
-//!
-//! Pictures with several pixels a cell.
+//! Colour of paint: eight wavelengths compared with the full spectrum, mixtures of pigments
+//! compared with mixtures of lights, thin films outside the gamut, an eye that has adapted in part,
+//! and pictures with several pixels per cell.
 
 use calibrate::evaluate::{Summary, Viewing, percentile};
 use calibrate::{Curves, PigmentId};
@@ -39,7 +34,7 @@ fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
     cells.map(|(x, y)| weights.xyz(&spectral.measured_reflectance(x, y))).collect()
 }
 
-/// CIEDE2000 of eight wavelengths against the full spectrum, by cell, both adapted to the white of
+/// CIEDE2000 of eight wavelengths from the full spectrum, by cell. Both are adapted to the white of
 /// sRGB.
 fn errors(document: &Document, name: &str) -> Vec<f64> {
     let light = light(&document.library, name);
@@ -112,7 +107,7 @@ fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
     let light = light(&library, "D65");
     let [yellow, blue, white] = ["Chrome Yellow (Otero)", "Prussian Blue", "Lead White"]
         .map(|name| library.find(name).unwrap());
-    // Tints with white: an ochre-like yellow and a clearly visible blue.
+    // Tints with white: a yellow like ochre, and a clearly visible blue.
     let [yellow, blue] = [vec![(yellow, 0.6), (white, 0.4)], vec![(blue, 0.03), (white, 0.97)]];
     let mixer = Mixer::new(&library, &light, &yellow, &blue).unwrap();
     let [first, last] = [mixer.mix(0.0), mixer.mix(1.0)];
@@ -123,8 +118,9 @@ fn yellow_and_prussian_blue_make_green_where_lights_make_grey() {
             (seen(mixer.mix(share)), seen(lights))
         })
         .fold((false, false), |(green, grey), (paint, lights)| {
-            let is_green = |c: &Lch| c.chroma > 20.0 && (130.0..190.0).contains(&c.hue_degrees);
-            (green | is_green(&paint), grey | is_green(&lights))
+            let [by_paint, by_lights] =
+                [paint, lights].map(|c| c.chroma > 20.0 && (130.0..190.0).contains(&c.hue_degrees));
+            (green | by_paint, grey | by_lights)
         });
     assert!(green, "no mixture of paint is green");
     assert!(!grey, "a mixture of lights is green");
@@ -164,15 +160,16 @@ fn a_mixer_mixes_as_the_library_does() {
 
 #[test]
 fn a_thin_glaze_shows_its_ground_and_a_thick_film_hides_it() {
-    let over = |mm: f64, ground: f64| {
-        let mut document = document(1, 1, &["Ultramarine", "Lead White"]);
-        document.ground.reflectance.fill(ground);
-        lay(&mut document.wet, (0, 0), &[0.2 * mm, 0.8 * mm]);
-        let light = light(&document.library, "D65");
-        labs(&document, &light)[0]
-    };
-    let difference = |mm| delta_e_ciede2000(over(mm, 0.9), over(mm, 0.03));
-    let [thin, thick] = [difference(0.005), difference(3.0)];
+    let [thin, thick] = [0.005, 3.0].map(|mm| {
+        let [over_white, over_black] = [0.9, 0.03].map(|ground| {
+            let mut document = document(1, 1, &["Ultramarine", "Lead White"]);
+            document.ground.reflectance.fill(ground);
+            lay(&mut document.wet, (0, 0), &[0.2 * mm, 0.8 * mm]);
+            let light = light(&document.library, "D65");
+            labs(&document, &light)[0]
+        });
+        delta_e_ciede2000(over_white, over_black)
+    });
     assert!(thin > 20.0, "a glaze over white and black: {thin}");
     assert!(thick < 0.05, "three millimetres over white and black: {thick}");
 }
@@ -216,28 +213,17 @@ fn opacity_is_thickness_and_a_dried_layer_looks_as_it_did_wet() {
 #[test]
 fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
     let document = glazes_over_mixtures();
-    let under = |name: &str| labs(&document, &light(&document.library, name));
-    let day = under("D65");
-    let bulb = under("A");
+    let [day, bulb] = ["D65", "A"].map(|name| labs(&document, &light(&document.library, name)));
     let exact = exact_xyz(&document, &viewing("A"));
     let white = viewing("A").weights(document.library.grid).unwrap().white();
-    let errors = |labs: &[Lab]| {
-        let pairs = labs.iter().zip(&exact);
-        let each: Vec<f64> = pairs
-            .map(|(lab, xyz)| {
-                let on_screen = spectra::color::adapt(
-                    *xyz,
-                    white,
-                    RgbSpace::Srgb.white(),
-                    Adaptation::Bradford,
-                );
-                delta_e_ciede2000(*lab, Lab::from_xyz(on_screen, RgbSpace::Srgb.white()))
-            })
-            .collect();
-        Summary::of(&each).mean
-    };
-    let relit = errors(&bulb);
-    let not_relit = errors(&day);
+    let [relit, not_relit] = [bulb, day].map(|labs| {
+        let each = labs.iter().zip(&exact).map(|(lab, xyz)| {
+            let screen = RgbSpace::Srgb.white();
+            let on_screen = spectra::color::adapt(*xyz, white, screen, Adaptation::Bradford);
+            delta_e_ciede2000(*lab, Lab::from_xyz(on_screen, screen))
+        });
+        Summary::of(&each.collect::<Vec<f64>>()).mean
+    });
     assert!(relit < 0.3 && not_relit > 1.0, "relit {relit}, not relit {not_relit}");
 }
 
@@ -285,19 +271,17 @@ fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
             let lightness = (shown.lightness - exact.lightness).abs();
             assert!(lightness < 0.1, "{pigment} {mm} mm: {exact:?} shown as {shown:?}");
             if exact.chroma.min(shown.chroma) > 5.0 {
-                let turned = |to: Lch| {
+                let [turned, cut] = [shown, clipped].map(|to| {
                     let degrees = (to.hue_degrees - exact.hue_degrees).abs();
                     degrees.min(360.0 - degrees)
-                };
+                });
                 println!(
-                    "{pigment} {mm} mm: {exact:?} shown as {shown:?}, turned {:.2}, cut off {:.2}",
-                    turned(shown),
-                    turned(clipped)
+                    "{pigment} {mm} mm: {exact:?} shown as {shown:?}, turned {turned:.2}, cut off {cut:.2}"
                 );
-                if turned(shown) > worst.0 {
-                    worst = (turned(shown), format!("{pigment} {mm} mm: {exact:?} {shown:?}"));
+                if turned > worst.0 {
+                    worst = (turned, format!("{pigment} {mm} mm: {exact:?} {shown:?}"));
                 }
-                cut_off = cut_off.max(turned(clipped));
+                cut_off = cut_off.max(cut);
                 least = least.min(shown.chroma / exact.chroma);
             }
         }
@@ -308,7 +292,6 @@ fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
     assert!(cut_off > 5.0, "cutting off channels turns hues by {cut_off} degrees at most");
 }
 
-/// Linear sRGB of the perfect diffuser.
 fn white(rgb: &[[f32; 3]]) -> [f64; 3] {
     std::array::from_fn(|channel| rgb.iter().map(|rgb| f64::from(rgb[channel])).sum())
 }
@@ -318,20 +301,19 @@ fn an_eye_that_adapted_in_part_keeps_some_of_the_color_of_the_light() {
     for name in ["A", "3000K", "D65", "FL11"] {
         let light = light(&oils(), name);
         assert_eq!(light.rgb_at_degree(1.0), light.rgb_from_nodes, "{name}");
-        let chroma = |degree| {
+        let chromas = [1.0, 0.75, 0.5, 0.25, 0.0].map(|degree| {
             let white = white(&light.rgb_at_degree(degree));
             let greatest = white.into_iter().fold(0.0, f64::max);
             assert!((greatest - 1.0).abs() < 1e-5, "{name} {degree}: {white:?}");
             let xyz: Xyz = RgbSpace::Srgb.xyz_from_linear().apply(white).into();
             Lab::from_xyz(xyz, RgbSpace::Srgb.white()).to_lch().chroma
-        };
-        let chromas = [1.0, 0.75, 0.5, 0.25, 0.0].map(chroma);
+        });
         if name == "D65" {
             assert!(chromas.iter().all(|chroma| *chroma < 0.1), "{chromas:?}");
         } else {
             assert!(chromas.windows(2).all(|pair| pair[0] < pair[1]), "{name}: {chromas:?}");
         }
-        // Without adaptation, white has the chromaticity of the light itself.
+        // Without adaptation, white has the chromaticity of the light.
         let found: Xyz =
             RgbSpace::Srgb.xyz_from_linear().apply(white(&light.rgb_at_degree(0.0))).into();
         let wanted = light.quadrature.rule.white;
@@ -347,14 +329,15 @@ fn an_eye_that_adapted_in_part_keeps_some_of_the_color_of_the_light() {
 fn a_painting_is_shown_with_the_adaptation_of_its_light() {
     let mut document = document(1, 1, &[]);
     let bulb = light(&document.library, "A");
-    let mut shown = |adaptation| {
+    let [complete, half] = [1.0, 0.5].map(|adaptation| {
         document.lighting = Lighting { adaptation, ..Lighting::default() };
         picture(&document, &scene(&document, &bulb)).values()[0]
-    };
-    let [complete, half] = [1.0, 0.5].map(&mut shown);
+    });
     assert!((complete[0] - complete[2]).abs() < 0.01, "a grey ground: {complete:?}");
     assert!(half[0] > 1.5 * half[2], "yellow light: {half:?}");
-    let text = |lighting: &Lighting| serde_json::to_string(lighting).unwrap();
+    fn text(lighting: &Lighting) -> String {
+        serde_json::to_string(lighting).unwrap()
+    }
     let before = text(&Lighting::default());
     assert!(!before.contains("adaptation"), "files of complete adaptation stay: {before}");
     for adaptation in [1.0, 0.5] {
@@ -390,22 +373,21 @@ fn even_paint_keeps_its_bits() {
 #[test]
 fn a_picture_keeps_its_mean() {
     let glazes = glazes_over_mixtures();
-    let mean = |picture: &Field<[f32; 4]>| -> f64 {
-        let sum: f64 = picture.values().iter().map(|rgb| f64::from(rgb[1])).sum();
-        sum / picture.values().len() as f64
-    };
     for count in 1..=4 {
-        let [coarse, fine] = both(&glazes, count);
-        let coarse = mean(&coarse);
-        let fine = mean(&fine);
+        let [coarse, fine] = both(&glazes, count).map(|picture| -> f64 {
+            let sum: f64 = picture.values().iter().map(|rgb| f64::from(rgb[1])).sum();
+            sum / picture.values().len() as f64
+        });
         assert!((coarse - fine).abs() < 0.01 * coarse, "{count}: {coarse} {fine}");
     }
 }
 
 #[test]
 fn the_edge_of_a_slanting_stroke_has_no_stairs() {
-    // Paint to the left of a line that moves a cell to the right with each row.
-    let edge = |y: f64| y - 0.5;
+    // Paint is to the left of a line that moves a cell to the right with each row.
+    fn edge(y: f64) -> f64 {
+        y - 0.5
+    }
     let mut slanting = document(40, 40, &["Bone Black"]);
     for cell in (0..40).flat_map(|y| (0..40).map(move |x| (x, y))) {
         let covered = (cell.0 as f64) + 0.5 <= edge(cell.1 as f64 + 0.5) + 0.25;
@@ -413,16 +395,17 @@ fn the_edge_of_a_slanting_stroke_has_no_stairs() {
     }
     let [coarse, fine] = both(&slanting, 4);
     let middle = 0.5 * (coarse[(0, 39)][1] + coarse[(39, 0)][1]);
-    // Span of the distances between the line and the edge of the paint over quarters of a row.
-    let stairs = |lighter: &dyn Fn(usize, usize) -> bool| {
+    // Difference between the largest and the smallest distance from the line to the edge of the
+    // paint, over quarters of a row.
+    fn stairs(lighter: impl Fn(usize, usize) -> bool) -> f64 {
         let ends = (32..128).map(|y| {
             let x = (0..160).position(|x| lighter(x, y)).unwrap();
             x as f64 / 4.0 - edge((y as f64 + 0.5) / 4.0)
         });
         let (least, most) = ends.fold((f64::MAX, f64::MIN), |(a, b), d| (a.min(d), b.max(d)));
         most - least
-    };
-    let cells = stairs(&|x, y| coarse[(x / 4, y / 4)][1] > middle);
-    let pixels = stairs(&|x, y| fine[(x, y)][1] > middle);
+    }
+    let cells = stairs(|x, y| coarse[(x / 4, y / 4)][1] > middle);
+    let pixels = stairs(|x, y| fine[(x, y)][1] > middle);
     assert!(cells > 0.7 && pixels < 0.3, "{cells} {pixels}");
 }

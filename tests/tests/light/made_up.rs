@@ -29,7 +29,7 @@ pub(crate) fn light(library: &PigmentLibrary, light: &str) -> Light {
 }
 
 /// A document without paint, with the pigments `names` in its slots, on a level ground of
-/// reflectance 0.9; shown without relief.
+/// reflectance 0.9. It is shown without relief.
 pub(crate) fn document(width: usize, height: usize, names: &[&str]) -> Document {
     let library = oils();
     let slots = slots(&library, names);

@@ -1,6 +1,5 @@
-//! Shading of relief and gloss.
-//!
-//! Grounds: relief, reflectance and gloss of each kind, and refusal of invalid descriptions.
+//! Shading of relief and gloss, and grounds: relief, reflectance and gloss of each kind, and
+//! refusal of invalid descriptions.
 
 use calibrate::evaluate::Viewing;
 use documents::hint::Explain;
@@ -18,23 +17,26 @@ use spectra::color::{Adaptation, RgbSpace};
 use crate::made_up::{CELL_MM, document, glazes_over_mixtures, lay, oils};
 use TopMaterial::{Dry, Ground, Wet};
 
-/// Width of the surfaces of these tests in cells, and their middle.
+/// Width of the surfaces in cells, and their middle.
 const SIDE: usize = 65;
 const MIDDLE: usize = 32;
 
-/// Linear green of a grey cell in the middle of a surface of the height `cells`, in widths of a
-/// cell, by the distance from the middle along x and y.
+/// Linear green of a grey cell in the middle of a surface. `cells` gives the height in cells at a
+/// distance from the middle along x and y.
 fn lit_in(scene: &Scene, cells: impl Fn(f64, f64) -> f64 + Sync, material: TopMaterial) -> f32 {
     let mut tops = Tops::level(SIDE, SIDE);
-    let from_middle = |at: usize| at as f64 - MIDDLE as f64;
-    tops.set_all(|x, y| (cells(from_middle(x), from_middle(y)) * f64::from(1 << 21)) as i32);
+    tops.set_all(|x, y| {
+        let [x, y] = [x, y].map(|at| at as f64 - MIDDLE as f64);
+        (cells(x, y) * f64::from(1 << 21)) as i32
+    });
     let mut out = [[0.0; 4]];
     shade_row(scene, (&tops, (MIDDLE, MIDDLE)), &[[0.5; 8]], &[material], &mut out);
     assert_eq!(out[0][3], 1.0, "alpha");
     out[0][1]
 }
 
-/// Linear green of a grey cell whose surface rises by `slopes` along x and y, in cells per cell.
+/// Linear green of a grey cell on a surface that rises by `slopes` along x and y, in cells per
+/// cell.
 fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
     let [a, b] = [slopes.0, slopes.1].map(f64::from);
     lit_in(scene, |x, y| a * x + b * y, material)
@@ -60,7 +62,7 @@ fn a_level_surface_shows_what_was_measured() {
             }
         }
     }
-    // A whole picture of paint of even height on a level ground.
+    // A picture of paint of even height on a level ground.
     let mut level = document(4, 4, &["Vermilion"]);
     for cell in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
         lay(&mut level.wet, cell, &[0.1]);
@@ -78,15 +80,15 @@ fn a_level_surface_shows_what_was_measured() {
 
 #[test]
 fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
-    // The lamp is at the upper left: a surface that rises to the right or downwards faces it.
+    // The lamp is at the upper left, so a surface that rises to the right or downwards faces it.
     let scene = studio(Lighting::default());
     let level = lit(&scene, (0.0, 0.0), Ground);
     assert!(lit(&scene, (0.2, 0.0), Ground) > level * 1.02);
     assert!(lit(&scene, (0.0, 0.2), Ground) > level * 1.02);
     assert!(lit(&scene, (-0.2, 0.0), Ground) < level * 0.98);
     assert!(lit(&scene, (0.0, -0.2), Ground) < level * 0.98);
-    // Half of the light is ambient, from the part of the sky that the slope sees; the other half
-    // follows Lambert's law, relative to level paint.
+    // Half of the light is ambient and comes from the part of the sky that the slope sees. The
+    // other half follows Lambert's law, relative to level paint.
     let [x, y, z] = scene.lamp.direction;
     for (a, b) in [(0.3f32, -0.1f32), (-0.2, 0.1), (-0.1, 0.3)] {
         let lambert = (z - a * x - b * y) / (1.0 + a * a + b * b).sqrt() / z;
@@ -97,16 +99,16 @@ fn slopes_towards_the_lamp_are_lighter_and_away_darker() {
         let found = lit(&scene, (a, b), Ground) / level;
         assert!((found - factor).abs() < 1e-5, "{a} {b}: {found} {factor}");
     }
-    // With ambient light only, the direction of a slope does not show.
+    // With ambient light only, you cannot see the direction of a slope.
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
     let any = [(0.2, 0.1), (-0.2, -0.1), (-0.1, 0.2)].map(|slopes| lit(&soft, slopes, Wet));
     assert!(any.iter().all(|one| (one - level / 1.0125).abs() < 1e-5), "{any:?} {level}");
-    // A slope that faces away from the lamp receives the ambient light only.
+    // A slope that faces away from the lamp gets only ambient light.
     let steep = lit(&scene, (-1.0, -1.0), Ground) / level;
     assert!((steep - 0.5 / 1.5).abs() < 1e-5, "{steep}");
 }
 
-/// A scene whose lamp stands on the left, `elevation_deg` high.
+/// A scene with a lamp on the left, `elevation_deg` high.
 fn from_the_left(elevation_deg: f64, ambient: f64) -> Scene {
     studio(Lighting { azimuth_deg: 270.0, elevation_deg, ambient, ..Lighting::default() })
 }
@@ -115,22 +117,21 @@ fn from_the_left(elevation_deg: f64, ambient: f64) -> Scene {
 fn a_wall_casts_a_shadow_that_ends_softly() {
     let scene = from_the_left(20.0, 0.2);
     let level = lit(&scene, (0.0, 0.0), Ground);
-    // A wall of the height of two cells that ends `distance` cells to the left of the middle.
-    let behind = |distance: f64| {
+    // A wall two cells high ends at these distances to the left of the middle, in cells. Its shadow
+    // is 2 / tan 20 degrees = 5.5 cells long.
+    let shades = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0].map(|distance: f64| {
         lit_in(&scene, |x, _| if x <= -distance { 2.0 } else { 0.0 }, Ground) / level
-    };
-    // Its shadow is 2 / tan 20 degrees = 5.5 cells long.
-    let shades = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0].map(behind);
+    });
     assert!(shades.windows(2).all(|pair| pair[0] <= pair[1]), "{shades:?}");
     assert!(shades[0] < 0.35 && shades[1] < 0.6, "close behind the wall: {shades:?}");
     assert!(shades[5] > 0.99, "far behind the wall: {shades:?}");
-    // At the distance of 3 cells the wall overtops the lamp by 2 / 3 - tan 20 degrees; of the
-    // sky it hides slopes of 2 / 3 in 3 of 8 directions at most.
+    // At the distance of 3 cells the wall overtops the lamp by 2 / 3 - tan 20 degrees. It hides
+    // slopes of 2 / 3 in at most 3 of 8 directions of the sky.
     let over = (2.0 / 3.0 - 20.0f32.to_radians().tan()) / SOFT;
     let free = 1.0 / (1.0 + over * over);
     let within = 0.8 * free + 0.2 / (1.0 + 0.5 * 4.0 / 9.0)..=0.8 * free + 0.2;
     assert!(within.contains(&shades[1]), "{shades:?} {within:?}");
-    // Before the wall there is light.
+    // In front of the wall there is light.
     let before = lit_in(&scene, |x, _| if x >= 3.0 { 2.0 } else { 0.0 }, Ground) / level;
     assert!(before > 0.95, "{before}");
 }
@@ -140,16 +141,14 @@ fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
     let soft = studio(Lighting { ambient: 1.0, ..Lighting::default() });
     let level = lit(&soft, (0.0, 0.0), Ground);
     for along in [0.0, 0.5, 1.0] {
-        // Furrows 6 cells apart, half a cell deep; `up` at their ridges.
-        let furrows = |up: f64| {
+        // Furrows 6 cells apart and half a cell deep. `up` is 1 at a ridge.
+        let [ridge, ground] = [1.0, -1.0].map(|up| {
             let wave = move |x: f64, y: f64| {
                 let across = x * (1.0 - along) + y * along;
                 up * 0.25 * (across * std::f64::consts::PI / 3.0).cos()
             };
             lit_in(&soft, wave, Ground) / level
-        };
-        let ridge = furrows(1.0);
-        let ground = furrows(-1.0);
+        });
         assert!(ridge > 0.999 && ground < 0.996, "along {along}: {ridge} {ground}");
     }
 }
@@ -186,12 +185,12 @@ fn a_height_matters_as_far_as_it_says() {
         scene.cell_mm = cell_mm as f32;
         let level = lit(&scene, (0.0, 0.0), Wet);
         let far = cells as f64;
-        let spot = |distance: f64| {
-            let ring = move |x: f64, y: f64| x.abs().max(y.abs()) >= distance;
-            lit_in(&scene, |x, y| if ring(x, y) { 3.0 } else { 0.0 }, Wet)
-        };
-        assert_eq!(spot(far + 1.0), level, "{cell_mm}");
-        assert!(spot(far) < level, "{cell_mm}");
+        let [out_of_reach, within] = [far + 1.0, far].map(|distance| {
+            let spot = |x: f64, y: f64| if x.abs().max(y.abs()) >= distance { 3.0 } else { 0.0 };
+            lit_in(&scene, spot, Wet)
+        });
+        assert_eq!(out_of_reach, level, "{cell_mm}");
+        assert!(within < level, "{cell_mm}");
     }
 }
 
@@ -202,11 +201,12 @@ fn gloss_is_that_of_what_lies_on_top_and_brightest_at_the_mirror_angle() {
     scene.lamp.dry = Gloss { strength: 0.25, exponent: 60.0 };
     scene.lamp.ground = Gloss { strength: 0.0, exponent: 60.0 };
     let [x, y, z] = scene.lamp.direction;
-    // Slopes -h_x / h_z and -h_y / h_z: the normal is the halfway vector h of lamp and viewer.
+    // Slopes -h_x / h_z and -h_y / h_z, where the normal is the halfway vector h of lamp and
+    // viewer.
     let mirror = (-x / (z + 1.0), -y / (z + 1.0));
     let [wet, dry, ground] = [Wet, Dry, Ground].map(|material| lit(&scene, mirror, material));
     let veil = (1.0 - ((1.0 + z) / (2.0 + 2.0 * z).sqrt()).powf(60.0)) as f64;
-    // Mirrored light replaces as much of the light from within.
+    // Mirrored light replaces the same amount of light from within.
     for (found, strength) in [(wet, 0.5), (dry, 0.25)] {
         let mirrored = strength * veil / (1.0 + strength * veil);
         let wanted = f64::from(ground) + mirrored * (1.0 - f64::from(ground));
@@ -273,10 +273,10 @@ fn made(json: &str, width: usize, height: usize) -> ground::Ground {
     spec(json).build(width, height, CELL_MM, &oils()).unwrap()
 }
 
-/// Heights of all cells in mm, ascending.
 fn sorted_mm(ground: &ground::Ground) -> Vec<f64> {
-    let mm = |&quanta: &i32| f64::from(quanta) / f64::from(QUANTA_PER_CELL) * CELL_MM;
-    let mut heights: Vec<f64> = ground.height.values().iter().map(mm).collect();
+    let mm = ground.height.values().iter();
+    let mm = mm.map(|&quanta| f64::from(quanta) / f64::from(QUANTA_PER_CELL) * CELL_MM);
+    let mut heights: Vec<f64> = mm.collect();
     heights.sort_by(f64::total_cmp);
     heights
 }
@@ -308,23 +308,21 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
     let wood = made(r#"{"kind":"wood"}"#, 400, 400);
     let white = made(r#"{"kind":"panel"}"#, 2, 2);
     assert!(wood.gloss.strength > 0.0 && white.gloss.strength == 0.0, "{:?}", wood.gloss);
-    // Reflectance falls from red over green to blue, and is neither very light nor black.
-    let part = |from: usize, to: usize| {
-        let values = &wood.reflectance[from..to];
+    // Reflectance falls from red over green to blue. It is neither very light nor black.
+    let [blue, green, red] = [4..9, 12..18, 22..28].map(|range| {
+        let values = &wood.reflectance[range];
         values.iter().sum::<f64>() / values.len() as f64
-    };
-    let blue = part(4, 9);
-    let green = part(12, 18);
-    let red = part(22, 28);
+    });
     assert!(blue < green && green < red && red < 0.4 && blue > 0.02, "{blue} {green} {red}");
-    // From cell to cell heights change less along the fibres than across them.
-    let change = |right: usize, down: usize| -> f64 {
-        let height = |x: usize, y: usize| f64::from(wood.height[(x, y)]);
+    // Along the fibres, heights change less from cell to cell than across them.
+    let [along, across] = [(1, 0), (0, 1)].map(|(right, down)| -> f64 {
         let cells = (0..390 * 390).map(|i| (i % 390, i / 390));
-        cells.map(|(x, y)| (height(x + right, y + down) - height(x, y)).abs()).sum()
-    };
-    let along = change(1, 0);
-    let across = change(0, 1);
+        let changes = cells.map(|(x, y)| {
+            let [from, to] = [(x, y), (x + right, y + down)].map(|at| f64::from(wood.height[at]));
+            (to - from).abs()
+        });
+        changes.sum()
+    });
     assert!(along * 4.0 < across, "{along} along, {across} across");
     let own =
         made(r#"{"kind":"wood","reflectance":0.5,"gloss":{"strength":0,"exponent":9}}"#, 2, 2);
@@ -345,9 +343,9 @@ fn linen_has_as_many_threads_as_it_says() {
     for count in [8.0, 14.0, 22.0] {
         let json = format!(r#"{{"kind":"linen","seed":5,"threads_per_cm":{count}}}"#);
         let cloth = spec(&json).build(2000, 400, 0.05, &oils()).unwrap().height;
-        // The sum over all rows cancels the weave and keeps one maximum for each thread along y.
-        let column = |x: usize| -> f64 { (0..400).map(|y| f64::from(cloth[(x, y)])).sum() };
-        let profile: Vec<f64> = (0..2000).map(column).collect();
+        // The sum over all rows cancels the weave. Each thread along y leaves one maximum.
+        let profile: Vec<f64> =
+            (0..2000).map(|x| (0..400).map(|y| f64::from(cloth[(x, y)])).sum()).collect();
         let mean = profile.iter().sum::<f64>() / 2000.0;
         let hills = profile.windows(2).filter(|w| w[0] < mean && w[1] >= mean).count();
         let found = hills as f64 / 10.0;
@@ -358,23 +356,22 @@ fn linen_has_as_many_threads_as_it_says() {
 #[test]
 fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
     let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, picture: image::DynamicImage| {
-        let path = folder.path().join(name);
-        picture.save(&path).unwrap();
-        path.display().to_string()
-    };
     let eight = image::GrayImage::from_fn(4, 2, |x, _| image::Luma([(x * 85) as u8]));
     type Gray16 = image::ImageBuffer<image::Luma<u16>, Vec<u16>>;
     let sixteen = Gray16::from_fn(4, 2, |x, _| image::Luma([(x * 21845) as u16]));
-    let [eight, sixteen] =
-        [write("8.png", eight.into()), write("16.png", sixteen.into())].map(|path| {
-            let json = serde_json::json!({"kind": "image", "path": path, "depth_mm": 0.3});
-            made(&json.to_string(), 40, 10)
-        });
+    let pictures: [(&str, image::DynamicImage); 2] =
+        [("8.png", eight.into()), ("16.png", sixteen.into())];
+    let [eight, sixteen] = pictures.map(|(name, picture)| {
+        let path = folder.path().join(name);
+        picture.save(&path).unwrap();
+        let path = path.display().to_string();
+        let json = serde_json::json!({"kind": "image", "path": path, "depth_mm": 0.3});
+        made(&json.to_string(), 40, 10)
+    });
     assert_eq!(eight.height, sixteen.height);
     let heights = sorted_mm(&eight);
     assert!(heights[0].abs() < 1e-9 && (heights[399] - 0.3).abs() < 1e-6, "{heights:?}");
-    // Linear interpolation between the centres of pixels, a quarter of the width from the left.
+    // We interpolate linearly between the centres of pixels, a quarter of the width from the left.
     let mm = f64::from(eight.height[(10, 5)]) / f64::from(QUANTA_PER_CELL) * CELL_MM;
     assert!((mm - 0.055).abs() < 1e-6, "{mm}");
 
@@ -392,10 +389,10 @@ fn a_picture_gives_its_relief_at_eight_and_sixteen_bits() {
 #[test]
 fn a_priming_is_the_librarys_white_a_number_a_color_or_a_spectrum() {
     let library = oils();
-    let primed = |reflectance: &str| {
+    fn primed(reflectance: &str) -> Vec<f64> {
         let json = format!(r#"{{"kind":"panel","reflectance":{reflectance}}}"#);
         made(&json, 2, 2).reflectance
-    };
+    }
     let white = made(r#"{"kind":"panel"}"#, 2, 2).reflectance;
     let zinc = library.mix([(library.find("Zinc White").unwrap(), 1.0)]).unwrap();
     assert_eq!(white, zinc.hiding(library.saunderson));

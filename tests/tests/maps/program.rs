@@ -1,6 +1,5 @@
-//! The verb, from a scan to maps and pictures.
-//!
-//! Errors of left-out mixtures, from `impasto validate` to the maps.
+//! `impasto map`, from a scan to maps and pictures, and errors of left-out mixtures from `impasto validate`
+//! to the maps.
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +30,7 @@ fn pigments_of_a_scan_are_found_with_their_shares() {
     let run = map(&scan, &["-o", &out, "--pictures", &pictures.display().to_string(), "--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
     let json = run.json();
-    // Parts of six patches, and shares averaged over them.
+    // Amounts of six patches, and shares averaged over them.
     for (pigment, present, share) in [
         ("Lead White", 3.0 / 6.0, 2.4 / 6.0),
         ("Chrome Yellow", 2.0 / 6.0, 1.7 / 6.0),
@@ -81,7 +80,7 @@ fn maps_of_another_run_are_refused_and_those_of_this_one_continued() {
     assert!(again.err.contains("holds maps") && again.err.contains("--resume"), "{}", again.err);
     let other = map(&scan, &["-o", &text, "--resume", "--at-most", "2"]);
     assert!(other.status != 0, "{}", other.out);
-    // What a killed run has not written.
+    // A killed run has not written this.
     let mask = out.join("mask/c/0/0");
     let whole = std::fs::read(&mask).unwrap();
     std::fs::remove_file(&mask).unwrap();
@@ -121,7 +120,7 @@ fn a_survey_is_written_once_and_used_again() {
     assert!(fewer.status != 0 && fewer.err.contains("survey the scan again"), "{}", fewer.err);
     let ground = map(&scan, &["--survey", &book, "--ground", "0..6,8..12"]);
     assert!(ground.status != 0 && ground.err.contains("survey the scan again"), "{}", ground.err);
-    // As an earlier version wrote it.
+    // This is how an earlier version wrote it.
     let text = std::fs::read_to_string(&book).unwrap();
     let earlier = text.replacen("\"version\":3", "\"version\":2", 1);
     assert_ne!(earlier, text);
@@ -179,9 +178,11 @@ fn spots_are_compared_with_their_mixtures() {
     let names = green["pigments"].to_string();
     assert!(names.contains("Viridian") && names.contains("Lead White"), "{names}");
     for spot in [yellow, green] {
-        let list = |key: &str| -> Vec<f64> { serde_json::from_value(spot[key].clone()).unwrap() };
-        assert_eq!(list("measured_nm"), list("mapped_nm"), "the scan has the library's bands");
-        let apart = list("measured").into_iter().zip(list("mapped")).map(|(a, b)| (a - b).abs());
+        let lists = ["measured_nm", "mapped_nm", "measured", "mapped"];
+        let [measured_nm, mapped_nm, measured, mapped] =
+            lists.map(|key| -> Vec<f64> { serde_json::from_value(spot[key].clone()).unwrap() });
+        assert_eq!(measured_nm, mapped_nm, "the scan has the library's bands");
+        let apart = measured.into_iter().zip(mapped).map(|(a, b)| (a - b).abs());
         assert!(apart.fold(0.0, f64::max) < 0.03, "{spot}");
     }
     let page = std::fs::read_to_string(pictures.join("maps.html")).unwrap();
@@ -194,20 +195,19 @@ fn spots_are_compared_with_their_mixtures() {
 
 const OILS: &str = "measurements/van-gogh-oils.csv";
 
-/// Runs `impasto map`.
 fn map_with_residuals(scan: &Path, more: &[&str]) -> Run {
     let scan = scan.display().to_string();
     impasto(&[&["map", &scan], more].concat())
 }
 
-/// Residuals as a file of `folder`.
+/// Writes residuals to a file of `folder`.
 fn file(folder: &Path, name: &str, residuals: &Residuals) -> String {
     let path = folder.join(name);
     residuals.save(&path).unwrap();
     path.display().to_string()
 }
 
-/// The library that ships under another title, for which no residuals ship.
+/// The shipped library under another title, so that there are no residuals for it.
 fn renamed(folder: &Path) -> String {
     let mut oils = PigmentLibrary::van_gogh_oils();
     oils.title = "others".to_owned();
@@ -216,7 +216,6 @@ fn renamed(folder: &Path) -> String {
     path.display().to_string()
 }
 
-/// Attributes of the maps at `out`.
 fn attributes(out: &Path) -> Value {
     let text = std::fs::read_to_string(out.join("zarr.json")).unwrap();
     let group: Value = serde_json::from_str(&text).unwrap();
@@ -291,7 +290,7 @@ fn maps_tell_the_residuals_and_are_continued_with_the_same_alone() {
     });
     assert_eq!(run.json()["settings"]["model_error"], expected);
     assert_eq!(attributes(&out)["settings"]["model_error"], expected);
-    // What a killed run has not written is written again to the same bytes.
+    // If a killed run has not written a file, the next run writes it with the same bytes.
     let whole = bytes(&out);
     std::fs::remove_file(out.join("mask/c/0/0")).unwrap();
     let resumed = map_with_residuals(&scan, &[&all[..], &["--resume"]].concat());

@@ -1,8 +1,5 @@
-//! Simulated scans: their truth, their bytes, and how near the maps of one come to it.
-//!
-//! Scans of known mixtures.
-//!
-//! Small paintings whose paint is laid by hand.
+//! Simulated scans: their truth, their bytes, and how near their maps come to it. The scans are of
+//! known mixtures and of small paintings with paint laid by hand.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -30,7 +27,6 @@ fn simulate(painting: &Path, scan: &Path, more: &[&str]) -> Run {
     impasto(&[&["simulate-scan", &painting, "-o", &scan], more].concat())
 }
 
-/// Options of a camera that changes nothing.
 const CLEAR: [&str; 10] =
     ["--blur", "0", "--shot-noise", "0", "--read-noise", "0", "--drift", "0", "--surface", "0"];
 
@@ -51,8 +47,8 @@ fn truth_is_what_is_known_by_hand() {
     let truth = Truth::open(folder.path().join("scan-truth.zarr")).unwrap();
     assert_eq!((truth.lines(), truth.samples()), (6, 16));
     let rows = truth.block(0).unwrap();
-    let place = |name: &str| truth.pigments().iter().position(|known| known == name).unwrap();
-    let order = ["Lead White", "Vermilion", "Viridian"].map(place);
+    let order = ["Lead White", "Vermilion", "Viridian"]
+        .map(|name| truth.pigments().iter().position(|known| known == name).unwrap());
     for (sample, class, ground, shares) in [
         (1, PaintClass::Bare, 1.0, [0.0; 3]),
         (5, PaintClass::Hiding, 0.0, [0.75, 0.25, 0.0]),
@@ -67,7 +63,7 @@ fn truth_is_what_is_known_by_hand() {
             assert!((found - expected).abs() < 1e-3, "column {sample}: {found}, not {expected}");
         }
     }
-    // Without blur, noise and drift the scan holds the exact spectra.
+    // Without blur, noise and drift the scan has the exact spectra.
     let cube = maps::Cube::open(&scan).unwrap();
     let block = cube.read_rows(0..6).unwrap();
     let mixture = document
@@ -88,16 +84,17 @@ fn blur_makes_edges_and_joins_the_truth_as_it_joins_light() {
     let run = simulate(&painting, &scan, &["--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
     let classes = &run.json()["classes"];
-    let count = |class: &str| classes[class].as_u64().unwrap();
-    assert_eq!(count("hiding") + count("edge"), 64 * 48, "{classes}");
-    assert!(count("edge") > 300 && count("hiding") > 1500, "{classes}");
+    let [hiding, edge] = ["hiding", "edge"].map(|class| classes[class].as_u64().unwrap());
+    assert_eq!(hiding + edge, 64 * 48, "{classes}");
+    assert!(edge > 300 && hiding > 1500, "{classes}");
     let truth = Truth::open(folder.path().join("scan-truth.zarr")).unwrap();
     let rows = truth.block(0).unwrap();
     let viridian = truth.pigments().iter().position(|name| name == "Viridian").unwrap();
-    let share = |at: usize| rows.share[at * rows.pigments + viridian];
+    let [inside, left, right] =
+        [40, 47, 48].map(|x| rows.share[(8 * 64 + x) * rows.pigments + viridian]);
     // From a patch with 30 % of it to one with none, and half as much at the edge between both.
-    let edge = f32::midpoint(share(8 * 64 + 47), share(8 * 64 + 48));
-    assert!((share(8 * 64 + 40) - 0.3).abs() < 1e-3 && (edge - 0.15).abs() < 1e-3, "{edge}");
+    let edge = f32::midpoint(left, right);
+    assert!((inside - 0.3).abs() < 1e-3 && (edge - 0.15).abs() < 1e-3, "{edge}");
 }
 
 #[test]
@@ -118,11 +115,10 @@ fn the_same_seed_gives_the_same_bytes() {
     assert!(header.contains("seed 1") && header.contains("blur 1.5"), "{header}");
     let other = bytes("third", &["--seed", "2"]);
     assert!(other[0] != first[0] && other[1] == first[1], "the truth is that of the painting");
-    // A second run replaces the files of the first.
+    // A second run replaces the files of the first one.
     assert_eq!(bytes("third", &[]), first);
 }
 
-/// Figure of a kind of pixels.
 fn figure(json: &Value, kind: &str, figure: &str) -> f64 {
     let rows = json["truth"]["kinds"].as_array().unwrap();
     let row = rows.iter().find(|row| row["kind"] == kind).unwrap();
@@ -133,13 +129,13 @@ fn figure(json: &Value, kind: &str, figure: &str) -> f64 {
 fn maps_of_a_simulated_scan_are_near_its_truth() {
     let folder = tempfile::tempdir().unwrap();
     let painting = written_painting(&patches(), folder.path());
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    for bands in ["31", "204"] {
+    let [out_of_31, out_of_204, truth, scanned] =
+        ["maps-31", "maps-204", "scan-truth.zarr", "scan.hdr"]
+            .map(|name| folder.path().join(name).display().to_string());
+    for (bands, out) in [("31", out_of_31), ("204", out_of_204)] {
         let scan = folder.path().join("scan.hdr");
         assert_eq!(simulate(&painting, &scan, &["--bands", bands]).status, 0);
-        let out = path(&format!("maps-{bands}"));
-        let truth = path("scan-truth.zarr");
-        let run = impasto(&["map", &path("scan.hdr"), "-o", &out, "--truth", &truth, "--json"]);
+        let run = impasto(&["map", &scanned, "-o", &out, "--truth", &truth, "--json"]);
         assert_eq!(run.status, 0, "{}", run.err);
         let json = run.json();
         for (kind, precision, recall, error) in [
@@ -178,9 +174,9 @@ fn bare_ground_is_told_by_a_region_or_a_file_and_no_paint_is() {
         );
         assert_eq!(run.status, 0, "{name}: {}", run.err);
         let json = run.json();
-        let mapped = |kind: &str| figure(&json, kind, "mapped");
-        assert!(mapped("bare") < 0.01, "{name}: {} of the ground is mapped", mapped("bare"));
-        assert!(mapped("hiding, light") > 0.99, "{name}: {}", mapped("hiding, light"));
+        let [bare, light] = ["bare", "hiding, light"].map(|kind| figure(&json, kind, "mapped"));
+        assert!(bare < 0.01, "{name}: {bare} of the ground is mapped");
+        assert!(light > 0.99, "{name}: {light}");
     }
     let map = |ground: &str| impasto(&["map", &path("scan.hdr"), "--ground", ground]);
     let run = map("40..60,0..4");
@@ -247,7 +243,7 @@ fn what_cannot_be_simulated_or_compared_is_told() {
     let unpainted = written_painting(&bare(4, 4, library()), &empty);
     let run = simulate(&unpainted, &scan, &[]);
     assert!(run.status == 1 && run.err.contains("no paint"), "{}", run.err);
-    // Truth of a smaller scan.
+    // This is the truth of a smaller scan.
     let small = folder.path().join("small");
     std::fs::create_dir(&small).unwrap();
     let mut document = bare(4, 4, library());
@@ -270,7 +266,7 @@ fn what_cannot_be_simulated_or_compared_is_told() {
     assert!(run.status == 1 && run.err.contains("is missing"), "{}", run.err);
 }
 
-/// Recipes of the patches, each four columns wide.
+/// Recipes of the patches. Each patch is four columns wide.
 pub(crate) const RECIPES: [&[(&str, f64)]; 6] = [
     &[("Lead White", 0.9), ("Ultramarine", 0.1)],
     &[("Lead White", 0.5), ("Viridian", 0.5)],
@@ -280,7 +276,8 @@ pub(crate) const RECIPES: [&[(&str, f64)]; 6] = [
     &[("Lead White", 1.0)],
 ];
 
-/// Writes an ENVI scan of `rows` x 24 pixels of patches with noise, of each pixel's value times `scale`.
+/// Writes an ENVI scan of `rows` x 24 pixels of patches with noise, with all values multiplied by
+/// `scale`.
 pub(crate) fn written_scan(folder: &Path, rows: usize, scale: f64) -> PathBuf {
     let oils = PigmentLibrary::van_gogh_oils();
     let noise = Normal::new(0.0, 0.002).unwrap();
@@ -313,7 +310,7 @@ pub(crate) fn written_scan(folder: &Path, rows: usize, scale: f64) -> PathBuf {
 
 const CELL_MM: f64 = 0.1;
 
-/// Pigments of all paintings here, by slot.
+/// Pigments of all paintings, by slot.
 pub(crate) const NAMES: [&str; 8] = [
     "Lead White",
     "Vermilion",
@@ -348,7 +345,7 @@ pub(crate) fn bare(width: usize, height: usize, library: PigmentLibrary) -> Docu
     }
 }
 
-/// Lays paint on all cells of `columns` and `rows`: heights of pigments in mm.
+/// Lays paint on all cells of `columns` and `rows`, as heights of pigments in mm.
 pub(crate) fn lay(
     layer: &mut Layer,
     (columns, rows): (std::ops::Range<usize>, std::ops::Range<usize>),
@@ -364,7 +361,7 @@ pub(crate) fn lay(
     }
 }
 
-/// The wet paint as a dry layer below an empty wet one.
+/// Turns the wet paint into a dry layer below an empty wet one.
 pub(crate) fn dried(mut document: Document) -> Document {
     let width = document.wet.width();
     let height = document.wet.height();
@@ -397,7 +394,7 @@ pub(crate) fn with_clear_viridian() -> PigmentLibrary {
     library
 }
 
-/// Recipes of the patches of [`patches`]: pigments and shares, of all tones.
+/// Recipes of the patches of [`patches`] as pigments and shares, of all tones.
 pub(crate) const PATCHES: [&[(&str, f64)]; 12] = [
     &[("Lead White", 1.0)],
     &[("Lead White", 0.8), ("Ultramarine", 0.2)],
@@ -413,7 +410,7 @@ pub(crate) const PATCHES: [&[(&str, f64)]; 12] = [
     &[("Ultramarine", 1.0)],
 ];
 
-/// A painting of thick patches of 16 x 16 cells, one a recipe, in three rows of four.
+/// A painting of thick patches of 16 x 16 cells in three rows of four, one per recipe.
 pub(crate) fn patches() -> Document {
     let mut document = bare(64, 48, library());
     for (index, recipe) in PATCHES.iter().enumerate() {

@@ -1,8 +1,6 @@
-//! Recipe search compared with an exhaustive search over a grid of shares.
-//!
-//! Which recipes are shown, and in which order.
-//!
-//! Limits of a recipe search: allowed and required pigments, their number, shares, whole parts.
+//! Recipe search compared with an exhaustive search over a grid of shares, which recipes are shown
+//! in which order, and limits of a search: allowed and required pigments, their number, shares,
+//! whole parts.
 
 use calibrate::evaluate::lab;
 use calibrate::library::PigmentLibrary;
@@ -20,7 +18,7 @@ use super::{conditions, oils, target_of};
 const PIGMENTS: usize = 12;
 const STEPS: usize = 20;
 
-/// Every division of `left` steps among `count` pigments with at least one step each.
+/// Every division of `left` steps among `count` pigments, with at least one step each.
 fn shares(count: usize, left: usize) -> Vec<Vec<usize>> {
     if count == 1 {
         return vec![vec![left]];
@@ -39,11 +37,11 @@ fn shares(count: usize, left: usize) -> Vec<Vec<usize>> {
 /// Every set of one to four of the pigments.
 fn sets(pigments: &[PigmentId]) -> Vec<Vec<PigmentId>> {
     let masks = 1..1u32 << pigments.len();
-    let of = |mask: u32| {
+    let masks = masks.filter(|mask| mask.count_ones() <= 4).map(|mask| {
         let chosen = pigments.iter().enumerate().filter(|(place, _)| mask >> place & 1 == 1);
         chosen.map(|(_, pigment)| *pigment).collect()
-    };
-    masks.filter(|mask| mask.count_ones() <= 4).map(of).collect()
+    });
+    masks.collect()
 }
 
 /// Colours of all hiding mixtures of one to four pigments in shares of 1 / `STEPS`.
@@ -62,11 +60,11 @@ fn colors(library: &PigmentLibrary, pigments: &[PigmentId]) -> Vec<Lab> {
     colors
 }
 
-/// Target colours: half are random points in CIELAB, half are random mixtures.
+/// Target colours. Half are random points in CIELAB, half are random mixtures.
 fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Vec<Lab> {
     let mut random = ChaCha8Rng::seed_from_u64(2004);
     let weights = conditions(&["D65"])[0].viewing.weights(library.grid).unwrap();
-    let target = |number: usize| {
+    let targets = (0..count).map(|number| {
         if number.is_multiple_of(2) {
             let mut within =
                 |least: f64, most: f64| least + (most - least) * random.random::<f64>();
@@ -80,8 +78,8 @@ fn targets(library: &PigmentLibrary, pigments: &[PigmentId], count: usize) -> Ve
             .map(|_| (pigments[random.random_range(0..pigments.len())], random.random()))
             .collect();
         lab(&weights, &library.mix(&parts).unwrap().hiding(library.saunderson))
-    };
-    (0..count).map(target).collect()
+    });
+    targets.collect()
 }
 
 #[test]
@@ -191,9 +189,9 @@ fn lights_that_count_rank_metameric_recipes_lower() {
     let white = library.find("Zinc White").unwrap();
     let tint = library.mix([(blue, 1.0), (white, 4.0)]).unwrap().hiding(library.saunderson);
     let target = target_of(&library, &tint, &three);
-    // Errors of the best recipe without ultramarine: under D65, and root mean square of the three
-    // lights.
-    let apart = |weights: [f64; 3]| {
+    // Errors of the best recipe without ultramarine: under D65, and as root mean square over the
+    // three lights.
+    let [daylight, all] = [[1.0, 1e-9, 1e-9], [1.0; 3]].map(|weights| {
         let mut conditions = three.clone();
         conditions
             .iter_mut()
@@ -204,9 +202,7 @@ fn lights_that_count_rank_metameric_recipes_lower() {
         let best = recipes(&library, &target, &request, &Task::default()).unwrap().remove(0);
         let squares: f64 = best.delta_e.iter().map(|difference| difference * difference).sum();
         (best.delta_e[0], (squares / 3.0).sqrt())
-    };
-    let daylight = apart([1.0, 1e-9, 1e-9]);
-    let all = apart([1.0, 1.0, 1.0]);
+    });
     assert!(daylight.0 < all.0, "under daylight: {daylight:?} {all:?}");
     assert!(all.1 < 0.9 * daylight.1, "over three lights: {all:?} for {daylight:?}");
 }
@@ -224,15 +220,14 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     let equal = |found: &[RecipeMatch]| -> Vec<RecipeMatch> {
         let most = nearest(found) + 0.5;
         found.iter().filter(|recipe| recipe.distance <= most).cloned().collect()
-    };
+    }
     let equals = equal(&found);
-    let smallest = |recipe: &RecipeMatch| recipe.shares.iter().map(|s| s.1).fold(1.0, f64::min);
-    let steps = |recipe: &RecipeMatch| ((recipe.distance - nearest(&found)) / 0.05).floor();
     assert!(
         equals.len() > 1
-            && equals.is_sorted_by(|a: &RecipeMatch, b: &RecipeMatch| {
-                let key = |r: &RecipeMatch| (r.shares.len() as f64, steps(r), -smallest(r));
-                key(a) <= key(b)
+            && equals.is_sorted_by_key(|recipe| {
+                let steps = ((recipe.distance - nearest(&found)) / 0.05).floor();
+                let smallest = recipe.shares.iter().map(|s| s.1).fold(1.0, f64::min);
+                (recipe.shares.len() as f64, steps, -smallest)
             }),
         "{equals:?}"
     );
@@ -252,7 +247,7 @@ fn a_pigment_that_brings_nothing_is_not_shown() {
     let mut request = MatchRequest::new(&library, conditions, FilmKind::Hiding);
     let names = ["Zinc White", "Minium", "Chrome Yellow", "Cobalt Blue", "Viridian", "Bone Black"];
     request.allowed = names.map(|name| library.find(name).unwrap()).to_vec();
-    // More than the 56 sets of one to four of six pigments.
+    // This is more than the 56 sets of one to four of six pigments.
     request.count = 100;
     let found = recipes(&library, &target, &request, &Task::default()).unwrap();
     assert!((2..56).contains(&found.len()), "{} recipes", found.len());
@@ -370,19 +365,24 @@ fn what_no_recipe_can_meet_is_refused() {
     };
     assert_eq!(refusal(&|r| r.allowed.clear()), MatchError::NoPigments);
     assert_eq!(refusal(&|r| r.conditions.clear()), MatchError::NoLight);
-    let number = |error: MatchError| matches!(error, MatchError::Number { .. });
-    assert!(number(refusal(&|r| r.at_most = 0)));
-    assert!(number(refusal(&|r| r.at_most = 9)));
-    assert!(number(refusal(&|r| r.least_share = f64::NAN)));
-    assert!(number(refusal(&|r| r.tolerance = -1.0)));
-    assert!(number(refusal(&|r| r.conditions[0].weight = 0.0)));
-    assert!(number(refusal(&|r| r.costs = vec![-1.0; 20])));
-    assert!(number(refusal(&|r| r.whole_parts = Some(0))));
+    let numbers: [&dyn Fn(&mut MatchRequest); 7] = [
+        &|r| r.at_most = 0,
+        &|r| r.at_most = 9,
+        &|r| r.least_share = f64::NAN,
+        &|r| r.tolerance = -1.0,
+        &|r| r.conditions[0].weight = 0.0,
+        &|r| r.costs = vec![-1.0; 20],
+        &|r| r.whole_parts = Some(0),
+    ];
+    for change in numbers {
+        assert!(matches!(refusal(change), MatchError::Number { .. }));
+    }
     let too_many = MatchError::TooManyRequired { required: 2, at_most: 1 };
     assert_eq!(refusal(&|r| (r.required, r.at_most) = (two(None, None), 1)), too_many);
-    let shares = |error: MatchError| matches!(error, MatchError::Shares { .. });
-    assert!(shares(refusal(&|r| r.required = two(Some(0.7), Some(0.7)))));
-    assert!(shares(refusal(&|r| r.required = two(Some(1.0), None))));
+    for second in [(Some(0.7), Some(0.7)), (Some(1.0), None)] {
+        let error = refusal(&|r| r.required = two(second.0, second.1));
+        assert!(matches!(error, MatchError::Shares { .. }), "{error}");
+    }
     assert_eq!(
         refusal(&|r| (r.required, r.whole_parts) =
             (vec![required_pigment(&(PigmentId(0), Some(0.5)))], Some(9))),

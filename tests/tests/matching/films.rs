@@ -1,6 +1,5 @@
-//! Recipes for films over a ground, and for absolute amounts on an area.
-//!
-//! Corrections of a batch whose paints are not quite those of the library.
+//! Recipes for films over a ground and for absolute amounts on an area, and corrections of a batch
+//! when its paints differ slightly from the library.
 
 use calibrate::evaluate::lab;
 use calibrate::library::{AmountKind, PigmentLibrary};
@@ -62,7 +61,7 @@ fn the_reflectance_told_is_that_of_the_recipe() {
     }
 }
 
-/// The oils as a library of absolute amounts: K and S count per unit amount.
+/// The oils as a library of absolute amounts. K and S are per unit amount.
 fn absolute() -> PigmentLibrary {
     PigmentLibrary { amounts: AmountKind::Absolute, reference: None, ..oils() }
 }
@@ -119,9 +118,9 @@ fn absolute_amounts_stay_within_what_was_measured() {
     let conditions = conditions(&["D65"]);
     let paper = vec![0.85; library.grid.count()];
     let pair = ["Vermilion", "Ultramarine"].map(|name| library.find(name).unwrap());
-    let amounts = |recipe: &RecipeMatch| -> Vec<f64> {
+    fn amounts(recipe: &RecipeMatch) -> Vec<f64> {
         recipe.shares.iter().map(|(_, share)| share * recipe.thickness.unwrap()).collect()
-    };
+    }
     for wished in [[0.3, 0.02], [0.9, 0.2], [0.02, 0.03], [0.3, 0.4]] {
         let recipe: Recipe = pair.into_iter().zip(wished).collect();
         let wash = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
@@ -139,15 +138,15 @@ fn absolute_amounts_stay_within_what_was_measured() {
             );
         }
         let limited = wished.iter().any(|amount| !(RANGE[0]..=RANGE[1]).contains(amount));
-        // The nearest may also leave out the pigment whose amount is too small.
+        // The nearest recipe may also leave out the pigment, if its amount is too small.
         let acted = !found[0].at_limit.is_empty() || found[0].shares.len() < 2;
         assert_eq!(acted, limited, "{wished:?}: {:?}", found[0]);
-        // No recipe of a fine grid within the limits is nearer.
-        let steps =
-            || (0..=50).map(|step| RANGE[0] + (RANGE[1] - RANGE[0]) * f64::from(step) / 50.0);
+        // Within the limits, no recipe of a fine grid is nearer.
         let weights = conditions[0].viewing.weights(library.grid).unwrap();
-        let both = steps().flat_map(|red| steps().map(move |blue| [red, blue]));
-        let alone = steps().flat_map(|amount| [[amount, 0.0], [0.0, amount]]);
+        let steps = (0..=50).map(|step| RANGE[0] + (RANGE[1] - RANGE[0]) * f64::from(step) / 50.0);
+        let steps: Vec<f64> = steps.collect();
+        let both = steps.iter().flat_map(|&red| steps.iter().map(move |&blue| [red, blue]));
+        let alone = steps.iter().flat_map(|&amount| [[amount, 0.0], [0.0, amount]]);
         for tried in both.chain(alone) {
             let recipe: Recipe = pair.into_iter().zip(tried).collect();
             let film = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
@@ -160,7 +159,7 @@ fn absolute_amounts_stay_within_what_was_measured() {
     }
 }
 
-/// The oils as another tube of each would be: stronger or weaker, and of a slightly other hue.
+/// Other tubes of the oils: each is stronger or weaker, with a slightly different hue.
 fn other_tubes() -> PigmentLibrary {
     let mut library = oils();
     for (index, pigment) in library.pigments.iter_mut().enumerate() {
@@ -185,18 +184,17 @@ fn batch(library: &PigmentLibrary, weighed: &[(&str, f64)]) -> Batch {
     Batch { made: made.to_vec(), grams: 500.0, reflectance: measured(library, weighed) }
 }
 
-/// CIEDE2000 between two measured films.
 fn apart(a: &Spectrum<Reflectance>, b: &Spectrum<Reflectance>) -> f64 {
     let weights = Viewing::default().weights(a.grid()).unwrap();
-    let lab = |spectrum: &Spectrum<Reflectance>| lab(&weights, spectrum.values());
-    delta_e_ciede2000(lab(a), lab(b))
+    let [a, b] = [a, b].map(|spectrum| lab(&weights, spectrum.values()));
+    delta_e_ciede2000(a, b)
 }
 
 #[test]
 fn the_real_pot_matches_after_the_correction() {
     let truth = other_tubes();
     let standard = measured(&truth, &RECIPE);
-    // Too much yellow, and too little white and blue.
+    // There is too much yellow, and too little white and blue.
     let weighed = [("Zinc White", 74.0), ("Cobalt Blue", 13.0), ("Chrome Yellow", 7.0)];
     let batch = batch(&truth, &weighed);
     let before = apart(&standard, &batch.reflectance);
@@ -212,7 +210,7 @@ fn the_real_pot_matches_after_the_correction() {
     let pot = truth.color(pot.iter().map(|(n, g)| (n.as_str(), *g)), &Viewing::default());
     let after = apart(&standard, &pot.unwrap().reflectance);
     assert!(after < 1.2 && after < before / 3.0, "{after} after {before}");
-    // The library alone would be further off than the pot is from it.
+    // The library alone would be further off than the pot is from the library.
     assert!(found.recipe_delta_e[0] > 1.0, "{:?}", found.recipe_delta_e);
 }
 
@@ -229,7 +227,7 @@ fn the_least_addition_comes_first_and_no_smaller_one_is_near() {
     let best = &found.corrections[0];
     let (id, grams) = best.additions[0];
     assert_eq!(library[id].name, "Cobalt Blue");
-    // By brute force: the pot is what was weighed, since the library is exact here.
+    // By brute force. The pot is what was weighed, since the library is exact here.
     let after = |blue: f64| {
         let scale = 500.0 / 97.0;
         let pot = [("Zinc White", 80.0 * scale), ("Chrome Yellow", 5.0 * scale)];
@@ -238,7 +236,7 @@ fn the_least_addition_comes_first_and_no_smaller_one_is_near() {
     };
     let needed = (1..4000).map(|step| f64::from(step) / 100.0).find(|g| after(*g) <= 0.5).unwrap();
     assert!((grams - needed).abs() < 0.02 * needed + 0.02, "{grams} g, needed {needed} g");
-    // S of the pot is that of its recipe, which is not quite what was weighed.
+    // S of the pot comes from its recipe, which is not quite what was weighed.
     assert!((best.delta_e[0] - after(grams)).abs() < 0.05, "{} {}", best.delta_e[0], after(grams));
 }
 
@@ -306,7 +304,7 @@ fn a_batch_is_corrected_by_its_spectrum() {
     assert!(found.reaches && found.batch_rms_percent.unwrap() > 1.0, "{found:?}");
     let least = &found.corrections[0];
     assert!(least.rms_percent.unwrap() <= 0.01 + 1e-9, "{least:?}");
-    // The pot of 500 g is 97 parts and lacks 3; its S is taken from what was to be weighed.
+    // The pot of 500 g has 97 parts and lacks 3. Its S comes from what should have been weighed.
     assert!((least.grams - 500.0 * 3.0 / 97.0).abs() < 0.3, "{}", least.grams);
     let same = Batch { reflectance: standard, ..batch.clone() };
     assert!(library.corrections_for(&target, &same, &options).unwrap().is_near);

@@ -12,7 +12,6 @@ use spectra::color::Lab;
 use spectra::{Illuminant, Observer};
 use suite::oils::library as oils;
 
-/// Lights by name, with equal weights.
 fn conditions(lights: &[&str]) -> Vec<ViewingCondition> {
     lights
         .iter()

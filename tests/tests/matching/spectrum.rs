@@ -1,4 +1,5 @@
-//! Recipes by spectrum: mixtures found again from their own reflectance, limits, and what is refused.
+//! Recipes by spectrum: mixtures found again from their own reflectance, limits, and what is
+//! refused.
 //!
 //! Recipe search with progress, and with cancelling from another thread.
 
@@ -18,7 +19,6 @@ use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum, Viewing
 
 use super::{conditions, oils};
 
-/// Options of a search by spectrum.
 fn by_spectrum(weights: SpectrumWeights) -> MatchOptions {
     MatchOptions {
         metric: Metric::Spectrum(weights),

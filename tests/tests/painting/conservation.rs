@@ -1,11 +1,7 @@
-//! Conservation of paint: strokes, drying, undo and redo neither create nor lose a quantum of any
-//! pigment or of vehicle.
-//!
-//! CPU and GPU hold equal paint and show it alike; pictures from eight wavelengths match the
-//! full spectrum.
-//!
-//! Relighting, swapping a pigment or changing an opacity gives the same painting as making it
-//! with those settings from the start.
+//! Strokes, drying, undo and redo neither create nor lose a quantum of any pigment or of vehicle.
+//! CPU and GPU hold equal paint and show it alike, and pictures from eight wavelengths match the
+//! full spectrum. If you relight, swap a pigment or change an opacity, you get the painting that
+//! these settings would have made from the start.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
@@ -25,7 +21,7 @@ use super::studio::{
     on_both, on_cpu, on_gpu, pigment, pure, sorted, tell,
 };
 
-/// Paint in dry layers, in the wet layer and on `brushes`, in quanta: by slot, vehicle last.
+/// Paint in dry layers, in the wet layer and on `brushes`, in quanta by slot and then vehicle.
 fn totals(painting: &mut Painting, brushes: &[BrushId]) -> [u64; SLOTS + 1] {
     let document = painting.document().unwrap();
     let mut layers: Vec<Layer> = document.dry.into_iter().map(|layer| layer.paint).collect();
@@ -70,9 +66,9 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
                     *wanted += after - before;
                 }
             }
-            // Parts of the strokes lie outside the canvas.
-            let mut place = || (random.random_range(-3.0..39.0), random.random_range(-3.0..27.0));
-            let places: Vec<_> = (0..8).map(|_| place()).collect();
+            // Parts of the strokes are outside the canvas.
+            let places = [(); 8]
+                .map(|()| (random.random_range(-3.0..39.0), random.random_range(-3.0..27.0)));
             let pressure = random.random_range(0.1..1.0);
             substeps += painting.stroke(brush, &along(&places, pressure)).unwrap().substeps;
             strokes += 1;
@@ -105,7 +101,7 @@ fn a_brush_filled_again_and_again_piles_no_cell_full() {
     for mut painting in on_both(&bare(40, 40)) {
         let brush = painting.add_brush(HeadShape::Knife, 4.0).unwrap();
         let recipe = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
-        // Without a limit on columns, 60 such strokes piled paint up to 1057 cell widths.
+        // Without a limit on columns, 60 such strokes piled up paint as high as 1057 cell widths.
         for _ in 0..100 {
             painting.wash(brush).unwrap();
             painting.load(brush, &recipe, 0.0, 0.8).unwrap();
@@ -115,13 +111,13 @@ fn a_brush_filled_again_and_again_piles_no_cell_full() {
         let highest = (0..1600).map(|index| wet.cell(index).volume()).max().unwrap();
         tell(&format!("{}: {} cell widths at most", painting.backend(), highest >> 21));
         assert!(highest < MAX_COLUMN / 2, "{highest} quanta on {}", painting.backend());
-        // Columns this high can still be dried and saved.
+        // You can still dry and save columns of this height.
         painting.dry(1.0).unwrap();
         assert!(paint::file::write(&painting.document().unwrap()).is_ok(), "not saved");
     }
 }
 
-/// Paints dried impasto, a thin glaze of 90 % vehicle over it, half dried, and wet strokes; also
+/// Paints dried impasto, a thin glaze of 90 % vehicle over it, half dried, and wet strokes. Also
 /// sets an opacity, swaps a pigment, undoes and redoes.
 fn finished(painting: &mut Painting) {
     crossing(painting);
@@ -159,7 +155,7 @@ fn both_backends_hold_the_same_paint_and_show_it_alike() {
     let mut cpu = on_cpu(document);
     finished(&mut cpu);
     finished(&mut gpu);
-    let check = |cpu: &mut Painting, gpu: &mut Painting, what: &str| {
+    fn check(cpu: &mut Painting, gpu: &mut Painting, what: &str) {
         let shown = differences(&cpu.picture().unwrap(), &gpu.picture().unwrap());
         let mean = mean(&shown);
         let high = shown[shown.len() * 999 / 1000];
@@ -168,7 +164,7 @@ fn both_backends_hold_the_same_paint_and_show_it_alike() {
             "CPU against GPU, {what}: mean {mean:.2e}, 99.9th percentile {high:.2e}, largest {largest:.2e} CIEDE2000"
         ));
         assert!(mean < 0.1 && high < 1.0, "{what}: mean {mean}, 99.9 % below {high}");
-    };
+    }
     check(&mut cpu, &mut gpu, "daylight");
     same_paint(&cpu.document().unwrap(), &gpu.document().unwrap());
     let low = Lighting {
@@ -215,7 +211,7 @@ fn eight_wavelengths_show_a_finished_painting_as_the_full_spectrum_does() {
     assert!(mean > 0.0, "the full spectrum was compared with itself");
 }
 
-/// Paints two dry layers; 30 % of the paint of the last stroke stays wet.
+/// Paints two dry layers. 30 % of the paint of the last stroke stays wet.
 fn layered(mut painting: Painting) -> Painting {
     crossing(&mut painting);
     painting.dry(1.0).unwrap();
@@ -245,7 +241,8 @@ fn relighting_gives_what_a_painting_opened_under_that_light_shows() {
         assert!(off[off.len() - 1] < 0.01, "{:?} off", off.last());
         let moved = differences(&daylight, &relit);
         assert!(moved[moved.len() - 1] > 1.0, "the lamp changed nothing");
-        // Only the direction of the light changes: the reflectance of dry layers is not recomputed.
+        // Only the direction of the light changes, so the reflectance of dry layers is not
+        // recomputed.
         painting.relight(Lighting { azimuth_deg: 200.0, ..lamp.clone() }).unwrap();
         let moved = painting.picture().unwrap();
         assert!(moved != relit, "the azimuth changed nothing");

@@ -1,11 +1,7 @@
-//! Expected behaviour of paint: wet mixing, contact with the weave, pick-up by a clean brush, and
-//! limits of brushes and columns.
-//!
-//! Stiffness of the medium: fluid paint levels after a stroke, stiff paint keeps its furrows.
-//!
-//! Squeezing paint onto a surface, and scraping wet paint off.
-//!
-//! Continuous adjustments, gloss, the memory limit of undo, and setting the paint on a brush.
+//! How paint should behave: wet mixing, contact with the weave, pick-up by a clean brush, and
+//! limits of brushes and columns. Fluid paint levels after a stroke, while stiff paint keeps its
+//! furrows. Also squeezing and scraping paint, continuous adjustments, gloss, the memory limit of
+//! undo, and setting the paint on a brush.
 
 use documents::hint::Explain;
 use graphics::tile::{Rect, TileSet};
@@ -29,8 +25,8 @@ fn bare_cells(wet: &Layer) -> usize {
     (0..wet.vehicle.values().len()).filter(|&cell| wet.cell(cell).volume() == 0).count()
 }
 
-/// Colour and blue share of yellow plus blue, in every cell whose paint of the two is higher than
-/// a tenth of the cell width.
+/// Colour and blue share of yellow plus blue, in every cell with more of these two than a tenth of
+/// the cell width.
 fn mixed(strokes: impl Fn(&mut Painting)) -> Vec<(Lab, f64)> {
     let mut painting = on_cpu(bare_on(r#"{"kind": "panel", "seed": 1}"#, 160, 60));
     strokes(&mut painting);
@@ -46,25 +42,23 @@ fn mixed(strokes: impl Fn(&mut Painting)) -> Vec<(Lab, f64)> {
 
 #[test]
 fn yellow_and_blue_mixed_wet_on_the_canvas_go_through_green() {
-    let there = [(3.0, 6.0), (29.0, 6.0)];
-    let lay = |painting: &mut Painting, slot: usize, amount_mm: f64| {
+    fn lay(painting: &mut Painting, slot: usize, amount_mm: f64) {
         let brush = loaded(painting, HeadShape::Flat, 6.0, slot, amount_mm);
-        painting.stroke(brush, &along(&there, 0.8)).unwrap();
-    };
-    let yellow = mixed(|painting| lay(painting, YELLOW, 0.6));
-    let blue = mixed(|painting| lay(painting, BLUE, 0.6));
+        painting.stroke(brush, &along(&[(3.0, 6.0), (29.0, 6.0)], 0.8)).unwrap();
+    }
+    let [yellow, blue] = [YELLOW, BLUE].map(|slot| mixed(|painting| lay(painting, slot, 0.6)));
     assert!(yellow.len() > 500 && blue.len() > 500, "{} {}", yellow.len(), blue.len());
-    let middle = |cells: &[(Lab, f64)]| {
+    let ends = [&yellow, &blue].map(|cells| {
         let mut a: Vec<f64> = cells.iter().map(|(lab, _)| lab.a).collect();
         a.sort_by(f64::total_cmp);
         a[a.len() / 2]
-    };
-    let ends = middle(&yellow).min(middle(&blue));
+    });
+    let ends = ends[0].min(ends[1]);
     let both = mixed(|painting| {
         lay(painting, YELLOW, 0.6);
         lay(painting, BLUE, 0.02);
     });
-    // Additive mixing would give an a* between those of the two pigments, never below both.
+    // Additive mixing would give an a* between the two pigments, but never below both.
     let green = both
         .iter()
         .filter(|(lab, share)| (0.005..0.5).contains(share) && lab.a < ends - 10.0 && lab.b > 0.0);
@@ -111,7 +105,7 @@ fn whole(painting: &mut Painting, brush: BrushId) -> (Layer, Layer) {
 #[test]
 fn a_light_touch_leaves_more_of_the_weave_bare_than_a_heavy_one() {
     let ground = r#"{"kind": "linen", "seed": 3}"#;
-    let covered = |pressure: f64| {
+    let shares = [0.02, 0.2, 0.8].map(|pressure| {
         let mut painting = on_cpu(bare_on(ground, 120, 60));
         let brush = loaded(&mut painting, HeadShape::Flat, 6.0, YELLOW, 0.3);
         painting.stroke(brush, &along(&[(4.0, 6.0), (20.0, 6.0)], pressure)).unwrap();
@@ -120,8 +114,7 @@ fn a_light_touch_leaves_more_of_the_weave_bare_than_a_heavy_one() {
         let cells = (20..40).flat_map(|y| (30..90).map(move |x| y * 120 + x));
         let painted = cells.filter(|&cell| wet.cell(cell).volume() > 0).count();
         painted as f64 / 1200.0
-    };
-    let shares = [0.02, 0.2, 0.8].map(covered);
+    });
     assert!(shares[0] < 0.99, "nothing stays bare under a light touch: {shares:?}");
     assert!(shares[2] > shares[0], "{shares:?}");
 }
@@ -200,13 +193,17 @@ fn paint_too_high_for_whole_numbers_is_refused_when_opened() {
 
 const COLUMNS: usize = 200;
 
-/// Mean difference in height of neighbouring cells across the middle of a stroke along x, over the
-/// mean height there.
+/// Mean difference in height of neighbouring cells across the middle of a stroke along x, relative
+/// to the mean height there.
 fn furrows(wet: &Layer) -> f64 {
-    let height = |x: usize, y: usize| f64::from(wet.cell(y * COLUMNS + x).volume());
-    let middle = || (80..120).flat_map(|x| (23..37).map(move |y| (x, y)));
-    let steps: f64 = middle().map(|(x, y)| (height(x, y + 1) - height(x, y)).abs()).sum();
-    steps / middle().map(|(x, y)| height(x, y)).sum::<f64>()
+    let middle = (80..120).flat_map(|x| (23..37).map(move |y| (x, y)));
+    let [mut steps, mut sum] = [0.0; 2];
+    for (x, y) in middle {
+        let [here, below] = [y, y + 1].map(|y| f64::from(wet.cell(y * COLUMNS + x).volume()));
+        steps += (below - here).abs();
+        sum += here;
+    }
+    steps / sum
 }
 
 #[test]
@@ -255,7 +252,7 @@ fn all_that_is_squeezed_out_lies_there_to_the_quantum() {
     }
 }
 
-/// Height of the highest column of wet paint, in mm, and the smallest rectangle around all wet
+/// Height of the highest column of wet paint in mm, and the smallest rectangle around all wet
 /// cells.
 fn heap(painting: &mut Painting) -> (f64, Rect) {
     let wet = painting.wet().unwrap();
@@ -320,7 +317,7 @@ fn heaps_on_small_cells_are_flatter_and_no_pile_is_without_end() {
     let mut document = bare_on(r#"{"kind": "panel"}"#, 400, 400);
     document.cell_mm = 0.02;
     for mut painting in on_both(&document) {
-        // Without the limit on the height of a heap it would be 85 cells high.
+        // Without the limit on its height, the heap would be 85 cells high.
         painting.squeeze(&pure(WHITE), 0.0, 4.0, 4.0, 20.0).unwrap();
         let wet = painting.wet().unwrap();
         let highest = (0..400 * 400).map(|index| wet.cell(index).volume()).max().unwrap();
@@ -343,20 +340,21 @@ fn heaps_on_small_cells_are_flatter_and_no_pile_is_without_end() {
 #[test]
 fn what_no_tube_gives_is_refused_and_changes_nothing() {
     for mut painting in on_both(&bare(60, 60)) {
-        let mut refused = |recipe: &[f64; SLOTS], vehicle, x_mm, y_mm, volume| {
-            let error = painting.squeeze(recipe, vehicle, x_mm, y_mm, volume).unwrap_err();
-            assert_eq!(painting.undo_count(), 0, "{error}");
-            error.to_string()
-        };
         let white = pure(WHITE);
-        assert!(refused(&white, 0.0, 3.0, 3.0, -1.0).contains("found `-1`"));
-        assert!(refused(&white, 0.0, 3.0, 3.0, f64::NAN).contains("`NaN`"));
-        assert!(refused(&white, 0.0, 3.0, 3.0, 2e6).contains("a litre"));
-        assert!(refused(&white, 0.0, -0.1, 3.0, 1.0).contains("-0.1 mm from its left"));
-        assert!(refused(&white, 0.0, 3.0, f64::NAN, 1.0).contains("`NaN` mm from its upper"));
-        assert!(refused(&white, 1.5, 3.0, 3.0, 1.0).contains("vehicle"));
-        assert!(refused(&pure(7), 0.0, 3.0, 3.0, 1.0).contains("slot 7"));
-        assert!(refused(&[0.0; SLOTS], 0.0, 3.0, 3.0, 1.0).contains("parts"));
+        for (recipe, vehicle, x_mm, y_mm, volume, words) in [
+            (white, 0.0, 3.0, 3.0, -1.0, "found `-1`"),
+            (white, 0.0, 3.0, 3.0, f64::NAN, "`NaN`"),
+            (white, 0.0, 3.0, 3.0, 2e6, "a litre"),
+            (white, 0.0, -0.1, 3.0, 1.0, "-0.1 mm from its left"),
+            (white, 0.0, 3.0, f64::NAN, 1.0, "`NaN` mm from its upper"),
+            (white, 1.5, 3.0, 3.0, 1.0, "vehicle"),
+            (pure(7), 0.0, 3.0, 3.0, 1.0, "slot 7"),
+            ([0.0; SLOTS], 0.0, 3.0, 3.0, 1.0, "parts"),
+        ] {
+            let error = painting.squeeze(&recipe, vehicle, x_mm, y_mm, volume).unwrap_err();
+            assert_eq!(painting.undo_count(), 0, "{error}");
+            assert!(error.to_string().contains(words), "{error}");
+        }
         painting.squeeze(&[0.0; SLOTS], 1.0, 3.0, 3.0, 1.0).unwrap();
     }
 }
@@ -379,7 +377,7 @@ fn scraping_takes_all_wet_paint_and_no_dry() {
         assert!(painting.document().unwrap() == before, "undo");
         painting.redo().unwrap();
         assert!(painting.document().unwrap() == after, "redo");
-        // Scraping a surface without wet paint adds no step to the history.
+        // If you scrape a surface without wet paint, the history gets no step.
         let actions = painting.undo_count();
         assert!(!painting.scrape().unwrap(), "a clean canvas");
         assert_eq!(painting.undo_count(), actions);

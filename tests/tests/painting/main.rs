@@ -1,5 +1,5 @@
-//! Tests of whole paintings: strokes, drying, light, undo, painting files, sessions and the
-//! program `impasto`.
+//! Whole paintings: strokes, drying, light, undo, painting files, sessions and the program
+//! `impasto`.
 //!
 //! Without a graphics adapter the checks on the GPU are skipped, with a note on stderr.
 

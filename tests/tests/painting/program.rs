@@ -1,15 +1,9 @@
-//! `impasto paint`, `relight` and `gpu` from end to end.
+//! `impasto paint`, `relight` and `gpu` from end to end: timelapses, layers, TIFF, scripts that mix on a
+//! palette or continue a painting, and invalid or extreme scripts (exit status, location of the
+//! fault, and no files left behind).
 //!
-//! Timelapses, layers and TIFF of `impasto paint`.
-//!
-//! `impasto paint` of scripts that mix on a palette or continue a painting.
-//!
-//! `impasto paint` with invalid or extreme scripts: exit status, the location of the fault in
-//! the error message, and no files left behind.
-//!
-//! The program in a child process: killed while it saves, and without a graphics driver.
-//!
-//! A test cannot locate the program of another package, so the child is this test binary, which
+//! The program also runs in a child process, where it is killed while it saves, or has no graphics
+//! driver. A test cannot find the program of another package, so the child is this test binary. It
 //! runs one ignored test that calls the program.
 
 use std::path::Path;
@@ -55,14 +49,13 @@ pub(crate) fn script(folder: &Path, from: &str, to: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// The path of `name` in `folder`.
 pub(crate) fn place(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().unwrap().to_owned()
 }
 
 fn done(run: &Run) {
     assert_eq!(run.status, 0, "{}", run.err);
-    // Highlights of gloss are brighter than sRGB white, on which the program remarks.
+    // Highlights of gloss are brighter than sRGB white. The program remarks on this.
     let expected =
         run.err.lines().all(|line| line.contains("outside sRGB") || line.starts_with("Wrote "));
     assert!(expected, "{}", run.err);
@@ -100,7 +93,7 @@ fn the_same_script_gives_the_same_bytes() {
         let b = std::fs::read(b).unwrap();
         assert!(a.len() > 1000 && a == b, "{} and {} bytes", a.len(), b.len());
     }
-    // `relight` without changes gives the picture that `paint` wrote.
+    // Without changes, `relight` gives the picture that `paint` wrote.
     let again = place(folder, "again.png");
     let run = impasto(&["relight", &files[0][0], "--backend", "cpu", "--picture", &again]);
     assert_eq!(run.status, 0, "{}", run.err);
@@ -141,7 +134,7 @@ fn a_painting_is_relit_under_a_lamp_and_opened_again() {
     done(&run);
     assert_eq!(run.json()["layers"][0]["opacity"], 0.5);
     assert!(std::fs::read(&again).unwrap() == std::fs::read(&picture).unwrap(), "not the same");
-    // Without the lamp's file `relight` is refused, unless another light is given.
+    // If the lamp's file is missing, `relight` is refused unless you name another light.
     std::fs::remove_file(&lamp).unwrap();
     let run = impasto(&["relight", &relit, "--backend", "cpu"]);
     assert_eq!(run.status, 2, "{}", run.err);
@@ -371,7 +364,7 @@ fn a_script_goes_on_with_what_another_one_painted() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let first = written(folder, "first.json", &format!("{{{HEADER}\"actions\": [{OVER}, {DRY}]}}"));
-    // The second script starts with clean brushes, so the whole script washes its brush.
+    // The second script starts with clean brushes, so the whole script must wash its brush.
     let wash = r#"{"wash": {"brush": "flat"}}"#;
     let whole = format!("{{{HEADER}\"actions\": [{OVER}, {DRY}, {wash},\n{OVER}]}}");
     let whole = written(folder, "whole.json", &whole);
@@ -550,7 +543,8 @@ fn nesting_and_counts_without_end_are_refused_quickly() {
     let run = paint_script(folder, STROKE, &deep);
     assert_eq!(run.status, 1, "{}", run.err.len());
     assert!(run.err.len() < 2000, "{} bytes of error", run.err.len());
-    // A stroke of 8 m, mostly off the canvas, is painted; one of 5.5 km has too many sub-steps.
+    // A stroke of 8 m, mostly off the canvas, is painted. A stroke of 5.5 km has too many
+    // sub-steps.
     let run = paint_script(folder, STROKE, "[0, -2000, 9, 1], [1, 2000, 9, 1], [2, -2000, 9, 1]");
     assert_eq!(run.status, 0, "{}", run.err);
     let many = "[0, -23000, 9, 1], [0, 23000, 9, 1], ".repeat(60);
@@ -599,7 +593,7 @@ fn a_ground_made_from_a_picture_is_not_written_over() {
 
 const ARGUMENTS: &str = "IMPASTO_CHILD_ARGUMENTS";
 
-/// Runs `impasto` with the arguments in [`ARGUMENTS`]; without them it does nothing.
+/// Runs `impasto` with the arguments in [`ARGUMENTS`]. Without them it does nothing.
 #[test]
 #[ignore = "the child of the tests below"]
 fn child() {
@@ -631,7 +625,7 @@ fn files(folder: &Path) -> Vec<String> {
 fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // The script saves after every stroke, so most kills fall into a save.
+    // The script saves after every stroke, so most kills hit a save.
     let mut text: serde_json::Value = serde_json::from_str(SCRIPT).unwrap();
     let actions = text["actions"].as_array_mut().unwrap();
     actions.pop();
@@ -655,12 +649,12 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     for moment in 0..12 {
         std::fs::write(&saved, &old).unwrap();
         let mut child = program(&["paint", &endless, "--backend", "cpu"]).spawn().unwrap();
-        // The first four children may die before their first save, the others die after it.
+        // The first four children may die before their first save. The others die after it.
         while moment > 3 && std::fs::read(&saved).unwrap() == old {
             assert!(child.try_wait().unwrap().is_none(), "it ended without a save");
             std::thread::sleep(Duration::from_millis(5));
         }
-        // After its first save, every second child is killed at once.
+        // Every second child is killed right after its first save.
         let wait = if moment > 3 && moment % 2 == 0 { 0 } else { 7 * moment };
         std::thread::sleep(Duration::from_millis(wait));
         child.kill().unwrap();
@@ -676,8 +670,8 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
     }
     assert!(kept > 0 && new > 0, "{kept} times the old file, {new} times a new one");
     let left = files(folder);
-    let strange = |name: &&String| !name.ends_with(".json") && *name != "saved.exr";
-    let strange: Vec<_> = left.iter().filter(strange).collect();
+    let strange: Vec<_> =
+        left.iter().filter(|name| !name.ends_with(".json") && *name != "saved.exr").collect();
     assert!(strange.iter().all(|name| name.starts_with(".impasto-")), "{strange:?}");
 }
 
@@ -687,18 +681,18 @@ fn without_a_driver_the_processor_paints_unless_a_device_is_asked_for() {
     let folder = folder.path();
     let script = script(folder, "", "");
     let picture = place(folder, "a.png");
-    let without = |backend: &str| {
+    let [refused, painted] = ["gpu", "auto"].map(|backend| {
         let mut run = program(&["paint", &script, "--backend", backend, "--picture", &picture]);
         for variable in ["VK_ICD_FILENAMES", "VK_DRIVER_FILES"] {
             run.env(variable, "/nowhere/driver.json");
         }
-        told(run)
-    };
-    let refused = without("gpu");
+        (told(run), Path::new(&picture).exists())
+    });
+    let (refused, written) = refused;
     assert!(refused.contains("status 2"), "{refused}");
     assert!(refused.contains("hint: paint on the processor: --backend cpu"), "{refused}");
-    assert!(!Path::new(&picture).exists(), "refused, but a picture was written");
-    let painted = without("auto");
+    assert!(!written, "refused, but a picture was written");
+    let (painted, written) = painted;
     assert!(painted.contains("status 0") && painted.contains("on the processor"), "{painted}");
-    assert!(Path::new(&picture).exists(), "no picture");
+    assert!(written, "no picture");
 }

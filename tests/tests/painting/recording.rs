@@ -16,7 +16,7 @@ use super::studio::{
     seeded, set_up, something, spec, squeeze, surface, whole,
 };
 
-/// The recording of a session, written as JSON and read back.
+/// Writes the recording of a session as JSON and reads it back.
 fn read(session: &PaintingSession) -> StrokeScript {
     let text = session.recording().unwrap().to_json().unwrap();
     StrokeScript::from_json("recording.json", text.as_bytes()).unwrap()
@@ -33,15 +33,15 @@ fn replayed(script: &StrokeScript, session: &mut PaintingSession) -> ReplayRepor
 }
 
 /// Asserts equal canvases and palettes, and that the paint on each brush of `painted` is on some
-/// brush of `played`.
+/// brush of
+/// `played`.
 fn assert_same(painted: &mut Whole, played: &mut Whole, what: &str) {
     assert!(painted.0 == played.0, "{what}: another canvas");
     assert!(painted.1 == played.1, "{what}: another palette");
     // The recording gives every head its own name, whereas the session reuses names for new heads.
-    // Brush paints are therefore compared without names.
-    let last = |whole: &mut Whole| whole.2.drain(..).flatten().collect::<Vec<_>>();
-    let painted = last(painted);
-    let played = last(played);
+    // So we compare the paint on brushes without names.
+    let [painted, played] =
+        [painted, played].map(|whole| whole.2.drain(..).flatten().collect::<Vec<_>>());
     assert!(painted.iter().all(|paint| played.contains(paint)), "{what}: other paint on a brush");
 }
 
@@ -53,7 +53,6 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
         let place = (random.random_range(2.0..16.0), random.random_range(2.0..12.0));
         session.apply(&squeeze(SurfaceId::Palette, pigment, place)).unwrap();
     }
-    let knife = || "knife".to_owned();
     for _ in 0..actions {
         match random.random_range(0..12) {
             0 => _ = session.undo().unwrap(),
@@ -63,17 +62,17 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
                 let recipe = recipe.into();
                 let vehicle = random.random_range(0.0..1.0);
                 let amount_mm = random.random_range(0.0..0.4);
-                // Refused if the palette lacks viridian or the brush is full.
-                let load = Load { brush: knife(), recipe, vehicle, amount_mm };
+                // This is refused if the palette lacks viridian or the brush is full.
+                let load = Load { brush: "knife".to_owned(), recipe, vehicle, amount_mm };
                 let _ = session.apply(&Action::Load(load));
             }
             3 => {
                 let keep = random.random_range(0.0..1.0);
                 session.apply(&Action::Wipe { brush: "flat".to_owned(), keep }).unwrap();
             }
-            4 => _ = session.apply(&Action::Wash { brush: knife() }).unwrap(),
+            4 => _ = session.apply(&Action::Wash { brush: "knife".to_owned() }).unwrap(),
             5 => {
-                // A new head under the same name, or an earlier head again.
+                // This makes a new head under the same name, or takes an earlier head again.
                 let size_mm = [4.0, 2.5, 10.0 / 3.0][random.random_range(0..3)];
                 session.set_brush("knife", &spec(HeadShape::Knife, size_mm)).unwrap();
             }
@@ -110,14 +109,15 @@ fn assert_replays(backend: Backend, seed: u64, actions: usize) {
     let report = replayed(&script, &mut other);
     let what = format!("seed {seed}");
     assert_eq!((report.actions, report.idle), (script.actions.len() as u64, 0), "{what}");
-    let history = |session: &PaintingSession| (session.history().0.len(), session.history().1);
-    assert_eq!(history(&other), history(&session), "{what}");
+    let [played, painted] =
+        [&other, &session].map(|session| (session.history().0.len(), session.history().1));
+    assert_eq!(played, painted, "{what}");
     assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
-    // Both sessions with all actions undone.
+    // Undo all actions in both sessions.
     session.go_to(0).unwrap();
     other.go_to(0).unwrap();
     assert_same(&mut whole(&mut session), &mut whole(&mut other), &what);
-    // The replay is recorded too, with the same actions.
+    // The replay is recorded too, and has the same actions.
     let again = read(&other);
     assert_eq!(again.actions[..script.actions.len()], script.actions, "{what}");
 }
@@ -143,24 +143,24 @@ fn a_session_may_go_on_with_a_painting() {
     start.title = "went on".to_owned();
     let mut script = StrokeScript::continue_from("study.exr", &start);
     script.mixing = header().mixing;
-    let set_up = |script: &StrokeScript, start: &Document| {
+    fn continued(script: &StrokeScript, start: &Document) -> PaintingSession {
         let (canvas, palette) = script.surfaces(oils(), Some(start.clone())).unwrap();
         let canvas = on_cpu_lit(canvas);
         let palette = palette.map(on_cpu_lit);
         PaintingSession::recorded(canvas, palette, script).unwrap()
-    };
-    let mut session = set_up(&script, &start);
+    }
+    let mut session = continued(&script, &start);
     paint_at_random(&mut session, 22, 30);
     let script = read(&session);
     assert_eq!(script.start.as_deref(), Some("study.exr"));
-    let mut other = set_up(&script, &start);
+    let mut other = continued(&script, &start);
     replayed(&script, &mut other);
     let mut painted = whole(&mut session);
     assert_ne!(painted.0.wet.totals(), [0; SLOTS + 1]);
     assert_same(&mut painted, &mut whole(&mut other), "a continued painting");
 }
 
-/// `document` on the CPU under its own light, which may differ from daylight.
+/// `document` on the CPU under its own light, which may not be daylight.
 fn on_cpu_lit(document: Document) -> Painting {
     let engine = BACKENDS[0](&document).unwrap();
     Painting::open(document, engine, paint::painting::UNDO_BYTES).unwrap()
@@ -208,7 +208,7 @@ fn only_what_was_done_is_recorded() {
     assert_eq!(script.brushes.keys().collect::<Vec<_>>(), ["flat", "knife"], "the mop is unused");
     assert_eq!(script.title, "a session");
     assert_eq!(script.library.as_deref(), Some(oils().title.as_str()));
-    // A brush whose first use is refused is recorded nevertheless, by a wash.
+    // If the first use of a brush is refused, it is recorded nevertheless, by a wash.
     assert!(session.apply(&load("mop", "Lead White", 50.0)).is_err(), "too much");
     let script = read(&session);
     assert_eq!(script.actions[2], Action::Wash { brush: "mop".to_owned() });

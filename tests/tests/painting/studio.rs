@@ -1,6 +1,5 @@
-//! Helpers: canvases and strokes in the shipped oils, and colour differences between pictures.
-//!
-//! Helpers: sessions with a canvas and a palette, and random actions in them.
+//! Canvases and strokes in the shipped oils, colour differences between pictures, and sessions with
+//! a canvas, a palette and random actions.
 
 use std::io::Write;
 use std::sync::OnceLock;
@@ -29,7 +28,6 @@ use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
 pub(crate) const CELL_MM: f64 = 0.2;
 
-/// The pigments of the palette, by slot.
 pub(crate) const PALETTE: [&str; 7] = [
     "Lead White",
     "Chrome Yellow",
@@ -45,7 +43,6 @@ pub(crate) const YELLOW: usize = 1;
 pub(crate) const BLUE: usize = 2;
 pub(crate) const RED: usize = 3;
 
-/// The pigment library of the shipped oils.
 pub(crate) fn oils() -> &'static PigmentLibrary {
     static OILS: OnceLock<PigmentLibrary> = OnceLock::new();
     OILS.get_or_init(suite::oils::library)
@@ -57,7 +54,6 @@ pub(crate) fn daylight() -> Light {
     DAYLIGHT.get_or_init(|| Light::new(oils(), &Viewing::default()).unwrap()).clone()
 }
 
-/// The id of a pigment of [`oils`].
 pub(crate) fn pigment(name: &str) -> PigmentId {
     oils().find(name).unwrap()
 }
@@ -67,12 +63,11 @@ fn ground(json: &str, width: usize, height: usize) -> Ground {
     spec.build(width, height, CELL_MM, oils()).unwrap()
 }
 
-/// A canvas of linen without paint.
 pub(crate) fn bare(width: usize, height: usize) -> Document {
     bare_on(r#"{"kind": "linen", "seed": 3}"#, width, height)
 }
 
-/// A canvas without paint on the ground that `json` describes.
+/// A canvas without paint on the ground in `json`.
 pub(crate) fn bare_on(json: &str, width: usize, height: usize) -> Document {
     let mut slots: Slots = [None; SLOTS];
     for (slot, name) in slots.iter_mut().zip(PALETTE) {
@@ -89,19 +84,17 @@ pub(crate) fn bare_on(json: &str, width: usize, height: usize) -> Document {
     )
 }
 
-/// `document` in daylight on the CPU.
 pub(crate) fn on_cpu(document: Document) -> Painting {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     open(document, engine, UNDO_BYTES)
 }
 
-/// `document` in daylight on a graphics device, hardware or software; `None` without an
-/// adapter.
+/// `document` in daylight on a graphics device, hardware or software. Returns `None` without an adapter.
 pub(crate) fn on_gpu(document: Document) -> Option<Painting> {
     gpu_engine(&document).map(|engine| open(document, engine, UNDO_BYTES))
 }
 
-/// `document` on the CPU and, with an adapter, on the GPU.
+/// `document` on the CPU, and on the GPU if there is an adapter.
 pub(crate) fn on_both(document: &Document) -> Vec<Painting> {
     std::iter::once(on_cpu(document.clone())).chain(on_gpu(document.clone())).collect()
 }
@@ -125,7 +118,7 @@ pub(crate) fn pure(slot: usize) -> [f64; SLOTS] {
 
 /// Samples along `places` in mm, one every tenth of a second, at one pressure.
 pub(crate) fn along(places: &[(f64, f64)], pressure: f64) -> Vec<Sample> {
-    let sample = |(index, &(x_mm, y_mm)): (usize, &(f64, f64))| Sample {
+    let samples = places.iter().enumerate().map(|(index, &(x_mm, y_mm))| Sample {
         seconds: 0.1 * index as f64,
         x_mm,
         y_mm,
@@ -134,8 +127,8 @@ pub(crate) fn along(places: &[(f64, f64)], pressure: f64) -> Vec<Sample> {
         tilt_y_deg: -15.0,
         // At 90 degrees a flat head that moves along x paints with its broad side.
         twist_deg: 90.0 + 5.0 * index as f64,
-    };
-    places.iter().enumerate().map(sample).collect()
+    });
+    samples.collect()
 }
 
 /// Adds a brush loaded with `amount_mm` of the pigment in `slot`, with 10 % vehicle.
@@ -151,7 +144,7 @@ pub(crate) fn loaded(
     brush
 }
 
-/// Three crossing strokes of different paint over a canvas of 24 mm or more.
+/// Three crossing strokes with different paint over a canvas of 24 mm or more.
 pub(crate) fn crossing(painting: &mut Painting) {
     let white = loaded(painting, HeadShape::Flat, 5.0, WHITE, 0.4);
     let yellow = loaded(painting, HeadShape::Filbert, 4.0, YELLOW, 0.3);
@@ -174,7 +167,6 @@ pub(crate) fn sorted(mut values: Vec<f64>) -> Vec<f64> {
     values
 }
 
-/// CIELAB of a linear sRGB colour.
 pub(crate) fn lab(rgb: &[f32; 4]) -> Lab {
     let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
     let xyz = RgbSpace::Srgb.xyz_from_linear().apply(linear);
@@ -185,7 +177,6 @@ pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Prints a line on stderr.
 pub(crate) fn tell(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
@@ -201,15 +192,13 @@ pub(crate) fn header() -> StrokeScript {
     script
 }
 
-/// Makes the engine for a document; `None` without a graphics adapter.
+/// Makes the engine for a document. Returns `None` without a graphics adapter.
 pub(crate) type Backend = fn(&Document) -> Option<PaintEngine>;
 
-/// CPU and GPU.
 pub(crate) const BACKENDS: [Backend; 2] =
     [|document| Some(PaintEngine::on_cpu(document.ground.height.clone())), gpu_engine];
 
-/// A recording session on the surfaces that `script` describes; `None` if the backend is
-/// missing.
+/// A recording session on the surfaces of `script`. Returns `None` if the backend is missing.
 pub(crate) fn set_up(script: &StrokeScript, backend: Backend) -> Option<PaintingSession> {
     let (canvas, palette) = script.surfaces(oils(), None).unwrap();
     let engine = backend(&canvas)?;
@@ -229,7 +218,7 @@ pub(crate) type Whole = (Document, Option<Document>, Vec<Option<Layer>>);
 pub(crate) fn whole(session: &mut PaintingSession) -> Whole {
     let names: Vec<String> = session.brushes().map(|(name, _)| name.to_owned()).collect();
     let brushes = names.iter().map(|name| session.brush_paint(name).unwrap());
-    // A brush that was never used has no paint layer; it compares equal to a washed one.
+    // A brush that was never used has no paint layer. It compares equal to a washed one.
     let brushes = brushes.map(|paint| paint.filter(|paint| paint.totals() != [0; 9])).collect();
     let (canvas, palette) = session.documents().unwrap();
     (canvas, palette, brushes)
@@ -250,17 +239,16 @@ pub(crate) fn squeeze(on: SurfaceId, pigment: &str, (x_mm, y_mm): (f64, f64)) ->
     Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3: 3.0 })
 }
 
-/// Canvas or palette at random.
 pub(crate) fn surface(random: &mut ChaCha8Rng) -> SurfaceId {
     if random.random_bool(0.5) { SurfaceId::Canvas } else { SurfaceId::Palette }
 }
 
-/// Random pen samples, with more digits than a script file keeps.
+/// Random pen samples with more digits than a script file keeps.
 pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
     let mut seconds = random.random_range(0.0..100.0);
     let mut x_mm = random.random_range(0.0..26.0);
     let mut y_mm = random.random_range(0.0..20.0);
-    let mut next = || {
+    let wandered = (0..samples).map(|_| {
         seconds += random.random_range(0.0..0.02);
         x_mm += random.random_range(-2.0..2.0);
         y_mm += random.random_range(-2.0..2.0);
@@ -273,11 +261,11 @@ pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
             tilt_y_deg: random.random_range(-30.0..30.0),
             twist_deg: random.random_range(0.0..180.0),
         }
-    };
-    (0..samples).map(|_| next()).collect()
+    });
+    wandered.collect()
 }
 
-/// Paints a random stroke, extended in random portions with a random number of sub-steps after
+/// Paints a random stroke. Extends it in random portions, with a random number of sub-steps after
 /// each.
 pub(crate) fn live(
     session: &mut PaintingSession,
@@ -303,8 +291,8 @@ pub(crate) fn live(
     assert!(report.is_some_and(|report| report.undoable), "{report:?}");
 }
 
-/// Tries a random action. Returns whether it became a step of the history; it may be refused, as
-/// for a palette without a pigment that is wet, or a swap in a layer without the pigment.
+/// Tries a random action. Returns whether it became a step of the history. It may be refused, e.g.
+/// a palette without a pigment that is wet, or a swap in a layer without the pigment.
 pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) -> bool {
     let layers = session.canvas().state().dry.len();
     let on = surface(random);

@@ -1,4 +1,4 @@
-//! Sessions with a canvas and a palette: brushes used on both, one history and one light.
+//! Sessions with a canvas and a palette: brushes that you use on both, one history and one light.
 
 use documents::hint::Explain;
 use paint::amount::mm_from_quanta;
@@ -46,7 +46,7 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
     for mut session in sessions() {
         let mut random = seeded(3);
         loaded(&mut session);
-        // The palette has 2 x 2 tiles: this limit drops its oldest steps after a few strokes.
+        // The palette has 2 x 2 tiles, so this limit drops its oldest steps after a few strokes.
         session.set_undo_bytes(4 * 9 * TILE_BYTES);
         let mut past = vec![whole(&mut session)];
         let mut done = 0;
@@ -68,14 +68,14 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
             assert!(whole(&mut session) == past[place], "state {place} after undo");
         }
         assert!(!session.undo().unwrap(), "an undo of a dropped step");
-        // Undone dry layers also count towards the limit, so the last redo may be dropped.
+        // Undone dry layers also count towards the limit, so this may drop the last redo.
         let again = session.history().0.len();
         assert!((1..=reachable).contains(&again), "{again} of {reachable}");
         session.go_to(usize::MAX).unwrap();
         assert_eq!(session.history().1, again);
         assert!(whole(&mut session) == past[done - reachable + again], "state after redo");
         session.set_undo_bytes(0);
-        // Actions that saved no paint, such as a light, stay.
+        // Actions that saved no paint, e.g. a light, stay.
         assert_eq!(session.undo_bytes().0, 0);
         let white = squeeze(SurfaceId::Palette, "Lead White", (9.0, 7.0));
         assert_eq!(session.apply(&white).unwrap(), Outcome::Done);
@@ -83,8 +83,8 @@ fn what_one_surface_forgot_makes_all_before_it_unreachable() {
     }
 }
 
-/// Wet paint on both surfaces and on their brushes, in quanta summed over cells: by slot, vehicle
-/// last.
+/// Wet paint on both surfaces and on their brushes, in quanta summed over cells, by slot and then
+/// vehicle.
 fn wet(session: &mut PaintingSession) -> [u64; SLOTS + 1] {
     let mut totals = [0; SLOTS + 1];
     for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
@@ -113,7 +113,7 @@ fn a_brush_takes_its_paint_along_and_an_undo_takes_it_back() {
         assert!(palette[0] > 0 && after.0.wet.totals()[0] > 0, "it painted on both");
         session.go_to(0).unwrap();
         assert!(whole(&mut session) == before, "state after undoing all");
-        // Loading a brush is no step of the history: redo restores the paint that it had then.
+        // Loading a brush is not a step of the history: redo restores the paint that it had then.
         session.apply(&load("flat", "Vermilion", 0.2)).unwrap();
         session.go_to(3).unwrap();
         assert!(whole(&mut session) == after, "state after redo");
@@ -138,7 +138,7 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
         session.set_brush("flat", &spec(HeadShape::Flat, 5.0)).unwrap();
         session.apply(&load("flat", red, 0.3)).unwrap();
         assert_eq!(refused(&mut session).as_deref(), Some(red), "on the brush");
-        // The brush is used on the palette and washed; then no red is wet anywhere.
+        // The brush is used on the palette and washed. Then no red is wet anywhere.
         session.begin_stroke(SurfaceId::Palette, "flat").unwrap();
         session.extend(&along(&[(3.0, 3.0), (9.0, 9.0)], 0.5)).unwrap();
         session.end_stroke().unwrap();
@@ -221,7 +221,9 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         live(&mut session, SurfaceId::Canvas, "flat", &mut random);
         session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
         let before = whole(&mut session);
-        let turned = |azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() });
+        fn turned(azimuth_deg: f64) -> Action {
+            Action::Light(Lighting { azimuth_deg, ..Lighting::default() })
+        }
         for azimuth_deg in [10.0, 20.0, 30.0] {
             session.adjust(&turned(azimuth_deg)).unwrap();
             assert_eq!(session.canvas().state().lighting.azimuth_deg, azimuth_deg, "not applied");
@@ -237,7 +239,7 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         assert!(whole(&mut session) == before, "two undos restore the state before");
         session.go_to(4).unwrap();
         assert!(whole(&mut session) == after);
-        // A refused adjustment changes neither the paint nor the history.
+        // If an adjustment is refused, it changes neither the paint nor the history.
         let nowhere = Action::Opacity { layer: LayerRef::Dry(9), value: 0.5 };
         assert!(session.adjust(&nowhere).is_err());
         assert!(whole(&mut session) == after);
@@ -265,7 +267,7 @@ fn what_is_open_ends_before_anything_else() {
         session.apply(&Action::Dry { fraction: 0.5 }).unwrap();
         assert_eq!(session.open_stroke(), None);
         assert_eq!(session.history().0, ["stroke on the palette, knife"], "no wet paint to dry");
-        // A stroke without samples adds no step to the history.
+        // A stroke without samples is not a step of the history.
         session.begin_stroke(SurfaceId::Canvas, "flat").unwrap();
         assert_eq!(session.advance(100).unwrap(), 0);
         assert_eq!(session.end_stroke().unwrap(), None);
@@ -337,10 +339,13 @@ fn surfaces_that_do_not_go_together_are_refused() {
         PaintingSession::new(canvas, Some(palette)).map(|_| ()).map_err(|error| error.to_string())
     };
     assert_eq!(together(|_| ()), Ok(()));
-    let refused = |what: &str| Err(format!("canvas and palette have different {what}"));
-    assert_eq!(together(|palette| palette.cell_mm = 0.1), refused("cells"));
-    assert_eq!(together(|palette| palette.slots.swap(0, 1)), refused("pigments"));
-    assert_eq!(together(|palette| palette.lighting.relief = 0.0), refused("lights"));
-    assert_eq!(together(|palette| palette.medium.scattering_per_mm = 1.0), refused("media"));
-    assert_eq!(together(|palette| palette.library.title.clear()), refused("pigment libraries"));
+    for (change, what) in [
+        ((|palette| palette.cell_mm = 0.1) as fn(&mut paint::document::Document), "cells"),
+        (|palette| palette.slots.swap(0, 1), "pigments"),
+        (|palette| palette.lighting.relief = 0.0, "lights"),
+        (|palette| palette.medium.scattering_per_mm = 1.0, "media"),
+        (|palette| palette.library.title.clear(), "pigment libraries"),
+    ] {
+        assert_eq!(together(change), Err(format!("canvas and palette have different {what}")));
+    }
 }

@@ -1,7 +1,5 @@
-//! Undo and redo of every kind of action restore paint, brushes and picture bit for bit.
-//!
-//! Strokes extended in portions: any division into portions gives the paint and the undo of the
-//! whole stroke.
+//! Undo and redo of every kind of action restore paint, brushes and picture bit for bit. If you
+//! extend a stroke in portions, any division gives the paint and the undo of the whole stroke.
 
 use calibrate::PigmentId;
 use documents::hint::Explain;
@@ -13,7 +11,7 @@ use super::studio::{
     BLUE, PALETTE, WHITE, YELLOW, along, bare, crossing, loaded, on_both, on_cpu, open, pigment,
     pure,
 };
-use paint::brush::{HeadMesh, HeadShape, HeadShape as PiecesHeadShape};
+use paint::brush::{HeadShape, HeadShape as PiecesHeadShape};
 use paint::document::{Document, Lighting};
 use paint::engine::{BrushId, BrushId as PiecesBrushId, PaintEngine};
 use paint::history::TILE_BYTES;
@@ -33,7 +31,7 @@ fn whole(painting: &mut Painting, brushes: usize) -> Whole {
     (painting.document().unwrap(), paint, painting.picture().unwrap())
 }
 
-/// Applies a random action. Returns whether it added a step to the history.
+/// Applies a random action. Returns whether it became a step of the history.
 fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
     let layers = painting.state().dry.len();
     match random.random_range(0..16) {
@@ -99,8 +97,8 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
         }
         _ => {
             let brush = random.random_range(0..2);
-            let mut place = || (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
-            let places: Vec<_> = (0..3).map(|_| place()).collect();
+            let places =
+                [(); 3].map(|()| (random.random_range(0.0..26.0), random.random_range(0.0..20.0)));
             let report = painting.stroke(BrushId(brush), &along(&places, 0.6)).unwrap();
             assert!(report.undoable, "a stroke exceeds the undo memory");
             true
@@ -151,7 +149,7 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
     let mut painting = open(document, engine, 3 * (TILE_BYTES + brush_bytes));
     let brush = loaded(&mut painting, HeadShape::Round, 2.0, YELLOW, 0.5);
     let mut past = Vec::new();
-    // Each dab lies within one tile, so three of them fit into the memory limit.
+    // Each dab is within one tile, so three of them fit into the memory limit.
     for place in [(4.0, 4.0), (6.0, 6.0), (4.0, 8.0), (8.0, 4.0), (5.0, 5.0)] {
         past.push(painting.wet().unwrap());
         let dab = along(&[place, (place.0 + 0.5, place.1)], 0.5);
@@ -162,7 +160,7 @@ fn what_passes_the_memory_limit_is_forgotten_oldest_first() {
         assert!(painting.wet().unwrap() == past[index], "state {index} after undo");
     }
     assert!(!painting.undo().unwrap(), "older ones do not fit");
-    // Along three edges, through more tiles than the limit holds.
+    // This goes along three edges, through more tiles than the limit holds.
     let long = along(&[(2.0, 2.0), (24.0, 2.0), (24.0, 18.0), (2.0, 18.0)], 0.5);
     assert!(!painting.stroke(brush, &long).unwrap().undoable, "a stroke beyond the memory limit");
     assert!(!painting.undo().unwrap(), "older steps are dropped too");
@@ -185,13 +183,10 @@ fn a_drying_keeps_only_the_tiles_that_were_wet() {
 #[test]
 fn a_brush_never_changes_its_pigment_by_an_undo() {
     for mut painting in on_both(&bare(60, 60)) {
-        let keep: Vec<PigmentId> = PALETTE[1..].iter().map(|name| pigment(name)).collect();
-        let with = |first: &str| {
-            let all: Vec<PigmentId> = [pigment(first)].into_iter().chain(keep.clone()).collect();
-            all
-        };
+        let mut all: Vec<PigmentId> = PALETTE.iter().map(|name| pigment(name)).collect();
+        all[0] = pigment("Ultramarine");
         let brush = painting.add_brush(HeadShape::Round, 2.0).unwrap();
-        painting.set_palette(&with("Ultramarine")).unwrap();
+        painting.set_palette(&all).unwrap();
         assert_eq!(painting.slot_of(pigment("Ultramarine")).unwrap(), WHITE);
         painting.load(brush, &pure(WHITE), 0.0, 0.2).unwrap();
         let late = painting.add_brush(HeadShape::Round, 2.0).unwrap();
@@ -230,7 +225,7 @@ fn a_measured_light_comes_back_with_an_undo() {
     assert!(painting.picture().unwrap() == seen, "picture after undo");
 }
 
-/// The wet layer, then the paint on each of the first `brushes` brushes.
+/// The wet layer, and the paint on each of the first `brushes` brushes.
 fn paint(painting: &mut Painting, brushes: usize) -> Vec<PiecesLayer> {
     let mut layers = vec![painting.wet().unwrap()];
     layers
@@ -238,17 +233,18 @@ fn paint(painting: &mut Painting, brushes: usize) -> Vec<PiecesLayer> {
     layers
 }
 
-/// Random samples, some outside the canvas; one position occurs twice (a pen at rest).
+/// Random samples, some outside the canvas. One position occurs twice, like a pen at rest.
 fn wandering(random: &mut ChaCha8Rng) -> Vec<Sample> {
     let count = random.random_range(1..9);
-    let mut place = || (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0));
-    let mut places: Vec<_> = (0..count).map(|_| place()).collect();
+    let mut places: Vec<_> = (0..count)
+        .map(|_| (random.random_range(-6.0..32.0), random.random_range(-6.0..26.0)))
+        .collect();
     places.insert(count / 2, places[count / 2]);
     along(&places, 0.6)
 }
 
-/// Extends a stroke by `samples` in random portions and paints a random number of sub-steps after
-/// each. Returns the sub-steps, the cells, and whether the stroke can be undone.
+/// Extends a stroke by `samples` in random portions, and paints a random number of sub-steps after
+/// each. Returns the sub-steps, the cells, and whether you can undo the stroke.
 fn in_pieces(
     painting: &mut Painting,
     brush: PiecesBrushId,
@@ -327,7 +323,7 @@ fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
             let mut stroke = cut.begin_stroke(brush).unwrap();
             stroke.extend(&samples[..2]).unwrap();
             stroke.advance(&mut cut, 20).unwrap();
-            // The sample before the refused one is accepted; the one after it is not.
+            // The sample before the refused one is accepted, but not the one after it.
             let error = stroke.extend(&[samples[2], bad, samples[3]]).unwrap_err();
             let error = PaintingError::from(error);
             assert!(matches!(error, PaintingError::Stroke(_)), "{error}");
@@ -375,10 +371,9 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     stroke.lift();
     stroke.advance(&mut painting, 32).unwrap();
     let bent = painting.head(brush).mesh().unwrap();
-    let lowest = |mesh: &HeadMesh| {
-        mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min)
-    };
-    assert!(lowest(&bent) < lowest(&hovering), "the head did not bend");
+    let [bent_to, hovers_at] = [&bent, &hovering]
+        .map(|mesh| mesh.vertices.iter().map(|vertex| vertex[2]).fold(f32::INFINITY, f32::min));
+    assert!(bent_to < hovers_at, "the head did not bend");
     painting.hover(brush, &samples[0]);
     assert_eq!(painting.head(brush).mesh(), Some(bent), "hover moved the head");
     stroke.finish(&mut painting).unwrap();

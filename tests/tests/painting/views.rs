@@ -1,9 +1,6 @@
-//! Incremental pictures: `refresh` renders and reports the changed tiles only, and reading those
-//! keeps a window correct.
-//!
-//! Paint and reflectance read from a rectangle of a painting.
-//!
-//! Saving, drying, merging and exporting keep the colours of the picture.
+//! Incremental pictures: `refresh` renders and reports only the tiles that changed, and a window
+//! that reads these shows the right picture. Also paint and reflectance of a rectangle, and that
+//! saving, drying, merging and exporting keep the colours.
 
 use documents::hint::Explain;
 use graphics::export::{linear_exr, png8, png16};
@@ -22,11 +19,11 @@ use super::studio::{
     on_gpu, pigment, pure,
 };
 
-/// Size of the canvas in cells: 5 x 3 tiles.
+/// The canvas has 5 x 3 tiles.
 const WIDTH: usize = 300;
 const HEIGHT: usize = 180;
 
-/// A window's copy of the picture; reads only the tiles that `refresh` reports.
+/// A window's copy of the picture. It reads only the tiles that `refresh` reports.
 struct Window {
     second: bool,
     shown: Field<[f32; 4]>,
@@ -37,7 +34,7 @@ impl Window {
         Self { second, shown: Field::filled(WIDTH, HEIGHT, [f32::NAN; 4]) }
     }
 
-    /// Reads the changed tiles; returns their number.
+    /// Reads the changed tiles, and returns their number.
     fn follow(&mut self, painting: &mut Painting) -> usize {
         let bounds = painting.bounds();
         let tiles = painting.refresh(self.second).unwrap();
@@ -59,7 +56,7 @@ fn lamp_light() -> Lighting {
     }
 }
 
-/// Picture of a newly opened copy of `painting`, under its own light or under `other`.
+/// Picture of a newly opened copy of `painting`, under its own light or `other`.
 fn anew(painting: &mut Painting, other: Option<&Lighting>) -> Field<[f32; 4]> {
     let mut document = painting.document().unwrap();
     let gpu = !painting.backend().starts_with("the processor");
@@ -97,7 +94,7 @@ fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
         check(&mut painting, 6, "the rest of it");
         painting.undo().unwrap();
         check(&mut painting, 12, "undo");
-        // Reading the whole picture must not clear the set of changed tiles.
+        // If you read the whole picture, the set of changed tiles must stay.
         painting.redo().unwrap();
         painting.picture().unwrap();
         check(&mut painting, 12, "redo");
@@ -132,7 +129,8 @@ fn relighting_changes_the_first_view_alone_and_the_second_comes_and_goes() {
         let unknown = Lighting { illuminant: "moon".into(), ..Lighting::default() };
         assert!(painting.set_second_light(Some(unknown)).is_err(), "an unknown light");
         assert_eq!(painting.second_light(), Some(&lamp_light()));
-        // The direction of the second light changes and changes back; undo leaves that light alone.
+        // The direction of the second light changes and changes back. Undo does not touch that
+        // light.
         let moved = Lighting { azimuth_deg: 200.0, ..lamp_light() };
         painting.set_second_light(Some(moved)).unwrap();
         painting.refresh(true).unwrap();
@@ -153,12 +151,14 @@ fn a_heap_that_ends_with_its_tile_is_seen_beyond_it() {
     for mut painting in on_both(&bare(130, 100)) {
         let mut ended = 0;
         for step in 0..12 {
-            // From well inside the first tile (64 cells wide) until the heap crosses its edge.
+            // Start well inside the first tile (64 cells wide) and go on until the heap crosses its
+            // edge.
             let x_mm = (56.0 + 0.25 * f64::from(step)) * CELL_MM;
             painting.squeeze(&pure(WHITE), 0.0, x_mm, 6.0, 3.0).unwrap();
             let wet = painting.wet().unwrap();
-            let painted = |x: usize| (0..64).any(|y| wet.cell(y * 130 + x).volume() > 0);
-            ended += usize::from(painted(63) && !painted(64));
+            let [last, next] =
+                [63, 64].map(|x| (0..64).any(|y| wet.cell(y * 130 + x).volume() > 0));
+            ended += usize::from(last && !next);
             let seen = painting.picture().unwrap();
             assert!(seen == anew(&mut painting, None), "step {step}");
             painting.scrape().unwrap();
@@ -250,7 +250,7 @@ fn the_reflectance_of_a_place_is_the_mean_of_its_cells() {
     }
 }
 
-/// Largest colour difference that counts as invisible, in CIEDE2000.
+/// Nobody sees a colour difference up to this, in CIEDE2000.
 const UNSEEN: f64 = 0.1;
 
 fn largest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> f64 {
@@ -294,7 +294,7 @@ fn drying_leaves_the_colors_as_they_were() {
     }
 }
 
-/// Paints two overlapping strokes with the pigments in `slots`, each dried to a layer of its own.
+/// Paints two overlapping strokes with the pigments in `slots`, and dries each to its own layer.
 fn two_layers(mut painting: Painting, slots: [usize; 2]) -> Painting {
     for (slot, y) in slots.into_iter().zip([6.0, 8.0]) {
         let brush = loaded(&mut painting, HeadShape::Flat, 5.0, slot, 0.4);
@@ -337,7 +337,7 @@ fn a_merge_that_shows_is_refused_and_changes_nothing() {
         assert!(error.hint().is_some(), "no hint");
         assert!(painting.document().unwrap() == document, "the paint changed");
         assert!(painting.picture().unwrap() == before, "the picture changed");
-        // The refused merge is no step of the history: the last step is the drying.
+        // The refused merge is not a step of the history, so the last step is the drying.
         assert!(painting.undo().unwrap(), "nothing to undo");
         assert_eq!(painting.state().dry.len(), 1);
         for missing in [1, 2, usize::MAX] {
@@ -362,7 +362,7 @@ fn exported_pictures_have_the_colors_that_were_shown() {
         .collect();
     let on_screen = Field::from_values(shown.width(), shown.height(), on_screen);
     for (bytes, within) in [
-        // Rounding to 8 bits alone gives up to 1 CIEDE2000 near black.
+        // Near black, rounding to 8 bits alone gives up to 1 CIEDE2000.
         (png8(&shown, CELL_MM).unwrap().bytes, 1.0),
         (png16(&shown, CELL_MM).unwrap().bytes, UNSEEN),
     ] {
@@ -399,8 +399,8 @@ fn exr_channels(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
         .from_buffered(std::io::Cursor::new(bytes))
         .unwrap();
     let channels = image.layer_data.channel_data.list;
-    let values = |channel: &exr::prelude::AnyChannel<_>| channel_values(&channel.sample_data);
-    channels.iter().map(|channel| (channel.name.to_string(), values(channel))).collect()
+    let channels = channels.iter();
+    channels.map(|own| (own.name.to_string(), channel_values(&own.sample_data))).collect()
 }
 
 fn channel_values(samples: &exr::prelude::FlatSamples) -> Vec<f32> {

@@ -1,8 +1,5 @@
-//! Mixing charts, tints and drawdowns.
-//!
-//! Graded mixtures from one paint to another: steps, rows of prediction and their errors.
-//!
-//! Palettes of absolute amounts: washes over the white card, which replaces a white paint.
+//! Mixing charts, tints, drawdowns, and graded mixtures from one paint to another with their
+//! errors. Palettes of absolute amounts: washes over the white card, which replaces a white paint.
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::{AmountKind, PigmentLibrary};
@@ -96,11 +93,14 @@ fn no_film_is_the_card_and_a_thick_one_the_masstone() {
     for drawdown in drawdowns(&palette, &[0.0, 1.0, 10.0, 1e4]) {
         let name = palette.label(drawdown.paint);
         let [bare, thin, thick, masstone] = drawdown.steps.as_slice() else { panic!("four steps") };
-        let off = |a, b| delta_e_ciede2000(a, b);
-        assert!(off(bare.over_black.lab, cards[0].lab) < 1e-6, "{name}");
-        assert!(off(bare.over_white.lab, cards[1].lab) < 1e-6, "{name}");
-        assert!(off(masstone.over_white.lab, drawdown.masstone.lab) < 1e-3, "{name}");
-        assert!(off(masstone.over_black.lab, drawdown.masstone.lab) < 1e-3, "{name}");
+        for (step, wanted, most) in [
+            (bare.over_black.lab, cards[0].lab, 1e-6),
+            (bare.over_white.lab, cards[1].lab, 1e-6),
+            (masstone.over_white.lab, drawdown.masstone.lab, 1e-3),
+            (masstone.over_black.lab, drawdown.masstone.lab, 1e-3),
+        ] {
+            assert!(delta_e_ciede2000(step, wanted) < most, "{name}");
+        }
         for step in [thin, thick] {
             let gap = step.over_white.xyz.y - step.over_black.xyz.y;
             assert!(gap >= 0.0, "{name}: the black card looks lighter by {gap}");
@@ -145,11 +145,8 @@ fn the_middle_of_linear_rgb_is_the_mean_of_linear_rgb() {
     let rules = PainterRules::of(&palette).unwrap();
     let pair = (find(&oils, "Chrome Yellow"), find(&oils, "Ultramarine"));
     let steps = graded(&palette, pair, &[], &rules).steps;
-    let linear =
-        |at: usize| steps[at].colors[MixingRow::LinearRgb as usize].unwrap().srgb.linear().0;
-    let first = linear(0);
-    let middle = linear(5);
-    let last = linear(10);
+    let [first, middle, last] = [0, 5, 10]
+        .map(|at: usize| steps[at].colors[MixingRow::LinearRgb as usize].unwrap().srgb.linear().0);
     let mean: Vec<f64> = first.iter().zip(last).map(|(a, b)| f64::midpoint(*a, b)).collect();
     assert_near("middle", &middle, &mean, 1e-9);
 }
@@ -173,7 +170,7 @@ fn a_measured_share_stands_in_its_place_with_the_mixture_of_that_share() {
         1e-9,
     );
     assert!(steps[0].share.is_sign_positive(), "a share of -0");
-    // 13F and 13G are far from any tenth, so they are steps besides the eleven tenths.
+    // 13F and 13G are far from any tenth, so they come in addition to the eleven tenths.
     assert_eq!(steps.len(), 13);
     assert!(steps.windows(2).all(|pair| pair[0].share < pair[1].share));
     let half = steps.iter().find(|s| s.sample.as_deref() == Some("13C")).unwrap();
@@ -204,10 +201,11 @@ fn without_a_measurement_errors_are_from_the_full_spectrum() {
     assert_eq!(middle.errors[MixingRow::Spectrum as usize], None);
     // Yellow and blue mix to a green far from the straight line between them in linear RGB.
     assert!(off > 10.0, "{off}");
-    let mean = |row| mixture.mean_error(row, false).unwrap();
-    assert_eq!(mean(MixingRow::LinearRgb).1, 9);
-    assert!(mean(MixingRow::EightNodes).0 < mean(MixingRow::ThreeNodes).0);
-    assert!(mean(MixingRow::ThreeNodes).0 < mean(MixingRow::LinearRgb).0);
+    let rows = [MixingRow::EightNodes, MixingRow::ThreeNodes, MixingRow::LinearRgb];
+    let [eight, three, linear] = rows.map(|row| mixture.mean_error(row, false).unwrap());
+    assert_eq!(linear.1, 9);
+    assert!(eight.0 < three.0);
+    assert!(three.0 < linear.0);
     assert_eq!(mixture.mean_error(MixingRow::LinearRgb, true), None);
 }
 
@@ -244,7 +242,7 @@ fn a_wash_goes_nine_tenths_of_the_way_where_it_absorbs_most() {
     let library = watercolors();
     let viewing = Viewing::default();
     let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
-    // Without scattering a wash attenuates the card by exp(-2 K d) = 1/10 where it absorbs most.
+    // Without scattering, a wash attenuates the card by exp(-2 K d) = 1/10 where it absorbs most.
     assert_near("red", &[palette.wash(PigmentId(0))], &[10f64.ln() / 2.0 / 120.01], 1e-9);
     assert_near("water", &[palette.wash(PigmentId(3))], &[1.0], 0.0);
     let at = 3;
@@ -296,15 +294,16 @@ fn amounts_that_hide_are_told_and_clear_ones_never_do() {
     let powers = hiding_powers(&palette);
     assert_eq!(powers[3].hides.thickness(), None);
     let yellow = powers[1].hides.thickness().unwrap();
-    // There the luminance over black is 0.98 of that over white.
+    // There the luminance over black is 0.98 times the luminance over white.
     let mixture = library.mix(recipe([(1, 1.0)])).unwrap();
     let weights = viewing.weights(grid()).unwrap();
-    let over = |card: &[f64]| weights.xyz(&mixture.film(yellow, card, library.film())).y;
-    let contrast = over(&palette.cards().black) / over(&palette.cards().white);
+    let [black, white] = [&palette.cards().black, &palette.cards().white]
+        .map(|card| weights.xyz(&mixture.film(yellow, card, library.film())).y);
+    let contrast = black / white;
     assert_near("contrast", &[contrast], &[0.98], 1e-6);
     let gamut = sampled_gamut(&palette);
-    let most = |recipe: &Recipe| recipe.iter().map(|(_, share)| share).sum::<f64>();
-    let deepest = gamut.samples.iter().map(|s| most(&s.recipe)).fold(0.0, f64::max);
+    let most = gamut.samples.iter().map(|s| s.recipe.iter().map(|(_, share)| share).sum::<f64>());
+    let deepest = most.fold(0.0, f64::max);
     assert!((deepest - 8.0).abs() < 1e-9, "the largest sum of washes is {deepest}");
     assert!(gamut.samples.iter().all(|s| s.color.lab.a.is_finite()));
 }

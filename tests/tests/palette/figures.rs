@@ -1,4 +1,4 @@
-//! Figures of a palette in a report: which are drawn, their colours and their numbers.
+//! Figures of a palette in a report: which ones are drawn, their colours and their numbers.
 
 use calibrate::PigmentId;
 use calibrate::library::AmountKind;
@@ -136,12 +136,12 @@ fn a_pair_that_cannot_be_mixed_and_what_is_left_out_are_said() {
     let mut five = five();
     five.pigments[3].identified = false;
     let report = report_of(&five, Some((PigmentId(3), PigmentId(1))));
-    let said = |title: &str| {
+    let [graded, mixed] = ["Graded mixtures", "What the paints mix"].map(|title| {
         let mut sections = report.sections.iter();
         sections.find(|section| section.title == title).unwrap().paragraphs.join(" ")
-    };
-    assert!(said("Graded mixtures").starts_with("blue"), "{}", said("Graded mixtures"));
-    assert!(said("What the paints mix").contains("blue"), "{}", said("What the paints mix"));
+    });
+    assert!(graded.starts_with("blue"), "{graded}");
+    assert!(mixed.contains("blue"), "{mixed}");
     assert!(report.figures().all(|figure| figure.name != "graded-mixture-1"));
     finite(&report);
 }
@@ -162,7 +162,7 @@ fn small_and_odd_libraries_draw_what_there_is() {
     assert!(report.figures().all(|figure| !NAMES.contains(&figure.name.as_str())));
 }
 
-/// Asserts that no figure holds a NaN. Allows empty tables: a white alone has no tints.
+/// Asserts that no figure has a NaN. Tables may be empty: a white alone has no tints, for example.
 fn finite_but_for_empty_tables(report: &Report) {
     for figure in report.figures() {
         let text = figure.svg.clone() + &figure.data.csv();

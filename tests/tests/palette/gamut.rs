@@ -1,6 +1,5 @@
-//! Gamut of a palette: sampled mixtures, outline, spectral locus and sRGB primaries.
-//!
-//! Colour shifts and metamers under other lights.
+//! Gamut of a palette: sampled mixtures, outline, spectral locus and sRGB primaries, and colour
+//! shifts and metamers under other lights.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -65,14 +64,14 @@ fn a_band_of_lightness_lies_within_the_whole() {
 #[test]
 fn more_paints_mix_more_colors() {
     let viewing = Viewing::default();
-    let area = |count: usize| {
+    let areas = [1, 2, 3, 4].map(|count| {
         let mut library = five();
         library.pigments.truncate(count);
         let palette = Palette::new(&library, &viewing, Cards::standard(grid())).unwrap();
         sampled_gamut(&palette).in_lab([0.0, 100.0], 72).area()
-    };
-    assert!(area(1) < 1.0, "a white alone: {}", area(1));
-    assert!(area(2) < area(3) && area(3) < area(4), "{} {} {}", area(2), area(3), area(4));
+    });
+    assert!(areas[0] < 1.0, "a white alone: {}", areas[0]);
+    assert!(areas[1..].is_sorted_by(|a, b| a < b), "{areas:?}");
 }
 
 #[test]
@@ -89,17 +88,18 @@ fn where_nothing_is_mixed_the_outline_returns_to_grey() {
 #[test]
 fn the_locus_and_srgb_stand_where_the_standards_put_them() {
     let locus = spectral_locus(&Viewing::default());
-    let at = |wanted: f64| locus.iter().find(|(nm, _)| *nm == wanted).unwrap().1;
     // CIE 015:2018, chromaticities of the 1931 observer.
-    assert_near("520 nm", &at(520.0), &[0.0743, 0.8338], 1e-4);
-    assert_near("700 nm", &at(700.0), &[0.7347, 0.2653], 1e-4);
+    for (nm, wanted) in [(520.0, [0.0743, 0.8338]), (700.0, [0.7347, 0.2653])] {
+        let found = locus.iter().find(|(own, _)| *own == nm).unwrap().1;
+        assert_near(format!("{nm} nm"), &found, &wanted, 1e-4);
+    }
     let oils = Oils::fitted();
     let palette = oils.palette();
     let [red, green, blue] = srgb_primaries(palette.weights().white());
     for (name, found, wanted) in
         [("red", red, [0.64, 0.33]), ("green", green, [0.3, 0.6]), ("blue", blue, [0.15, 0.06])]
     {
-        // The white computed from D65 differs from the rounded white of the standard.
+        // The white computed from D65 is not exactly the rounded white of the standard.
         assert_near(name, &found, &wanted, 3e-4);
     }
     let outline = sampled_gamut(&palette).in_xy(72);
@@ -114,7 +114,7 @@ fn the_same_palette_gives_the_same_gamut() {
     assert_eq!(sampled_gamut(&oils.palette()), sampled_gamut(&oils.palette()));
 }
 
-/// Whether a chromaticity lies inside the spectral locus, closed by the purple line.
+/// Whether a chromaticity is inside the spectral locus and the purple line that closes it.
 fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
     let mut within = false;
     for (at, (_, a)) in locus.iter().enumerate() {
@@ -128,13 +128,13 @@ fn inside(place: [f64; 2], locus: &[(f64, [f64; 2])]) -> bool {
     within
 }
 
-/// Cell of a colour in the grid that is searched for gaps: 10 of L*, 3 of a* and b*.
+/// Cell of a colour in the grid that is searched for gaps: 10 in L*, 3 in a* and b*.
 fn cell(sample: &GamutSample) -> [i32; 3] {
     let lab = sample.color.lab;
     [lab.lightness / 10.0, lab.a / 3.0, lab.b / 3.0].map(|side| side.floor() as i32)
 }
 
-/// The mixture of two recipes in equal parts: share by paint, in units of 1e-9.
+/// The mixture of two recipes in equal parts, as the share of each paint in units of 1e-9.
 fn halves(first: &Recipe, second: &Recipe) -> BTreeMap<PigmentId, i64> {
     let mut shares: BTreeMap<PigmentId, f64> = BTreeMap::new();
     for &(paint, share) in first.iter().chain(second) {
@@ -153,8 +153,8 @@ fn a_gap_between_two_samples_is_filled_or_was_tried() {
     for (at, sample) in samples.iter().enumerate() {
         first.entry(cell(sample)).or_insert(at);
     }
-    // All pairs of occupied cells with one cell between them: the cell between, the later of the
-    // two samples, and their mixture in equal parts.
+    // All pairs of occupied cells with one cell between them: this cell, the later of the two
+    // samples, and their mixture in equal parts.
     let mut pairs = Vec::new();
     for (&[band, a, b], &one) in &first {
         for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
@@ -247,9 +247,10 @@ fn metamers_match_in_daylight_and_part_worst_first() {
         let worst = pair.indices.iter().copied().fold(0.0, f64::max);
         assert!(worst <= before && worst > 2.0, "{worst} after {before}");
         before = worst;
-        let paints =
-            |i: usize| -> BTreeSet<PigmentId> { pair.recipes[i].iter().map(|(p, _)| *p).collect() };
-        assert_ne!(paints(0), paints(1), "{:?}", pair.names);
+        let [one, other] = [0, 1].map(|i: usize| -> BTreeSet<PigmentId> {
+            pair.recipes[i].iter().map(|(p, _)| *p).collect()
+        });
+        assert_ne!(one, other, "{:?}", pair.names);
     }
     assert_eq!(found, metamers(&palette, &lights, &measured, 2.0, 8));
 }
@@ -281,7 +282,7 @@ fn the_same_paint_under_two_names_is_no_metamer() {
     assert!(!found.is_empty(), "the two blues match under every light");
     for pair in found {
         let worst = pair.indices.iter().copied().fold(0.0, f64::max);
-        // Two mixtures that differ a little in shares also differ a little under other lights.
+        // If two mixtures differ a little in shares, they also differ a little under other lights.
         assert!(worst < 1.0, "{:?}: {worst}", pair.names);
     }
 }

@@ -1,6 +1,5 @@
-//! Hiding power: the thickness from which a film hides, against closed forms and the oils.
-//!
-//! Tinting strength: closed forms, the tint of standard depth, and a standard paint.
+//! Hiding power, i.e. the thickness from which a film hides, and tinting strength (the tint of
+//! standard depth and a standard paint), compared with closed forms and the oils.
 
 use calibrate::PigmentId;
 use calibrate::evaluate::Viewing;
@@ -15,8 +14,8 @@ use crate::made::{Oils, band, even, grid, library};
 
 fn cards(black: f64, white: f64) -> Cards {
     let standard = Cards::standard(grid());
-    let even = |value| vec![value; grid().count()];
-    Cards { black: even(black), white: even(white), ..standard }
+    let [black, white] = [black, white].map(|value| vec![value; grid().count()]);
+    Cards { black, white, ..standard }
 }
 
 fn hides(pigment: Pigment, cards: Cards) -> Hides {
@@ -39,11 +38,11 @@ fn a_film_that_absorbs_nothing_hides_where_its_quadratic_says() {
 
 #[test]
 fn twice_the_paint_hides_at_half_the_thickness() {
-    let at = |factor: f64| {
+    let [twice, once] = [2.0, 1.0].map(|factor| {
         let paint = even("grey", 0.3 * factor, 0.7 * factor);
         hides(paint, Cards::standard(grid())).thickness().unwrap()
-    };
-    assert_near("half", &[at(2.0)], &[at(1.0) / 2.0], 1e-9);
+    });
+    assert_near("half", &[twice], &[once / 2.0], 1e-9);
 }
 
 #[test]
@@ -53,7 +52,7 @@ fn clear_films_never_hide() {
         panic!("a film without K and S never hides")
     };
     assert_near("the cards' own", &[contrast], &[0.05 / 0.8], 1e-12);
-    // A dye that does not absorb from 650 nm on.
+    // This dye does not absorb from 650 nm on.
     let mut dye = band("dye", 2.0, 550.0, 0.0);
     dye.absorption.iter_mut().for_each(|k| *k -= 0.01);
     dye.absorption[25..].fill(0.0);
@@ -87,11 +86,11 @@ fn every_oil_hides_where_its_contrast_says_and_not_below() {
         let thickness = power.hides.thickness().unwrap_or_else(|| panic!("{name} never hides"));
         let contrast = |thickness: f64| {
             let mixture = oils.library.mix([(power.paint, 1.0)]).unwrap();
-            let y = |card: &[f64]| {
+            let [black, white] = [&palette.cards().black, &palette.cards().white].map(|card| {
                 let film = mixture.film(thickness, card, oils.library.film());
                 palette.weights().xyz(&film).y
-            };
-            y(&palette.cards().black) / y(&palette.cards().white)
+            });
+            black / white
         };
         assert_near(&name, &[contrast(thickness)], &[0.98], 1e-9);
         assert!(contrast(0.98 * thickness) < 0.98, "{name} hides below {thickness}");
@@ -118,12 +117,13 @@ fn the_white_of_a_library_hides_from_five_hundredths_of_a_millimetre_on() {
     let white = oils.mix([(oils.reference_id().unwrap(), 1.0)]).unwrap();
     let cards = Cards::standard(oils.grid);
     let weights = Viewing::default().weights(oils.grid).unwrap();
-    let contrast = |mm: f64| {
-        let luminance = |card: &[f64]| weights.xyz(&white.film(mm * per_mm, card, oils.film())).y;
-        luminance(&cards.black) / luminance(&cards.white)
-    };
-    assert!((contrast(0.05) - 0.98).abs() < 2e-4, "{}", contrast(0.05));
-    assert!(contrast(0.04) < 0.975, "{}", contrast(0.04));
+    let [hiding, thinner] = [0.05, 0.04].map(|mm| {
+        let [black, white] = [&cards.black, &cards.white]
+            .map(|card| weights.xyz(&white.film(mm * per_mm, card, oils.film())).y);
+        black / white
+    });
+    assert!((hiding - 0.98).abs() < 2e-4, "{hiding}");
+    assert!(thinner < 0.975, "{thinner}");
     oils.reference = None;
     assert_eq!(scattering_per_mm(&oils), None);
 }
@@ -162,7 +162,7 @@ fn twice_the_absorption_is_twice_the_strength() {
 fn strength_is_k_over_s_of_one_part_in_nine_of_white_by_hand() {
     let found = strengths(four(), AmountKind::Relative, None);
     assert_near("K/S", &[found[1].strength], &[0.1 * 3.01 / (0.9 + 0.1 * 0.4)], 1e-12);
-    // The K/S of the white itself is subtracted.
+    // We subtract the K/S of the white itself.
     let mut grey = four();
     grey[0] = even("white", 0.2, 1.0);
     let found = strengths(grey, AmountKind::Relative, None);

@@ -26,7 +26,7 @@ pub(crate) fn pigment(name: &str, k: impl Fn(f64) -> f64, s: impl Fn(f64) -> f64
     }
 }
 
-/// A pigment whose K and S are the same at every wavelength.
+/// A pigment with the same K and S at every wavelength.
 pub(crate) fn even(name: &str, k: f64, s: f64) -> Pigment {
     pigment(name, |_| k, |_| s)
 }
@@ -95,7 +95,7 @@ impl Oils {
     }
 }
 
-/// A recipe of pigments given by their index in the library.
+/// A recipe of pigments, given by their indices in the library.
 pub(crate) fn recipe<const N: usize>(parts: [(usize, f64); N]) -> Recipe {
     parts.into_iter().map(|(place, part)| (PigmentId(place), part)).collect()
 }

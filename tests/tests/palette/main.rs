@@ -1,5 +1,5 @@
-//! Properties of a palette: charts, gamut, graded mixtures, hiding power, tinting strength, lights.
-//! Results are compared with closed forms, with properties of any palette, and on the oils.
+//! Properties of a palette (charts, gamut, graded mixtures, hiding power, tinting strength, lights)
+//! compared with closed forms, with properties of any palette, and on the oils.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 

@@ -1,4 +1,4 @@
-//! Helpers: the shipped oils on a white ground in daylight, separations, and random mixtures.
+//! The shipped oils on a white ground in daylight, separations, and random mixtures.
 
 use std::sync::LazyLock;
 
@@ -68,8 +68,7 @@ pub(crate) static THIN: LazyLock<Separation> = LazyLock::new(|| {
     Separation::new(STUDIO.film(), &settings).unwrap()
 });
 
-/// Random colours within sRGB, each of a film of one to four pigments, `least_mm` to 0.3 mm
-/// high.
+/// Random colours within sRGB. Each is a film of one to four pigments, `least_mm` to 0.3 mm high.
 pub(crate) fn mixtures(seed: u64, count: usize, least_mm: f32) -> Picture {
     let film = STUDIO.film();
     let mut random = ChaCha8Rng::seed_from_u64(seed);

@@ -1,4 +1,4 @@
-//! From photographs to pigments and to strokes: reading, separation, planning.
+//! From photographs to pigments and strokes: reading, separation, planning.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod made;

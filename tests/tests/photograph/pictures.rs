@@ -1,6 +1,5 @@
-//! Reading photographs: bit depth, transparency, resampling, EXIF orientation, broken files.
-//!
-//! Photographs as TIFF and WebP, and with ICC profiles of wide gamut.
+//! Reads photographs: bit depth, transparency, resampling, EXIF orientation, broken files, TIFF and
+//! WebP, and ICC profiles of wide gamut.
 
 use std::io::Cursor;
 
@@ -26,7 +25,6 @@ fn read(bytes: &[u8]) -> Photograph {
     Photograph::from_bytes("made.png", bytes).unwrap()
 }
 
-/// Linear sRGB of a picture of one pixel.
 fn one(bytes: &[u8]) -> [f32; 3] {
     read(bytes).on_canvas(1, 1)[(0, 0)]
 }
@@ -39,7 +37,9 @@ fn near(found: [f32; 3], wanted: [f64; 3]) {
 
 #[test]
 fn every_depth_becomes_linear_light() {
-    let decoded = |value: f64| Rgb([value; 3]).linear().0[0];
+    fn decoded(value: f64) -> f64 {
+        Rgb([value; 3]).linear().0[0]
+    }
     near(one(&png(GrayImage::from_pixel(1, 1, [100].into()))), [decoded(100.0 / 255.0); 3]);
     let color = [10.0, 128.0, 250.0].map(|value| decoded(value / 255.0));
     near(one(&png(RgbImage::from_pixel(1, 1, [10, 128, 250].into()))), color);
@@ -82,21 +82,21 @@ fn a_photograph_is_stretched_to_another_shape() {
     assert_eq!(photograph.size(), (30, 10));
     let stretched = photograph.on_canvas(3, 3);
     assert_eq!(stretched.row(1, 0, 3), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    // Cells smaller than pixels: interpolation makes no cell darker or brighter.
+    // The cells are smaller than pixels: interpolation makes no cell darker or brighter.
     let fine = photograph.on_canvas(90, 30);
     for value in fine.values() {
         assert!((value.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{value:?}");
     }
 }
 
-/// A JPEG of two halves, white left, black right, with an EXIF orientation.
+/// A JPEG of two halves, white on the left and black on the right, with an EXIF orientation.
 fn turned(orientation: u8) -> Vec<u8> {
     let halves = GrayImage::from_fn(32, 16, |x, _| [if x < 16 { 255 } else { 0 }].into());
     let mut plain = Vec::new();
     JpegEncoder::new(&mut plain)
         .write_image(halves.as_raw(), 32, 16, ExtendedColorType::L8)
         .unwrap();
-    // APP1: TIFF header, one entry (0x0112, SHORT, 1), no further directory.
+    // APP1 holds a TIFF header, one entry (0x0112, SHORT, 1), and no further directory.
     let mut exif = b"Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0".to_vec();
     exif.extend([orientation, 0, 0, 0, 0, 0, 0]);
     let mut bytes = plain[..2].to_vec();
@@ -109,17 +109,18 @@ fn turned(orientation: u8) -> Vec<u8> {
 
 #[test]
 fn photographs_are_turned_as_their_exif_says() {
-    let corners = |orientation| {
+    for (orientation, wanted) in [
+        (1, ((32, 16), [true, false, true])),
+        (3, ((32, 16), [false, true, false])),
+        (6, ((16, 32), [true, true, false])),
+        (8, ((16, 32), [false, false, true])),
+    ] {
         let photograph = Photograph::from_bytes("made.jpg", &turned(orientation)).unwrap();
         let (width, height) = photograph.size();
         let canvas = photograph.on_canvas(width, height);
-        let light = |x, y| canvas[(x, y)][0] > 0.5;
-        ((width, height), light(1, 1), light(width - 2, 1), light(1, height - 2))
-    };
-    assert_eq!(corners(1), ((32, 16), true, false, true));
-    assert_eq!(corners(3), ((32, 16), false, true, false));
-    assert_eq!(corners(6), ((16, 32), true, true, false));
-    assert_eq!(corners(8), ((16, 32), false, false, true));
+        let corners = [(1, 1), (width - 2, 1), (1, height - 2)].map(|at| canvas[at][0] > 0.5);
+        assert_eq!(((width, height), corners), wanted);
+    }
 }
 
 #[test]
@@ -138,7 +139,7 @@ fn a_broken_file_is_refused_by_its_name() {
 
 #[test]
 fn too_many_pixels_are_refused_before_they_are_read() {
-    // A PNG whose header claims 20000 x 20000 pixels, with the data of one.
+    // The header of this PNG claims 20000 x 20000 pixels, but there is data for one.
     let whole = png(GrayImage::from_pixel(1, 1, [0].into()));
     let mut head = whole[..29].to_vec();
     head[16..20].copy_from_slice(&20_000_u32.to_be_bytes());
@@ -152,7 +153,6 @@ fn too_many_pixels_are_refused_before_they_are_read() {
     assert_eq!(error.to_string(), told);
 }
 
-/// CRC-32 of a PNG chunk (ISO 3309).
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
@@ -204,7 +204,7 @@ fn a_cut_file_is_refused_wherever_it_ends() {
     }
 }
 
-/// A picture of 8 x 8 pixels of one colour, with a profile, in each format that holds one.
+/// A picture of 8 x 8 pixels of one colour with a profile, in each format that can have one.
 fn with_profile(values: [u8; 3], profile: &ColorProfile) -> [Vec<u8>; 3] {
     let profile = profile.encode().unwrap();
     let picture = RgbImage::from_pixel(8, 8, values.into());
@@ -233,16 +233,20 @@ fn wide_gamut_is_converted_by_its_primaries() {
     ];
     let adobe = [[1.398_284, -0.398_284, 0.0], [0.0, 1.0, 0.0], [0.0, -0.042_942, 1.042_942]];
     let values = [150_u8, 120, 100];
-    let srgb_curve = |v: f64| Rgb([v; 3]).linear().0[0];
-    let gamma = |v: f64| v.powf(563.0 / 256.0);
-    let curves: [&dyn Fn(f64) -> f64; 2] = [&srgb_curve, &gamma];
+    fn srgb_curve(v: f64) -> f64 {
+        Rgb([v; 3]).linear().0[0]
+    }
+    fn gamma(v: f64) -> f64 {
+        v.powf(563.0 / 256.0)
+    }
+    let curves: [fn(f64) -> f64; 2] = [srgb_curve, gamma];
     let profiles = [ColorProfile::new_display_p3(), ColorProfile::new_adobe_rgb()];
     let cases = profiles.into_iter().zip([p3, adobe]).zip(curves);
-    // Bytes as the file has them: a JPEG rounds colours before it stores them.
-    let stored = |file: &[u8]| {
+    // A JPEG rounds colours before it stores them, so we take the bytes of the file.
+    fn stored(file: &[u8]) -> [f64; 3] {
         let bytes = image::load_from_memory(file).unwrap().to_rgb8()[(4, 4)].0;
         bytes.map(|byte| f64::from(byte) / 255.0)
-    };
+    }
     for ((profile, matrix), curve) in cases {
         for file in with_profile(values, &profile) {
             let light = stored(&file).map(curve);

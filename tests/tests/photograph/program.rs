@@ -129,10 +129,8 @@ fn separating_writes_maps_and_tells_the_error_of_the_library() {
 fn a_photograph_is_painted_and_its_strokes_paint_it_again() {
     let folder = tempfile::tempdir().unwrap();
     let photo = photograph(folder.path());
-    let file = |name: &str| folder.path().join(name).display().to_string();
-    let first = file("first.exr");
-    let script = file("strokes.json");
-    let again = file("again.exr");
+    let [first, script, again] = ["first.exr", "strokes.json", "again.exr"]
+        .map(|name| folder.path().join(name).display().to_string());
     let options = [
         ["--palette", PALETTE],
         ["--width-mm", "24"],

@@ -1,6 +1,5 @@
-//! Separation of colours into heights of pigments, and the colours of the films rebuilt.
-//!
-//! Choosing the palette for a photograph from the pigments of a library.
+//! Separates colours into heights of pigments and rebuilds the colours of the films, and chooses
+//! the palette for a photograph from the pigments of a library.
 
 use calibrate::PigmentId;
 use graphics::field::Field;
@@ -21,7 +20,6 @@ fn errors(separation: &Separation, picture: &Picture) -> ColorErrors {
     ColorErrors::between(separation, picture, &rebuild_picture(separation.film(), &heights))
 }
 
-/// Linear sRGB of `#rrggbb`.
 fn linear(hex: &str) -> [f32; 3] {
     Rgb::from_hex(hex).unwrap().linear().0.map(|value| value as f32)
 }
@@ -125,22 +123,22 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let hiding = errors(&HIDING, &picture);
     let thin = errors(&THIN, &picture);
     assert!(thin.out_of_gamut < hiding.out_of_gamut, "{thin:?} {hiding:?}");
-    // The colour change of a film over a black ground measures what the film does not hide.
+    // A film over a black ground changes colour. This measures what the film does not hide.
     let black = vec![0.03; STUDIO.library.grid.count()];
     let materials = STUDIO.materials(&STUDIO.slots);
     let over_black = PaintFilm::at_nodes(
         strokes::FilmMaterials { ground: &black, ..materials },
         &STUDIO.quadrature,
     );
-    let shows = |separation: &Separation| {
+    let [by_hiding, by_thin] = [&HIDING, &THIN].map(|separation| {
         let heights = separation.separate(&picture);
         let differences = heights.values().iter().map(|heights| {
             let heights = heights.map(f64::from);
             delta_e_ciede2000(over_black.lab(&heights), separation.film().lab(&heights))
         });
         differences.sum::<f64>() / 1000.0
-    };
-    assert!(shows(&HIDING) < 0.7 * shows(&THIN), "{} {}", shows(&HIDING), shows(&THIN));
+    });
+    assert!(by_hiding < 0.7 * by_thin, "{by_hiding} {by_thin}");
 }
 
 #[test]
@@ -167,8 +165,8 @@ fn shadows_brought_within_reach_keep_their_differences() {
 #[test]
 fn the_same_input_gives_the_same_table() {
     let settings = SeparationSettings { lattice: 7, ..SeparationSettings::default() };
-    let table = || Separation::new(STUDIO.film(), &settings).unwrap();
-    assert_eq!(table(), table());
+    let [one, again] = [(); 2].map(|()| Separation::new(STUDIO.film(), &settings).unwrap());
+    assert_eq!(one, again);
 }
 
 #[test]
@@ -214,9 +212,9 @@ fn chosen(picture: &Picture) -> ChosenPalette {
 
 /// Sixty tints and shades of one pigment: mixtures with lead white and bone black.
 fn tints(name: &str) -> Picture {
-    let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
     let mut slots: Slots = [None; SLOTS];
-    slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
+    let names = ["Lead White", name, "Bone Black"];
+    slots[..3].copy_from_slice(&names.map(|name| Some(STUDIO.library.find(name).unwrap())));
     let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
     let colors = (0..60).map(|at| {
         let white = 0.28 * (at % 10) as f32 / 10.0;

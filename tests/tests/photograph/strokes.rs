@@ -1,7 +1,6 @@
-//! Planning the strokes of a layer: direction, geometry, coverage, order and limits.
-//!
-//! Painting a picture in strokes: the error falls from level to level, and the recorded script
-//! gives the same painting.
+//! Plans the strokes of a layer (direction, geometry, coverage, order and limits), and paints a
+//! picture in strokes: the error falls from level to level, and the recorded script gives the same
+//! painting.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -22,12 +21,12 @@ use crate::made::{HIDING, STUDIO};
 
 const CELL_MM: f64 = 0.5;
 
-/// A plan with two brushes that suit pictures of 80 x 60 mm.
+/// A plan with two brushes for pictures of 80 x 60 mm.
 fn plan() -> Plan {
     Plan { sizes_mm: vec![12.0, 4.0], ..Plan::default() }
 }
 
-/// The bare ground, as a picture of the size of `picture`.
+/// The bare ground as a picture like `picture`.
 fn blank(picture: &Picture) -> Picture {
     Field::filled(picture.width(), picture.height(), HIDING.film().rgb(&[0.0; 8]))
 }
@@ -36,7 +35,7 @@ fn planned(picture: &Picture, level: usize) -> Vec<PlannedStroke> {
     plan_layer(picture, &blank(picture), &HIDING, &plan(), level, CELL_MM)
 }
 
-/// A sine grating of brown and cream; its crests run at `degrees` from x towards y.
+/// A sine grating of brown and cream. Its crests run at `degrees` from x towards y.
 fn grating(degrees: f64) -> Picture {
     let (sin, cos) = degrees.to_radians().sin_cos();
     Field::from_values(
@@ -119,32 +118,28 @@ fn pressure_tapers_and_the_broad_side_lies_across() {
 
 #[test]
 fn lights_are_thick_and_darks_are_thin() {
-    let mean_mm = |level: usize, grey: f32| {
+    let [lean, light, dark] = [(0, 0.7), (1, 0.7), (1, 0.05)].map(|(level, grey)| {
         let strokes = planned(&Field::filled(160, 120, [grey; 3]), level);
         strokes.iter().map(|stroke| stroke.height_mm).sum::<f64>() / strokes.len() as f64
-    };
-    let lean = mean_mm(0, 0.7);
-    let light = mean_mm(1, 0.7);
-    let dark = mean_mm(1, 0.05);
+    });
     assert!(light > 0.15 && dark < light / 1.5, "{light} mm of light, {dark} mm of dark");
     assert!(lean < light, "a first coat of {lean} mm under {light} mm");
 }
 
 #[test]
 fn no_stroke_bends_tighter_than_its_brush() {
-    // Rings around a point, tighter and tighter towards it.
-    let color = |i: usize| {
+    // Rings around a point become tighter towards it.
+    let colors = (0..160 * 120).map(|i| {
         let ring = ((i % 160) as f32 - 80.0).hypot((i / 160) as f32 - 60.0);
         [0.3 + 0.25 * (0.25 * ring).sin(); 3]
-    };
-    let strokes = planned(&Field::from_values(160, 120, (0..160 * 120).map(color).collect()), 0);
+    });
+    let strokes = planned(&Field::from_values(160, 120, colors.collect()), 0);
     let mut turned = 0.0_f64;
     for stroke in strokes.iter().filter(|stroke| stroke.samples.len() > 4) {
         for four in stroke.samples.windows(3) {
-            let way =
-                |at: usize| (four[at + 1].x_mm - four[at].x_mm, four[at + 1].y_mm - four[at].y_mm);
-            let (a, b) = way(0);
-            let (c, d) = way(1);
+            let [(a, b), (c, d)] = [0, 1].map(|at: usize| {
+                (four[at + 1].x_mm - four[at].x_mm, four[at + 1].y_mm - four[at].y_mm)
+            });
             let turn = (a * d - b * c).atan2(a * c + b * d).abs();
             turned = turned.max(turn / c.hypot(d));
         }
@@ -182,7 +177,8 @@ fn one_level_covers_a_blank_canvas_with_about_two_coats_at_most() {
 fn without_a_difference_there_is_no_stroke() {
     let picture = grating(30.0);
     assert_eq!(plan_layer(&picture, &picture, &HIDING, &plan(), 0, CELL_MM), []);
-    // Nor for a colour out of gamut where the canvas has the nearest colour of the palette.
+    // The same holds for a colour out of gamut, if the canvas has the nearest colour of the
+    // palette.
     let vivid = Field::filled(160, 120, [0.0, 1.0, 0.0]);
     let reached = rebuild_picture(HIDING.film(), &HIDING.separate(&vivid));
     assert_eq!(plan_layer(&vivid, &reached, &HIDING, &plan(), 1, CELL_MM), []);
@@ -207,26 +203,27 @@ fn only_what_is_off_is_painted() {
 #[test]
 fn the_same_seed_gives_the_same_strokes_and_another_gives_others() {
     let picture = grating(110.0);
-    let with = |seed| {
+    let [one, again, other] = [1, 1, 2].map(|seed| {
         let plan = Plan { seed, ..plan() };
         plan_layer(&picture, &blank(&picture), &HIDING, &plan, 1, CELL_MM)
-    };
-    assert_eq!(with(1), with(1));
-    assert_ne!(with(1), with(2));
+    });
+    assert_eq!(one, again);
+    assert_ne!(one, other);
 }
 
 #[test]
 fn strokes_are_bounded_and_may_go_from_dark_to_light() {
     let picture = grating(45.0);
-    let with = |plan: &Plan| plan_layer(&picture, &blank(&picture), &HIDING, plan, 1, CELL_MM);
-    assert_eq!(with(&Plan { most_strokes: 7, ..plan() }).len(), 7);
-    let strokes = with(&Plan { order: Order::DarkToLight, ..plan() });
-    let lightness = |stroke: &PlannedStroke| {
+    let plans = [Plan { most_strokes: 7, ..plan() }, Plan { order: Order::DarkToLight, ..plan() }];
+    let [few, strokes] =
+        plans.map(|plan| plan_layer(&picture, &blank(&picture), &HIDING, &plan, 1, CELL_MM));
+    assert_eq!(few.len(), 7);
+    let lightness = strokes.iter().map(|stroke| {
         let heights = stroke.recipe.map(|share| share * stroke.height_mm);
         HIDING.film().lab(&heights).lightness
-    };
-    for pair in strokes.windows(2) {
-        assert!(lightness(&pair[1]) > lightness(&pair[0]) - 5.001);
+    });
+    for pair in lightness.collect::<Vec<_>>().windows(2) {
+        assert!(pair[1] > pair[0] - 5.001);
     }
 }
 
@@ -235,21 +232,24 @@ fn plans_that_cannot_be_are_refused_by_field() {
     assert_eq!(plan().check(), Ok(()));
     assert_eq!(Plan::for_width(100.0).sizes_mm, [8.0, 4.0, 2.0, 1.0, 0.5]);
     assert_eq!(Plan { sizes_mm: vec![], ..plan() }.check(), Err(PlanError::NoBrush));
-    let field = |plan: Plan| match plan.check() {
-        Err(PlanError::Number { field, .. }) => field,
-        other => panic!("{other:?}"),
-    };
-    assert_eq!(field(Plan { sizes_mm: vec![4.0, f64::NAN], ..plan() }), "sizes_mm");
-    assert_eq!(field(Plan { longest: 1.0, ..plan() }), "longest");
-    assert_eq!(field(Plan { pressure: 1.5, ..plan() }), "pressure");
-    assert_eq!(field(Plan { spacing: 0.0, ..plan() }), "spacing");
+    for (plan, wanted) in [
+        (Plan { sizes_mm: vec![4.0, f64::NAN], ..plan() }, "sizes_mm"),
+        (Plan { longest: 1.0, ..plan() }, "longest"),
+        (Plan { pressure: 1.5, ..plan() }, "pressure"),
+        (Plan { spacing: 0.0, ..plan() }, "spacing"),
+    ] {
+        match plan.check() {
+            Err(PlanError::Number { field, .. }) => assert_eq!(field, wanted),
+            other => panic!("{other:?}"),
+        }
+    }
 }
 
 const PAINTED_CELL_MM: f64 = 0.5;
 
 /// A red disc on blue over ochre, 48 x 36 cells.
 fn target() -> Picture {
-    let color = |i: usize| {
+    let colors = (0..48 * 36).map(|i| {
         let x = (i % 48) as f32 - 20.0;
         let y = (i / 48) as f32 - 16.0;
         match (x.hypot(y) < 9.0, y > 6.0) {
@@ -257,8 +257,8 @@ fn target() -> Picture {
             (_, true) => [0.45, 0.3, 0.12],
             _ => [0.12, 0.16, 0.3 + 0.005 * y],
         }
-    };
-    let picture = Field::from_values(48, 36, (0..48 * 36).map(color).collect());
+    });
+    let picture = Field::from_values(48, 36, colors.collect());
     black_compensated(&picture, HIDING.black())
 }
 
@@ -284,12 +284,11 @@ fn opened(script: &StrokeScript) -> Painting {
     Painting::open(script.bare(&STUDIO.library, &resolved, ground), engine, 0).unwrap()
 }
 
-/// Result of painting the target.
 struct Finished {
     script: StrokeScript,
     session: PaintingSession,
     levels: Vec<LevelReport>,
-    /// Number of strokes reported as planned, and number reported as painted.
+    /// Numbers of strokes that were planned and painted, as reported.
     told: (usize, usize),
 }
 
@@ -368,7 +367,7 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
     assert!(wanted.dry.len() >= 3, "{} dry layers", wanted.dry.len());
     assert!(document.wet == wanted.wet && document.dry == wanted.dry, "the paintings differ");
     assert_eq!((report.strokes, report.strokes), (laid, strokes as u64));
-    // Before every stroke the brush is washed and loaded.
+    // The brush is washed and loaded before every stroke.
     for actions in finished.script.actions.windows(3) {
         if let [first, Action::Load(load), stroke] = actions {
             assert_eq!((first.kind(), stroke.kind()), ("wash", "stroke"));
@@ -379,10 +378,9 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
 
 #[test]
 fn a_seed_gives_the_same_bytes_and_another_gives_others() {
-    let text = |seed| painted(&Plan { seed, ..coarse_to_fine() }).script.to_json().unwrap();
-    let first = text(3);
-    let other = text(4);
-    assert!(first == text(3), "the same seed, another script");
+    let [first, again, other] =
+        [3, 3, 4].map(|seed| painted(&Plan { seed, ..coarse_to_fine() }).script.to_json().unwrap());
+    assert!(first == again, "the same seed, another script");
     assert!(first != other, "another seed, the same script");
 }
 

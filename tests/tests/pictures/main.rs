@@ -1,8 +1,9 @@
 //! Reference pictures: small pictures of every technique, brush, preset and report figure, as the
-//! program `impasto` paints them on the processor.
+//! program
+//! `impasto` paints them on the processor.
 //!
-//! The commands stand in `tests/pictures/commands.txt`, the pictures beside them, at most 64 pixels a
-//! side. Where a picture differs, the test writes got, wanted and difference side by side into
+//! `tests/pictures/commands.txt` has the commands, and the pictures are beside it, at most 64 pixels a side.
+//! If a picture differs, the test writes got, wanted and difference side by side to
 //! `target/pictures` and prints the path. If you meant the change, run the test again with
 //! `IMPASTO_ACCEPT_PICTURES=1`, look at the new references, and commit them.
 
@@ -17,7 +18,7 @@ use suite::program::{impasto, repository};
 /// Longest side of a reference, in pixels.
 const LONGEST: u32 = 64;
 
-/// Greatest difference of a channel, of 255, that does not count: the rounding of other processors.
+/// Greatest difference of a channel, of 255, that we ignore: processors round differently.
 const ROUNDING: u8 = 1;
 
 /// One line of `commands.txt`.
@@ -36,7 +37,7 @@ fn cases() -> Vec<Case> {
     cases.collect()
 }
 
-/// Words of a command: separated by spaces, but not inside quotation marks or braces.
+/// Words of a command, separated by spaces outside of quotation marks and braces.
 fn words(command: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quoted = false;
@@ -54,7 +55,7 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// Runs a command that must succeed; returns its output.
+/// Runs a command that must succeed, and returns its output.
 fn run(words: &[String]) -> String {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let run = impasto(&words);
@@ -62,7 +63,7 @@ fn run(words: &[String]) -> String {
     run.out
 }
 
-/// Files that several commands read, made once in a folder of their own.
+/// Files that several commands read. They are made once, in a separate folder.
 struct Materials {
     folder: tempfile::TempDir,
 }
@@ -77,7 +78,7 @@ impl Materials {
         self.folder.path().join(name).display().to_string()
     }
 
-    /// The path `name`, after `make` made it if nobody did before.
+    /// The path `name`. Calls `make` the first time.
     fn made(&self, once: &OnceLock<String>, name: &str, make: impl FnOnce(&str)) -> String {
         let path = once.get_or_init(|| {
             let path = self.path(name);
@@ -107,7 +108,6 @@ impl Materials {
         path
     }
 
-    /// A painting of the flat brush.
     fn painting(&self) -> String {
         static PAINTING: OnceLock<String> = OnceLock::new();
         self.made(&PAINTING, "painting.exr", |path| {
@@ -136,7 +136,7 @@ impl Materials {
         })
     }
 
-    /// `word` with what stands in braces filled in.
+    /// `word` with its braces filled in.
     fn filled(&self, word: &str, out: &str) -> String {
         let (Some(start), Some(end)) = (word.find('{'), word.find('}')) else {
             return word.to_owned();
@@ -174,13 +174,15 @@ fn painted(case: &Case) -> RgbImage {
     if longest <= LONGEST {
         return picture;
     }
-    let side = |length: u32| (length * LONGEST / longest).max(1);
-    imageops::thumbnail(&picture, side(width), side(height))
+    let [width, height] = [width, height].map(|length| (length * LONGEST / longest).max(1));
+    imageops::thumbnail(&picture, width, height)
 }
 
-/// Got, wanted and their difference side by side, where they differ.
+/// Got, wanted and their difference side by side, if they differ.
 fn difference(got: &RgbImage, wanted: &RgbImage) -> Option<RgbImage> {
-    let apart = |a: &Rgb<u8>, b: &Rgb<u8>| [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]));
+    fn apart(a: &Rgb<u8>, b: &Rgb<u8>) -> [u8; 3] {
+        [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]))
+    }
     let same_size = got.dimensions() == wanted.dimensions();
     let mut pairs = got.pixels().zip(wanted.pixels());
     if same_size && pairs.all(|(a, b)| apart(a, b).iter().all(|&part| part <= ROUNDING)) {
@@ -200,7 +202,7 @@ fn difference(got: &RgbImage, wanted: &RgbImage) -> Option<RgbImage> {
     Some(sheet)
 }
 
-/// Compares all pictures whose name begins with `kind`, or accepts those painted now.
+/// Compares all pictures with names that begin with `kind`, or accepts those painted now.
 fn compare(kind: &str) {
     let references = PathBuf::from(repository("tests/pictures"));
     let sheets = PathBuf::from(repository("target/pictures"));

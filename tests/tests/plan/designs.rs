@@ -42,7 +42,7 @@ fn bench() -> Bench {
 }
 
 impl Bench {
-    /// Fits the swatches of `design`, with readings simulated from the oils plus normal noise.
+    /// Fits the swatches of `design`. Their readings are simulated from the oils plus normal noise.
     fn fit(&self, design: &[usize], seed: u64) -> Refined {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let surface = self.oils.saunderson;
@@ -56,12 +56,12 @@ impl Bench {
                 let parts: Recipe =
                     self.pigments.iter().copied().zip(shares.iter().copied()).collect();
                 let truth = self.oils.mix(&parts).unwrap().hiding(surface);
-                let read = |value: &f64| {
+                let internal = truth.iter().map(|value| {
                     let error: f64 = StandardNormal.sample(&mut random);
                     let internal = surface.internal_from_measured(value + NOISE * error);
                     internal.unwrap_or(BLACK).clamp(BLACK, 1.0)
-                };
-                let internal: Vec<f64> = truth.iter().map(read).collect();
+                });
+                let internal: Vec<f64> = internal.collect();
                 let reflectance: Vec<f64> =
                     internal.iter().map(|&r| surface.measured_from_internal(r)).collect();
                 Observation {
@@ -85,7 +85,8 @@ impl Bench {
     }
 
     /// Errors of ln K and ln S by pigment and wavelength, each with the standard deviation
-    /// predicted for `design`. The S of the white is left out.
+    /// predicted for
+    /// `design`. Leaves out the S of the white.
     fn errors(&self, design: &[usize], seed: u64) -> Vec<(f64, f64)> {
         let fit = self.fit(design, seed);
         let deviations = self.information.log_deviations(design);
@@ -105,9 +106,9 @@ impl Bench {
         errors
     }
 
-    /// Geometric mean of the absolute errors of ln K and ln S over eight simulated fits, the mean
-    /// that D-optimality makes small. Large errors of K where a paint hardly absorbs, which no
-    /// design determines, would dominate an arithmetic mean.
+    /// Geometric mean of the absolute errors of ln K and ln S over eight simulated fits.
+    /// D-optimality makes this mean small. In an arithmetic mean, large errors of K where a paint
+    /// hardly absorbs would dominate, though no design determines them.
     fn typical_error(&self, design: &[usize]) -> f64 {
         let logs: Vec<f64> = (0..8)
             .flat_map(|seed| self.errors(design, 100 + seed))
@@ -149,7 +150,7 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
     let start = usual(&bench.paints, &bench.pool, 24).unwrap();
     for design in [optimal(&bench.information, &start, 1, &Task::default()).unwrap(), start] {
         let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
-        // The prediction is linear, which holds for relative deviations below about a third.
+        // The prediction is linear, so it holds for relative deviations below about a third.
         let known = pulls.filter(|(_, deviation)| *deviation < 0.3);
         let mut pulls: Vec<f64> = known.map(|(e, deviation)| (e / deviation).powi(2)).collect();
         assert!(pulls.len() > 800, "{} errors", pulls.len());
@@ -188,30 +189,22 @@ fn no_single_exchange_improves_the_optimal_plan() {
 #[test]
 fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
     let bench = bench();
-    let shares = |design: &[usize]| -> Vec<Vec<f64>> {
-        design
-            .iter()
-            .map(|&index: &usize| {
+    for count in bench.paints.unknowns()..40 {
+        let start = usual(&bench.paints, &bench.pool, count).unwrap();
+        assert_eq!(start.len(), count);
+        let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
+        for (name, design) in [("usual", start), ("optimal", best)] {
+            let shares = design.iter().map(|&index| {
                 let mut shares = vec![0.0; bench.paints.names.len()];
                 for &(paint, share) in &bench.pool[index].shares() {
                     shares[paint.index()] = share;
                 }
                 shares
-            })
-            .collect()
-    };
-    for count in bench.paints.unknowns()..40 {
-        let start = usual(&bench.paints, &bench.pool, count).unwrap();
-        assert_eq!(start.len(), count);
-        assert!(
-            unidentified(shares(&start).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
-            "usual of {count}"
-        );
-        let best = optimal(&bench.information, &start, 1, &Task::default()).unwrap();
-        assert!(
-            unidentified(shares(&best).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
-            "optimal of {count}"
-        );
+            });
+            let shares: Vec<Vec<f64>> = shares.collect();
+            let lost = unidentified(shares.iter().map(Vec::as_slice), PaintSet::WHITE);
+            assert!(lost.is_empty(), "{name} of {count}");
+        }
     }
 }
 

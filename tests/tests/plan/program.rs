@@ -1,8 +1,6 @@
-//! The verb `plan`: recipes, measurement file, prior, and the fit of the filled-in file.
-//!
-//! The commands of docs/guide/measuring.md, run in order.
-//!
-//! Simulated readings of planned swatches, computed from K and S of the oils.
+//! The verb `plan`: recipes, measurement file, prior, and the fit of the filled-in file. Runs the
+//! commands of docs/guide/measuring.md in order, and simulates readings of planned swatches from K
+//! and S of the oils.
 
 use calibrate::fit::ExpectedNoise;
 use calibrate::library::PigmentLibrary;
@@ -55,19 +53,17 @@ fn a_plan_names_recipes_that_can_be_weighed() {
 
 #[test]
 fn more_paint_or_a_finer_balance_allows_weaker_tints() {
-    let weakest = |more: &[&str]| {
+    for (more, wanted) in [
+        (&["--swatches", "50"][..], 19),
+        (&["--swatches", "52", "--grams", "40"][..], 79),
+        (&["--swatches", "52", "--balance", "0.001"][..], 159),
+        (&["--swatches", "50", "--grams", "5"][..], 9),
+    ] {
         let json = plan(&[more, &["--json"]].concat()).json();
-        let swatches = json["swatches"].as_array().unwrap().clone();
-        swatches
-            .iter()
-            .map(|s: &serde_json::Value| s["parts"]["Zinc White"].as_u64().unwrap_or(0))
-            .max()
-            .unwrap()
-    };
-    assert_eq!(weakest(&["--swatches", "50"]), 19);
-    assert_eq!(weakest(&["--swatches", "52", "--grams", "40"]), 79);
-    assert_eq!(weakest(&["--swatches", "52", "--balance", "0.001"]), 159);
-    assert_eq!(weakest(&["--swatches", "50", "--grams", "5"]), 9);
+        let swatches = json["swatches"].as_array().unwrap().iter();
+        let parts = swatches.map(|s| s["parts"]["Zinc White"].as_u64().unwrap_or(0));
+        assert_eq!(parts.max().unwrap(), wanted);
+    }
 }
 
 #[test]
@@ -117,25 +113,15 @@ fn the_file_asks_for_bare_cards_and_for_every_swatch_over_both() {
 #[test]
 fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let empty = path("empty.csv");
-    let readings = path("readings.csv");
-    let found = path("found.json");
+    let [empty, readings, found] = ["empty.csv", "readings.csv", "found.json"]
+        .map(|name| folder.path().join(name).display().to_string());
     plan(&["--output", &empty]);
     let truth = oils();
     let sd = 0.003;
     let text = filled(&std::fs::read_to_string(&empty).unwrap(), &truth, sd, 7);
     std::fs::write(&readings, text).unwrap();
-    let run = impasto(&[
-        "fit",
-        &readings,
-        "--reference",
-        "Zinc White",
-        "--smoothness",
-        "none",
-        "--output",
-        &found,
-    ]);
+    let options = ["--reference", "Zinc White", "--smoothness", "none", "--output", &found];
+    let run = impasto(&[&["fit", &readings], &options[..]].concat());
     assert_eq!(run.status, 0, "{}", run.err);
     assert!(!run.err.contains("identified"), "{}", run.err);
 
@@ -183,19 +169,20 @@ fn a_prior_gives_a_better_plan_and_says_by_how_much() {
     assert!((0.2..0.99).contains(&efficiency), "{efficiency}");
     assert_eq!(json["swatches"][0]["sample"], "01 Zinc White masstone");
     assert!(json["prior"]["relative_deviations"]["Zinc White"]["scattering"].is_null());
-    let of = |key: &str, name: &str| json["prior"][key][name]["scattering"].as_f64().unwrap();
-    let sum = |key: &str| -> f64 {
-        ["Cobalt Blue", "Viridian", "Vermilion", "Bone Black"].iter().map(|n| of(key, n).ln()).sum()
-    };
-    let own = sum("relative_deviations");
-    let usual = sum("usual_relative_deviations");
+    let keys = ["relative_deviations", "usual_relative_deviations"];
+    let [own, usual] = keys.map(|key| -> f64 {
+        let names = ["Cobalt Blue", "Viridian", "Vermilion", "Bone Black"].iter();
+        let deviations =
+            names.map(|&name| json["prior"][key][name]["scattering"].as_f64().unwrap().ln());
+        deviations.sum()
+    });
     assert!(own < usual, "{own} for {usual}");
-    // Doubling the noise about doubles the predicted deviation.
-    let at = |noise: &str| {
+    // With twice the noise, the predicted deviation is about twice as large.
+    let [noisy, usual] = ["0.004,0.02", "0.002,0.01"].map(|noise| {
         let run = plan(&["--prior", &prior, "--noise", noise, "--swatches", "19", "--json"]).json();
         run["prior"]["usual_relative_deviations"]["Viridian"]["scattering"].as_f64().unwrap()
-    };
-    let ratio = at("0.004,0.02") / at("0.002,0.01");
+    });
+    let ratio = noisy / usual;
     assert!((1.8..2.1).contains(&ratio), "{ratio}");
     let short = impasto(&["plan", "viri", "--white", "Zinc White", "--prior", &prior]);
     assert!(short.out.contains("01 Zinc White masstone"), "{}", short.err);
@@ -250,24 +237,24 @@ fn parted(full: &str) -> (String, String) {
     (spectra, amounts)
 }
 
-/// Readings of bare paper and of washes of two paints with invented K and S on it.
+/// Readings of bare paper, and of washes of two paints on it with invented K and S.
 fn washes() -> String {
     let nm: Vec<f64> = (0..16).map(|step| 400.0 + 20.0 * f64::from(step)).collect();
-    let band = |nm: f64, center: f64| (-((nm - center) / 70.0).powi(2)).exp();
-    let paper = |nm: f64| 0.8 + 0.1 * (nm - 400.0) / 300.0;
-    let wash = |amounts: [f64; 2], nm: f64| {
-        let k = amounts[0] * (1.5 + 100.0 * band(nm, 590.0))
-            + amounts[1] * (6.0 + 90.0 * band(nm, 430.0));
+    fn wash(amounts: [f64; 2], nm: f64) -> f64 {
+        let [blue, brown] =
+            [590.0, 430.0].map(|center| (-((nm - center) / 70.0_f64).powi(2)).exp());
+        let paper = 0.8 + 0.1 * (nm - 400.0) / 300.0;
+        let k = amounts[0] * (1.5 + 100.0 * blue) + amounts[1] * (6.0 + 90.0 * brown);
         let s = amounts[0] * 4.0 + amounts[1] * 12.0;
         if s == 0.0 {
-            return paper(nm);
+            return paper;
         }
         // Kubelka (1948), a layer on a ground.
         let a = 1.0 + k / s;
         let b = (a * a - 1.0).sqrt();
         let b_coth = b / (b * s).tanh();
-        (1.0 - paper(nm) * (a - b_coth)) / (a - paper(nm) + b_coth)
-    };
+        (1.0 - paper * (a - b_coth)) / (a - paper + b_coth)
+    }
     let header = nm.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
     let mut text = format!("sample,film,Ultramarine,Burnt Sienna,{header}\n");
     let ladder = [0.01, 0.02, 0.04, 0.08];
@@ -299,13 +286,13 @@ fn every_command_of_the_page_on_measuring_runs() {
     std::fs::write(folder.path().join("washes.csv"), washes()).unwrap();
     let mut ran = 0;
     for command in commands(&page) {
-        let in_folder = |word: &String| {
-            // A spectrum of a file stands behind its name.
+        let words = command.words.iter().skip(1).map(|word| {
+            // A spectrum of a file is named after the file.
             let file = word.split('#').next().unwrap_or_default();
             let is_file = [".csv", ".json", ".txt"].iter().any(|end| file.ends_with(end));
             if is_file { folder.path().join(word).display().to_string() } else { word.clone() }
-        };
-        let words: Vec<String> = command.words.iter().skip(1).map(in_folder).collect();
+        });
+        let words: Vec<String> = words.collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let run = impasto(&words);
         assert_eq!(run.status, 0, "{}\n{}", command.line, run.err);
@@ -329,7 +316,7 @@ fn every_command_of_the_page_on_measuring_runs() {
 /// Reflectances of the bare cards, equal at all wavelengths.
 const WHITE_CARD: f64 = 0.85;
 const BLACK_CARD: f64 = 0.05;
-/// Thickness of the films, in units in which zinc white has S d = 1. Such films nearly hide.
+/// Thickness of the films, in units where zinc white has S d = 1. Such films nearly hide.
 const THICKNESS: f64 = 8.0;
 
 pub(crate) const OILS: &str = "measurements/van-gogh-oils.pigments.json";

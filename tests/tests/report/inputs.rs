@@ -1,4 +1,4 @@
-//! Inputs of `impasto report`: library, readings and pair; refused inputs and kept files.
+//! Inputs of `impasto report`: library, readings and pair, refused inputs, and files that stay.
 
 use suite::program::{impasto, repository};
 use suite::watercolors::Watercolors;
@@ -67,8 +67,8 @@ fn only_the_named_columns_are_pigments() {
     let all = with(&[]);
     let named = with(&pigments.collect::<Vec<&str>>());
     assert_eq!((all.status, named.status), (0, 0), "{}{}", all.err, named.err);
-    let samples = |run: &suite::program::Run| run.json()["samples"].as_u64().unwrap();
-    assert!(samples(&all) < samples(&named), "the library has no wax");
+    let [all, named_samples] = [&all, &named].map(|run| run.json()["samples"].as_u64().unwrap());
+    assert!(all < named_samples, "the library has no wax");
     assert!(named.err.contains("are ignored: Wax"), "{}", named.err);
     let run = with(&["Bone Blacks"]);
     assert!(run.status == 1 && run.err.contains("`Bone Blacks`"), "{}", run.err);
@@ -77,7 +77,7 @@ fn only_the_named_columns_are_pigments() {
 #[test]
 fn readings_of_other_pigments_are_refused_before_anything_is_written() {
     let work = Work::new();
-    // Names are compared without regard to case. Both sets have a Prussian blue, so it is renamed.
+    // Names are compared without case. Both sets have a Prussian blue, so we rename it.
     let csv = Watercolors::exact().csv().replace("prussian blue", "indigo");
     std::fs::write(work.path("other.csv"), csv).unwrap();
     let run = work.report("out", &[&work.text("other.csv")]);
@@ -96,8 +96,9 @@ fn readings_of_a_narrower_band_are_refused_and_of_a_wider_one_resampled() {
     let csv = work.text("narrow.csv");
     let json = work.text("library.json");
     // Cuts off the last 16 of 31 wavelengths.
-    let cut = |line: &str| line.rsplitn(17, ',').last().unwrap().to_owned();
-    let narrow: Vec<String> = crate::made::readings().lines().map(cut).collect();
+    let readings = crate::made::readings();
+    let narrow: Vec<&str> =
+        readings.lines().map(|line| line.rsplitn(17, ',').last().unwrap()).collect();
     std::fs::write(&csv, narrow.join("\n")).unwrap();
     let run = work.report("out", &[&csv]);
     assert_eq!(run.status, 1, "{}", run.err);

@@ -5,21 +5,21 @@ use std::sync::OnceLock;
 
 use suite::program::{Run, impasto, repository};
 
-/// Name given to cobalt blue: markup that every output must escape.
+/// Name given to cobalt blue. Every output must escape its markup.
 pub(crate) const HOSTILE: &str = "<b>&\"";
 
 /// Readings of the shipped zinc white, bone black, cobalt blue (renamed [`HOSTILE`]) and Prussian
-/// blue, and of a second zinc white of which there is only a masstone.
+/// blue, and of a second zinc white with only a masstone.
 pub(crate) fn readings() -> String {
     let oils = std::fs::read_to_string(repository("measurements/van-gogh-oils.csv")).unwrap();
     let (header, rows) = oils.split_once('\n').unwrap();
     let renamed = header.replace(",Cobalt Blue,", ",\"<b>&\"\"\",");
     assert_ne!(renamed, header, "cobalt blue is among the oils");
-    let wanted = |row: &&str| {
+    let rows = rows.lines().filter(|row| {
         let chosen = ["07", "12", "13"].iter().any(|start| row.starts_with(start));
         chosen || row.split(',').nth(1) == Some("none")
-    };
-    let rows: Vec<&str> = rows.lines().filter(wanted).collect();
+    });
+    let rows: Vec<&str> = rows.collect();
     format!("{renamed}\n{}\n", rows.join("\n"))
 }
 
@@ -47,7 +47,7 @@ impl Work {
         self.path(inside).display().to_string()
     }
 
-    /// Runs `impasto report` on the library with the further arguments `more`.
+    /// Runs `impasto report` on the library with `more` arguments.
     pub(crate) fn report(&self, out: &str, more: &[&str]) -> Run {
         let library = self.text("library.json");
         let out = self.text(out);

@@ -1,8 +1,6 @@
-//! The HTML page of a report: links, escaped names, captions and colours in dark mode.
-//!
-//! The HTML page of a report in a headless browser, if one is installed.
-//!
-//! Figures of a report as SVG, PNG and CSV: size, numbers, axes, marks and escaped names.
+//! The HTML page of a report (links, escaped names, captions, colours in dark mode), also in a
+//! headless browser if one is installed, and its figures as SVG, PNG and CSV (size, numbers, axes,
+//! marks, escaped names).
 
 use std::process::Command;
 
@@ -69,7 +67,7 @@ fn recipes_stand_beside_the_codes_of_samples() {
     let page = page();
     let warning = page.split("<li>").find(|item| item.contains("07B")).unwrap();
     assert!(warning.contains("<small>07B: Zinc White (linseed) (S unknown)</small>"), "{warning}");
-    // In the small charts, a recipe has two lines under its sample.
+    // In the small charts, a recipe has two lines below its sample.
     let svg = std::fs::read_to_string(whole().path("out/figures/samples.svg")).unwrap();
     let texts: Vec<&str> =
         svg.split("<text ").skip(1).filter_map(|text| text.split(">\n").nth(1)).collect();
@@ -83,9 +81,12 @@ fn recipes_stand_beside_the_codes_of_samples() {
 fn legends_of_bands_change_with_the_bands_in_the_dark() {
     let svg = std::fs::read_to_string(whole().path("out/figures/residuals.svg")).unwrap();
     let color = reports::style::SERIES[0].hex();
-    let translucent = |line: &&str| line.starts_with("<polygon") && line.contains("\"0.25\"");
-    let areas: Vec<&str> = svg.lines().filter(translucent).collect();
-    // Two bands in the chart, and in the key one square for each and a second for the inner one.
+    let areas: Vec<&str> = svg
+        .lines()
+        .filter(|line| line.starts_with("<polygon") && line.contains("\"0.25\""))
+        .collect();
+    // There are two bands in the chart. The key has one square for each, and a second for the inner
+    // one.
     assert_eq!(areas.len(), 5, "{areas:?}");
     assert!(areas.iter().all(|area| area.contains(&color)), "{areas:?}");
     let page = page();
@@ -243,7 +244,7 @@ fn the_numbers_of_a_figure_are_those_of_fit_and_validate() {
             let row = rows.iter().find(|row| &row[0] == name).unwrap();
             let (found, wanted): (f64, f64) =
                 (row[place].parse().unwrap(), wanted.as_f64().unwrap());
-            // A library file holds six digits of K and S.
+            // A library file has six digits of K and S.
             assert!((found - wanted).abs() < 2e-3, "{verb} {name}: {found}, {wanted}");
         }
     }
@@ -264,13 +265,13 @@ fn pigments_without_a_known_s_are_marked() {
 #[test]
 fn wavelength_axes_are_all_the_same() {
     // Horizontal positions of the labels 400 and 700, in tenths of a pixel.
-    let places = |name: &str| {
+    fn places(name: &str) -> [Vec<f64>; 2] {
         let svg = text(name, "svg");
         ["400", "700"].map(|tick| -> Vec<f64> {
             let labelled = svg.split("<text ").filter(|t| t.contains(&format!(">\n{tick}\n<")));
             labelled.map(|t| t.split('"').nth(1).unwrap().parse().unwrap()).collect()
         })
-    };
+    }
     let [first, second] = places("residuals").map(|x| x[0]);
     for name in ["residuals", "light"] {
         let [short, long] = places(name);
@@ -303,13 +304,11 @@ fn names_are_text_in_every_drawing() {
 #[test]
 fn the_same_input_gives_the_same_bytes() {
     let work = Work::new();
-    let run = || {
+    let [first, second] = [(); 2].map(|()| {
         let run = work.report("out", &[&work.text("readings.csv")]);
         assert_eq!(run.status, 0, "{}", run.err);
         files(&work.path("out"))
-    };
-    let first = run();
-    let second = run();
+    });
     assert!(first.len() > 3 * FIGURES.len(), "{} files", first.len());
     assert_eq!(first.len(), second.len());
     for ((path, first), (_, second)) in first.iter().zip(&second) {

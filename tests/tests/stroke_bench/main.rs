@@ -1,4 +1,4 @@
-//! The bench of strokes at its small size: laws of the paint that hold already, and the table.
+//! The bench of strokes at its small size: laws that the paint already obeys, and the table.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -14,7 +14,7 @@ fn report(name: &str) -> CaseReport {
     case(&Bench::new(true))
 }
 
-/// Asserts that the figures of `report` whose names start with `start` are within their bounds.
+/// Asserts that the figures of `report` with names that start with `start` are within their bounds.
 fn assert_met(report: &CaseReport, start: &str) {
     let mut chosen = report.figures.iter().filter(|figure| figure.name.starts_with(start));
     let first = chosen.next().unwrap();
@@ -59,7 +59,7 @@ fn clean_brushes_pick_up_and_dirty_ones_mix() {
 fn thick_paint_hides_the_weave_and_does_not_pile_up_at_the_edge() {
     let weave = report("weave");
     let shown = weave.figures.iter().find(|figure| figure.name.starts_with("share")).unwrap();
-    // The wanted 10 % is met on cells of 0.1 mm; these are 0.2 mm.
+    // On cells of 0.1 mm the wanted 10 % is met. These cells are 0.2 mm.
     assert!(shown.value.abs() < 20.0, "{shown:?}");
     assert_met(&report("edge"), "over the edge and back: highest");
 }

@@ -1,4 +1,4 @@
-//! Invalid stroke scripts: errors with location, expected range and hint, and no panic.
+//! Invalid stroke scripts give errors with location, expected range and hint, and never panic.
 
 use documents::hint::Explain;
 use paint::pose::Sample;
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use crate::{SOUND, refused};
 
-/// The error message of [`SOUND`] with `from` replaced by `to`, without the name of the file.
+/// The error message of [`SOUND`] with `from` replaced by `to`, without the file name.
 fn told(from: &str, to: &str) -> String {
     refused(from, to).to_string().split_off("a.json: ".len())
 }

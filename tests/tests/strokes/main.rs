@@ -1,4 +1,4 @@
-//! Stroke scripts: round trips through JSON, and refusal of invalid scripts with the location of
+//! Stroke scripts survive a round trip through JSON. Invalid ones are refused with the location of
 //! the fault.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
@@ -60,7 +60,7 @@ fn the_guide_shows_scripts_that_can_be_painted() {
         let listed: Result<Vec<Action>, _> = serde_json::from_str(&format!("[{text}]"));
         assert!(listed.is_ok_and(|listed| !listed.is_empty()), "{text}");
     }
-    // The second example has keys only, which replace those of the first.
+    // The second example has only keys, which replace the keys of the first.
     let mut mixed: serde_json::Value = serde_json::from_str(script).unwrap();
     let keys: serde_json::Value = serde_json::from_str(&format!("{{{keys}}}")).unwrap();
     for (key, value) in keys.as_object().unwrap() {

@@ -1,8 +1,6 @@
-//! Stroke scripts are equal, up to rounding, after writing and reading; the canonical JSON.
-//!
-//! Pigments of a script by name: resolving, unknown names, and pigments off the palette.
-//!
-//! Scripts with a mixing palette, and scripts that continue a painting.
+//! Stroke scripts are equal, up to rounding, after writing and reading. Also their pigments by name
+//! (unknown names, pigments off the palette), scripts with a mixing palette, and scripts that
+//! continue a painting.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +21,9 @@ use suite::oils::library;
 use crate::SOUND;
 
 fn sample() -> impl Strategy<Value = Sample> {
-    let tilt = || prop_oneof![Just(0.0), -90.0..=90.0];
+    fn tilt() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), -90.0..=90.0]
+    }
     let place = (-100.0..200.0, -100.0..200.0, 0.0..=1.0);
     (0.0..0.1, place, tilt(), tilt(), tilt()).prop_map(
         |(seconds, (x_mm, y_mm, pressure), a, b, c)| Sample {
@@ -163,7 +163,6 @@ fn config() -> ProptestConfig {
     ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() }
 }
 
-/// All numbers of all samples of a script.
 fn numbers(script: &StrokeScript) -> Vec<f64> {
     let strokes = script.actions.iter().filter_map(|action| match action {
         Action::Stroke(stroke) => Some(&stroke.samples),
@@ -187,7 +186,7 @@ proptest! {
         prop_assert_eq!(&back.to_json().unwrap(), &text);
         let written: Vec<Action> = script.actions.iter().map(Action::rounded).collect();
         prop_assert_eq!(&back.actions, &written);
-        // Numbers are rounded once: a second round trip changes nothing.
+        // Numbers are rounded once, so a second round trip changes nothing.
         let again = StrokeScript::from_json("a.json", back.to_json().unwrap().as_bytes()).unwrap();
         prop_assert_eq!(&again, &back);
         prop_assert_eq!(back.actions.len(), script.actions.len());
@@ -240,10 +239,8 @@ fn resolved(from: &str, to: &str) -> Result<paint::strokes::Resolved, (String, S
 #[test]
 fn names_and_short_names_become_pigments() {
     let library = library();
-    let id = |name: &str| library.find(name).unwrap();
-    let white = id("Zinc White");
-    let blue = id("Prussian Blue");
-    let green = id("Viridian");
+    let [white, blue, green] =
+        ["Zinc White", "Prussian Blue", "Viridian"].map(|name| library.find(name).unwrap());
     let found = resolved("\"W\": 3", "\"zinc white\": 3").unwrap();
     assert_eq!(found.slots[..3], [Some(white), Some(blue), None]);
     let mut wanted = vec![(white, 3.0), (blue, 1.0)];
@@ -282,7 +279,7 @@ fn recipes_keep_to_the_palette_and_name_a_pigment_once() {
 
 const SAVE: &str = "{\"save\": {\"path\": \"out/study.exr\"}}";
 
-/// [`SOUND`] with a mixing palette and six more actions, most of them on that palette.
+/// [`SOUND`] with a mixing palette and six more actions, most of them on this palette.
 fn mixed() -> String {
     let actions = "{\"squeeze\": {\"on\": \"palette\", \"recipe\": {\"W\": 1}, \"x_mm\": 20, \
         \"y_mm\": 15, \"volume_mm3\": 40}},
@@ -386,14 +383,14 @@ fn there_is_a_palette_only_where_it_is_described() {
     assert!(error.starts_with("mixing: at most 67108864 cells"), "{error}");
 }
 
-/// A painting of 25 x 20 cells of 1/30 mm, which has no finite decimal.
+/// A painting of 25 x 20 cells of 1/30 mm, a width without a finite decimal.
 fn painting() -> Document {
     let text = SOUND.replace("\"cell_mm\": 0.1", "\"cell_mm\": 4");
     let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
     let (mut document, palette) = script.surfaces(&library(), None).unwrap();
     assert!(palette.is_none(), "none is described");
     document.cell_mm = 1.0 / 30.0;
-    // Slot 0 is empty: pigments need not occupy the first slots.
+    // Slot 0 is empty: pigments need not be in the first slots.
     document.slots.swap(0, SLOTS - 1);
     document
 }

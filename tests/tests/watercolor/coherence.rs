@@ -1,14 +1,10 @@
-//! Coherent noise, which stays on its object while the camera moves.
-//!
-//! Change of coherent noise between frames, relative to noise that stands still on the picture.
+//! Coherent noise stays on its object while the camera moves. We measure its change between frames
+//! relative to noise that stands still on the picture, its spectrum at any distance of the camera,
+//! and that CPU and GPU agree, also on bare pixels, at a step in depth, and under a shift of the
+//! camera.
 //!
 //! `IMPASTO_TURNTABLE=1 cargo test -p suite --test watercolor turntable -- --nocapture`
 //! measures a full turn: 60 frames at 750 x 570 of 60,000 triangles.
-//!
-//! Spectrum of coherent noise, and its independence of the distance of the camera.
-//!
-//! Coherent noise on CPU and GPU, on bare pixels, at a step in depth, and under a shift of the
-//! camera.
 
 use std::f64::consts::TAU;
 use std::io::Write;
@@ -26,7 +22,7 @@ use graphics::mesh::{Mesh, Triangle};
 use graphics::surface::visible;
 use suite::program::device;
 
-/// A mesh with what noise needs of it: hierarchy, features and a repeating texture.
+/// A mesh with what noise needs: hierarchy, features and a repeating texture.
 struct Subject {
     mesh: Mesh,
     hierarchy: Arc<Hierarchy>,
@@ -87,7 +83,7 @@ fn waves(wave_px: f32) -> AnchoredNoise {
     AnchoredNoise { wave_px, ..AnchoredNoise::FLOW }
 }
 
-/// A wall of two triangles, and a camera whose picture it fills.
+/// A wall of two triangles, and a camera with a picture that the wall fills.
 fn wall() -> (Mesh, Camera) {
     let corners = [[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [5.0, 5.0, 0.0], [-5.0, 5.0, 0.0]];
     let triangles = [[0, 1, 2], [0, 2, 3]].map(|corners| Triangle { corners, material: 0 });
@@ -102,7 +98,7 @@ fn wall() -> (Mesh, Camera) {
     (mesh, from_front(10.0, 20.0))
 }
 
-/// A camera on the z axis at `distance` that looks at the origin.
+/// A camera on the z axis at `distance`, looking at the origin.
 fn from_front(distance: f32, field_of_view_deg: f32) -> Camera {
     Camera {
         eye: Vec3::Z * distance,
@@ -131,25 +127,25 @@ struct Turn {
     height: usize,
     /// Number of frames compared, 6 degrees apart.
     frames: usize,
-    /// Size of the noise relative to that for a picture of 570 rows.
+    /// Size of the noise relative to a picture of 570 rows.
     scale: f32,
 }
 
 /// RMS change of the noise from frame to frame at fixed points of the object.
 fn popping(bare: &[Bare], noise: &[Field<f32>]) -> f64 {
-    let shot = |i: usize| NoiseFrame {
-        projection: &bare[i].projection,
-        depth: &bare[i].depth,
-        noise: &noise[i],
-    };
-    let pairs = (1..bare.len()).map(|i| Popping::between(shot(i - 1), shot(i)));
+    let shots: Vec<NoiseFrame> = bare
+        .iter()
+        .zip(noise)
+        .map(|(bare, noise)| NoiseFrame { projection: &bare.projection, depth: &bare.depth, noise })
+        .collect();
+    let pairs = shots.windows(2).map(|pair| Popping::between(pair[0], pair[1]));
     let all = pairs.fold(Popping::default(), Popping::merge);
     assert!(all.pixels > bare.len() * bare[0].depth.values().len() / 50, "{all:?}");
     all.rms()
 }
 
-/// RMS change relative to the same noise standing still: flow and dispersion by features, then
-/// flow by particles for each of their numbers.
+/// RMS change relative to the same noise standing still: flow and dispersion by features, and flow
+/// by particles for each of their numbers.
 fn measured(mesh: Mesh, turn: &Turn, particles: &[usize]) -> (Vec<f64>, Vec<f64>) {
     let Turn { width, height, .. } = *turn;
     let subject = Subject::new(mesh);
@@ -209,30 +205,30 @@ fn turntable() {
     }
 }
 
-/// Side of the square in the middle of the picture whose spectrum is computed, in pixels.
+/// Side of the square in the middle of the picture, in pixels. We compute its spectrum.
 const SIDE: usize = 128;
 
-/// Power of the square by radial frequency, in cycles per [`SIDE`] pixels, under a Hann window.
+/// Power of this square by radial frequency, in cycles per [`SIDE`] pixels, under a Hann window.
 fn spectrum(noise: &Field<f32>) -> Vec<f64> {
     let left = (noise.width() - SIDE) / 2;
     let top = (noise.height() - SIDE) / 2;
-    let hann = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / SIDE as f64).cos();
-    let value =
-        |x: usize, y: usize| (f64::from(noise[(left + x, top + y)]) - 0.5) * hann(x) * hann(y);
+    let hann: Vec<f64> =
+        (0..SIDE).map(|i| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / SIDE as f64).cos()).collect();
     let waves: Vec<[f64; 2]> = (0..SIDE)
         .map(|i| TAU * i as f64 / SIDE as f64)
         .map(|angle| [angle.cos(), -angle.sin()])
         .collect();
-    let wave = |i: usize| waves[i % SIDE];
-    // Fourier transform of the rows, then of the columns.
+    // Fourier transform of the rows, and then of the columns.
     let half = SIDE / 2;
     let mut rows = vec![[0.0; 2]; SIDE * half];
     for y in 0..SIDE {
-        let row: Vec<f64> = (0..SIDE).map(|x| value(x, y)).collect();
+        let row: Vec<f64> = (0..SIDE)
+            .map(|x| (f64::from(noise[(left + x, top + y)]) - 0.5) * hann[x] * hann[y])
+            .collect();
         for k in 0..half {
             let sum = &mut rows[y * half + k];
             for (x, value) in row.iter().enumerate() {
-                let [cos, sin] = wave(k * x);
+                let [cos, sin] = waves[k * x % SIDE];
                 *sum = [sum[0] + value * cos, sum[1] + value * sin];
             }
         }
@@ -243,7 +239,7 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
             let mut sum = [0.0; 2];
             for y in 0..SIDE {
                 let [re, im] = rows[y * half + k];
-                let [cos, sin] = wave(l * y);
+                let [cos, sin] = waves[l * y % SIDE];
                 sum = [sum[0] + re * cos - im * sin, sum[1] + re * sin + im * cos];
             }
             let down = if l < half { l as f64 } else { l as f64 - SIDE as f64 };
@@ -254,14 +250,16 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
     power
 }
 
-/// Mean frequency in cycles per pixel, and the share of the power above `limit` cycles per
-/// pixel.
+/// Mean frequency in cycles per pixel, and the share of the power above `limit` cycles per pixel.
 fn told(power: &[f64], limit: f64) -> [f64; 2] {
     let all: f64 = power.iter().sum();
-    let at = |i: usize| i as f64 / SIDE as f64;
-    let mean = power.iter().enumerate().map(|(i, power)| at(i) * power).sum::<f64>() / all;
-    let above = power.iter().enumerate().filter(|(i, _)| at(*i) > limit);
-    [mean, above.map(|(_, power)| power).sum::<f64>() / all]
+    let [mut mean, mut above] = [0.0; 2];
+    for (i, power) in power.iter().enumerate() {
+        let frequency = i as f64 / SIDE as f64;
+        mean += frequency * power;
+        above += if frequency > limit { *power } else { 0.0 };
+    }
+    [mean / all, above / all]
 }
 
 #[test]
@@ -299,23 +297,25 @@ fn under_zoom(noise: impl Fn(f32, u64) -> Field<f32>, limit: f64) -> Vec<[f64; 2
 
 #[test]
 fn frequency_holds_while_the_model_comes_nearer() {
-    // Triangles smaller than any feature, and some that are larger than the picture.
+    // Triangles smaller than any feature, and some larger than the picture.
     for triangles in [40_000, 500] {
         let subject = Subject::new(Mesh::sphere(triangles));
         let particles = Particles::new(&subject.hierarchy, 6);
         let strewn: Vec<Features> =
             (0..6).map(|seed| Features::new(subject.hierarchy.clone(), seed)).collect();
         let textures: Vec<Field<f32>> = (0..6).map(|seed| repeating_noise(32, seed)).collect();
-        let bare = |subject: &Subject, zoom: f32| {
+        fn bare(subject: &Subject, zoom: f32) -> Bare {
             subject.bare(&from_front(1.0 + 2.0 / zoom, 20.0), 192, 192)
-        };
+        }
         let noise = FeatureNoise { largest_px: 12.0, octaves: 3, persistence: 0.7, coverage: 4.0 };
-        let features = |zoom: f32, seed: u64| {
-            let bare = bare(&subject, zoom);
-            let splats = strewn[seed as usize].splats(&bare.projection, noise);
-            splats_on(&mut Compute::cpu(), &bare.depth, &splats)
-        };
-        let of_features = under_zoom(features, 1.5 / 3.0);
+        let of_features = under_zoom(
+            |zoom, seed| {
+                let bare = bare(&subject, zoom);
+                let splats = strewn[seed as usize].splats(&bare.projection, noise);
+                splats_on(&mut Compute::cpu(), &bare.depth, &splats)
+            },
+            1.5 / 3.0,
+        );
         let of_particles = under_zoom(
             |zoom, seed| {
                 let bare = bare(&subject, zoom);
@@ -343,11 +343,12 @@ fn cameras(mesh: &Mesh) -> Vec<Camera> {
 }
 
 fn compare(on_cpu: &Field<f32>, on_gpu: &Field<f32>, what: &str) {
-    let all = || on_cpu.values().iter().chain(on_gpu.values());
-    assert!(all().all(|value| (0.0..=1.0).contains(value)), "{what}: not in 0..1");
+    for value in on_cpu.values().iter().chain(on_gpu.values()) {
+        assert!((0.0..=1.0).contains(value), "{what}: not in 0..1");
+    }
     let pairs = on_cpu.values().iter().zip(on_gpu.values());
     let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-    // Rounding of a depth is about a thousandth of the depth range of a feature.
+    // The rounding of a depth is about a thousandth of the depth range of a feature.
     assert!(worst < 2e-3, "{what}: {worst}");
 }
 
@@ -368,10 +369,9 @@ fn processor_and_device_draw_the_same() {
             for count in [1, 6, 40] {
                 let particles = Particles::new(&subject.hierarchy, count);
                 let anchors = particles.anchors(&projection, waves(40.0));
-                let draw = |compute: &mut Compute| {
-                    anchored_on(compute, &depth, &subject.texture, &anchors)
-                };
-                compare(&draw(&mut Compute::cpu()), &draw(&mut gpu), "particles");
+                let [cpu, gpu] = [&mut Compute::cpu(), &mut gpu]
+                    .map(|compute| anchored_on(compute, &depth, &subject.texture, &anchors));
+                compare(&cpu, &gpu, "particles");
             }
         }
     }
@@ -405,13 +405,13 @@ fn bare_pixels_are_a_half_and_the_same_input_gives_the_same_noise() {
 
 #[test]
 fn a_feature_is_on_its_own_surface_only() {
-    // A near surface on the left, a far one on the right, nothing at the bottom.
-    let depth = |i: usize| match (i % 40, i / 40) {
+    // A near surface on the left, a far one on the right, and nothing at the bottom.
+    let depth = (0..1600).map(|i| match (i % 40, i / 40) {
         (_, 30..) => 1.0,
         (..20, _) => 0.3,
         _ => 0.6,
-    };
-    let depth = Field::from_values(40, 40, (0..1600).map(depth).collect());
+    });
+    let depth = Field::from_values(40, 40, depth.collect());
     let splat = Splat {
         x: 20.0,
         y: 20.0,
@@ -433,14 +433,11 @@ fn a_feature_is_on_its_own_surface_only() {
 fn one_texture_holds_on_to_its_particle() {
     let subject = Subject::new(Mesh::sphere(2000));
     let particles = Particles::new(&subject.hierarchy, 1);
-    let from = |x: f32| Camera {
-        eye: Vec3::new(x, 0.0, 40.0),
-        target: Vec3::new(x, 0.0, 0.0),
-        ..from_front(40.0, 4.0)
-    };
     let width = 150;
     let height = 150;
-    let [before, after] = [from(0.0), from(-0.2)].map(|camera| {
+    let [before, after] = [0.0, -0.2].map(|x| {
+        let [eye, target] = [40.0, 0.0].map(|z| Vec3::new(x, 0.0, z));
+        let camera = Camera { eye, target, ..from_front(40.0, 4.0) };
         let bare = subject.bare(&Camera { far: 60.0, ..camera }, width, height);
         let center = camera.clip_from_model(1.0) * Vec4::W;
         let center_px = 0.5 * width as f32 * (1.0 + center.x / center.w);

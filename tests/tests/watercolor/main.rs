@@ -2,8 +2,8 @@
 //! noise, and the command `impasto watercolor`.
 //!
 //! Without a graphics adapter the tests that need one pass, with a note on stderr. If the
-//! environment variable `IMPASTO_GPU_TESTS` names a file, each of them appends a line: the name of
-//! its adapter, or `none`.
+//! environment variable
+//! `IMPASTO_GPU_TESTS` names a file, each of them appends a line to it: the name of its adapter, or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 mod meshes;

@@ -1,17 +1,13 @@
-//! Meshes: reading their files, normals, and checks.
-//!
-//! Reading meshes from OBJ, PLY and glTF: geometry, materials, textures and transforms.
-//!
-//! Invalid mesh files: errors with the location, the reason and a hint.
-//!
-//! Normals, closed surfaces, faults of meshes, and the sample models.
+//! Meshes: read from OBJ, PLY and glTF with geometry, materials, textures and transforms. Invalid
+//! files give errors with the location, the reason and a hint. Also normals, closed surfaces,
+//! faults of meshes, and the sample models.
 
 use documents::hint::Explain;
 use glam::Vec3;
 use graphics::mesh::{GridSize, Material, Mesh, MeshError, MeshFault, SampleModel, Texture};
 use serde_json::json;
 
-/// Writes files of these names and contents, opens the first as a mesh and checks the mesh.
+/// Writes these files, opens the first one as a mesh and checks it.
 fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {
     let folder = tempfile::tempdir().unwrap();
     for (name, content) in files {
@@ -26,7 +22,6 @@ fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {
     opened
 }
 
-/// A PNG of two texels, red and blue.
 fn two_texels() -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let picture = image::RgbImage::from_raw(2, 1, vec![255, 0, 0, 0, 0, 255]).unwrap();
@@ -34,7 +29,7 @@ fn two_texels() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The glTF document `rest` with its version and with `buffer` declared as `data.bin`.
+/// The glTF document `rest` with its version. Declares `buffer` as `data.bin`.
 fn gltf(buffer: &[u8], mut rest: serde_json::Value) -> Vec<u8> {
     rest["asset"] = serde_json::json!({ "version": "2.0" });
     rest["buffers"] = serde_json::json!([{ "uri": "data.bin", "byteLength": buffer.len() }]);
@@ -51,7 +46,6 @@ fn square_bytes() -> Vec<u8> {
     places.chain(corners.iter().flat_map(|corner| corner.to_le_bytes())).collect()
 }
 
-/// A glTF document with one node of [`SQUARE`].
 fn square_document() -> serde_json::Value {
     serde_json::json!({
         "bufferViews": [
@@ -70,7 +64,6 @@ fn square_document() -> serde_json::Value {
     })
 }
 
-/// Positions of the corners of every triangle.
 fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
     mesh.triangles
         .iter()
@@ -78,7 +71,6 @@ fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
         .collect()
 }
 
-/// The two triangles of the square.
 fn square() -> Vec<[[f32; 3]; 3]> {
     let [a, b, c, d] = SQUARE;
     vec![[a, b, c], [a, c, d]]
@@ -145,7 +137,7 @@ fn obj_with_colors_of_vertices_and_nothing_else() {
 
 #[test]
 fn ply_as_text_and_in_both_binaries() {
-    let header = |format: &str| {
+    fn header(format: &str) -> Vec<u8> {
         format!(
             "ply\nformat {format} 1.0\ncomment a square\nelement vertex 4\nproperty float x\n\
              property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n\
@@ -153,7 +145,7 @@ fn ply_as_text_and_in_both_binaries() {
              element face 1\nproperty list uchar int vertex_indices\nend_header\n"
         )
         .into_bytes()
-    };
+    }
     let mut text = header("ascii");
     let [mut low, mut high] = ["binary_little_endian", "binary_big_endian"].map(header);
     for ([x, y, z], red) in SQUARE.iter().zip([0u8, 51, 102, 255]) {
@@ -180,7 +172,7 @@ fn ply_as_text_and_in_both_binaries() {
 #[test]
 fn gltf_with_transforms_materials_and_textures() {
     let mut document = square_document();
-    // The parent translates; the child mirrors and stretches along x.
+    // The parent translates. The child mirrors and stretches along x.
     document["nodes"] = json!([
         { "translation": [10, 0, 0], "children": [1] },
         { "mesh": 0, "scale": [-2, 1, 1] },
@@ -199,7 +191,7 @@ fn gltf_with_transforms_materials_and_textures() {
     ];
     let mesh = opened(&files).unwrap();
     let [a, b, c, d] = SQUARE.map(|[x, y, z]: [f32; 3]| [10.0 - 2.0 * x, y, z]);
-    // A mirrored triangle has two corners swapped, so that it runs counter-clockwise.
+    // A mirrored triangle has two corners swapped, so that they run counter-clockwise.
     assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
     let Material { name, color: [r, g, b], texture } = &mesh.materials[0];
@@ -227,7 +219,7 @@ fn binary_gltf_and_strips_and_fans() {
         glb.extend(b"BIN\0");
         glb.extend(&buffer);
         let mesh = opened(&[("a.glb", &glb)]).unwrap();
-        // Of the indices 0 1 2 0 2 3; a strip and a fan of them have four triangles.
+        // These are the indices 0 1 2 0 2 3. A strip and a fan of them have four triangles.
         assert_eq!(mesh.triangles.len(), wanted, "mode {mode}");
         assert_eq!(corners(&mesh)[0], square()[0], "mode {mode}");
         if mode == 4 {
@@ -236,8 +228,9 @@ fn binary_gltf_and_strips_and_fans() {
     }
 }
 
-/// Asserts that the first file is refused with a hint and a message of one line that names the file
-/// and contains all of `wanted`.
+/// Asserts that the first file is refused with a hint and a message of one line with its name and
+/// all of
+/// `wanted`.
 #[track_caller]
 fn refused(files: &[(&str, &[u8])], wanted: &[&str]) {
     let error = opened(files).unwrap_err();
@@ -252,7 +245,6 @@ const POSITIONS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
 fn obj_files() {
-    let with = |rest: &str| format!("{POSITIONS}{rest}\n").into_bytes();
     for (rest, wanted) in [
         ("f 1 2 4", &["line 4", "no position `4`, there are 3"][..]),
         ("f 1 2 0", &["line 4", "no position `0`"]),
@@ -274,7 +266,7 @@ fn obj_files() {
         ("", &["no triangle"]),
         ("l 1 2\np 1", &["no triangle"]),
     ] {
-        refused(&[("a.obj", &with(rest))], wanted);
+        refused(&[("a.obj", format!("{POSITIONS}{rest}\n").as_bytes())], wanted);
     }
     refused(&[("a.obj", b"")], &["no triangle"]);
     refused(&[("a.obj", b"\xff\xfe\0\x01garbage")], &["no triangle"]);
@@ -285,7 +277,6 @@ fn materials_and_textures_of_obj_files() {
     let obj = format!("mtllib a.mtl\n{POSITIONS}usemtl red\nf 1 2 3\n").into_bytes();
     let error = opened(&[("a.obj", &obj)]).unwrap_err();
     assert!(matches!(&error, MeshError::Unreadable { name, .. } if name.ends_with("a.mtl")));
-    let with = |mtl: &str| opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
     for (mtl, wanted) in [
         ("newmtl red\nKd 1 0\n", "a.mtl: line 2: no colour of 3 numbers: `Kd 1 0`"),
         ("newmtl red\nKd spectral x.rfl\n", "a.mtl: line 2: not a finite number: `spectral`"),
@@ -294,7 +285,8 @@ fn materials_and_textures_of_obj_files() {
         ("newmtl red\nmap_Kd no.png\n", "the texture `no.png`"),
         ("newmtl red\nmap_Kd a.mtl\n", "the texture `a.mtl`"),
     ] {
-        let told = with(mtl).to_string();
+        let error = opened(&[("a.obj", &obj), ("a.mtl", mtl.as_bytes())]).unwrap_err();
+        let told = error.to_string();
         assert!(told.contains(wanted), "no `{wanted}` in: {told}");
     }
 }
@@ -304,8 +296,6 @@ fn ply_files() {
     let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
                   property float z\nelement face 1\nproperty list uchar int vertex_index\n\
                   end_header\n";
-    let with = |rest: &str| format!("{header}{rest}").into_bytes();
-    let places = "0 0 0\n1 0 0\n0 1 0\n";
     for (rest, wanted) in [
         ("3 0 1 3\n", &["triangle 0 has vertex 3, of 3"][..]),
         ("3 0 1 -1\n", &["triangle 0 has vertex 4294967295"]),
@@ -314,7 +304,8 @@ fn ply_files() {
         ("3 0 1 x\n", &["line 13", "x"]),
         ("", &["line 13", "end of file"]),
     ] {
-        refused(&[("a.ply", &with(&format!("{places}{rest}")))], wanted);
+        let text = format!("{header}0 0 0\n1 0 0\n0 1 0\n{rest}");
+        refused(&[("a.ply", text.as_bytes())], wanted);
     }
     let mut endless = header.replace("ascii", "binary_little_endian").into_bytes();
     for value in [0.0f32, 0.0, 0.0, 1.0, f32::INFINITY, 0.0, 0.0, 1.0, 0.0] {
@@ -323,7 +314,8 @@ fn ply_files() {
     endless.extend([3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
     refused(&[("a.ply", &endless)], &["vertex 1", "position", "inf"]);
     refused(&[("a.ply", &endless[..endless.len() - 2])], &["element `face`"]);
-    refused(&[("a.ply", &with("0 0 0\n1 0\n0 1 0\n3 0 1 2\n"))], &["line 11"]);
+    let short = format!("{header}0 0 0\n1 0\n0 1 0\n3 0 1 2\n");
+    refused(&[("a.ply", short.as_bytes())], &["line 11"]);
     refused(&[("a.ply", b"")], &["header"]);
     refused(&[("a.ply", b"ply\nformat ascii 1.0\nend_header\n")], &["`vertex`", "`x`"]);
     let binary =
@@ -393,7 +385,7 @@ fn names_and_paths() {
     assert!(error.to_string().contains("no/such/model.obj"), "{error}");
 }
 
-/// Largest angle between `normals` and the radii of a ball, in degrees.
+/// Largest angle in degrees between `normals` and the radii of a ball.
 fn worst(mesh: &Mesh, normals: &[[f32; 3]]) -> f32 {
     let angles = mesh.positions.iter().zip(normals).map(|(&place, &normal)| {
         Vec3::from(place).normalize().dot(normal.into()).clamp(-1.0, 1.0).acos().to_degrees()
@@ -414,10 +406,10 @@ fn a_ball_has_its_radii_as_normals() {
 fn smoothing_keeps_a_ball_and_evens_bumps() {
     let mut ball = Mesh::sphere(5000);
     let kept = ball.smoothed_normals(20);
-    // Around the poles triangles are uneven, so averaged normals deviate.
+    // Around the poles, triangles are uneven, so averaged normals deviate.
     assert!(worst(&ball, &kept) < 4.0, "{}", worst(&ball, &kept));
     let smooth = ball.normals.clone();
-    // Perturbs each normal by its position, equally on both sides of the seam.
+    // Perturbs each normal by its position, and equally on both sides of the seam.
     for (normal, place) in ball.normals.iter_mut().zip(&ball.positions) {
         let [x, y, z] = place.map(|at| (at * 977.0).sin() * 0.4);
         *normal = (Vec3::from(*normal) + Vec3::new(x, y, z)).normalize().into();
@@ -455,31 +447,29 @@ fn closed_surfaces_are_told_from_open_and_inverted_ones() {
 
 #[test]
 fn what_cannot_be_drawn_is_found() {
-    let fault = |change: &dyn Fn(&mut Mesh)| {
+    type Change = (fn(&mut Mesh), &'static str);
+    let cases: [Change; 7] = [
+        (|mesh| mesh.triangles.clear(), "no triangle"),
+        (|mesh| mesh.colors.truncate(1), "1 colours for"),
+        (|mesh| mesh.positions[3][1] = f32::NAN, "vertex 3 has the position"),
+        (|mesh| mesh.triangles[2].corners[1] = 4000, "triangle 2 has vertex 4000"),
+        (|mesh| mesh.triangles[2].material = 1, "triangle 2 has material 1, of 1"),
+        (|mesh| mesh.materials[0].color[2] = 1.5, "material 0 has the colour"),
+        (
+            |mesh| {
+                let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
+                mesh.materials[0].texture = Some(texture);
+            },
+            "3 texels for 2 x 2",
+        ),
+    ];
+    let found = cases.map(|(change, words)| {
         let mut mesh = Mesh::sphere(100);
         change(&mut mesh);
-        mesh.check().unwrap_err()
-    };
-    let texture = Texture { width: 2, height: 2, texels: vec![0; 3] };
-    let found = [
-        fault(&|mesh| mesh.triangles.clear()),
-        fault(&|mesh| mesh.colors.truncate(1)),
-        fault(&|mesh| mesh.positions[3][1] = f32::NAN),
-        fault(&|mesh| mesh.triangles[2].corners[1] = 4000),
-        fault(&|mesh| mesh.triangles[2].material = 1),
-        fault(&|mesh| mesh.materials[0].color[2] = 1.5),
-        fault(&|mesh| mesh.materials[0].texture = Some(texture.clone())),
-    ];
-    assert_eq!(found[0], MeshFault::NoTriangle);
-    for (fault, words) in found.iter().zip([
-        "no triangle",
-        "1 colours for",
-        "vertex 3 has the position",
-        "triangle 2 has vertex 4000",
-        "triangle 2 has material 1, of 1",
-        "material 0 has the colour",
-        "3 texels for 2 x 2",
-    ]) {
+        (mesh.check().unwrap_err(), words)
+    });
+    assert_eq!(found[0].0, MeshFault::NoTriangle);
+    for (fault, words) in found {
         assert!(fault.to_string().contains(words), "{fault}");
         assert!(fault.hint().is_some());
     }
@@ -499,7 +489,7 @@ fn shapes_are_whole_and_as_fine_as_asked() {
             assert!(lengths.into_iter().all(|length| (length - 1.0).abs() < 1e-4));
             let colors = mesh.colors.iter().flatten();
             assert!(colors.into_iter().all(|value| (0.0..=1.0).contains(value)));
-            // Normals point to the side from which corners run counter-clockwise.
+            // Normals point to the side where corners run counter-clockwise.
             let agree = mesh.triangles.iter().filter(|triangle| {
                 let at = triangle.corners.map(|at| Vec3::from(mesh.positions[at as usize]));
                 let normal: Vec3 =

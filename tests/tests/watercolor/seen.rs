@@ -1,6 +1,5 @@
-//! Visibility of meshes: rasterising against ray casting, and cameras that frame a mesh.
-//!
-//! Camera paths: interpolation of keyframes, closed paths, and invalid files.
+//! Visibility of meshes (rasterising compared with ray casting), cameras that frame a mesh, and
+//! camera paths: interpolation of keyframes, closed paths, and invalid files.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +13,7 @@ use graphics::surface::{
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A mesh of triangles that share no vertex.
+/// A mesh of triangles without shared vertices.
 pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
     let corners = triangles.iter().flatten();
     let count = triangles.len() as u32;
@@ -33,7 +32,7 @@ pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {
     }
 }
 
-/// Random triangles around the origin; some reach behind the camera of [`inside_them`].
+/// Random triangles around the origin. Some reach behind the camera of [`inside_them`].
 pub(crate) fn random_triangles(count: usize, seed: u64) -> Mesh {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut place = |size: f32| Vec3::from([0, 1, 2].map(|_| rng.random_range(-size..size)));
@@ -77,10 +76,14 @@ fn cross(a: Exact, b: Exact) -> Exact {
 }
 
 /// Index of the nearest triangle on the ray through `at`, a position in the picture in pixels, or
-/// [`NO_TRIANGLE`]. Computed in f64.
+/// [`NO_TRIANGLE`]. Computes in f64.
 fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64; 2]) -> u32 {
-    let unit = |vector: Exact| sum([(vector, 1.0 / dot(vector, vector).sqrt())]);
-    let minus = |a: Exact, b: Exact| sum([(a, 1.0), (b, -1.0)]);
+    fn unit(vector: Exact) -> Exact {
+        sum([(vector, 1.0 / dot(vector, vector).sqrt())])
+    }
+    fn minus(a: Exact, b: Exact) -> Exact {
+        sum([(a, 1.0), (b, -1.0)])
+    }
     let eye = exact(camera.eye);
     let forward = unit(minus(exact(camera.target), eye));
     let right = unit(cross(forward, exact(camera.up)));
@@ -94,7 +97,7 @@ fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64;
         let places = triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
         let [a, b, c] = places.map(|place| minus(exact(place), eye));
         let normal = cross(minus(b, a), minus(c, a));
-        // Depth along the viewing direction, in which `ray` has the component 1.
+        // Depth along the viewing direction. `ray` has the component 1 there.
         let distance = dot(a, normal) / dot(ray, normal);
         let hit = sum([(ray, distance)]);
         let near = distance > f64::from(camera.near) && distance < nearest.0;
@@ -154,7 +157,7 @@ fn a_pixel_tells_the_place_that_it_sees() {
             let clip = clip_from_model * position_at(&mesh, pixel).extend(1.0);
             let at = [(clip.x / clip.w + 1.0) * 48.0, (1.0 - clip.y / clip.w) * 32.0];
             let off = (at[0] - x as f32 - 0.5).hypot(at[1] - y as f32 - 0.5);
-            // Vertices are rounded to 1/256 of a pixel, which changes the weights in a slim
+            // Vertices are rounded to 1/256 of a pixel. This changes the weights in a slim
             // triangle.
             assert!(off < 0.05, "{x}, {y}: {off} pixels off: {pixel:?}");
             assert!((clip.z / clip.w - pixel.depth).abs() < 1e-3, "{x}, {y}: {pixel:?}");
@@ -166,22 +169,24 @@ fn a_pixel_tells_the_place_that_it_sees() {
 
 /// A closed fan of triangles around a point that is not at the centre of a pixel.
 fn fan(spokes: usize) -> Mesh {
-    let rim = |i: usize| {
-        let angle = i as f32 / spokes as f32 * std::f32::consts::TAU;
-        Vec3::new(angle.cos(), angle.sin(), 0.0)
-    };
+    let rim: Vec<Vec3> = (0..=spokes)
+        .map(|i| {
+            let angle = (i % spokes) as f32 / spokes as f32 * std::f32::consts::TAU;
+            Vec3::new(angle.cos(), angle.sin(), 0.0)
+        })
+        .collect();
     let middle = Vec3::new(0.013, -0.027, 0.0);
-    let triangles: Vec<_> = (0..spokes).map(|i| [middle, rim(i), rim((i + 1) % spokes)]).collect();
+    let triangles: Vec<_> = rim.windows(2).map(|pair| [middle, pair[0], pair[1]]).collect();
     loose(&triangles)
 }
 
-/// 15 x 15 squares in clip coordinates, with corners at the centres of pixels of a picture of
-/// 128 x 128. Each is two triangles; the diagonal alternates.
+/// 15 x 15 squares in clip coordinates with corners at the centres of pixels of a picture of 128 x
+/// 128. Each is two triangles with alternating diagonals.
 fn squares_on_middles() -> Mesh {
-    let place = |x: usize, y: usize| {
-        let at = |i: usize| (8 * i) as f32 / 64.0 + 4.5 / 64.0 - 1.0;
-        Vec3::new(at(x), at(y), 0.5)
-    };
+    fn place(x: usize, y: usize) -> Vec3 {
+        let [x, y] = [x, y].map(|i| (8 * i) as f32 / 64.0 + 4.5 / 64.0 - 1.0);
+        Vec3::new(x, y, 0.5)
+    }
     let squares = (0..15 * 15).map(|i| (i % 15, i / 15));
     let triangles: Vec<_> = squares
         .flat_map(|(x, y)| {
@@ -220,7 +225,7 @@ fn edges_that_are_shared_are_drawn_once_and_leave_no_hole() {
         let alone: Vec<_> = mesh.triangles.iter().map(|triangle| drawn_by(&[*triangle])).collect();
         let pixels: usize = alone.iter().map(BTreeSet::len).sum();
         assert_eq!(pixels, whole.len(), "pixels drawn twice");
-        // Every row of a disc or a square has no gap.
+        // In a disc or a square, no row has a gap.
         for y in 0..128 {
             let row: Vec<usize> = whole.range(y * 128..(y + 1) * 128).copied().collect();
             let [Some(first), Some(last)] = [row.first(), row.last()] else { continue };
@@ -277,8 +282,7 @@ fn the_whole_box_is_framed_from_every_side() {
     let bounds = [Vec3::new(-3.0, 1.0, -0.5), Vec3::new(2.0, 2.5, 0.7)];
     let shares = |camera: &Camera, aspect: f32| {
         let corners = (0..8).map(|bits: usize| {
-            let pick = |axis: usize| bounds[bits >> axis & 1][axis];
-            Vec3::new(pick(0), pick(1), pick(2))
+            Vec3::from([0, 1, 2].map(|axis: usize| bounds[bits >> axis & 1][axis]))
         });
         let clips = corners.map(|corner| camera.clip_from_model(aspect) * corner.extend(1.0));
         clips.fold([0.0f32; 2], |[x, y], clip| {
@@ -369,7 +373,7 @@ fn a_path_goes_through_its_keyframes_evenly() {
         assert!((camera.field_of_view_deg - field).abs() < 1e-3, "{frame}: {camera:?}");
     }
     assert!(cameras[4].target.distance(Vec3::Y) < 1e-5);
-    // The path is smooth: consecutive steps have similar directions.
+    // The path is smooth, so consecutive steps have similar directions.
     let steps: Vec<Vec3> = cameras.windows(2).map(|pair| pair[1].eye - pair[0].eye).collect();
     assert!(steps.windows(2).all(|pair| pair[0].normalize().dot(pair[1].normalize()) > 0.6));
     for camera in &cameras {

@@ -15,13 +15,14 @@ use watercolor::{ModelPainter, Settings, ShadowMap, Toon, shade_toon};
 
 use super::seen::{inside_them, random_triangles};
 
-/// A chequered texture of odd width and height, 7 x 5 texels.
+/// A chequered texture of 7 x 5 texels.
 fn checks() -> Texture {
-    let texel = |x: u32, y: u32| match (x / 2 + y) % 2 {
+    let texels = (0..5).flat_map(|y| (0..7).map(move |x: u32| (x, y)));
+    let texels = texels.map(|(x, y)| match (x / 2 + y) % 2 {
         0 => u32::from_le_bytes([240, 200, 40 * y as u8, 255]),
         _ => u32::from_le_bytes([20 * x as u8, 90, 160, 255]),
-    };
-    let texels = (0..5).flat_map(|y| (0..7).map(move |x| texel(x, y))).collect();
+    });
+    let texels = texels.collect();
     Texture { width: 7, height: 5, texels }
 }
 
@@ -71,7 +72,7 @@ fn shaded(
     compute.download(&color).unwrap()
 }
 
-/// The picture of [`shaded`] with the shadows that the mesh casts.
+/// The picture of [`shaded`] with cast shadows.
 fn shadowed(
     compute: &mut Compute,
     mesh: &Mesh,
@@ -155,12 +156,12 @@ fn the_device_casts_the_shadows_of_the_processor() {
     let a = shadowed(&mut Compute::cpu(), &mesh, &camera, (131, 99), &toon);
     let b = shadowed(&mut on_gpu, &mesh, &camera, (131, 99), &toon);
     let without = shaded(&mut Compute::cpu(), &mesh, &camera, (131, 99), &toon);
-    let apart = |a: &Field<[f32; 4]>, b: &Field<[f32; 4]>| {
-        let pairs = a.values().iter().zip(b.values());
+    let [shadow, off] = [&without, &b].map(|other| {
+        let pairs = a.values().iter().zip(other.values());
         pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.02)).count()
-    };
-    assert!(apart(&a, &without) > 40, "{} pixels in shadow", apart(&a, &without));
-    assert!(apart(&a, &b) * 200 < a.values().len(), "{} pixels differ", apart(&a, &b));
+    });
+    assert!(shadow > 40, "{shadow} pixels in shadow");
+    assert!(off * 200 < a.values().len(), "{off} pixels differ");
 }
 
 #[test]
@@ -170,8 +171,8 @@ fn the_raster_shader_is_valid_and_bound_as_it_says() {
     assert!(valid.is_ok(), "{valid:?}");
     assert_eq!(module.global_variables.len(), RASTER.buffers + 1);
     for layout in RASTER.structs.iter().chain([&RASTER.parameters]) {
-        let of_name = |ty: &&naga::Type| ty.name.as_deref() == Some(layout.name);
-        let ty = module.types.iter().map(|(_, ty)| ty).find(of_name).unwrap();
+        let mut types = module.types.iter().map(|(_, ty)| ty);
+        let ty = types.find(|ty| ty.name.as_deref() == Some(layout.name)).unwrap();
         let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{ty:?}") };
         let found: Vec<_> =
             members.iter().map(|m| (m.name.as_deref().unwrap(), m.offset as usize)).collect();
@@ -200,8 +201,8 @@ fn the_device_sees_what_the_processor_sees() {
                 differ += 1;
             } else if a.triangle != NO_TRIANGLE {
                 shown += 1;
-                // A GPU may compute weights from vertices that are not rounded, which changes
-                // them in triangles of a few pixels. The position agrees nevertheless.
+                // A GPU may compute weights from vertices that are not rounded. This changes them
+                // in triangles of a few pixels, but the position agrees.
                 let off = position_at(mesh, *a).distance(position_at(mesh, *b));
                 assert!(off < 6e-3, "{size:?}: {off} off: {a:?} {b:?}");
                 assert!((a.depth - b.depth).abs() < 5e-4, "{size:?}: {a:?} {b:?}");
@@ -259,16 +260,16 @@ fn without_strength_surfaces_keep_their_colors() {
 
 #[test]
 fn shade_is_dense_paint_and_light_is_thin() {
-    // A wall seen from the front; `cosine` is that of the angle between its normal and the light.
-    let wall = |cosine: f32| {
+    // A wall seen from the front. `cosine` belongs to the angle between its normal and the light.
+    fn wall(cosine: f32) -> Mesh {
         let mut mesh = Mesh::default();
         mesh.materials.push(Material::plain([0.6, 0.5, 1.0]));
         let cells = graphics::mesh::GridSize { columns: 3, rows: 2 };
         mesh.add_grid(cells, 0, |Vec2 { x, y }| Vec3::new(x, -y, 0.0));
         mesh.normals.fill([(1.0 - cosine * cosine).sqrt(), 0.0, cosine]);
         mesh
-    };
-    let shade = |cosine: f32, strength: f32| {
+    }
+    fn shade(cosine: f32, strength: f32) -> [f32; 4] {
         let mesh = wall(cosine);
         let camera = Camera::framing(mesh.bounds(), 0.0, 0.0, 30.0);
         let toon = Toon {
@@ -280,11 +281,11 @@ fn shade_is_dense_paint_and_light_is_thin() {
             samples: 1,
         };
         shaded(&mut Compute::cpu(), &mesh, &camera, (20, 20), &toon)[(10, 10)]
-    };
-    let near = |found: [f32; 4], wanted: [f32; 3]| {
+    }
+    fn near(found: [f32; 4], wanted: [f32; 3]) {
         let off = found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         assert!(off < 1e-3 && found[3] == 1.0, "{found:?} {wanted:?}");
-    };
+    }
     // Density 1 + 2 (0.5 - grey): 2 (the square of the colour) in shade, 1, and 0 in light.
     near(shade(0.0, 2.0), [0.36, 0.25, 1.0]);
     near(shade(0.5, 2.0), [0.6, 0.5, 1.0]);
@@ -302,12 +303,12 @@ fn both_sides_of_a_surface_are_lit_from_where_they_are_seen() {
         Vec3::new(x, -y, 0.0)
     });
     let toon = Toon { light: DistantLight::with_camera(0.0, 90.0), ..Toon::default() };
-    let middle = |azimuth: f32| {
+    let [front, back] = [0.0, 180.0].map(|azimuth| {
         let camera = Camera::framing(mesh.bounds(), azimuth, 0.0, 30.0);
         shaded(&mut Compute::cpu(), &mesh, &camera, (20, 20), &toon)[(10, 10)]
-    };
-    assert_eq!(middle(0.0), middle(180.0));
-    assert!(middle(0.0)[0] > 0.5, "{:?}", middle(0.0));
+    });
+    assert_eq!(front, back);
+    assert!(front[0] > 0.5, "{front:?}");
 }
 
 #[test]
@@ -353,11 +354,11 @@ fn greys_of_a_picture_take_the_place_of_steps() {
         let painter = ModelPainter::new(Compute::cpu(), mesh, settings, (64, 64)).unwrap();
         painter.with_samples(1).wash(&camera).unwrap().0.color
     };
-    let of = |field: &Field<[f32; 4]>| {
+    fn of(field: &Field<[f32; 4]>) -> [f32; 2] {
         let seen = field.values().iter().filter(|color| color[3] == 1.0);
         let greens = seen.map(|color| color[1]);
         greens.fold([1.0f32, 0.0], |[low, high], value| [low.min(value), high.max(value)])
-    };
+    }
     let [low, high] = of(&shaded(&settings));
     assert!(high - low < 1e-6, "one step gives several colours: {low} {high}");
     settings.toon.greys = Some(path.display().to_string());

@@ -1,12 +1,12 @@
-//! Autosaves, so that a program that is killed loses only the seconds since the last one.
+//! Saves the work every few seconds, so that you lose only the seconds since the last autosave when
+//! the program is killed.
 //!
-//! Each session has a folder with one complete generation. A new generation is written under
-//! a hidden name, flushed to the disk and renamed; only then is the previous one removed. So
-//! after the first autosave the folder always holds a complete generation, and the newest one
-//! counts. The recording lies beside them in a file that only grows. The file `lock` is locked
-//! while the program runs; the system unlocks it however the program ends.
-//!
-//! The lock by which programs know whether a session still runs.
+//! Each session has a folder with one complete generation. A new generation is written under a
+//! hidden name, flushed to the disk and renamed, and the previous one is removed only then. So the
+//! folder always holds a complete generation after the first autosave, and the newest one counts.
+//! The recording lies beside the generations in a file that only grows. The program keeps the file
+//! `lock` locked while it runs. The system unlocks that file however the program ends, so other
+//! programs can see whether the session still runs.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -42,20 +42,19 @@ const BRUSHES: &str = "brushes.bin";
 pub struct SessionMeta {
     /// Title of the painting or scene.
     pub title: String,
-    /// File that the painting was opened from or saved as, if there is one; of a scene, the folder
-    /// that its subject lies in.
+    /// File that the painting was opened from or saved as, if there is one. For a scene this is the
+    /// folder of its subject.
     pub path: Option<PathBuf>,
     /// Time of the autosave, in seconds since 1970.
     pub seconds: u64,
-    /// Whatever else the front end wants to find again.
+    /// Anything else that the front end wants to find again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub desk: Option<serde_json::Value>,
 }
 
-/// Content of a file of a generation.
 enum Content {
     Bytes(Vec<u8>),
-    /// That of another file, which stays the same.
+    /// The content of this file, which did not change.
     Unchanged(PathBuf),
 }
 
@@ -65,10 +64,9 @@ pub struct Autosave {
     folder: PathBuf,
     _lock: SessionLock,
     generation: u64,
-    /// Name of the autosave in messages.
+    /// How messages call the autosave.
     title: String,
     recording: RecordingFile,
-    /// The palette of the last generation.
     palette: Option<Arc<Document>>,
 }
 
@@ -118,13 +116,14 @@ impl Autosave {
         &self.folder
     }
 
-    /// Writes a generation and removes the previous ones. `start` is the content of the painting's
-    /// file that the recording continues, if it continues one. Returns the number of actions of the
-    /// recording that are kept now: the next end may begin there. It is 0 if the end of
-    /// `painting` does not follow what is kept; then this generation has no recording.
+    /// Writes a generation and removes the previous ones. If the recording continues a painting
+    /// that was saved, pass the content of that file as `start`. Returns how many actions of the
+    /// recording are saved now: your next `painting` may start there. If the end of the recording
+    /// in `painting` does not follow the saved part, this generation has no recording, and you get
+    /// 0.
     ///
     /// # Errors
-    /// [`FileFailure`]; the previous generation stays.
+    /// [`FileFailure`]. The previous generation stays.
     pub fn keep(
         &mut self,
         painting: &KeptPainting,
@@ -135,12 +134,12 @@ impl Autosave {
         self.title = title_of(meta);
         let title = self.title.clone();
         let unusable = |error: std::io::Error| FileFailure::about(&title, "written", &error);
-        let bytes = |document: &Document| {
+        fn bytes(document: &Document) -> Result<Vec<u8>, FileFailure> {
             paint::file::write(document).map_err(|error| FileFailure::explained(&error))
-        };
-        let json = |value: Result<Vec<u8>, serde_json::Error>| {
+        }
+        fn json(value: Result<Vec<u8>, serde_json::Error>) -> Result<Vec<u8>, FileFailure> {
             value.map_err(|error| FileFailure::without_hint(&error))
-        };
+        }
         let recording = match &painting.recording {
             Some(tail) => self.recording.append(&folder, tail, start).map_err(unusable)?,
             None => None,
@@ -169,7 +168,7 @@ impl Autosave {
     /// Writes a generation that is the script of a scene, and removes the previous ones.
     ///
     /// # Errors
-    /// [`FileFailure`]; the previous generation stays.
+    /// [`FileFailure`]. The previous generation stays.
     pub fn keep_script(&mut self, script: &str, meta: &SessionMeta) -> Result<(), FileFailure> {
         let text = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
         let script = Content::Bytes(script.as_bytes().to_vec());
@@ -178,8 +177,8 @@ impl Autosave {
             .map_err(|error| FileFailure::about(&self.title, "written", &error))
     }
 
-    /// Writes the files of a generation. `before` is called before each change on the disk,
-    /// so that tests can interrupt it there.
+    /// Writes the files of a generation. Tests pass a `before` that fails, to interrupt the save
+    /// before one of the changes on the disk.
     fn keep_files(
         &mut self,
         files: &[(&str, Content)],
@@ -242,13 +241,13 @@ impl Autosave {
     }
 }
 
-/// Name of an autosave in messages: the painter does not know its folder.
+/// How messages call an autosave, because the painter does not know its folder.
 fn title_of(meta: &SessionMeta) -> String {
     format!("the autosave of {}", meta.title)
 }
 
-/// Autosave of a program that crashed or was killed. No other program finds it while this
-/// value exists.
+/// Autosave of a program that crashed or was killed. Other programs do not find it while you hold
+/// this value.
 #[derive(Debug)]
 pub struct LostSession {
     folder: PathBuf,
@@ -259,8 +258,8 @@ pub struct LostSession {
 }
 
 impl LostSession {
-    /// All lost sessions below the folder `sessions`, the newest first. Those without an
-    /// autosave are removed.
+    /// All lost sessions below the folder `sessions`, the newest first. This removes sessions
+    /// without an autosave.
     ///
     /// # Errors
     /// [`FileFailure`] if the folder cannot be read.
@@ -312,8 +311,8 @@ impl LostSession {
         [CANVAS, PALETTE].map(|name| folder.join(name))
     }
 
-    /// Recording, brushes with their paint, and mask; `None` for an autosave of an earlier version, which kept
-    /// none.
+    /// Recording, brushes with their paint, and mask. Autosaves of earlier versions did not save
+    /// them: you get `None` then.
     ///
     /// # Errors
     /// [`FileFailure`] if a file is missing or was changed.
@@ -324,9 +323,9 @@ impl LostSession {
         if !disk::exists(&path) {
             return Ok(None);
         }
-        let read = |path: &Path| {
+        fn read(path: &Path) -> Result<Vec<u8>, FileFailure> {
             documents::file::read(path).map_err(|error| FileFailure::explained(&error))
-        };
+        }
         let work: WorkFile = serde_json::from_slice(&read(&path)?)
             .map_err(|error| FileFailure::io(&path, "read", &error.into()))?;
         work.read(&self.folder, (&brushes, &read(&brushes)?)).map(Some)
@@ -387,17 +386,11 @@ struct SessionLock(File);
 
 impl SessionLock {
     /// Makes and locks the file of the session in `folder`.
-    ///
-    /// # Errors
-    /// If the file cannot be made, or another program locked it.
     fn create(folder: &Path) -> std::io::Result<Self> {
         Self::of(File::create(folder.join(LOCK))?)
     }
 
     /// Locks the file of the session in `folder`.
-    ///
-    /// # Errors
-    /// If there is none, or the program of the session still runs.
     fn open(folder: &Path) -> std::io::Result<Self> {
         Self::of(File::options().read(true).write(true).open(folder.join(LOCK))?)
     }
@@ -410,8 +403,8 @@ impl SessionLock {
 
 impl Drop for SessionLock {
     fn drop(&mut self) {
-        // Closing the file would not do: a process that is being started by another thread holds
-        // copies of all open files until it runs its own program, and the lock with them.
+        // It is not enough to close the file: when another thread starts a process, that process
+        // holds copies of all open files, and so the lock, until it runs its own program.
         let _ = self.0.unlock();
     }
 }

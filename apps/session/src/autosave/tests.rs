@@ -20,7 +20,7 @@ fn files(text: &str) -> Vec<(&'static str, Content)> {
     vec![(CANVAS, text()), (PALETTE, text()), (META, meta)]
 }
 
-/// Text of the only lost session, `None` without one. Asserts that its files agree.
+/// Text of the only lost session, if there is one. Asserts that its files agree.
 fn found(sessions: &Path) -> Option<String> {
     let mut all = LostSession::all(sessions).unwrap();
     assert!(all.len() <= 1, "{all:?}");
@@ -174,7 +174,7 @@ fn dry(count: usize) -> Vec<Action> {
     (1..=count).map(|index| Action::Dry { fraction: index as f64 / 100.0 }).collect()
 }
 
-/// A painting whose recording goes on from action `from` with `count` actions.
+/// A painting with a recording of `count` actions from action `from` on.
 fn painting(from: usize, count: usize) -> KeptPainting {
     let canvas = Arc::new(document());
     let palette = Arc::new(document());
@@ -281,14 +281,12 @@ fn an_append_that_failed_is_written_again() {
 fn the_painting_that_a_recording_continues_is_kept_once() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = Autosave::begin(folder.path()).unwrap();
-    let continued = |from, count| {
-        let mut painting = painting(from, count);
+    for (from, start) in [(0, &b"the file"[..]), (1, &b"not written"[..])] {
+        let mut painting = painting(from, 1);
         let tail = painting.recording.as_mut().unwrap();
         tail.header = StrokeScript::continue_from("before.exr", &document());
-        painting
-    };
-    session.keep(&continued(0, 1), Some(b"the file"), &meta()).unwrap();
-    session.keep(&continued(1, 1), Some(b"not written"), &meta()).unwrap();
+        session.keep(&painting, Some(start), &meta()).unwrap();
+    }
     assert_eq!(recordings(&session), ["recording-1.jsonl", "start-1.exr"]);
     drop(session);
     let (_, work) = recovered(folder.path());
@@ -302,10 +300,10 @@ fn a_palette_that_stays_the_same_is_not_written_again() {
 
     let folder = tempfile::tempdir().unwrap();
     let mut session = Autosave::begin(folder.path()).unwrap();
-    let file = |session: &Autosave, number, name| {
+    fn file(session: &Autosave, number: u64, name: &str) -> u64 {
         let path = generation_folder(session.folder(), number).join(name);
         std::fs::metadata(path).unwrap().ino()
-    };
+    }
     let mut inodes = Vec::new();
     let held = folder.path().join("held");
     for number in 1..=3 {

@@ -1,15 +1,9 @@
-//! Contents of an autosave besides its documents: the recording, the brushes with their paint, and
-//! the mask.
+//! What an autosave holds besides its documents: the recording, the brushes with their paint, and
+//! the mask. Paint and mask are stored as bytes.
 //!
-//! Paint of brushes as bytes.
-//!
-//! The mask of a canvas as bytes.
-//!
-//! The recording of a session in a file that only grows.
-//!
-//! Each line is an action. A generation names the file and says how many of its bytes belong to it,
-//! so that what a crash left behind them does no harm, and an autosave writes only the actions
-//! since the last one.
+//! The recording is a file that only grows, with one action per line. A generation names this file
+//! and says how many of its bytes belong to it. So an autosave writes only the actions since the
+//! last one, and a line that was half written in a crash does no harm.
 
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -31,13 +25,13 @@ use crate::failure::FileFailure;
 pub(super) struct WorkFile {
     recording: Option<KeptRecording>,
     brushes: Vec<BrushFile>,
-    /// The mask of the canvas; its bits follow the paint of the brushes. Autosaves of earlier
+    /// The mask of the canvas. Its bits follow the paint of the brushes. Autosaves of earlier
     /// versions have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     mask: Option<Place>,
 }
 
-/// A brush; its paint is in a file of all brushes.
+/// A brush. Its paint is in a file with all brushes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct BrushFile {
     name: String,
@@ -45,7 +39,7 @@ struct BrushFile {
     spec: BrushSpec,
     named: bool,
     at: SurfaceId,
-    /// Numbers on canvas and palette.
+    /// Index of the brush on the canvas and on the palette, if it is there.
     numbers: [Option<usize>; 2],
     paint: Option<Place>,
 }
@@ -53,7 +47,6 @@ struct BrushFile {
 /// Place of a brush's paint, or of the mask, in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Place {
-    /// Cells of the head or of the canvas.
     width: usize,
     height: usize,
     start: usize,
@@ -69,7 +62,7 @@ pub struct RecoveredWork {
     pub start: Option<Vec<u8>>,
 }
 
-/// Describes recording, brushes and mask. The second value is the paint of all brushes, then the
+/// Describes recording, brushes and mask. Also returns the paint of all brushes followed by the
 /// bits of the mask.
 pub(super) fn describe(
     recording: Option<KeptRecording>,
@@ -96,8 +89,8 @@ pub(super) fn describe(
 }
 
 impl WorkFile {
-    /// Returns the state that the file describes. The recording lies in `folder`; `paint` is the
-    /// paint of all brushes and the mask, read from `path`.
+    /// Returns the state that the file describes. You pass the `folder` of the recording, and the
+    /// `paint` of all brushes with the mask, which was read from `path`.
     pub(super) fn read(
         self,
         folder: &Path,
@@ -136,13 +129,13 @@ impl WorkFile {
     }
 }
 
-/// Numbers of a cell: each slot, then the vehicle.
+/// Numbers per cell: one for each slot, then the vehicle.
 const NUMBERS: usize = SLOTS + 1;
 
-/// Most cells of a head that is read.
+/// Refuses to read a larger head, e.g. from a damaged file.
 const MOST_CELLS: usize = 1 << 24;
 
-/// All cells of a head, row by row; each number takes four bytes, the lowest first.
+/// All cells of a head, row by row. Each number takes four bytes, the lowest first.
 pub(super) fn bytes_of(paint: &Layer) -> Vec<u8> {
     let cells = (0..paint.width() * paint.height()).map(|index| paint.cell(index));
     let numbers = cells.flat_map(|Cell { pigments, vehicle }| {
@@ -151,7 +144,7 @@ pub(super) fn bytes_of(paint: &Layer) -> Vec<u8> {
     numbers.collect()
 }
 
-/// The paint of a head of this width and height; `None` if the bytes do not belong to it.
+/// Returns `None` if the bytes do not fit a head of this width and height.
 pub(super) fn paint_of(width: usize, height: usize, bytes: &[u8]) -> Option<Layer> {
     let cells = width.checked_mul(height).filter(|&cells| cells <= MOST_CELLS)?;
     let (numbers, rest) = bytes.as_chunks::<4>();
@@ -166,10 +159,9 @@ pub(super) fn paint_of(width: usize, height: usize, bytes: &[u8]) -> Option<Laye
     Some(paint)
 }
 
-/// Most cells of a mask that is read.
 const MOST_MASK_CELLS: usize = 1 << 30;
 
-/// A bit a cell, row by row, the first in the lowest bit of the first byte; 1 is covered.
+/// One bit per cell, row by row, starting with the lowest bit of the first byte. 1 means covered.
 pub(super) fn bits_of(mask: &Mask) -> Vec<u8> {
     let cells = mask.bounds().width * mask.bounds().height;
     let bytes = (0..cells).step_by(8).map(|first| {
@@ -179,7 +171,7 @@ pub(super) fn bits_of(mask: &Mask) -> Vec<u8> {
     bytes.collect()
 }
 
-/// The mask of a canvas of this width and height in cells; `None` if the bytes do not belong to it.
+/// Returns `None` if the bytes do not fit a canvas of this width and height in cells.
 pub(super) fn mask_of(width: usize, height: usize, bytes: &[u8]) -> Option<Mask> {
     let cells = width.checked_mul(height).filter(|&cells| cells <= MOST_MASK_CELLS)?;
     let bounds = Rect { x: 0, y: 0, width, height };
@@ -187,19 +179,17 @@ pub(super) fn mask_of(width: usize, height: usize, bytes: &[u8]) -> Option<Mask>
         .then(|| Mask::with_open(bounds, |cell: usize| bytes[cell / 8] >> (cell % 8) & 1 == 0))
 }
 
-/// Start of the names of recordings.
 const NAME: &str = "recording-";
 
-/// Start of the names of the paintings that recordings continue.
+/// Prefix for the paintings that recordings continue.
 const START: &str = "start-";
 
-/// The recording of a generation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct KeptRecording {
     file: String,
     bytes: u64,
     header: StrokeScript,
-    /// Action that was not yet finished.
+    /// Action that was not finished yet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     open: Option<Action>,
     /// File of the painting that the recording continues.
@@ -210,7 +200,7 @@ pub(super) struct KeptRecording {
 /// The recording file of a running session.
 #[derive(Debug, Default)]
 pub(super) struct RecordingFile {
-    /// Number of recordings so far, which gives each its own names.
+    /// Number of recordings so far. Each gets names of its own from it.
     count: u64,
     now: Option<Written>,
 }
@@ -224,14 +214,14 @@ struct Written {
 }
 
 impl RecordingFile {
-    /// Number of actions that are written.
     pub(super) fn actions(&self) -> usize {
         self.now.as_ref().map_or(0, |written| written.actions)
     }
 
-    /// Appends the end of a recording to its file in `folder`. An end from the first action on
-    /// begins another file, beside the painting that it continues. Returns `None` for an end that
-    /// does not follow what is written.
+    /// Appends the end of a recording to its file in `folder`. If it starts with the first action,
+    /// this begins another file and saves the painting that the recording continues beside it.
+    /// Returns
+    /// `None` if the end does not follow what was written before.
     pub(super) fn append(
         &mut self,
         folder: &Path,
@@ -284,7 +274,7 @@ impl RecordingFile {
         Ok(name)
     }
 
-    /// Forgets the recording, whose files are removed with those of older ones.
+    /// Forgets the recording. Its files are removed together with older ones.
     pub(super) fn clear(&mut self, folder: &Path) -> std::io::Result<()> {
         self.now = None;
         remove_others(folder, &[])
@@ -339,7 +329,6 @@ impl KeptRecording {
     }
 }
 
-/// Refuses names that lead out of the folder.
 fn own_name<'a>(name: &'a str, folder: &Path) -> Result<&'a str, FileFailure> {
     let plain = Path::new(name).file_name().is_some_and(|plain| plain == name);
     if plain {

@@ -18,8 +18,8 @@ pub struct StoredSet {
     pub set: BrushSet,
 }
 
-/// All sets of a folder in the order of their file names, and the files that could not be used,
-/// which stay as they are. A folder that does not exist holds none.
+/// All sets of a folder, sorted by file name, and the errors of files that could not be used. These
+/// files stay as they are. A folder that does not exist has no sets.
 #[must_use]
 pub fn read_sets(folder: &Path) -> (Vec<StoredSet>, Vec<FileFailure>) {
     let entries = match disk::read_dir(folder) {
@@ -45,14 +45,14 @@ pub fn read_sets(folder: &Path) -> (Vec<StoredSet>, Vec<FileFailure>) {
 /// Reads a set of brushes from its file.
 ///
 /// # Errors
-/// [`FileFailure`] if the file cannot be read, or names the key that is at fault.
+/// [`FileFailure`] if the file cannot be read, or with the key that is wrong.
 pub fn read_set(path: &Path) -> Result<BrushSet, FileFailure> {
     let text = read_text(path)?;
     BrushSet::of_json(&text, &path.display().to_string())
         .map_err(|error| FileFailure::explained(&error))
 }
 
-/// Writes a set to its file, whose folder is made if it is missing.
+/// Writes a set to its file. Creates the folder if it is missing.
 ///
 /// # Errors
 /// [`FileFailure`] if folder or file cannot be written.
@@ -64,7 +64,7 @@ pub fn write_set(stored: &StoredSet) -> Result<(), FileFailure> {
         .map_err(|error| FileFailure::explained(&error))
 }
 
-/// Path for a new set in a folder: its name in lower case, numbered if one of `taken` has it.
+/// Path for a new set in a folder: its name in lower case, with a number if one of `taken` has it.
 #[must_use]
 pub fn free_path(folder: &Path, name: &str, taken: &[StoredSet]) -> PathBuf {
     let stem: String = name

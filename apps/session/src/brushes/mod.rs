@@ -1,6 +1,7 @@
-//! Brushes as a painter keeps them: how a pen leads each of them, and sets of own brushes in files.
+//! Brushes as a painter saves them: how the pen controls each brush, and files with sets of
+//! brushes.
 //!
-//! Everything here is data and pure functions; only [`folder`] reads and writes files.
+//! Only [`folder`] reads and writes files. Everything else here is data and pure functions.
 mod reading;
 mod points;
 mod options;

@@ -1,20 +1,19 @@
-//! Takes over brushes of MyPaint (`.myb`) as far as they have a meaning for a head of hair.
+//! Imports brushes of MyPaint as far as their settings mean something for a brush with hairs. A
+//! `.myb` file (version 3) holds settings, each with a base value and dynamics.
 //!
 //! | MyPaint | here |
 //! | --- | --- |
-//! | `radius_logarithmic` | size in mm: the diameter at half pressure, a pixel being [`MM_PER_PIXEL`] |
+//! | `radius_logarithmic` | size in mm: the diameter at half pressure, where a pixel is [`MM_PER_PIXEL`] wide |
 //! | its dynamics by `pressure` | curve of the pressure: the radius as a share of the largest |
 //! | `opaque_multiply` or `opaque` by `pressure` | curve of the pressure, if the radius has none |
 //! | `opaque` | share of clear medium in a load: one minus it |
-//! | `smudge` | height of a load: 0.3 mm less this share; none at 0.95 and above |
-//! | `slow_tracking` | moving average over the way of a pen at 100 mm/s: 2 mm for each unit, because MyPaint's filter lags by 0.01 s a unit and an average by half its length |
+//! | `smudge` | height of a load: 0.3 mm less this share, and no load from 0.95 on |
+//! | `slow_tracking` | moving average over the path of a pen at 100 mm/s: 2 mm per unit, because MyPaint's filter lags by 0.01 s per unit and an average by half its length |
 //! | `elliptical_dab_ratio` | from 1.5 on a flat, else a round |
-//! | `elliptical_dab_angle` | fixed twist; with dynamics by `direction` across the stroke, by `tilt_ascension` with the pen |
+//! | `elliptical_dab_angle` | fixed twist, or across the stroke with dynamics by `direction`, or with the pen by `tilt_ascension` |
 //!
-//! The setting names are those of MyPaint's public documentation (`brushsettings.json`). All other
-//! settings and dynamics are listed as without meaning; none is dropped in silence.
-//!
-//! A brush file of MyPaint (`.myb`, version 3): settings with a base value and dynamics.
+//! The settings have the names of MyPaint's public documentation (`brushsettings.json`). The import
+//! lists every other setting and dynamic as meaningless, so nothing is dropped silently.
 
 use documents::hint::Hint;
 use paint::brush::HeadShape;
@@ -26,42 +25,40 @@ use super::points::{CurvePoints, PressureCurve};
 use super::reading::{BrushFileError, Object};
 use super::set::{BrushPreset, PresetLoad, proper_name};
 
-/// Millimetres of a pixel of MyPaint unless told otherwise: the width of a cell of a new canvas, so
-/// that a brush covers as many cells as it covered pixels.
+/// Millimetres per pixel of MyPaint unless you pass another value: the width of a cell of a new
+/// canvas, so that a brush covers as many cells here as it covered pixels there.
 pub const MM_PER_PIXEL: f64 = 0.1;
 
-/// Height of a full load in mm.
 const LOAD_MM: f64 = 0.3;
 
-/// Share of smudging from which a brush takes no load.
+/// A brush that smudges at least this much takes no load.
 const SMUDGES_ONLY: f64 = 0.95;
 
-/// Averaged length in mm for each unit of `slow_tracking`.
 const MM_PER_TRACKING: f64 = 2.0;
 
-/// Ratio of a dab's axes from which it is a flat.
+/// From this ratio of a dab's axes on, the brush is a flat.
 const FLAT_RATIO: f64 = 1.5;
 
-/// A brush that was taken over, and what became of its settings.
+/// An imported brush, and what happened to each of its settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedBrush {
-    /// The brush as it is kept here.
+    /// The brush as it is saved here.
     pub preset: BrushPreset,
-    /// Settings that have a meaning here, each with what became of it.
+    /// Settings that mean something here, each with what it became.
     pub taken: Vec<String>,
-    /// Settings and dynamics without a meaning here.
+    /// Settings and dynamics that mean nothing here.
     pub meaningless: Vec<String>,
 }
 
-/// Settings of a file, from which those with a meaning are taken.
+/// Settings of a file that have not been used yet.
 struct Import {
     settings: Vec<MybSetting>,
     taken: Vec<String>,
     meaningless: Vec<String>,
 }
 
-/// Takes over the brush that the text of a `.myb` file describes. `file` names the file in errors
-/// and, without folder and ending, the brush; `mm_per_pixel` is the width of one of its pixels.
+/// Imports the brush that the text of a `.myb` file describes. Errors call the file `file`, and the
+/// brush is named after it, without folder and extension. `mm_per_pixel` is the width of a pixel.
 ///
 /// # Errors
 /// [`BrushFileError`] if the text is not a MyPaint brush of version 3, with the key at fault.
@@ -98,7 +95,7 @@ pub fn brush_of_myb(
 }
 
 impl Import {
-    /// Removes a setting. Its dynamics are listed as without meaning, except those in `used`.
+    /// Removes a setting. Lists its dynamics as meaningless, except those named in `used`.
     fn take(&mut self, name: &str, used: &[&str]) -> Option<MybSetting> {
         let at = self.settings.iter().position(|setting| setting.name == name)?;
         let setting = self.settings.remove(at);
@@ -219,17 +216,13 @@ impl Import {
     }
 }
 
-/// Most points of one dynamic.
 const MOST_POINTS: usize = 64;
 
-/// One setting of a MyPaint brush.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct MybSetting {
-    /// Name of the setting.
     pub(super) name: String,
-    /// Value without any input.
     pub(super) base: f64,
-    /// Inputs that have an effect, each with points of input and what is added to the base.
+    /// Inputs that have an effect. Each point is an input value and what it adds to the base.
     pub(super) inputs: Vec<(String, Vec<[f64; 2]>)>,
 }
 
@@ -239,7 +232,7 @@ impl MybSetting {
         self.inputs.iter().find(|(input, _)| input == name).map(|(_, points)| &points[..])
     }
 
-    /// The value at an input, with all other inputs absent: linear between the points.
+    /// The value at an input while all other inputs are absent, linear between the points.
     pub(super) fn at(&self, input: &str, x: f64) -> f64 {
         self.base + self.input(input).map_or(0.0, |points| interpolated(points, x))
     }
@@ -258,8 +251,7 @@ fn interpolated(points: &[[f64; 2]], x: f64) -> f64 {
     }
 }
 
-/// The settings of a file in the order of their names, and its keys beside them, which describe
-/// the brush.
+/// The settings of a file sorted by name, and the other keys, which describe the brush.
 pub(super) fn read(
     text: &str,
     file: &str,

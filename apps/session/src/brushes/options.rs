@@ -1,6 +1,5 @@
-//! How a pen leads one brush, where that differs from the painter's general settings.
-//!
-//! Settings of the stabiliser, which steadies the way of a brush.
+//! How the pen controls one brush where this differs from the painter's general settings, including
+//! the stabiliser, which smooths the path of a brush.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +15,10 @@ pub enum TiltUse {
     AsSet,
     /// The tilt of the pen, where it measures one.
     Pen,
-    /// Held as with a mouse, whatever the pen measures.
+    /// Held as with a mouse, even if the pen measures a tilt.
     Ignored,
-    /// At this angle from upright in degrees, 0 to 80, towards the hand of the general settings.
+    /// Tilted by this angle, 0 to 80 degrees from upright, towards the hand of the general
+    /// settings.
     Fixed(f64),
 }
 
@@ -33,25 +33,25 @@ pub enum TwistUse {
     Device,
     /// The broad side turns across the direction of the stroke.
     Stroke,
-    /// At this angle in degrees, 0 to 360, clockwise; at 0 the broad side runs from left to right.
+    /// Turned by this angle clockwise, 0 to 360 degrees. At 0 the broad side is horizontal.
     Fixed(f64),
 }
 
-/// How a pen leads one brush.
+/// How the pen controls one brush.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BrushOptions {
     /// Tilt of the brush.
     pub tilt: TiltUse,
-    /// Rotation of the brush about its handle.
+    /// Rotation about the handle.
     pub twist: TwistUse,
     /// Pressures of the brush at the lightest and the heaviest touch, 0 to 1. A pressure of 0 stays
-    /// 0, because the brush is lifted then.
+    /// 0, because you have lifted the brush then.
     pub range: [f64; 2],
-    /// Curve of the pressure instead of the general one.
+    /// Curve of the pressure. If you set this, it replaces the general one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<PressureCurve>,
-    /// Stabiliser instead of the general one.
+    /// Stabiliser. If you set this, it replaces the general one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stabiliser: Option<StabiliserSettings>,
 }
@@ -65,7 +65,7 @@ impl Default for BrushOptions {
 }
 
 impl BrushOptions {
-    /// Pressure within the range, for one of 0 to 1.
+    /// Maps a pressure from 0 to 1 into the range.
     #[must_use]
     pub fn in_range(&self, pressure: f64) -> f64 {
         let [least, most] = self.range;
@@ -88,9 +88,6 @@ impl BrushOptions {
     }
 
     /// Reads the options of a file.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] for unknown keys and values out of range.
     pub(super) fn read(mut object: Object<'_>) -> Result<Self, BrushFileError> {
         let default = Self::default();
         let read = Self {
@@ -135,17 +132,17 @@ impl BrushOptions {
     }
 }
 
-/// Lengths that a stabiliser can have, in either unit.
+/// Allowed lengths of a stabiliser, in either unit.
 const LENGTHS: std::ops::RangeInclusive<f64> = 0.1..=500.0;
 
-/// The way in which the brush follows the pen.
+/// How the brush follows the pen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StabiliserMethod {
     /// The brush is where the pen is.
     #[default]
     Off,
-    /// The brush is at the mean of the last length of the pen's way.
+    /// The brush is at the mean position over the last stretch of the pen's path.
     Average,
     /// The pen pulls the brush by a string of this length.
     String,
@@ -155,27 +152,27 @@ pub enum StabiliserMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LengthUnit {
-    /// Millimetres of the surface, whatever its zoom.
+    /// Millimetres of the surface at any zoom.
     #[default]
     Mm,
-    /// Points of the window, which are pixels where the interface is not scaled.
+    /// Points of the window. These are pixels if the interface is not scaled.
     Px,
 }
 
-/// How far and in which way a brush stays behind its pen.
+/// How the brush follows the pen, and how far behind.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StabiliserSettings {
-    /// The way in which the brush follows.
+    /// How the brush follows.
     pub method: StabiliserMethod,
-    /// Length of the averaged way or of the string, 0.1 to 500.
+    /// Length of the averaged path or of the string, 0.1 to 500.
     pub length: f64,
     /// Unit of the length.
     pub unit: LengthUnit,
 }
 
 impl Default for StabiliserSettings {
-    /// Off; 4 mm once it is switched on.
+    /// Switched off, with 4 mm for when you switch it on.
     fn default() -> Self {
         Self { method: StabiliserMethod::Off, length: 4.0, unit: LengthUnit::Mm }
     }

@@ -1,23 +1,21 @@
-//! A rising curve through a few points, by monotone cubic interpolation.
+//! The curve that maps the pressure of the pen to the pressure of the brush. It rises through a few
+//! points that you can edit, by monotone cubic interpolation.
 //!
-//! Between two points the curve is a cubic whose slopes are limited such that it never leaves the
-//! range of the two: F. N. Fritsch and R. E. Carlson, Monotone piecewise cubic interpolation, SIAM
-//! Journal on Numerical Analysis 17 (1980) 238-246.
-//!
-//! The curve from the pressure of a pen to that of the brush.
+//! Between two points the curve is a cubic. Its slopes are limited so that it never leaves the
+//! range of the two points: F. N. Fritsch and R. E. Carlson, Monotone piecewise cubic
+//! interpolation, SIAM Journal on Numerical Analysis 17 (1980) 238-246.
 
 use serde::{Deserialize, Serialize};
 
-/// Least distance of two points along x.
 const GAP: f64 = CurvePoints::GAP;
 
-/// Two to eight points, x ascending, y never falling, both from 0 to 1. Before the first and
-/// behind the last point the curve is level.
+/// Two to eight points from 0 to 1: x ascends and y never falls. The curve is level before the
+/// first and after the last point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
 pub struct CurvePoints(Vec<[f64; 2]>);
 
-/// The reason why points are no curve.
+/// Why points do not make a curve.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidCurve {
     /// There are too few points, or too many.
@@ -66,13 +64,13 @@ impl From<CurvePoints> for Vec<[f64; 2]> {
 }
 
 impl CurvePoints {
-    /// Least number of points.
+    /// Fewest points of a curve.
     pub const LEAST: usize = 2;
 
-    /// Least distance of two points along x.
+    /// Smallest distance of two points along x.
     pub(super) const GAP: f64 = 0.01;
 
-    /// Greatest number of points.
+    /// Most points of a curve.
     pub const MOST: usize = 8;
 
     /// The straight line from 0 to 1.
@@ -124,8 +122,8 @@ impl CurvePoints {
         height.clamp(y0, y1)
     }
 
-    /// Slope at a point before it is limited: that of the chord at the ends, else the mean of both
-    /// chords, and 0 beside a level one.
+    /// Slope at a point before it is limited: the chord at either end, else the mean of both
+    /// chords, and 0 next to a level chord.
     fn slope(&self, point: usize) -> f64 {
         let chord = |left: usize| {
             let [x0, y0] = self.0[left];
@@ -144,8 +142,8 @@ impl CurvePoints {
         }
     }
 
-    /// Adds a point, moved as far as the order of the points needs. Returns its number from 0;
-    /// `None` if there are eight already, or no room beside the others.
+    /// Adds a point and shifts it if the order of the points requires this. Returns its index, or
+    /// `None` if there are eight points already or no room beside the others.
     pub fn add(&mut self, at: [f64; 2]) -> Option<usize> {
         if self.0.len() == Self::MOST || at.iter().any(|part| !part.is_finite()) {
             return None;
@@ -161,8 +159,7 @@ impl CurvePoints {
         Some(index)
     }
 
-    /// Moves a point, at most to its neighbours and the edges. Does nothing if there is no such
-    /// point.
+    /// Moves a point, but not past its neighbours or the edges. Does nothing without such a point.
     pub fn move_to(&mut self, index: usize, to: [f64; 2]) {
         if index >= self.0.len() || to.iter().any(|part| !part.is_finite()) {
             return;
@@ -176,7 +173,7 @@ impl CurvePoints {
         self.0[index] = [to[0].clamp(left, right), to[1].clamp(low, high)];
     }
 
-    /// Removes a point. Returns whether it was removed: two must stay.
+    /// Removes a point and returns whether this was possible: two must stay.
     pub fn remove(&mut self, index: usize) -> bool {
         let removed = self.0.len() > Self::LEAST && index < self.0.len();
         if removed {
@@ -186,10 +183,10 @@ impl CurvePoints {
     }
 }
 
-/// Exponents of a power, least and greatest.
+/// Smallest and greatest exponent.
 const POWERS: [f64; 2] = [0.2, 5.0];
 
-/// Number of points that stand for a power when it is edited.
+/// How many points replace a power when you edit it.
 const POINTS_OF_A_POWER: usize = 7;
 
 /// Pressure of the brush for each pressure of the pen, both 0 to 1.
@@ -209,17 +206,17 @@ impl Default for PressureCurve {
 }
 
 impl PressureCurve {
-    /// A light hand presses well.
+    /// For a light hand: little pressure gives much.
     pub const SOFT: Self = Self::Power(0.625);
 
     /// The pressure of the pen as it is.
     pub const LINEAR: Self = Self::Power(1.0);
 
-    /// Only a heavy hand presses well; the reciprocal of [`Self::SOFT`].
+    /// For a heavy hand. The exponent is the reciprocal of [`Self::SOFT`].
     pub const FIRM: Self = Self::Power(1.6);
 
-    /// Pressure of the brush for a measured `pressure`; both are 0 to 1. It never falls while the
-    /// measured one rises.
+    /// Pressure of the brush for the measured `pressure`, both 0 to 1. If the measured one rises,
+    /// this never falls.
     #[must_use]
     pub fn at(&self, pressure: f64) -> f64 {
         let pressure = if pressure.is_nan() { 0.0 } else { pressure.clamp(0.0, 1.0) };
@@ -229,9 +226,9 @@ impl PressureCurve {
         }
     }
 
-    /// The points by which the curve is edited. Those of a power deviate from it by less than 0.025
-    /// for exponents from 0.5 on and by less than 0.04 above 2.5; a smaller one is steeper at 0 than
-    /// points can be, so they deviate more below a pressure of 0.01.
+    /// The points by which you edit the curve. Points of a power deviate from it by less than 0.025
+    /// for exponents from 0.5 on, and by less than 0.04 above 2.5. A smaller power is steeper at 0
+    /// than points can be, so they deviate more below a pressure of 0.01.
     #[must_use]
     pub fn points(&self) -> CurvePoints {
         let power = match self {
@@ -239,7 +236,7 @@ impl PressureCurve {
             Self::Power(power) => bounded(*power),
         };
         let count = if power == 1.0 { CurvePoints::LEAST } else { POINTS_OF_A_POWER };
-        let point = |at: usize| {
+        let points = (0..count).map(|at| {
             let share = at as f64 / (count - 1) as f64;
             // Close together where the curve is steep.
             let x = if power < 1.0 {
@@ -248,9 +245,9 @@ impl PressureCurve {
                 share
             };
             [x, x.powf(power)]
-        };
-        let points: Vec<[f64; 2]> = (0..count).map(point).collect();
-        // Both coordinates rise with the number of the point.
+        });
+        let points: Vec<[f64; 2]> = points.collect();
+        // Both coordinates rise with the index.
         CurvePoints::try_from(points).unwrap_or_else(|_| CurvePoints::straight())
     }
 
@@ -327,12 +324,15 @@ mod tests {
 
     #[test]
     fn points_that_are_no_curve_are_refused_with_their_number() {
-        let refused = |points: &[[f64; 2]]| CurvePoints::try_from(points.to_vec()).unwrap_err();
-        assert_eq!(refused(&[[0.0, 0.0]]), InvalidCurve::Count(1));
-        assert_eq!(refused(&[[0.0, 0.0]; 9]), InvalidCurve::Count(9));
-        assert_eq!(refused(&[[0.0, 0.0], [1.0, f64::NAN]]), InvalidCurve::Range(2));
-        assert_eq!(refused(&[[0.5, 0.0], [0.5, 1.0]]), InvalidCurve::Order(2));
-        assert_eq!(refused(&[[0.0, 0.5], [0.5, 0.6], [1.0, 0.4]]), InvalidCurve::Falls(3));
+        for (points, wanted) in [
+            (&[[0.0, 0.0]][..], InvalidCurve::Count(1)),
+            (&[[0.0, 0.0]; 9][..], InvalidCurve::Count(9)),
+            (&[[0.0, 0.0], [1.0, f64::NAN]][..], InvalidCurve::Range(2)),
+            (&[[0.5, 0.0], [0.5, 1.0]][..], InvalidCurve::Order(2)),
+            (&[[0.0, 0.5], [0.5, 0.6], [1.0, 0.4]][..], InvalidCurve::Falls(3)),
+        ] {
+            assert_eq!(CurvePoints::try_from(points.to_vec()).unwrap_err(), wanted);
+        }
     }
 
     #[test]
@@ -352,7 +352,7 @@ mod tests {
 
     #[test]
     fn a_power_becomes_points_that_hardly_differ() {
-        let worst = |power: f64| {
+        fn worst(power: f64) -> f64 {
             let curve = PressureCurve::Power(power);
             let points = PressureCurve::Power(power).points();
             (0..=1000)
@@ -360,7 +360,7 @@ mod tests {
                     (curve.at(f64::from(at) / 1e3) - points.at(f64::from(at) / 1e3)).abs()
                 })
                 .fold(0.0, f64::max)
-        };
+        }
         for power in [0.5, 0.625, 0.8, 1.0, 1.6, 2.5] {
             assert!(worst(power) < 0.025, "{power}: {}", worst(power));
         }

@@ -1,25 +1,20 @@
-//! Reads JSON objects key by key, so that every error names its key.
-//!
-//! Errors of brush files.
+//! Reads the JSON objects of brush files key by key, so that every error names its key.
 
 use documents::hint::{Explain, Hint};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
-/// An object of a file, whose keys are taken out one by one.
+/// An object of a file. You take out its keys one by one.
 #[derive(Debug)]
 pub(super) struct Object<'a> {
     file: &'a str,
-    /// Path of the object in the file; empty for the whole.
+    /// Path of the object in the file. The whole file has an empty path.
     path: String,
     keys: Map<String, Value>,
 }
 
 impl<'a> Object<'a> {
-    /// The object that a text holds. `file` names it in errors.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if the text is not JSON, or not an object.
+    /// Parses the object in a text. Errors call the file `file`.
     pub(super) fn of_text(text: &str, file: &'a str) -> Result<Self, BrushFileError> {
         let value: Value = serde_json::from_str(text).map_err(|error| BrushFileError {
             file: file.to_owned(),
@@ -30,10 +25,7 @@ impl<'a> Object<'a> {
         Self::of_value(value, file, String::new())
     }
 
-    /// The object that a value of a file is; `path` is its place in the file.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if the value is not an object.
+    /// Makes an object of a value in the file. `path` is its place.
     pub(super) fn of_value(
         value: Value,
         file: &'a str,
@@ -45,10 +37,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// Removes a key and reads its value; `None` if there is no such key.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if the value has another type.
+    /// Removes a key and reads its value. Returns `None` if the key is missing.
     pub(super) fn take<T: DeserializeOwned>(
         &mut self,
         key: &str,
@@ -59,26 +48,17 @@ impl<'a> Object<'a> {
     }
 
     /// Removes a key that must be there and reads its value.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if the key is missing or the value has another type.
     pub(super) fn need<T: DeserializeOwned>(&mut self, key: &str) -> Result<T, BrushFileError> {
         self.take(key)?.ok_or_else(|| self.fault_at(key, "is missing"))
     }
 
-    /// Removes a key and returns the object in it; `None` if there is no such key.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if the value is not an object.
+    /// Removes a key and returns its object. Returns `None` if the key is missing.
     pub(super) fn take_object(&mut self, key: &str) -> Result<Option<Self>, BrushFileError> {
         let Some(value) = self.keys.remove(key) else { return Ok(None) };
         Self::of_value(value, self.file, self.path_of(key)).map(Some)
     }
 
     /// Removes a key that must hold a list of objects, and returns them.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if the key is missing or holds anything else.
     pub(super) fn need_objects(&mut self, key: &str) -> Result<Vec<Self>, BrushFileError> {
         let values: Vec<Value> = self.need(key)?;
         let path = self.path_of(key);
@@ -99,10 +79,7 @@ impl<'a> Object<'a> {
         self.keys.keys().cloned().collect()
     }
 
-    /// Refuses keys that nothing took.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] if a key is left.
+    /// Call this last: it refuses keys that nothing took.
     pub(super) fn end(self) -> Result<(), BrushFileError> {
         match self.keys.keys().next() {
             None => Ok(()),
@@ -110,7 +87,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The error that this object is at fault.
+    /// An error about this object.
     pub(super) fn fault(&self, what: impl Into<String>) -> BrushFileError {
         let file = self.file.to_owned();
         let key = self.path.clone();
@@ -118,7 +95,7 @@ impl<'a> Object<'a> {
         BrushFileError { file, key, what: what.into(), hint }
     }
 
-    /// The error that a key of this object is at fault.
+    /// An error about a key of this object.
     pub(super) fn fault_at(&self, key: &str, what: impl Into<String>) -> BrushFileError {
         BrushFileError { key: self.path_of(key), ..self.fault(what) }
     }
@@ -128,15 +105,16 @@ impl<'a> Object<'a> {
     }
 }
 
-/// A file of brushes that cannot be used, with the key that is at fault.
+/// A file of brushes that cannot be used, with the key that is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {}{what}", place(key))]
 pub struct BrushFileError {
     /// Name of the file.
     pub file: String,
-    /// Path of the key in the file, such as `presets[2].options.range`; empty for the whole file.
+    /// Path of the key in the file, e.g. `presets[2].options.range`. It is empty for the whole
+    /// file.
     pub key: String,
-    /// Tells what is wrong there.
+    /// What is wrong there.
     pub what: String,
     /// Advice on what to do.
     pub hint: Option<Hint>,

@@ -1,4 +1,4 @@
-//! A set of own brushes, and its file (`impasto-brushes`, version 1).
+//! A set of the painter's own brushes, and its file (`impasto-brushes`, version 1).
 //!
 //! ```json
 //! {
@@ -18,10 +18,8 @@
 //! }
 //! ```
 //!
-//! `options` and `load` may be absent, and so may every key of `options`. A curve is a `power`, or
-//! 2 to 8 `points` `[x, y]` of 0 to 1. Unknown keys are refused.
-//!
-//! One brush that a painter keeps.
+//! You may leave out `options`, `load` and any key of `options`. A curve is a `power`, or 2 to 8
+//! `points` `[x, y]` from 0 to 1. Unknown keys are refused.
 
 use paint::strokes::{BrushSpec, Load, Recipe};
 use serde::Serialize;
@@ -30,10 +28,9 @@ use serde_json::{Value, json};
 use super::options::BrushOptions;
 use super::reading::{BrushFileError, Object};
 
-/// Most brushes of a set.
 const MOST_PRESETS: usize = 1000;
 
-/// Brushes that a painter keeps together, each under a name of its own.
+/// Brushes that a painter saves together. Each has a different name.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BrushSet {
     name: String,
@@ -54,7 +51,7 @@ impl BrushSet {
         Self { name, presets: Vec::new() }
     }
 
-    /// The set under another name; one without letters changes nothing.
+    /// Renames the set. A name without letters changes nothing.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         self.name = proper_name(name).unwrap_or(self.name);
@@ -73,8 +70,8 @@ impl BrushSet {
         &self.presets
     }
 
-    /// Adds a brush at the end and returns the name that it got: a taken one is numbered. `None`,
-    /// and nothing is added, once there are 1000.
+    /// Adds a brush at the end and returns its name, which gets a number if another brush has it.
+    /// If there are 1000 brushes already, this adds nothing and returns `None`.
     pub fn add(&mut self, preset: BrushPreset) -> Option<String> {
         if self.presets.len() >= MOST_PRESETS {
             return None;
@@ -94,7 +91,8 @@ impl BrushSet {
         }
     }
 
-    /// Renames a brush; a taken name is numbered, and one without letters changes nothing.
+    /// Renames a brush. If the name is taken, it gets a number. A name without letters changes
+    /// nothing.
     pub fn rename(&mut self, index: usize, name: &str) {
         let Some(name) = proper_name(name) else { return };
         if self.presets.get(index).is_none_or(|preset| preset.name == name) {
@@ -110,7 +108,7 @@ impl BrushSet {
         }
     }
 
-    /// Moves a brush to another place of the list, at most to its end.
+    /// Moves a brush to another place of the list. A place after the end means the end.
     pub fn move_to(&mut self, index: usize, place: usize) {
         if index < self.presets.len() {
             let preset = self.presets.remove(index);
@@ -118,12 +116,12 @@ impl BrushSet {
         }
     }
 
-    /// Adds all brushes of another set, and returns how many there was room for.
+    /// Adds brushes of another set while there is room, and returns how many.
     pub fn add_all(&mut self, other: Self) -> usize {
         other.presets.into_iter().filter_map(|preset| self.add(preset)).count()
     }
 
-    /// Reads the text of a file; `file` names it in errors.
+    /// Reads the text of a file. Errors call the file `file`.
     ///
     /// # Errors
     /// [`BrushFileError`] with the key that is unknown, missing or out of range.
@@ -168,7 +166,7 @@ impl BrushSet {
         pigment::library::to_text(&value)
     }
 
-    /// The name itself, or numbered if it is taken.
+    /// Appends a number to a name that is taken.
     fn free_name(&self, name: &str) -> String {
         let name = proper_name(name).unwrap_or_else(|| "brush".to_owned());
         let taken = |name: &str| self.presets.iter().any(|own| own.name == name);
@@ -183,13 +181,12 @@ impl BrushSet {
     }
 }
 
-/// Most letters of a name.
 const LONGEST_NAME: usize = 80;
 
-/// Paint that a kept brush takes up when it is used.
+/// Paint that a saved brush takes up when you choose it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PresetLoad {
-    /// Parts of each pigment by its name. Without any, only the share of medium and the height of
+    /// Parts of each pigment by name. If this is empty, only the share of medium and the height of
     /// the next loads are set.
     pub recipe: Recipe,
     /// Share of clear medium, 0 to 1.
@@ -199,7 +196,7 @@ pub struct PresetLoad {
 }
 
 impl PresetLoad {
-    /// The action that loads the brush of this name; `None` if no pigment is kept.
+    /// The action that loads the brush of this name. Returns `None` if there is no pigment.
     #[must_use]
     pub fn for_brush(&self, brush: &str) -> Option<Load> {
         let Self { recipe, vehicle, amount_mm } = self;
@@ -212,17 +209,17 @@ impl PresetLoad {
     }
 }
 
-/// A brush that is kept under a name.
+/// A brush that is saved under a name.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BrushPreset {
-    /// Name of the brush, 1 to 80 letters, which is also that of the brush in a painting.
+    /// Name of the brush, 1 to 80 letters. The brush of a painting gets the same name.
     pub name: String,
     /// Shape and size of its head.
     pub brush: BrushSpec,
-    /// How a pen leads it.
+    /// How the pen controls it.
     #[serde(skip_serializing_if = "is_default")]
     pub options: BrushOptions,
-    /// Paint that it takes up when it is used.
+    /// Paint that it takes up when you choose it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<PresetLoad>,
 }
@@ -231,8 +228,8 @@ fn is_default(options: &BrushOptions) -> bool {
     *options == BrushOptions::default()
 }
 
-/// A name as it is kept: trimmed, without control characters, at most 80 letters; `None` if nothing
-/// is left.
+/// A name as it is saved: trimmed, without control characters, at most 80 letters. Returns `None`
+/// if nothing is left.
 pub(super) fn proper_name(typed: &str) -> Option<String> {
     let name: String = typed.trim().chars().filter(|letter| !letter.is_control()).collect();
     let name: String = name.chars().take(LONGEST_NAME).collect();
@@ -241,9 +238,6 @@ pub(super) fn proper_name(typed: &str) -> Option<String> {
 
 impl BrushPreset {
     /// Reads a brush of a file.
-    ///
-    /// # Errors
-    /// [`BrushFileError`] for unknown or missing keys and values out of range.
     pub(super) fn read(mut object: Object<'_>) -> Result<Self, BrushFileError> {
         let name: String = object.need("name")?;
         if proper_name(&name).as_ref() != Some(&name) {
@@ -340,10 +334,10 @@ mod tests {
 
     #[test]
     fn a_faulty_file_is_refused_with_its_key() {
-        let file = |preset: &str| {
+        fn file(preset: &str) -> String {
             let head = r#""format": "impasto-brushes", "version": 1, "name": "A""#;
             format!("{{{head}, \"presets\": [{preset}]}}")
-        };
+        }
         let brush = r#""name": "a", "brush": {"shape": "flat", "size_mm": 4}"#;
         for (text, key, what) in [
             ("[]".to_owned(), "", "must be an object"),

@@ -1,4 +1,4 @@
-//! A scene from its start to its end as an animation.
+//! Writes a scene from start to end as an animation.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -15,16 +15,15 @@ use super::scene::Scene;
 use super::timeline::STEPS_A_SECOND;
 use crate::failure::FileFailure;
 
-/// Frames a second.
 const RATE: u64 = 24;
 
 /// Longest side of an animation in pixels.
 const LONGEST_PX: usize = 720;
 
-/// Frames that the colours of a GIF are taken from.
+/// How many frames give the colours of a GIF.
 const SAMPLED: u64 = 12;
 
-/// Steps of a frame: whole steps are shown.
+/// Steps per frame. Only whole steps are shown.
 const FRAME_STEPS: u64 = STEPS_A_SECOND / RATE;
 
 /// Writes all pictures of a recording from its start to its end in the file `path`: a GIF, or an
@@ -56,14 +55,12 @@ pub fn animation(
     }
 }
 
-/// A scene that draws its frames.
 struct Player {
     scene: Scene,
     sight: Option<Sight>,
 }
 
 impl Player {
-    /// The frame with this number.
     fn frame(&mut self, number: u64) -> Result<Frame, FileFailure> {
         let sight = self.sight.ok_or_else(|| FileFailure {
             what: "the scene has no camera".to_owned(),
@@ -113,7 +110,7 @@ fn gif(
     last: u64,
     task: &Task,
 ) -> Result<Option<Vec<u8>>, FileFailure> {
-    // The colours of the last frames are those of all: colour only comes in.
+    // The last frames have all colours, since colours only come in.
     let sampled = (0..=SAMPLED).map(|number| player.frame(last * number / SAMPLED));
     let table = ColorTable::of(sampled)?;
     let gif = Gif::new(Vec::new(), (width, height), rate()?, &table);

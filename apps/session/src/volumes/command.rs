@@ -1,8 +1,4 @@
-//! Commands of the front end to a scene.
-//!
-//! The tools of a hand in a scene.
-//!
-//! Subjects that a scene is opened from.
+//! What the front end asks of a scene: commands, the tools of the pen, and subjects to open.
 
 use std::path::{Path, PathBuf};
 
@@ -10,12 +6,12 @@ use graphics::camera::Camera;
 
 use super::look::Look;
 
-/// A request to the worker of scenes. Commands are carried out in their order, between steps.
+/// A request to the worker of scenes, which carries out commands in order, between steps.
 #[derive(Debug, Clone)]
 pub enum VolumeCommand {
-    /// Opens a scene in place of the open one.
+    /// Opens a scene and closes the open one.
     Open(Subject),
-    /// Sets the pen down with a tool; the gesture becomes an event of the recording.
+    /// Sets the pen down with a tool. The gesture becomes an event of the recording.
     PenDown(Grip, ScenePen),
     /// Moves the pen that is down.
     PenMove(ScenePen),
@@ -30,7 +26,7 @@ pub enum VolumeCommand {
     StepOnce,
     /// Goes to a moment, in steps from the start, and stops there.
     Seek(u64),
-    /// Sees the scene from here.
+    /// Views the scene with this camera.
     Camera(Camera),
     /// Sets width and height of the picture in pixels.
     Size([usize; 2]),
@@ -38,7 +34,7 @@ pub enum VolumeCommand {
     Look(Look),
     /// Dries all paint.
     DryAll,
-    /// Sees pigments under this light: an illuminant's name, or a temperature such as `5600K`.
+    /// Lights pigments with an illuminant of this name, or of a temperature, e.g. `5600K`.
     Illuminant(String),
     /// Fills the tubes from the library in this file.
     Library(PathBuf),
@@ -48,7 +44,7 @@ pub enum VolumeCommand {
     Undo,
     /// Removes an event by its number in the list, and replays the scene without it.
     Remove(usize),
-    /// Asks for the picture as it is now, drawn at this size with all samples. The answer is
+    /// Asks for the present picture at this size with all samples. The answer is
     /// [`VolumeEvent::Drawn`](super::VolumeEvent::Drawn) with this number.
     Draw(u64, [usize; 2]),
     /// Asks for the painting that the scene makes. The answer is
@@ -62,7 +58,7 @@ pub enum VolumeCommand {
 }
 
 impl VolumeCommand {
-    /// Whether `later`, which follows at once, makes this command superfluous.
+    /// Whether `later`, which follows immediately, makes this command superfluous.
     pub(super) fn is_outdated_by(&self, later: &Self) -> bool {
         matches!(
             (self, later),
@@ -80,10 +76,10 @@ impl VolumeCommand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SceneTool {
-    /// Pours paint of a tube on the surface.
+    /// Pours paint from a tube onto the surface.
     #[default]
     Pour,
-    /// Blows at volumes and paint along the drag.
+    /// Blows volumes and paint along the drag.
     Push,
     /// Takes paint up, as a sponge does.
     Lift,
@@ -107,16 +103,16 @@ impl SceneTool {
     }
 }
 
-/// A tool and how it is set.
+/// A tool and its settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
     /// The tool in hand.
     pub tool: SceneTool,
-    /// Tube that is poured, by its number from 0.
+    /// Tube to pour from, by its number from 0.
     pub tube: usize,
-    /// Paint poured a second at full pressure, in mm3.
+    /// Paint poured per second at full pressure, in mm3.
     pub rate_mm3_s: f64,
-    /// Radius of the reach of the other tools, in mm.
+    /// How far the other tools reach, in mm.
     pub radius_mm: f64,
     /// Strength of the other tools, 0 to 1.
     pub strength: f64,
@@ -134,35 +130,35 @@ impl Default for Grip {
 pub struct ScenePen {
     /// Place as a share of the picture's width and height, 0 to 1 from the upper left corner.
     pub at: [f32; 2],
-    /// Pressure, 0 to 1; 1 for a mouse.
+    /// Pressure, 0 to 1. A mouse has 1.
     pub pressure: f32,
 }
 
-/// Prefix of the names of the models that come with the program.
+/// The names of models that come with the program start with this.
 pub const SHAPE: &str = "shape:";
 
-/// A subject that a scene is opened from.
+/// What a scene is opened from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Subject {
-    /// A model that comes with the program, such as `village`.
+    /// A model that comes with the program, e.g. `village`.
     Shape(String),
     /// A model or a photograph in a file.
     File(PathBuf),
     /// A script in a file.
     Script(PathBuf),
-    /// The text of a script that was recovered, and the folder of the files that it names.
+    /// The text of a script that was recovered, and the folder for the files that it names.
     Text {
         /// Text of the script.
         text: String,
-        /// Folder that its subject lies in.
+        /// Folder of its subject.
         folder: PathBuf,
     },
 }
 
 impl Subject {
-    /// The subject that the text of a command line names, if it names one of a scene: `shape:NAME`,
-    /// or a file whose ending is that of a model or of a script of paint volumes. Pictures are not
-    /// told apart from those that are pinned beside a painting: [`Subject::of_file`] takes them.
+    /// The subject that a text of the command line names: `shape:NAME`, or a file with the
+    /// extension of a model or of a script of paint volumes. Returns `None` for a picture, because
+    /// it may also be pinned beside a painting. Use [`Subject::of_file`] for it.
     #[must_use]
     pub fn from_text(text: &str) -> Option<Self> {
         if let Some(name) = text.strip_prefix(SHAPE) {
@@ -176,7 +172,7 @@ impl Subject {
         }
     }
 
-    /// The subject in a file that the painter chose for a scene.
+    /// The subject in a file that you chose for a scene.
     #[must_use]
     pub fn of_file(path: &Path) -> Self {
         match ending(path).as_str() {
@@ -186,7 +182,7 @@ impl Subject {
     }
 }
 
-/// Ending of a file's name in small letters.
+/// Extension of a file name in small letters.
 fn ending(path: &Path) -> String {
     let ending = path.extension().and_then(|ending| ending.to_str());
     ending.unwrap_or_default().to_ascii_lowercase()

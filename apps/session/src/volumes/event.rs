@@ -1,8 +1,5 @@
-//! Events that the worker of scenes sends to the front end.
-//!
-//! State of a scene besides its picture.
-//!
-//! A picture of a scene as it is exported.
+//! What the worker of scenes sends to the front end: events, the state of a scene, and pictures for
+//! export.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,7 +23,7 @@ use crate::failure::FileFailure;
 /// The picture of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenePicture {
-    /// Width in pixels. It is smaller than asked for while the scene moves on a slow machine.
+    /// Width in pixels. It is smaller than you asked for while the scene moves on a slow machine.
     pub width: usize,
     /// Height in pixels.
     pub height: usize,
@@ -34,20 +31,20 @@ pub struct ScenePicture {
     pub pixels: Vec<[u8; 4]>,
     /// The moment shown, in steps.
     pub step: u64,
-    /// Whether it has all pixels and samples; not while the scene moves.
+    /// Whether it has all pixels and samples. It has not while the scene moves.
     pub fine: bool,
 }
 
 /// Surface, paint and colour at a place of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Here {
-    /// Place on the surface, in the unit of the subject; `None` where there is no surface.
+    /// Place on the surface, in the unit of the subject, if there is a surface.
     pub place: Option<Vec3>,
-    /// Number of volumes that hold it.
+    /// Number of volumes around it.
     pub volumes: usize,
-    /// Region of the paint there; `None` where there is no paint.
+    /// Region of the paint there, if there is paint.
     pub region: Option<String>,
-    /// Paint of the volumes there; `None` where there is none.
+    /// Paint of the volumes there, if there is any.
     pub paint: Option<PickedLayer>,
     /// CIELAB of the colour shown there, against the white of the screen.
     pub lab: [f64; 3],
@@ -55,18 +52,18 @@ pub struct Here {
     pub srgb: [u8; 3],
 }
 
-/// The script of a scene as it would be saved.
+/// The script of a scene, ready to be saved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneRecording {
     /// Text of the script.
     pub text: Arc<str>,
-    /// Folder that the subject lies in.
+    /// Folder of the subject.
     pub folder: PathBuf,
-    /// File of the subject; `None` for a model that comes with the program.
+    /// File of the subject. It is `None` for a model that comes with the program.
     pub subject: Option<PathBuf>,
-    /// File of the library; `None` for the one that comes with the program.
+    /// File of the library. It is `None` for the one that comes with the program.
     pub library: Option<PathBuf>,
-    /// Counter of changes that it holds.
+    /// Counts the changes that it includes.
     pub revision: u64,
 }
 
@@ -75,7 +72,7 @@ pub struct SceneRecording {
 pub enum VolumeEvent {
     /// Another scene was opened.
     Opened(Arc<SceneState>),
-    /// State besides the picture changed.
+    /// Something other than the picture changed.
     State(Arc<SceneState>),
     /// The picture changed.
     Picture(Arc<ScenePicture>),
@@ -112,13 +109,13 @@ pub struct SceneTube {
 /// An event of a scene: what one gesture did.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneEvent {
-    /// The tool that made it; `None` for what a script does besides.
+    /// The tool that made it. Events that only a script can make have none.
     pub tool: Option<SceneTool>,
-    /// Short description, such as `pour Ultramarine`.
+    /// Short description, e.g. `pour Ultramarine`.
     pub label: String,
     /// First step at which it acts.
     pub from: u64,
-    /// First step at which it acts no more.
+    /// First step at which it no longer acts.
     pub to: u64,
 }
 
@@ -131,7 +128,7 @@ pub struct SceneTally {
     pub on_surfaces_mm3: f64,
     /// Taken up by the sponge.
     pub lifted_mm3: f64,
-    /// Left in the tubes, as there was no room for it.
+    /// Left in the tubes, because there was no room for it.
     pub left_mm3: f64,
     /// Number of volumes.
     pub volumes: usize,
@@ -142,15 +139,15 @@ pub struct SceneTally {
 pub struct SceneTime {
     /// The moment shown.
     pub step: u64,
-    /// The last moment that was reached or that an event needs.
+    /// The last moment that was reached, or that an event needs.
     pub end: u64,
     /// Whether time runs.
     pub playing: bool,
-    /// Speed of time over the last second, 1 in real time; 0 while it stands.
+    /// Speed of time over the last second: 1 in real time, 0 while time stands.
     pub speed: f64,
 }
 
-/// State of a scene besides its picture.
+/// Everything about a scene except its picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneState {
     /// Title of the scene.
@@ -161,11 +158,11 @@ pub struct SceneState {
     pub triangles: usize,
     /// Length of one unit of the subject in mm.
     pub unit_mm: f64,
-    /// Whether the subject is a photograph, which is seen from the front.
+    /// Whether the subject is a photograph, seen from the front.
     pub flat: bool,
     /// A camera that frames the subject in a picture of 4 by 3.
     pub framed: Camera,
-    /// The camera that its script names, if it does.
+    /// The camera of its script, if it names one.
     pub seen_from: Option<Camera>,
     /// The library of the tubes.
     pub library: Arc<PigmentLibrary>,
@@ -173,29 +170,30 @@ pub struct SceneState {
     pub light: Arc<Light>,
     /// Its name.
     pub illuminant: String,
-    /// Whether paint is being mixed for the picture, which shows it when that is done.
+    /// Whether paint is still being mixed. The picture shows it afterwards.
     pub prepares: bool,
     /// The tubes, at most eight.
     pub tubes: Arc<Vec<SceneTube>>,
     /// The look that is shown.
     pub look: Look,
-    /// Whether the regions of its script show different things inside of their volumes, so that
+    /// Whether the regions of its script show different things inside their volumes. Only then
     /// [`Inside::ByRegion`](super::Inside::ByRegion) is a choice.
     pub by_region: bool,
     /// The moment shown, and the last one.
     pub time: SceneTime,
-    /// All events by the time at which they begin.
+    /// All events, sorted by the time at which they begin.
     pub events: Arc<Vec<SceneEvent>>,
     /// Where the paint is.
     pub tally: SceneTally,
-    /// Counter of changes of the recording: equal numbers, equal recordings.
+    /// Counts changes of the recording: if two numbers are equal, so are the recordings.
     pub revision: u64,
 }
 
-/// Width of a pixel of a drawing in mm: 96 to the inch, as the command line has it.
+/// Width of a pixel of a drawing in mm: 96 per inch, as on the command line.
 const PIXEL_MM: f64 = 25.4 / 96.0;
 
-/// A picture of a scene with all samples. The command line makes the same bytes of the recording.
+/// A picture of a scene with all samples. From the recording, the command line makes the same
+/// bytes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneImage {
     /// Linear sRGB and opacity, row by row.
@@ -205,15 +203,11 @@ pub struct SceneImage {
 }
 
 impl SceneImage {
-    /// A drawing in linear sRGB.
     pub(super) fn drawing(pixels: Field<[f32; 4]>) -> Self {
         Self { pixels, pixel_mm: PIXEL_MM }
     }
 
-    /// The picture of a painting, one pixel for each of its cells.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a light that cannot be used with its library.
+    /// The picture of a painting, with one pixel per cell.
     pub(super) fn of_painting(document: Document) -> Result<Self, FileFailure> {
         let lighting = &document.lighting;
         let light = Light::named(&document.library, &lighting.illuminant, &lighting.observer);

@@ -1,11 +1,9 @@
-//! Gestures of the hand as actions of the script.
+//! Turns gestures of the hand into actions of the script.
 //!
-//! A script tells how long an action lasts before it begins, a hand does not. So a gesture is a
-//! row of short actions of fixed length, one after the other while the pen is down: what is shown
-//! while the hand works is what the script plays, to the bit. The last of them ends at most
-//! [`PORTION`] steps after the pen was lifted.
-//!
-//! The surface that a ray from the eye meets first.
+//! A script says how long an action lasts before it begins, but a hand does not. So we record a
+//! gesture as a series of short actions of fixed length, one after the other while the pen is down.
+//! You see while you work exactly what the script plays. The last action ends at most [`PORTION`]
+//! steps after the pen was lifted.
 
 use glam::{DVec3, Vec2, Vec3};
 use graphics::camera::Camera;
@@ -18,50 +16,45 @@ use super::command::{Grip, SceneTool};
 /// Steps that each action of a gesture lasts: a twentieth of a second.
 pub(super) const PORTION: u32 = 6;
 
-/// Least rate of a pour in mm3 a second: a pen that hardly presses pours nothing.
+/// A pen that would pour less than this, in mm3 a second, pours nothing.
 const LEAST_RATE: f64 = 0.01;
 
-/// Acceleration of the air at full strength, in cells a square second.
+/// Acceleration of the air at full strength, in cells per square second.
 const WIND: f64 = 200.0;
 
-/// Share of the paint that a sponge takes up in a second at full strength.
+/// At full strength, a sponge takes up paint at this rate per second.
 const SOAKS: f64 = 24.0;
 
-/// Shortest way that the air is drawn, by the radius of its ball: below, it has no direction.
+/// Shortest stretch along which air is blown, relative to the radius of its ball. Below this it
+/// would have no direction.
 const LEAST_WAY: f64 = 0.01;
 
-/// An action with the steps at which it begins and ends.
+/// An action with its first step and the step after its last.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Timed {
-    /// The first step.
     pub(super) start: u32,
-    /// Step before which it ends.
     pub(super) end: u32,
-    /// The action, with the digits of a file.
+    /// The action, rounded to the digits of a file.
     pub(super) action: Action,
 }
 
-/// Way after which a dryer dries again, by its radius.
+/// A dryer dries again after it has moved this far, relative to its radius.
 const DRYING_WAY: f64 = 0.25;
 
-/// A tool that is held down.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hand {
     grip: Grip,
-    /// Paint of the tube in hand.
     recipe: Recipe,
-    /// Length of a unit of the scene in mm.
     unit_mm: f64,
     place: DVec3,
     pressure: f64,
-    /// Place of the last action; none before the first.
+    /// Place of the last action. There is none before the first.
     last: Option<DVec3>,
-    /// Step at which the next action begins.
     next: u32,
 }
 
 impl Hand {
-    /// A tool set down on the surface before step `step`.
+    /// Sets a tool down on the surface before step `step`.
     pub(super) fn down(
         grip: Grip,
         recipe: Recipe,
@@ -72,12 +65,11 @@ impl Hand {
         Self { grip, recipe, unit_mm, place, pressure, last: None, next: step }
     }
 
-    /// Moves it on the surface.
     pub(super) fn move_to(&mut self, place: DVec3, pressure: f64) {
         (self.place, self.pressure) = (place, pressure);
     }
 
-    /// The action that begins before step `step`, if one does. To be called before each step.
+    /// The action that begins before step `step`, if there is one. Call this before each step.
     pub(super) fn next_action(&mut self, step: u32) -> Option<Timed> {
         if step < self.next {
             return None;
@@ -121,7 +113,7 @@ impl Hand {
         }
     }
 
-    /// Notes where the air begins to be drawn, so that its first way has a direction.
+    /// Notes where the pen blows first, so that the first stretch has a direction.
     pub(super) fn rest(&mut self) {
         if self.grip.tool == SceneTool::Push {
             self.last.get_or_insert(self.place);
@@ -129,20 +121,20 @@ impl Hand {
     }
 }
 
-/// Triangles that share the work of one thread at least.
+/// A thread gets at least this many triangles.
 const TRIANGLES: usize = 4096;
 
-/// A place on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hit {
-    /// The place on it.
     pub(super) place: Vec3,
     /// Unit normal of the triangle, towards the eye.
     pub(super) normal: Vec3,
 }
 
-/// The surface at a place of the picture, given as a share of its width and height from the upper
-/// left corner; `aspect` is width by height. `None` where nothing is seen.
+/// The surface that a ray from the eye meets first. `at` is a place of the picture as a share of
+/// its width and height from the upper left corner, and `aspect` is width divided by height.
+/// Returns
+/// `None` where there is no surface.
 pub(super) fn surface_at(mesh: &Mesh, camera: &Camera, aspect: f32, at: [f32; 2]) -> Option<Hit> {
     let [right, up, back] = camera.axes();
     let high = (0.5 * camera.field_of_view_deg).to_radians().tan();
@@ -156,7 +148,7 @@ pub(super) fn surface_at(mesh: &Mesh, camera: &Camera, aspect: f32, at: [f32; 2]
         .into_par_iter()
         .with_min_len(TRIANGLES)
         .filter_map(|index| Some((distance(corners(index), camera.eye, along)?, index)))
-        // The first of equally near ones, on any number of threads.
+        // If several are equally near, this takes the first, whatever the number of threads.
         .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let (distance, index) = nearest?;
     let [a, b, c] = corners(index);
@@ -165,8 +157,7 @@ pub(super) fn surface_at(mesh: &Mesh, camera: &Camera, aspect: f32, at: [f32; 2]
     Some(Hit { place: camera.eye + along * distance, normal })
 }
 
-/// Distance along a ray, in its lengths, at which it meets a triangle from either side (Moller,
-/// Trumbore 1997).
+/// Where a ray meets a triangle from either side, as a multiple of `along` (Moller, Trumbore 1997).
 fn distance([a, b, c]: [Vec3; 3], eye: Vec3, along: Vec3) -> Option<f32> {
     let ab = b - a;
     let ac = c - a;
@@ -240,10 +231,10 @@ mod tests {
     #[test]
     fn a_dryer_dries_at_once_and_again_where_it_has_moved() {
         let mut hand = hand(SceneTool::Dry);
-        let dry = |step, x| {
+        fn dry(step: u32, x: f64) -> Option<Timed> {
             let ball = Some(Ball { center: [x, 1.0, 2.0], radius: 0.4 });
             Some(Timed { start: step, end: step + 1, action: Action::Dry(Dry { ball }) })
-        };
+        }
         assert_eq!(hand.next_action(12), dry(12, 0.123_457));
         assert_eq!(hand.next_action(13), None, "it rests");
         hand.move_to(DVec3::new(0.21, 1.0, 2.0), 1.0);

@@ -1,4 +1,4 @@
-//! What hands do to a scene: events of its recording.
+//! What hands do to a scene, recorded as events.
 
 use volumes::script::{Action, Dry, Recipe};
 
@@ -9,10 +9,8 @@ use super::scene::Scene;
 use crate::failure::FileFailure;
 
 impl Scene {
-    /// Sets the pen down with a tool. Returns whether there is a surface below it.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the moment that is sought cannot be reached.
+    /// Sets the pen down with a tool. Returns whether there is a surface below it. Fails if the
+    /// moment to show cannot be reached.
     pub(super) fn pen_down(
         &mut self,
         sight: &Sight,
@@ -34,7 +32,7 @@ impl Scene {
         Ok(true)
     }
 
-    /// Moves the pen that is down. Off the surface it stays where it was.
+    /// Moves the pen that is down. If it leaves the surface, it stays where it was.
     pub(super) fn pen_move(&mut self, sight: &Sight, pen: ScenePen) {
         let hit = self.hit(sight, pen.at);
         if let (Some(hand), Some(hit)) = (&mut self.hand, hit) {
@@ -42,10 +40,7 @@ impl Scene {
         }
     }
 
-    /// Lifts the pen. A gesture that was shorter than a step still acts once.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a gesture that cannot be done.
+    /// Lifts the pen. A gesture shorter than a step still acts once.
     pub(super) fn pen_up(&mut self) -> Result<(), FileFailure> {
         if self.hand.is_some() && self.recorded.last_is_empty() {
             self.step()?;
@@ -56,15 +51,11 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether the pen is down.
     pub(super) fn is_at_work(&self) -> bool {
         self.hand.is_some()
     }
 
-    /// Dries all paint, which is an event of its own.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the moment that is sought cannot be reached.
+    /// Dries all paint. This is an event by itself.
     pub(super) fn dry_all(&mut self) -> Result<(), FileFailure> {
         self.pen_up()?;
         self.reach_moment()?;
@@ -74,10 +65,7 @@ impl Scene {
         self.step()
     }
 
-    /// Plays to the moment that is sought.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for an event that cannot be done.
+    /// Plays to the moment that the user went to.
     pub(super) fn reach_moment(&mut self) -> Result<(), FileFailure> {
         while self.is_behind() {
             self.timeline.step()?;
@@ -96,19 +84,13 @@ impl Scene {
         surface_at(&self.mesh, &sight.camera, width as f32 / height as f32, at)
     }
 
-    /// Takes back the event that was added last.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the rest cannot be played.
+    /// Removes the event that was added last. Fails if the rest cannot be played.
     pub(super) fn undo(&mut self) -> Result<(), FileFailure> {
         self.pen_up()?;
         self.recorded.undo().map_or(Ok(()), |from| self.replay_from(from))
     }
 
-    /// Takes back an event by its number in the list.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the rest cannot be played.
+    /// Removes an event by its number in the list. Fails if the rest cannot be played.
     pub(super) fn remove(&mut self, number: usize) -> Result<(), FileFailure> {
         self.pen_up()?;
         self.recorded.remove(number).map_or(Ok(()), |from| self.replay_from(from))

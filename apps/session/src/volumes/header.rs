@@ -1,4 +1,4 @@
-//! Cameras and picked places of a script, and numbers of a world for the window.
+//! Cameras and picked places of a script, and paint volumes in mm3 for the window.
 
 use glam::Vec3;
 use graphics::camera::{Camera, Framing, PictureView};
@@ -9,16 +9,15 @@ use volumes::world::Tally;
 
 use super::event::SceneTally;
 
-/// Size of the picture in which scripts pick places, as the command line makes it.
+/// Scripts pick places in a picture of this size, as on the command line.
 const FIRST_PICTURE: (usize, usize) = (1000, 750);
 
-/// Steps of the duration of a script.
 pub(super) fn script_steps(script: &Script) -> u64 {
     u64::from(script::steps_of(script.seconds))
 }
 
-/// A camera that frames a subject in a picture of 4 by 3: a model from the right and above, a flat
-/// one from the front.
+/// A camera that frames a subject in a picture of 4 by 3. It sees a model from the right and above,
+/// and a flat subject from the front.
 pub(super) fn framed(mesh: &Mesh, flat: bool) -> Camera {
     let framing = Framing { field_of_view_deg: 35.0, aspect: 4.0 / 3.0, ..Framing::default() };
     match flat {
@@ -27,7 +26,8 @@ pub(super) fn framed(mesh: &Mesh, flat: bool) -> Camera {
     }
 }
 
-/// Size of the first picture of a scene; that of a `flat` one, a photograph, has its shape.
+/// Size of the first picture of a scene. If the scene is `flat`, it has the shape of its
+/// photograph.
 pub(super) fn first_size(mesh: &Mesh, flat: bool) -> (usize, usize) {
     let [low, high] = mesh.bounds();
     let [width, height] = [high.x - low.x, high.y - low.y];
@@ -35,8 +35,8 @@ pub(super) fn first_size(mesh: &Mesh, flat: bool) -> (usize, usize) {
     if flat && rows >= 1.0 { (FIRST_PICTURE.0, rows as usize) } else { FIRST_PICTURE }
 }
 
-/// The camera of the first picture of a script. A `flat` scene, a photograph, fills its picture, or
-/// is seen from degrees beside its middle, as on the command line.
+/// The camera of the first picture of a script. A `flat` scene, i.e. a photograph, fills its
+/// picture. Its angles count from the front, as on the command line.
 pub(super) fn first_camera(script: &Script, mesh: &Mesh, flat: bool) -> Camera {
     let table = script.camera.clone().unwrap_or_default();
     if flat && table.keyframes.is_empty() {
@@ -56,9 +56,11 @@ pub(super) fn first_camera(script: &Script, mesh: &Mesh, flat: bool) -> Camera {
     }
 }
 
-/// A camera as a script has it.
+/// A camera in the form of a script.
 pub(super) fn camera_table(camera: &Camera) -> CameraTable {
-    let row = |place: Vec3| Row(place.to_array().map(f64::from));
+    fn row(place: Vec3) -> Row<3> {
+        Row(place.to_array().map(f64::from))
+    }
     let keyframe = KeyframeTable {
         eye: row(camera.eye),
         target: row(camera.target),
@@ -68,16 +70,17 @@ pub(super) fn camera_table(camera: &Camera) -> CameraTable {
     CameraTable { keyframes: vec![keyframe], ..CameraTable::default() }
 }
 
-/// A camera as a recording keeps it, with the digits of a file, and as it is played: so that the
-/// recording shows the same bytes.
+/// A camera rounded to the digits of a file. If you show this one, the recording gives the same
+/// bytes when it is played.
 pub(super) fn recorded_camera(camera: &Camera, mesh: &Mesh) -> Camera {
     let mut script = Script::new("", 0.0);
     script.camera = Some(camera_table(camera));
     first_camera(&script.rounded(), mesh, false)
 }
 
-/// Replaces places picked in the first picture by places of the subject, so that a recording does
-/// not depend on its camera. Picks of nothing stay, and are refused when they are played.
+/// Replaces places picked in the first picture by places on the subject, so that a recording does
+/// not depend on its camera. A pick that hits nothing stays, and is refused when the script is
+/// played.
 pub(super) fn resolve_picks(script: &mut Script, mesh: &Mesh, view: &FirstView) {
     let resolve = |at: &mut Option<Row<3>>, picked: &mut Option<Row<2>>| {
         let place = picked.and_then(|Row(share)| view.place(mesh, share));

@@ -6,23 +6,19 @@ use web_time::Instant;
 
 use super::command::VolumeCommand;
 
-/// Message to the thread of a scene.
 #[derive(Debug)]
 pub(super) enum Input {
-    /// A command to carry out.
     Command(Box<VolumeCommand>),
     /// The front end received this many pictures.
     Confirmed(usize),
 }
 
-/// Commands in their order.
 #[derive(Debug)]
 pub(super) struct Inbox {
     receiver: Receiver<Input>,
     waiting: VecDeque<VolumeCommand>,
-    /// Number of pictures that the front end confirmed since this was last reset.
+    /// How many pictures the front end confirmed since this was last reset.
     pub(super) confirmed: usize,
-    /// Whether the thread must end.
     pub(super) quit: bool,
 }
 
@@ -31,8 +27,8 @@ impl Inbox {
         Self { receiver, waiting: VecDeque::new(), confirmed: 0, quit: false }
     }
 
-    /// Waits until `then`, without end if it is `None`, or until there is a message; then receives
-    /// all messages that are there.
+    /// Waits until `then` or until there is a message, and receives all messages. If `then` is
+    /// `None`, it waits without limit.
     pub(super) fn receive(&mut self, then: Option<Instant>) {
         let first = match then {
             None => self.receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
@@ -48,7 +44,6 @@ impl Inbox {
         self.receive_all();
     }
 
-    /// Receives all messages that are there.
     pub(super) fn receive_all(&mut self) {
         loop {
             match self.receiver.try_recv() {
@@ -70,12 +65,10 @@ impl Inbox {
         }
     }
 
-    /// Removes the next command.
     pub(super) fn next(&mut self) -> Option<VolumeCommand> {
         self.waiting.pop_front()
     }
 
-    /// Whether a command waits.
     pub(super) fn has_waiting(&self) -> bool {
         !self.waiting.is_empty()
     }
@@ -94,7 +87,9 @@ mod tests {
     fn commands_keep_their_order_and_the_last_of_a_drag_wins() {
         let (sender, receiver) = channel();
         let mut inbox = Inbox::new(receiver);
-        let pen = |x| ScenePen { at: [x, 0.5], pressure: 1.0 };
+        fn pen(x: f32) -> ScenePen {
+            ScenePen { at: [x, 0.5], pressure: 1.0 }
+        }
         for command in
             [Seek(4), Seek(9), PenMove(pen(0.1)), PenMove(pen(0.2)), PenUp, PenMove(pen(0.3))]
         {

@@ -1,4 +1,4 @@
-//! The look of a scene: which picture is shown, and how.
+//! The look of a scene: which picture you see, and how it is drawn.
 
 use pigment::digits;
 use toml::{Table, Value};
@@ -6,7 +6,7 @@ use volumes::painter::Show;
 use volumes::script::{RegionStyle, Script};
 use volumes::settings::{self, Settings};
 
-/// The surfaces inside of the volumes.
+/// What the surfaces inside the volumes show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Inside {
     /// Their own colours.
@@ -16,13 +16,13 @@ pub enum Inside {
     Glaze,
     /// A film of the paint over their own colours.
     Both,
-    /// The choice of each region of the script, where they differ.
+    /// What each region of the script chooses, if they differ.
     ByRegion,
 }
 
 impl Inside {
-    /// The choices of a scene, in the order of the panel. The last is there only if regions of its
-    /// script differ (`by_region`).
+    /// The choices of a scene, in the order of the panel. The last one is there only if the regions
+    /// of its script differ (`by_region`).
     #[must_use]
     pub fn choices(by_region: bool) -> &'static [Self] {
         const ALL: [Inside; 4] =
@@ -30,7 +30,7 @@ impl Inside {
         if by_region { &ALL } else { &ALL[..3] }
     }
 
-    /// This choice in the words of settings; `None` leaves it to the regions.
+    /// This choice in the words of settings. `None` leaves it to the regions.
     pub(super) fn as_setting(self) -> Option<settings::Inside> {
         match self {
             Self::OwnColours => Some(settings::Inside::OwnColors),
@@ -48,7 +48,7 @@ impl Inside {
         }
     }
 
-    /// The choice of all regions together.
+    /// The choice for all regions together.
     fn of_regions(styles: &[RegionStyle]) -> Self {
         let Some((first, others)) = styles.split_first() else { return Self::OwnColours };
         match others.iter().all(|other| other.inside == first.inside) {
@@ -57,7 +57,7 @@ impl Inside {
         }
     }
 
-    /// The next of the [`choices`](Self::choices), round and round.
+    /// The next of the [`choices`](Self::choices). After the last comes the first.
     #[must_use]
     pub fn next(self, by_region: bool) -> Self {
         let choices = Self::choices(by_region);
@@ -75,23 +75,23 @@ fn word(inside: settings::Inside) -> &'static str {
     }
 }
 
-/// Where the light of a scene stands.
+/// Direction of the light of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneLight {
-    /// Where it stands, in degrees clockwise from the top of the picture.
+    /// Direction in degrees clockwise from the top of the picture.
     pub azimuth_deg: f64,
-    /// How high it stands towards the viewer, in degrees, -90 to 90.
+    /// Elevation towards the viewer in degrees, -90 to 90.
     pub elevation_deg: f64,
 }
 
-/// The look of a scene: which picture is shown, and how.
+/// The look of a scene: which picture you see, and how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
     /// The picture that is shown.
     pub show: Show,
     /// Whether surfaces are hatched.
     pub hatching: bool,
-    /// Surfaces inside of the volumes.
+    /// What surfaces inside the volumes show.
     pub inside: Inside,
     /// Where the light stands.
     pub light: SceneLight,
@@ -122,7 +122,7 @@ impl Look {
         }
     }
 
-    /// This look with the digits of a file, so that the recording shows the same bytes.
+    /// This look rounded to the digits of a file, so that the recording shows the same bytes.
     pub(super) fn rounded(self) -> Self {
         let SceneLight { azimuth_deg, elevation_deg } = self.light;
         let light = SceneLight {
@@ -132,8 +132,8 @@ impl Look {
         Self { light, ..self }
     }
 
-    /// Settings as this look changes them. Strokes that are shown have their strength of
-    /// `settings`, or all of it.
+    /// The settings as this look changes them. If strokes are shown, they have the strength of
+    /// `settings`, or full strength if that is 0.
     pub(super) fn applied_to(&self, settings: &Settings) -> Settings {
         let mut settings = settings.clone();
         settings.light.azimuth_deg = self.light.azimuth_deg as f32;
@@ -150,8 +150,8 @@ impl Look {
         settings
     }
 
-    /// Writes this look into the settings and regions of a script. When it was opened its settings
-    /// were `settings`, and its regions showed `insides`.
+    /// Writes this look into the settings and regions of a script. `settings` and `insides` are
+    /// what they were when the script was opened.
     pub(super) fn write_to(
         &self,
         script: &mut Script,
@@ -171,7 +171,7 @@ impl Look {
             ("hatching", "inside", now.hatching.inside),
             ("hatching", "outside", now.hatching.outside),
         ] {
-            // The digits of an f32, not those of the nearest f64.
+            // We want the digits of the f32, and not the digits of the nearest f64.
             let digits = value.to_string().parse().unwrap_or_else(|_| f64::from(value));
             set(group, key, Value::Float(digits));
         }
@@ -207,20 +207,21 @@ mod tests {
     #[test]
     fn regions_that_differ_keep_what_they_show_until_one_choice_is_made_for_all() {
         let mut script = Script::new("shape:village", 1.0);
-        let region = |name: &str, inside| RegionTable {
+        let regions = [("a", Some(settings::Inside::Glaze)), ("b", None)];
+        let regions = regions.map(|(name, inside)| RegionTable {
             name: name.to_owned(),
             inside,
             ..RegionTable::default()
-        };
-        script.regions = vec![region("a", Some(settings::Inside::Glaze)), region("b", None)];
+        });
+        script.regions = regions.into();
         let settings = script.settings().unwrap();
         let insides: Vec<_> = script.regions.iter().map(|region| region.inside).collect();
         let opened = Look::of(&script, &settings);
         assert_eq!(opened.inside, Inside::ByRegion);
-        let styles = |script: &Script| -> Vec<settings::Inside> {
+        fn styles(script: &Script) -> Vec<settings::Inside> {
             let styles = script.region_styles(&script.settings().unwrap());
             styles.into_iter().map(|style| style.inside).collect()
-        };
+        }
         let own = styles(&script);
         assert_eq!(own, [settings::Inside::Glaze, settings::Inside::OwnColors]);
         let darker = Look { hatching: false, ..opened };

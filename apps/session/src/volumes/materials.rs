@@ -1,4 +1,4 @@
-//! The pigments of a scene, and the light that they are seen under.
+//! The pigments of a scene, and the light on them.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,35 +17,29 @@ use crate::failure::FileFailure;
 use crate::prepare::tubes_of;
 use crate::report::Colors;
 
-/// Letters of the tubes of a new scene.
+/// Letters of the tubes in a new scene.
 const LETTERS: &str = "ABCDEFGH";
 
 /// The pigments of a scene's tubes, and the light on them.
 #[derive(Debug, Clone)]
 pub(super) struct Materials {
-    /// Library of the pigments.
     pub(super) library: Arc<PigmentLibrary>,
-    /// File of a library of the painter's own; none for the one that comes with the program.
+    /// File of the painter's own library. There is none for the library that comes with the
+    /// program.
     pub(super) file: Option<PathBuf>,
-    /// Name of the light.
     pub(super) illuminant: String,
-    /// The light made for the library.
     pub(super) light: Arc<Light>,
     /// Tubes in the order of the palette.
     pub(super) tubes: Arc<Vec<SceneTube>>,
-    /// Pigments of the volumes by slot.
     pub(super) slots: Slots,
-    /// The ground under them.
     ground: GroundSpec,
 }
 
 impl Materials {
-    /// What a script names, whose files start from `folder`; it is called `name` and has this text.
-    /// Without a library the palette is of the one that comes with the program.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a library that cannot be read, a pigment that it does not have, and the
-    /// file of a lamp, by which the studio lights nothing.
+    /// What a script names. Its files are relative to `folder`, and errors show its `name` and
+    /// `text`. If it has no library, the palette is of the one that comes with the program. Fails
+    /// for a library that cannot be read, a pigment that it lacks, and the file of a lamp, because
+    /// the studio cannot use one here.
     pub(super) fn of(
         script: &Script,
         (name, text): (&str, &str),
@@ -85,18 +79,12 @@ impl Materials {
         Ok(Self { library, file, illuminant, light, tubes, slots, ground })
     }
 
-    /// These for a script that has changed.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a pigment that the library does not have.
+    /// The materials after the script changed.
     pub(super) fn again(&self, script: &Script) -> Result<Self, FileFailure> {
         self.with_library(script, Arc::clone(&self.library), self.file.clone())
     }
 
-    /// These with another library, for a script whose palette is of it.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a pigment that the library does not have.
+    /// The materials with another library. `script` has a palette of it already.
     pub(super) fn with_library(
         &self,
         script: &Script,
@@ -109,7 +97,7 @@ impl Materials {
         })
     }
 
-    /// Pigments, ground and light of paintings of the scene; none for a scene without tubes.
+    /// Pigments, ground and light for paintings of the scene. A scene without tubes has none.
     pub(super) fn painted(&self, script: &Script) -> Option<VolumePigments> {
         (!self.tubes.is_empty()).then(|| VolumePigments {
             library: Arc::clone(&self.library),
@@ -121,7 +109,6 @@ impl Materials {
     }
 }
 
-/// Why materials cannot be had.
 enum MaterialsFault {
     Script(Box<volumes::toml_text::Fault>),
     Other(FileFailure),
@@ -160,11 +147,9 @@ fn tubes(
         .collect()
 }
 
-/// Gives a script the usual tubes of a library. Tubes that are there keep their letters, by which
-/// paint that was poured is known, and so their number.
-///
-/// # Errors
-/// [`FileFailure`] if the library has fewer pigments than there are tubes.
+/// Gives a script the default tubes of a library. Tubes that exist keep their letters, since these
+/// identify the paint that was poured, and so their number stays. Fails if the library has fewer
+/// pigments than there are tubes.
 pub(super) fn fill_tubes(script: &mut Script, library: &PigmentLibrary) -> Result<(), FileFailure> {
     let names = tubes_of(library);
     let letters: Vec<String> = match script.palette.is_empty() {
@@ -185,10 +170,8 @@ pub(super) fn fill_tubes(script: &mut Script, library: &PigmentLibrary) -> Resul
     Ok(())
 }
 
-/// The name of a light as a script keeps it: none for the usual one.
-///
-/// # Errors
-/// [`FileFailure`] for a light that a script cannot name.
+/// The name of a light for a script, or `None` for the default one. Fails for a light that a script
+/// cannot name.
 pub(super) fn light_for_script(illuminant: &str) -> Result<Option<String>, FileFailure> {
     if !is_light(illuminant) {
         let what = format!("a scene cannot be lit by `{illuminant}`");

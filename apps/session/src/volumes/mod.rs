@@ -1,4 +1,4 @@
-//! A scene of paint volumes at work: the thread that owns it, and its recording.
+//! A scene of paint volumes: the thread that owns it, and its recording.
 //!
 //! ```text
 //! window -- VolumeCommand --> VolumeWorker: inbox -> gesture -> events of the script -> world
@@ -6,9 +6,9 @@
 //!     +------ VolumeEvent (pictures, state, what is here) <---- painter <----------------+
 //! ```
 //!
-//! Every gesture becomes an event of the script at whole steps of 1/120 s. What is shown is always
-//! the script played from its start, so a moment that is gone to, an event that is taken back and
-//! the script that is saved agree to the bit.
+//! Every gesture becomes an event of the script at whole steps of 1/120 s. You always see the
+//! script played from its start. So when you go to another moment, undo an event or save the
+//! script, they all agree to the bit.
 
 mod look;
 mod command;

@@ -1,6 +1,5 @@
-//! Pigments of scenes: libraries, tubes, lights, and what is saved of them.
-//!
-//! Scenes by hand against their scripts played.
+//! Tests of scenes: libraries, tubes, lights and what is saved of them, and gestures compared with
+//! their scripts.
 
 use std::path::{Path, PathBuf};
 
@@ -127,7 +126,9 @@ fn a_script_is_saved_with_its_library_beside_it() {
     let elsewhere = tempfile::tempdir().unwrap();
     let file = |name: &str| elsewhere.path().join(name);
     recording.save(&file("s.toml")).unwrap();
-    let read = |path: &Path| std::fs::read(path).unwrap();
+    fn read(path: &Path) -> Vec<u8> {
+        std::fs::read(path).unwrap()
+    }
     assert_eq!(read(&file("mine.json")), read(&folder.path().join("mine.json")));
     let saved = Script::open(&file("s.toml")).unwrap();
     assert_eq!(saved.library.as_deref(), Some("mine.json"));
@@ -137,7 +138,7 @@ fn a_script_is_saved_with_its_library_beside_it() {
     let failure = recording.save(&file("u.toml")).unwrap_err();
     assert!(failure.what.contains("mine.json") && failure.hint.is_some(), "{failure:?}");
     assert!(!file("u.toml").exists() && read(&file("mine.json")) == b"another");
-    // Beside the library nothing is copied.
+    // Nothing but the library is copied.
     recording.save(&folder.path().join("v.toml")).unwrap();
     assert_eq!(read(&folder.path().join("v.toml")), read(&file("s.toml")));
 }
@@ -156,14 +157,14 @@ fn pen(x: f32, y: f32) -> ScenePen {
     ScenePen { at: [x, y], pressure: 1.0 }
 }
 
-/// Holds a tool down for 30 steps along a line, and goes on for 20 more.
+/// Holds a tool down for 30 steps along a line, and continues for 20 more.
 fn gesture(scene: &mut Scene, grip: Grip, from: [f32; 2], to: [f32; 2]) {
     let sight = sight(scene);
     assert!(scene.pen_down(&sight, grip, pen(from[0], from[1])).unwrap(), "there is a surface");
     for step in 0..30_u8 {
         let share = f32::from(step) / 29.0;
-        let between = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
-        scene.pen_move(&sight, pen(between(0), between(1)));
+        let at = [0, 1].map(|axis: usize| from[axis] + (to[axis] - from[axis]) * share);
+        scene.pen_move(&sight, pen(at[0], at[1]));
         scene.step().unwrap();
     }
     scene.pen_up().unwrap();
@@ -185,7 +186,7 @@ fn picture(scene: &mut Scene) -> Vec<[u8; 4]> {
     scene.pixels(&sight, Quality { fine: false, share: 1.0, waits: true }).unwrap()
 }
 
-/// The volumes that the saved script of a scene leads to at its present moment.
+/// The volumes that you get when you play the saved script to the present moment.
 fn played(scene: &Scene, camera: Option<Camera>) -> Vec<Volume> {
     let recording = scene.recording(camera).unwrap();
     let script = Script::from_text("recording", &recording.text).unwrap();
@@ -210,7 +211,9 @@ fn what_hands_do_is_what_the_saved_script_plays() {
     gesture(&mut scene, lift, [0.5, 0.5], [0.5, 0.5]);
     assert!(scene.on_scene() < before, "paint was taken up");
     gesture(&mut scene, Grip { tool: SceneTool::Dry, ..lift }, [0.5, 0.5], [0.5, 0.5]);
-    let dry = |scene: &Scene| scene.volumes().iter().filter(|volume| volume.dry).count();
+    fn dry(scene: &Scene) -> usize {
+        scene.volumes().iter().filter(|volume| volume.dry).count()
+    }
     let count = scene.volumes().len();
     assert!((1..count).contains(&dry(&scene)), "{} of {count} are dry", dry(&scene));
     scene.dry_all().unwrap();
@@ -258,7 +261,7 @@ fn an_event_that_is_taken_back_leaves_what_there_was_without_it() {
     let wanted = picture(&mut scene);
     scene.go_to(50).unwrap();
     settle(&mut scene);
-    // Between events that are there already.
+    // This comes between events that exist already.
     gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
     assert_eq!((scene.moment(), scene.end()), (100, 100));
     let with_both = picture(&mut scene);

@@ -1,7 +1,5 @@
-//! Pictures of a scene: a drawing, and paintings in pigments, whose painters are made beside the
-//! thread of the scene when they are first needed.
-//!
-//! Something that is made beside the window.
+//! Draws pictures of a scene: a drawing, and paintings in pigments. Another thread makes the
+//! painters when they are first needed, so that the window does not wait.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -19,45 +17,40 @@ use super::look::{Inside, Look};
 use crate::failure::FileFailure;
 use crate::thread;
 
-/// Size of a picture in pixels, and what sees it.
+/// Size and camera of a picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight {
-    /// The camera that sees it.
     pub(super) camera: Camera,
-    /// Width and height in pixels.
+    /// In pixels.
     pub(super) size: [usize; 2],
 }
 
-/// How carefully a picture is drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quality {
-    /// Whether it has all samples, or one a pixel.
+    /// Whether it has all samples, or only one per pixel.
     pub(super) fine: bool,
-    /// Its width by that of the picture that it stands for, whose strokes it has.
+    /// Width of this picture divided by its final width. Strokes keep their final size.
     pub(super) share: f32,
-    /// Whether it waits for its painter; otherwise it is the drawing until that is made.
+    /// Whether to wait for the painter. If not, you get the drawing until it is made.
     pub(super) waits: bool,
 }
 
 impl Quality {
-    /// A picture as it is exported.
     pub(super) const BEST: Self = Self { fine: true, share: 1.0, waits: true };
 }
 
-/// The purpose of a painter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// A drawing whose volumes show the subject's own colours.
+    /// A drawing. Its volumes show the subject's own colours.
     Drawing,
-    /// A painting in pigments, whose volumes show this inside.
+    /// A painting in pigments. Its volumes show this inside.
     Painting(Inside),
 }
 
-/// A painter that was made.
 #[derive(Debug)]
 struct Made {
     kind: Kind,
-    /// Number of the pigments that it was made of.
+    /// Number of the pigments that it was made with.
     version: u64,
     painter: VolumePainter,
 }
@@ -65,25 +58,22 @@ struct Made {
 /// A painter that is being made, with its kind and the number of its pigments.
 type InMaking = (Kind, u64, Making<Result<VolumePainter, PaintingError>>);
 
-/// The painters of a scene.
 #[derive(Debug)]
 pub(super) struct Painters {
     scene: Arc<Mesh>,
     settings: Settings,
     styles: Vec<RegionStyle>,
     pigments: Option<VolumePigments>,
-    /// Counter of changes of the pigments.
+    /// Counts changes of the pigments.
     version: u64,
     made: Vec<Made>,
-    /// Kind and pigments of the painter that could not be made last.
+    /// Kind and pigments of the painter that failed last.
     failed: Option<(Kind, u64)>,
-    /// A painter that is being made.
     making: Option<InMaking>,
 }
 
 impl Painters {
-    /// Painters of a scene with the settings and regions of a script, and these pigments if there
-    /// are any.
+    /// Painters for the settings and regions of a script, with these pigments if there are any.
     pub(super) fn new(
         scene: &Arc<Mesh>,
         script: &Script,
@@ -102,28 +92,25 @@ impl Painters {
         }
     }
 
-    /// Paints with other pigments, or under another light, from now on. Until painters are made
-    /// of them pictures are those of before.
+    /// Paints with other pigments, or under another light, from now on. Until the new painters are
+    /// made, pictures use the old ones.
     pub(super) fn set_pigments(&mut self, pigments: Option<VolumePigments>) {
         self.pigments = pigments;
         self.version += 1;
     }
 
-    /// Whether the picture of a look is that of a painting.
+    /// Whether this look shows a painting.
     pub(super) fn paints(&self, look: &Look) -> bool {
         let shows_films = look.show == Show::Final && look.inside != Inside::OwnColours;
         shows_films && self.pigments.is_some()
     }
 
-    /// Whether a painter is being made.
     pub(super) fn is_making(&self) -> bool {
         self.making.is_some()
     }
 
-    /// Takes the painter that was being made, if it is ready. Returns whether it is.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
+    /// Takes the painter that was being made if it is ready, and returns whether it was. Fails for
+    /// settings or pigments that cannot be used.
     pub(super) fn take_made(&mut self) -> Result<bool, FileFailure> {
         if self.making.as_mut().is_some_and(|(.., making)| making.is_ready()) {
             return self.await_made().map(|()| true);
@@ -144,7 +131,7 @@ impl Painters {
         Ok(())
     }
 
-    /// Number of the pigments that a painter of this kind is made of now.
+    /// Number of the pigments that a painter of this kind needs now.
     fn wanted(&self, kind: Kind) -> u64 {
         if kind == Kind::Drawing { 0 } else { self.version }
     }
@@ -158,7 +145,7 @@ impl Painters {
         self.index(kind).is_some_and(|index| self.made[index].version == wanted)
     }
 
-    /// Begins to make a painter, unless it is there or another is being made.
+    /// Begins to make a painter, unless it exists or another is being made.
     fn begin(&mut self, kind: Kind) {
         if self.is_made(kind) || self.making.is_some() {
             return;
@@ -167,11 +154,11 @@ impl Painters {
             Kind::Drawing => Inside::OwnColours,
             Kind::Painting(inside) => inside,
         };
-        let style = |style: &RegionStyle| RegionStyle {
+        let styles = self.styles.iter().map(|style| RegionStyle {
             inside: inside.as_setting().unwrap_or(style.inside),
             ..style.clone()
-        };
-        let styles: Vec<RegionStyle> = self.styles.iter().map(style).collect();
+        });
+        let styles: Vec<RegionStyle> = styles.collect();
         let pigments = self.pigments.clone().filter(|_| kind != Kind::Drawing);
         let scene = Arc::clone(&self.scene);
         let settings = self.settings.clone();
@@ -185,8 +172,9 @@ impl Painters {
         self.making = Some((kind, self.wanted(kind), making));
     }
 
-    /// The painter of a kind, which draws with these settings. It waits until it is made; without
-    /// `waits` one of earlier pigments will do, or else that of the drawing.
+    /// The painter of a kind, set to draw with these settings. This waits until it is made. If you
+    /// do not want it to wait, you may get one with earlier pigments, or the painter of the
+    /// drawing.
     fn painter(
         &mut self,
         kind: Kind,
@@ -204,7 +192,7 @@ impl Painters {
         }
         let will_do = |own: &Self| own.is_made(kind) || !waits && own.index(kind).is_some();
         while !will_do(self) {
-            // One of another kind may be in the making.
+            // A painter of another kind may be in the making.
             let others = self.making.as_ref().is_some_and(|(own, ..)| *own != kind);
             if others && kind == Kind::Drawing {
                 let waiting = self.making.take();
@@ -222,10 +210,7 @@ impl Painters {
         Ok(painter)
     }
 
-    /// The picture of a world: encoded sRGB.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
+    /// The picture of a world as encoded sRGB.
     pub(super) fn picture(
         &mut self,
         world: &World,
@@ -246,9 +231,6 @@ impl Painters {
     }
 
     /// The painting of a world.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn painting(
         &mut self,
         world: &World,
@@ -263,16 +245,15 @@ impl Painters {
     }
 }
 
-/// Something that is made beside the window.
+/// A value that another thread makes while the window goes on.
 #[derive(Debug)]
 pub(super) struct Making<T> {
     receiver: Receiver<T>,
-    /// The value, once it was received; the inner `None` if the thread has panicked.
+    /// The value once it was received. The inner `None` means that the thread has panicked.
     made: Option<Option<T>>,
 }
 
 impl<T: Send + 'static> Making<T> {
-    /// Begins to make it.
     pub(super) fn begin(make: impl FnOnce() -> T + Send + 'static) -> Self {
         let (sender, receiver) = channel();
         thread::start(move || {
@@ -281,7 +262,6 @@ impl<T: Send + 'static> Making<T> {
         Self { receiver, made: None }
     }
 
-    /// Whether it is made.
     pub(super) fn is_ready(&mut self) -> bool {
         if self.made.is_none() {
             self.made = match self.receiver.try_recv() {
@@ -293,7 +273,7 @@ impl<T: Send + 'static> Making<T> {
         self.made.is_some()
     }
 
-    /// Waits for it. None if its thread has panicked.
+    /// Waits for the value. Returns `None` if its thread has panicked.
     pub(super) fn result(mut self) -> Option<T> {
         while !self.is_ready() && thread::next() {}
         self.made.unwrap_or_else(|| self.receiver.recv().ok())

@@ -1,6 +1,5 @@
-//! What a scene shows: pictures, its painting, what is at a place, and its script.
-//!
-//! Volumes, paint and colour at a place of a scene.
+//! What you see of a scene: pictures, its painting, volumes, paint and colour at a place, and its
+//! script.
 
 use glam::Vec3;
 use graphics::camera::Camera;
@@ -27,17 +26,14 @@ use crate::event::PickedLayer;
 use crate::failure::FileFailure;
 
 impl Scene {
-    /// A camera as the recording keeps it, by which pictures are drawn.
+    /// A camera rounded as the recording stores it. Pictures are drawn with this one.
     pub(super) fn recorded_camera(&self, camera: &Camera) -> Camera {
         recorded_camera(camera, &self.mesh)
     }
 
-    /// The picture with all samples, as it is exported.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
+    /// The picture for export, with all samples.
     pub(super) fn image(&mut self, sight: &Sight) -> Result<SceneImage, FileFailure> {
-        // Asked for while the moment is sought, it is that of the moment.
+        // If the user went to another moment, show that one.
         self.reach_moment()?;
         if self.painters.paints(&self.look) {
             return SceneImage::of_painting(self.painting(sight)?);
@@ -46,20 +42,14 @@ impl Scene {
     }
 
     /// The picture with all samples, in linear sRGB.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn picture(&mut self, sight: &Sight) -> Result<Field<[f32; 4]>, FileFailure> {
         let world = self.timeline.now().world();
         let picture = self.painters.picture(world, sight, &self.look, Quality::BEST)?;
-        // As the command line writes it, to the bit.
+        // This is what the command line writes, to the bit.
         Ok(linear_from_encoded(&over_white(&picture)))
     }
 
     /// The painting that the scene makes.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn painting(&mut self, sight: &Sight) -> Result<Document, FileFailure> {
         self.reach_moment()?;
         let world = self.timeline.now().world();
@@ -68,9 +58,6 @@ impl Scene {
     }
 
     /// The bytes of the picture.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn pixels(
         &mut self,
         sight: &Sight,
@@ -95,10 +82,7 @@ impl Scene {
         told(found, srgb, self.materials.slots, &self.recorded.base().regions)
     }
 
-    /// The script as it would be saved, seen by `camera`.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the script is longer than one can be.
+    /// The script as it would be saved, seen by `camera`. Fails if it is too long for a file.
     pub(super) fn recording(&self, camera: Option<Camera>) -> Result<SceneRecording, FileFailure> {
         let mut script = self.script();
         script.camera = camera.map(|camera| camera_table(&camera)).or(script.camera);
@@ -114,15 +98,14 @@ impl Scene {
 /// Volumes and paint at a place on a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found {
-    /// Number of volumes that hold it.
     pub(super) volumes: usize,
-    /// Index of the region of the last of them; none outside.
+    /// Index of the region of the last of these volumes. Outside there is none.
     pub(super) region: Option<usize>,
-    /// Heights of the films by slot and, last, of vehicle, in mm.
+    /// Heights of the films in mm by slot, and then of the vehicle.
     pub(super) heights_mm: [f64; SLOTS + 1],
 }
 
-/// Volumes of `world` that hold a place on its surface, and the films of their paint there.
+/// Finds the volumes of `world` around a place on its surface, and the films of their paint there.
 pub(super) fn found_at(world: &World, hit: &Hit, profile: FilmProfile) -> Found {
     let Hit { place, normal } = *hit;
     let nearest = world.grid().nearest(place);
@@ -152,16 +135,17 @@ pub(super) fn found_at(world: &World, hit: &Hit, profile: FilmProfile) -> Found 
 /// Colour of a picture at a share of its width and height.
 pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
     let sides = [picture.width(), picture.height()];
-    let index = |axis: usize| {
+    let [x, y] = [0, 1].map(|axis: usize| {
         let place = (at[axis] * sides[axis] as f32).max(0.0) as usize;
         place.min(sides[axis].saturating_sub(1))
-    };
-    let [red, green, blue, _] = picture[(index(0), index(1))];
+    });
+    let [red, green, blue, _] = picture[(x, y)];
     [red, green, blue].map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
-/// The answer to the painter: what was found at a place, if there is a surface, and the colour
-/// shown there. `slots` are the pigments of the volumes.
+/// The answer to the painter: what is at a place, if there is a surface, and the colour shown
+/// there.
+/// `slots` are the pigments of the volumes.
 pub(super) fn told(
     found: Option<(Vec3, Found)>,
     srgb: [u8; 3],

@@ -1,6 +1,5 @@
-//! The recording of a scene: its script, sorted by gestures.
-//!
-//! Saving the script of a scene, beside its subject and its library.
+//! The recording of a scene: its script, sorted by gestures. You can save it together with its
+//! library, in the folder of its subject.
 
 use std::path::{Path, PathBuf};
 
@@ -14,29 +13,27 @@ use super::event::{SceneEvent, SceneRecording};
 use super::gesture::Timed;
 use crate::failure::FileFailure;
 
-/// Most steps between two actions of a dryer that is drawn over the surface.
+/// Most steps between two actions of a dryer that moves over the surface.
 const DRYING: u32 = 24;
 
-/// The actions of one gesture, or those that belong together in a script.
+/// The actions of one gesture, or actions of a script that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Gesture {
     actions: Vec<Timed>,
 }
 
-/// A script whose actions are sorted by gestures, so that one can be taken back.
+/// A script with its actions sorted by gestures, so that you can undo one of them.
 #[derive(Debug, Clone)]
 pub(super) struct Recorded {
-    /// The script without its actions.
     base: Script,
     /// In the order in which they were added.
     gestures: Vec<Gesture>,
-    /// Counter of changes.
     revision: u64,
 }
 
 impl Recorded {
-    /// The recording that a script is. Actions of one kind and recipe that follow one another
-    /// without a gap are one gesture.
+    /// Makes a recording of a script. Actions with the same kind and recipe that follow without a
+    /// gap are one gesture.
     pub(super) fn of(script: &Script) -> Self {
         let mut base = script.rounded();
         let events = base.events();
@@ -57,23 +54,21 @@ impl Recorded {
         Self { base, gestures, revision: 0 }
     }
 
-    /// The script without its actions.
     pub(super) fn base(&self) -> &Script {
         &self.base
     }
 
-    /// Changes the script besides its actions.
     pub(super) fn change_base(&mut self, change: impl FnOnce(&mut Script)) {
         change(&mut self.base);
         self.revision += 1;
     }
 
-    /// Counter of changes: equal numbers, equal recordings.
+    /// Counts changes: if two numbers are equal, so are the recordings.
     pub(super) fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// Begins a gesture, which the next actions belong to.
+    /// Begins a gesture. The next actions belong to it.
     pub(super) fn begin(&mut self) {
         self.gestures.push(Gesture { actions: Vec::new() });
     }
@@ -96,27 +91,26 @@ impl Recorded {
         self.gestures.pop_if(|gesture| gesture.actions.is_empty());
     }
 
-    /// Removes the gesture that was added last. Returns the step at which it began.
+    /// Removes the gesture that was added last. Returns its first step.
     pub(super) fn undo(&mut self) -> Option<u32> {
         let gesture = self.gestures.pop()?;
         self.revision += 1;
         Some(gesture.start())
     }
 
-    /// Removes the gesture with this number in the list of [`Recorded::events`]. Returns the step
-    /// at which it began.
+    /// Removes the gesture with this number in the list of [`Recorded::events`]. Returns its first
+    /// step.
     pub(super) fn remove(&mut self, number: usize) -> Option<u32> {
         let index = *self.by_time().get(number)?;
         self.revision += 1;
         Some(self.gestures.remove(index).start())
     }
 
-    /// Last step that an action needs.
     pub(super) fn end_step(&self) -> u32 {
         self.gestures.iter().map(Gesture::end).max().unwrap_or(0)
     }
 
-    /// The script of all gestures, which lasts `steps` steps.
+    /// The script of all gestures. It lasts `steps` steps.
     pub(super) fn script(&self, steps: u32) -> Script {
         let mut recorder = Recorder::new(&self.base);
         for Timed { start, end, action } in self.gestures.iter().flat_map(|one| &one.actions) {
@@ -125,14 +119,14 @@ impl Recorded {
         recorder.script(steps)
     }
 
-    /// Indices of the gestures by the time at which they begin.
+    /// Indices of the gestures, sorted by the time at which they begin.
     fn by_time(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.gestures.len()).collect();
         order.sort_by_key(|&index| self.gestures[index].start());
         order
     }
 
-    /// All gestures by the time at which they begin.
+    /// All gestures, sorted by the time at which they begin.
     pub(super) fn events(&self) -> Vec<SceneEvent> {
         let gestures = self.by_time().into_iter().map(|index| &self.gestures[index]);
         let filled = gestures.filter_map(|gesture| Some((gesture, gesture.actions.first()?)));
@@ -162,8 +156,8 @@ impl Recorded {
 
     /// `what`, and the pigments of a recipe.
     fn with_paint(&self, what: &str, recipe: &Recipe) -> String {
-        let name = |letter: &String| self.base.palette.get(letter).cloned();
-        let names: Vec<String> = recipe.keys().filter_map(name).collect();
+        let names = recipe.keys().filter_map(|letter| self.base.palette.get(letter).cloned());
+        let names: Vec<String> = names.collect();
         match names.is_empty() {
             true => format!("{what} colour"),
             false => format!("{what} {}", names.join(" and ")),
@@ -180,7 +174,7 @@ impl Gesture {
         self.actions.iter().map(|action| action.end).max().unwrap_or(0)
     }
 
-    /// Whether `next` follows at once with the same tool and paint.
+    /// Whether `next` follows without a gap, with the same tool and paint.
     fn goes_on_with(&self, next: &Timed) -> bool {
         let Some(last) = self.actions.last() else { return false };
         if let (Action::Dry(last_dry), Action::Dry(next_dry)) = (&last.action, &next.action) {
@@ -195,7 +189,7 @@ impl Gesture {
     }
 }
 
-/// Whether two dryers are so near that one drag may have made both.
+/// Whether two dryers are near enough that one drag may have made both.
 fn are_near(one: &Dry, other: &Dry) -> bool {
     let (Some(one), Some(other)) = (one.ball, other.ball) else { return false };
     let Ball { center, radius } = one;
@@ -204,12 +198,12 @@ fn are_near(one: &Dry, other: &Dry) -> bool {
 }
 
 impl SceneRecording {
-    /// Writes the script in a file, which lies beside the file of its subject. A library of the
-    /// painter's own is copied beside it, unless it lies there already.
+    /// Writes the script to a file in the folder of its subject. Copies the painter's own library
+    /// there too, unless it is there already.
     ///
     /// # Errors
-    /// [`FileFailure`] for a file beside another subject, one that cannot be written, and another
-    /// library of the same name.
+    /// [`FileFailure`] if the file is in the folder of another subject, if it cannot be written, or
+    /// if a different library has the same name there.
     pub fn save(&self, path: &Path) -> Result<(), FileFailure> {
         if let Some(subject) =
             self.subject.as_deref().filter(|own| folder_of(own) != folder_of(path))
@@ -234,7 +228,6 @@ impl SceneRecording {
     }
 }
 
-/// The folder that a file lies in.
 fn folder_of(path: &Path) -> Option<PathBuf> {
     let path = disk::absolute(path).unwrap_or_else(|_| path.to_owned());
     path.parent().and_then(|folder| disk::canonicalize(folder).ok())
@@ -242,8 +235,9 @@ fn folder_of(path: &Path) -> Option<PathBuf> {
 
 /// Copies a library to `to`, unless it is there.
 fn copied(library: &Path, to: &Path) -> Result<(), FileFailure> {
-    let read =
-        |path: &Path| disk::read(path).map_err(|error| FileFailure::io(path, "read", &error));
+    fn read(path: &Path) -> Result<Vec<u8>, FileFailure> {
+        disk::read(path).map_err(|error| FileFailure::io(path, "read", &error))
+    }
     let bytes = read(library)?;
     if disk::exists(to) {
         if read(to)? == bytes {
@@ -262,7 +256,7 @@ mod tests {
     use crate::volumes::command::Grip;
     use crate::volumes::gesture::Hand;
 
-    /// A recording with a pour of 0.2 s from step 12 on, another at the same time, and a dry.
+    /// A recording with a pour of 0.2 s from step 12 on, another pour at the same time, and a dry.
     fn recorded() -> Recorded {
         let mut script = Script::new("shape:village", 2.0);
         script.palette.insert("A".to_owned(), "Ultramarine".to_owned());
@@ -286,11 +280,13 @@ mod tests {
     #[test]
     fn gestures_are_told_by_time_and_taken_back_as_they_were_added() {
         let mut recorded = recorded();
-        let told = |recorded: &Recorded| -> Vec<(String, u64, u64)> {
+        fn told(recorded: &Recorded) -> Vec<(String, u64, u64)> {
             let events = recorded.events().into_iter();
             events.map(|event| (event.label, event.from, event.to)).collect()
-        };
-        let line = |label: &str, from, to| (label.to_owned(), from, to);
+        }
+        fn line(label: &str, from: u64, to: u64) -> (String, u64, u64) {
+            (label.to_owned(), from, to)
+        }
         let [dry, blue, red] = [
             line("dry all paint", 6, 7),
             line("pour Ultramarine", 12, 36),
@@ -321,10 +317,10 @@ mod tests {
     #[test]
     fn a_drag_of_the_dryer_is_one_gesture_also_after_it_is_read() {
         let mut recorded = Recorded::of(&Script::new("shape:village", 2.0));
-        let dry = |start: u32, x: f64| {
+        fn dry(start: u32, x: f64) -> Timed {
             let ball = Some(Ball { center: [x, 0.0, 0.0], radius: 0.5 });
             Timed { start, end: start + 1, action: Action::Dry(Dry { ball }) }
-        };
+        }
         for drag in [vec![dry(5, 0.0), dry(9, 0.2), dry(30, 0.4)], vec![dry(40, 3.0)]] {
             recorded.begin();
             drag.into_iter().for_each(|action| recorded.add(action));

@@ -1,8 +1,5 @@
-//! A scene at work: what was opened, its recording, the present moment, and its painters.
-//!
-//! Opens what a scene is made from.
-//!
-//! Changes of the pigments of a scene, and of the light on them.
+//! An open scene: what it was opened from, its recording, the present moment, its painters, and
+//! changes of its pigments and of the light on them.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -31,19 +28,16 @@ use super::recorded::Recorded;
 use super::timeline::Timeline;
 use crate::failure::FileFailure;
 
-/// A scene at work.
 #[derive(Debug)]
 pub(super) struct Scene {
     pub(super) mesh: Arc<Mesh>,
     flat: bool,
-    /// The camera that frames the subject.
     framed: Camera,
     pub(super) folder: PathBuf,
     pub(super) file: Option<PathBuf>,
     pub(super) settings: Settings,
-    /// The choice of each region of the script when it was opened; `None` leaves it to the settings.
+    /// What each region of the script chose when it was opened. `None` leaves it to the settings.
     insides: Vec<Option<settings::Inside>>,
-    /// Whether they differed.
     by_region: bool,
     view: FirstView,
     pub(super) recorded: Recorded,
@@ -52,15 +46,12 @@ pub(super) struct Scene {
     pub(super) painters: Painters,
     pub(super) materials: Materials,
     pub(super) look: Look,
-    /// The last picture, in encoded sRGB.
     pub(super) shown: Option<Field<[f32; 4]>>,
 }
 
 impl Scene {
-    /// Opens a scene at its start.
-    ///
-    /// # Errors
-    /// [`FileFailure`] that names the file, the place in a script, and the way out.
+    /// Opens a scene at its start. The error names the file and the place in a script, and says
+    /// what you can do.
     pub(super) fn open(subject: &Subject) -> Result<Self, FileFailure> {
         let OpenedScene { mut script, source, materials, mesh, flat, folder, file } =
             OpenedScene::read(subject)?;
@@ -101,14 +92,13 @@ impl Scene {
         })
     }
 
-    /// Changes what is shown.
     pub(super) fn set_look(&mut self, look: Look) {
         let before = self.look;
         let settings = &self.settings;
         let insides = &self.insides;
         let look = look.rounded();
         self.look = look;
-        // The picture that is shown is no part of the script.
+        // The choice of the picture is not part of the script.
         if (Look { show: before.show, ..look }) != before {
             self.recorded.change_base(|script| look.write_to(script, settings, insides));
         }
@@ -119,28 +109,22 @@ impl Scene {
         self.timeline.moment()
     }
 
-    /// The last moment that was reached or that an event needs.
+    /// The last moment that was reached, or that an event needs.
     pub(super) fn end(&self) -> u64 {
         self.timeline.reached().max(self.recorded.end_step().into())
     }
 
-    /// Whether the moment that is sought has not been reached.
+    /// Whether it still plays towards the moment that the user went to.
     pub(super) fn is_behind(&self) -> bool {
         self.timeline.is_behind()
     }
 
-    /// Plays towards the moment that is sought until `until`.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for an event that cannot be done.
+    /// Plays towards the moment that the user went to, until `until`.
     pub(super) fn catch_up(&mut self, until: Instant) -> Result<(), FileFailure> {
         self.timeline.catch_up(until)
     }
 
-    /// Takes one step, with what the hand does in it.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for an event that cannot be done; one of the hand is taken back.
+    /// Takes one step, together with the hand. If an event of the hand fails, it is removed.
     pub(super) fn step(&mut self) -> Result<(), FileFailure> {
         let step = u32::try_from(self.timeline.moment()).unwrap_or(u32::MAX);
         if let Some(timed) = self.hand.as_mut().and_then(|hand| hand.next_action(step)) {
@@ -153,17 +137,14 @@ impl Scene {
         stepped
     }
 
-    /// Adds an action of the hand to the recording and to what is played.
+    /// Adds an action of the hand to the recording, and plays it.
     pub(super) fn add(&mut self, timed: Timed) {
         let Timed { start, end, action } = timed.clone();
         self.recorded.add(timed);
         self.timeline.add(Event { start, end, action, table: KeyPath::of("hand") });
     }
 
-    /// Goes to a moment, at most the last one.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the script cannot be played.
+    /// Goes to a moment, but not beyond the last one.
     pub(super) fn go_to(&mut self, step: u64) -> Result<(), FileFailure> {
         self.pen_up()?;
         let script = self.script();
@@ -171,10 +152,7 @@ impl Scene {
         self.timeline.seek(goal, (&script, &self.mesh, &self.view))
     }
 
-    /// Plays the recording again from step `from` on, after an event that began there was removed.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if it cannot be played.
+    /// Plays the recording again from step `from`, after an event that began there was removed.
     pub(super) fn replay_from(&mut self, from: u32) -> Result<(), FileFailure> {
         let script = self.script();
         self.timeline.replay(from.into(), (&script, &self.mesh, &self.view))
@@ -185,13 +163,12 @@ impl Scene {
         self.recorded.script(u32::try_from(self.end()).unwrap_or(u32::MAX))
     }
 
-    /// The camera that the script names, if it does.
+    /// The camera of the script, if it names one.
     pub(super) fn seen_from(&self) -> Option<Camera> {
         let base = self.recorded.base();
         base.camera.as_ref().map(|_| first_camera(base, &self.mesh, self.flat))
     }
 
-    /// State besides the picture.
     pub(super) fn state(&self, time: SceneTime) -> SceneState {
         let world = self.timeline.now().world();
         let base = self.recorded.base();
@@ -220,12 +197,10 @@ impl Scene {
 
 #[cfg(test)]
 impl Scene {
-    /// The surfaces of the subject.
     pub(super) fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The volumes at the present moment.
     pub(super) fn volumes(&self) -> &[volumes::volume::Volume] {
         self.timeline.now().world().volumes()
     }
@@ -235,44 +210,35 @@ impl Scene {
         self.timeline.now().world().tally().on_scene.iter().sum()
     }
 
-    /// All events by time.
     pub(super) fn events(&self) -> Vec<super::event::SceneEvent> {
         self.recorded.events()
     }
 
-    /// The camera of the first picture.
     pub(super) fn usual_camera(&self) -> Camera {
         first_camera(self.recorded.base(), &self.mesh, self.flat)
     }
 }
 
-/// Number of triangles of a model that comes with the program, as the command line makes it.
+/// Triangles of a model that comes with the program, as on the command line.
 const TRIANGLES: usize = 60_000;
 
-/// A scene that was read.
 #[derive(Debug)]
 pub(super) struct OpenedScene {
-    /// The script; with no events for a subject alone.
+    /// The script. It has no events if only a subject was opened.
     pub(super) script: Script,
     /// Name and text of the script, for messages.
     pub(super) source: (String, String),
-    /// Its pigments.
     pub(super) materials: Materials,
-    /// The surfaces of the subject.
     pub(super) mesh: Mesh,
-    /// Whether the subject is a photograph.
     pub(super) flat: bool,
-    /// Folder that the subject lies in.
     pub(super) folder: PathBuf,
-    /// File of the subject; `None` for a model that comes with the program.
+    /// File of the subject. It is `None` for a model that comes with the program.
     pub(super) file: Option<PathBuf>,
 }
 
 impl OpenedScene {
-    /// Reads `subject` and all that it names.
-    ///
-    /// # Errors
-    /// [`FileFailure`] that names the file, and the place in a script.
+    /// Reads `subject` and everything that it names. The error names the file and the place in a
+    /// script.
     pub(super) fn read(subject: &Subject) -> Result<Self, FileFailure> {
         match subject {
             Subject::Shape(name) => Self::of_script(
@@ -325,13 +291,13 @@ impl OpenedScene {
         if flat {
             script.light_of_its_own();
         }
-        // What is shown is what is saved.
+        // Round it first, so that the screen shows what is saved.
         let script = script.rounded();
         Ok(Self { script, source, materials, mesh, flat, folder: folder.to_owned(), file })
     }
 }
 
-/// The script of a scene in which nothing has happened.
+/// The script of a new scene.
 fn new_script(subject: &str, title: &str) -> Result<Script, FileFailure> {
     let mut script = Script::new(subject, 0.0);
     script.title = title.to_owned();
@@ -341,14 +307,14 @@ fn new_script(subject: &str, title: &str) -> Result<Script, FileFailure> {
     Ok(script)
 }
 
-/// Whether a file's name has the ending of a model.
+/// Whether a file name has the extension of a model.
 fn is_mesh(path: &Path) -> bool {
     let endings = ["glb", "gltf", "obj", "ply"];
     let ending = path.extension().and_then(|ending| ending.to_str());
     ending.is_some_and(|ending| endings.contains(&ending.to_ascii_lowercase().as_str()))
 }
 
-/// A photograph as a flat model, with as many pixels as the command line gives it.
+/// A photograph as a flat model, with as many pixels as on the command line.
 fn photograph(path: &Path) -> Result<Mesh, FileFailure> {
     let photograph = Photograph::open(path).map_err(|error| FileFailure::explained(&error))?;
     let (width, height) = photograph.size();
@@ -362,10 +328,7 @@ fn absolute(path: &Path) -> PathBuf {
 }
 
 impl Scene {
-    /// Sees pigments under another light.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a light that a script cannot name.
+    /// Lights the pigments with another light. Fails if a script cannot name it.
     pub(super) fn set_illuminant(&mut self, illuminant: &str) -> Result<(), FileFailure> {
         let mut script = self.recorded.base().clone();
         script.illuminant = light_for_script(illuminant)?;
@@ -374,11 +337,8 @@ impl Scene {
         Ok(())
     }
 
-    /// Fills the tubes from a library of the painter's own. Paint that was poured from a tube is
-    /// that of its new pigment.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a file that is no library, or has too few pigments.
+    /// Fills the tubes from the painter's own library. Paint that was poured from a tube gets its
+    /// new pigment. Fails for a file that is not a library, or has too few pigments.
     pub(super) fn set_library(&mut self, path: &Path) -> Result<(), FileFailure> {
         let library = PigmentLibrary::open(path);
         let library = library.map_err(|error| FileFailure::explained(&error))?;
@@ -391,20 +351,18 @@ impl Scene {
         }
         fill_tubes(&mut script, &library)?;
         let path = disk::absolute(path).unwrap_or_else(|_| path.to_owned());
-        // Below the folder of the subject by its name there.
+        // A file below the folder of the subject is named relative to it.
         let named = path.strip_prefix(&self.folder).unwrap_or(&path);
         script.library = Some(named.to_string_lossy().into_owned());
         let materials = self.materials.with_library(&script, Arc::new(library), Some(path))?;
         self.take_up(script, materials);
-        // Paint keeps its slots, as the letters stay.
+        // The letters stay, so the paint keeps its slots.
         if is_bare { self.replay_from(0) } else { Ok(()) }
     }
 
     /// Puts another pigment of the library into a tube, by its number from 0. Paint that was poured
-    /// from it is that of the new pigment.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a pigment that the library does not have, or another tube has.
+    /// from it gets the new pigment. Fails if the library lacks the pigment, or another tube has
+    /// it.
     pub(super) fn set_tube(&mut self, number: usize, pigment: &str) -> Result<(), FileFailure> {
         let mut script = self.recorded.base().clone();
         if let Some(name) = script.palette.values_mut().nth(number) {
@@ -415,7 +373,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Goes on with another palette or light.
+    /// Continues with another palette or light.
     fn take_up(&mut self, script: Script, materials: Materials) {
         self.painters.set_pigments(materials.painted(&script));
         self.materials = materials;

@@ -1,6 +1,5 @@
-//! The recording played: the present moment, and snapshots to go back to.
-//!
-//! How many steps are due, so that the time of a scene runs as the clock does.
+//! Plays the recording of a scene: the present moment, snapshots to go back to, and how many steps
+//! are due so that the scene keeps time with the clock.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -12,29 +11,24 @@ use web_time::{Duration, Instant};
 
 use crate::failure::FileFailure;
 
-/// Most snapshots. Beyond, every second one is given up, and those that follow are twice as far
+/// Most snapshots. If there are more, we drop every second one and take later ones twice as far
 /// apart.
 const MOST_SNAPSHOTS: usize = 128;
 
-/// A script being played, forwards and back.
+/// Plays a script forwards and backwards.
 #[derive(Debug)]
 pub(super) struct Timeline {
     now: Performance,
-    /// Snapshots by their steps; the first is the start.
+    /// Snapshots by their steps. The first is the start.
     snapshots: BTreeMap<u64, Performance>,
-    /// Steps between two snapshots.
     every: u64,
-    /// The moment that is sought; the present one if none is.
+    /// The moment that the user went to. This is the present one unless it still has to play there.
     goal: u64,
-    /// The last moment that was reached.
     reached: u64,
 }
 
 impl Timeline {
-    /// The start of a script on a scene.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the world cannot be made.
+    /// The start of a script on a scene. Fails if the world cannot be made.
     pub(super) fn new(
         script: &Script,
         scene: &Mesh,
@@ -52,30 +46,25 @@ impl Timeline {
         self.reached = self.reached.max(step);
     }
 
-    /// The performance at the present moment.
     pub(super) fn now(&self) -> &Performance {
         &self.now
     }
 
-    /// The moment that is shown or sought.
+    /// The moment that is shown, or that the user went to.
     pub(super) fn moment(&self) -> u64 {
         self.goal
     }
 
-    /// The last moment that was reached.
     pub(super) fn reached(&self) -> u64 {
         self.reached
     }
 
-    /// Whether the moment that is sought has not been reached.
+    /// Whether it still plays towards the moment that the user went to.
     pub(super) fn is_behind(&self) -> bool {
         self.now.step() < self.goal
     }
 
-    /// Takes one step.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for an event that cannot be done; nothing has changed then.
+    /// Takes one step. If an event fails, nothing has changed.
     pub(super) fn step(&mut self) -> Result<(), FileFailure> {
         let next = self.now.step() + 1;
         if let Err(error) = self.now.advance_to(next) {
@@ -91,7 +80,7 @@ impl Timeline {
         Ok(())
     }
 
-    /// Gives up every second snapshot if there are too many.
+    /// Drops every second snapshot if there are too many.
     fn thin_out(&mut self) {
         if self.snapshots.len() > MOST_SNAPSHOTS {
             self.every *= 2;
@@ -100,10 +89,8 @@ impl Timeline {
         }
     }
 
-    /// Plays towards the moment that is sought until `until`, at least one step.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for an event that cannot be done; the moment before it is kept.
+    /// Plays at least one step, and until `until`, towards the moment that the user went to. If an
+    /// event fails, the moment before it stays.
     pub(super) fn catch_up(&mut self, until: Instant) -> Result<(), FileFailure> {
         while self.is_behind() {
             self.step()?;
@@ -114,11 +101,9 @@ impl Timeline {
         Ok(())
     }
 
-    /// Seeks a moment: goes on from here, or from the last snapshot before it. `script`, `scene`
-    /// and `view` are those that are played.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the script cannot be played on this scene.
+    /// Goes to a moment from here, or from the last snapshot before it. Pass the same `script`,
+    /// `scene` and
+    /// `view` as before.
     pub(super) fn seek(
         &mut self,
         goal: u64,
@@ -130,7 +115,7 @@ impl Timeline {
             && (here > goal || here < step)
         {
             let mut now = snapshot.clone();
-            // Events may have been added since.
+            // Events may have been added since the snapshot.
             now.go_on_by(script, scene, view).map_err(|error| FileFailure::explained(&error))?;
             self.now = now;
         }
@@ -138,16 +123,13 @@ impl Timeline {
         Ok(())
     }
 
-    /// Adds an event that begins with the next step.
+    /// Adds an event. It begins with the next step.
     pub(super) fn add(&mut self, event: Event) {
         self.forget_after(event.start.into());
         self.now.add(event);
     }
 
-    /// Plays another script, whose events before step `from` are the same, to the same moment.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the script cannot be played on this scene.
+    /// Plays another script to the same moment. Its events before step `from` must be the same.
     pub(super) fn replay(
         &mut self,
         from: u64,
@@ -163,7 +145,6 @@ impl Timeline {
         Ok(())
     }
 
-    /// Forgets the snapshots of moments after step `from`.
     fn forget_after(&mut self, from: u64) {
         self.snapshots.retain(|&step, _| step <= from);
     }
@@ -172,28 +153,28 @@ impl Timeline {
 /// Steps of a scene in a second.
 pub const STEPS_A_SECOND: u64 = 120;
 
-/// Most steps that may be due. What a slow machine owes beyond is forgotten: the scene becomes
-/// slower, but never answers late.
+/// Most steps that may be due. A slow machine skips the rest: the scene becomes slower, but still
+/// answers in time.
 const MOST_DUE: u64 = 12;
 
-/// Time span of the speed.
+/// The speed is averaged over this time.
 const SPAN: Duration = Duration::from_secs(1);
 
-/// Counts the steps that the clock owes to a scene.
+/// Counts the steps that are due by the clock.
 #[derive(Debug, Default)]
 pub(super) struct Pacer {
-    /// When counting began, and the steps taken since.
+    /// When counting began, and how many steps were taken since.
     running: Option<(Instant, u64)>,
     recent: VecDeque<(Instant, u64)>,
 }
 
 impl Pacer {
-    /// Begins to count at `now`, unless it counts already.
+    /// Begins to count at `now`, unless it is counting already.
     pub(super) fn start(&mut self, now: Instant) {
         self.running.get_or_insert((now, 0));
     }
 
-    /// Ends counting: time stands.
+    /// Stops counting, because time stands.
     pub(super) fn stop(&mut self) {
         self.running = None;
     }
@@ -210,7 +191,7 @@ impl Pacer {
         due.min(MOST_DUE)
     }
 
-    /// Time at which the next step is due; `None` while time stands.
+    /// When the next step is due, or `None` while time stands.
     pub(super) fn next(&self) -> Option<Instant> {
         let (since, taken) = self.running?;
         let nanoseconds = (taken + 1) * 1_000_000_000 / STEPS_A_SECOND + 1;
@@ -225,14 +206,14 @@ impl Pacer {
         self.recent.push_back((now, steps));
     }
 
-    /// Forgets the steps that are still due, because taking them would delay the answers.
+    /// Forgets the steps that are still due. Use this when they would delay the answers.
     pub(super) fn forget(&mut self, now: Instant) {
         if self.running.is_some() {
             self.running = Some((now, 0));
         }
     }
 
-    /// Speed over the last second, 1 in real time.
+    /// Speed over the last second. Real time is 1.
     pub(super) fn speed(&mut self, now: Instant) -> f64 {
         while self.recent.front().is_some_and(|(at, _)| now.saturating_duration_since(*at) > SPAN) {
             self.recent.pop_front();

@@ -1,8 +1,5 @@
-//! The loop of the thread of a scene: carries out commands, lets time run, draws.
-//!
-//! The worker of scenes as the front end sees it.
-//!
-//! How large pictures of moving scenes are drawn, so that they come in time.
+//! The worker of scenes, and the loop of its thread: it carries out commands, lets time run and
+//! draws. While a scene moves, it draws smaller pictures so that they come in time.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -23,25 +20,24 @@ use crate::failure::FileFailure;
 use crate::inbox::Wait;
 use crate::thread::{Awaited, Works};
 
-/// Most pictures that the front end may not have received yet.
+/// Most pictures that may be sent without being confirmed.
 const MOST_UNCONFIRMED: usize = 2;
 
-/// Time for steps between two pictures. What is due beyond is forgotten.
+/// Time for steps between two pictures. Further steps that are due are skipped.
 const STEPS_TIME: Duration = Duration::from_millis(25);
 
-/// Time for steps between two pictures while a moment is sought.
+/// Time for steps between two pictures while we play towards another moment.
 const SEEK_TIME: Duration = Duration::from_millis(60);
 
-/// Time after the last change at which a picture is drawn with all samples.
+/// A picture with all samples is drawn this long after the last change.
 const REST: Duration = Duration::from_millis(160);
 
-/// Time between two looks whether paint is mixed.
+/// How often we check whether paint is mixed.
 const MIXING: Duration = Duration::from_millis(20);
 
-/// Steps after which time stops by itself while nothing is done: 10 s. Paint has come to rest.
+/// Steps after which time stops if nobody does anything: 10 s. The paint rests by then.
 const RUN_ON: u64 = 10 * STEPS_A_SECOND;
 
-/// Minimum time between two states.
 const STATE_INTERVAL: Duration = Duration::from_millis(50);
 
 /// State of the thread of a scene.
@@ -52,15 +48,15 @@ pub(super) struct SceneLoop<'a> {
     camera: Option<Camera>,
     size: [usize; 2],
     playing: bool,
-    /// Moment at which time stops by itself.
+    /// Time stops by itself at this moment.
     stops_at: u64,
     pacer: Pacer,
     unconfirmed: usize,
     /// Whether the picture may have changed since it was last drawn.
     stale: bool,
-    /// Time of the last change, until the picture was drawn with all samples.
+    /// Time of the last change. It is `None` once the picture was drawn with all samples.
     moved: Option<Instant>,
-    /// Seconds that a pixel of a moving scene took last.
+    /// How many seconds a pixel of a moving scene took last.
     pixel_seconds: f64,
     state_stale: bool,
     state_due: Instant,
@@ -86,7 +82,6 @@ impl<'a> SceneLoop<'a> {
         }
     }
 
-    /// Works until the command to quit.
     pub(super) fn run(mut self) {
         loop {
             self.inbox.receive(self.wait_until());
@@ -97,8 +92,8 @@ impl<'a> SceneLoop<'a> {
         }
     }
 
-    /// Works until `deadline`, or until it must wait: then it returns how long. A step or a picture
-    /// that has begun is finished first. `None` after the command to quit.
+    /// Works until `deadline`, or until it must wait, and returns for how long. It finishes a step
+    /// or a picture that has begun. Returns `None` after the command to quit.
     pub(super) fn turn(&mut self, deadline: Instant) -> Option<Wait> {
         loop {
             self.inbox.receive_all();
@@ -133,7 +128,7 @@ impl<'a> SceneLoop<'a> {
         self.send_state();
     }
 
-    /// Time until which the thread may wait for commands; `None` is without end.
+    /// Until when the thread may wait for commands. `None` means without limit.
     fn wait_until(&self) -> Option<Instant> {
         let now = Instant::now();
         let may_draw = self.unconfirmed < MOST_UNCONFIRMED;
@@ -167,7 +162,6 @@ impl<'a> SceneLoop<'a> {
         (self.size.iter().all(|&side| side > 0)).then_some(Sight { camera, size: self.size })
     }
 
-    /// Carries out a command.
     fn carry_out(&mut self, command: VolumeCommand) -> Result<(), FileFailure> {
         self.state_stale = true;
         match command {
@@ -199,8 +193,8 @@ impl<'a> SceneLoop<'a> {
         Ok(())
     }
 
-    /// Lets time run or stops it. It runs to the end of what was recorded; from there on, as long
-    /// as something is done.
+    /// Lets time run or stops it. Time runs to the end of the recording, and beyond it only while
+    /// somebody does something.
     fn play(&mut self, playing: bool) {
         let Some(scene) = self.scene.as_ref().filter(|_| playing) else {
             self.playing = false;
@@ -279,7 +273,7 @@ impl<'a> SceneLoop<'a> {
         Ok(())
     }
 
-    /// Takes paint that was mixed, which the next picture shows.
+    /// Takes paint that was mixed. The next picture shows it.
     fn take_made(&mut self) -> Result<(), FileFailure> {
         let Some(scene) = &mut self.scene else { return Ok(()) };
         let before = scene.painters.is_making();
@@ -291,7 +285,7 @@ impl<'a> SceneLoop<'a> {
         taken.map(|_| ())
     }
 
-    /// Takes the steps that are due, as many as there is time for.
+    /// Takes as many of the steps that are due as there is time for.
     fn advance(&mut self) -> Result<(), FileFailure> {
         let Some(scene) = &mut self.scene else { return Ok(()) };
         let began = Instant::now();
@@ -327,7 +321,7 @@ impl<'a> SceneLoop<'a> {
         Ok(())
     }
 
-    /// Draws the picture if it changed, or once more with all samples when it rests.
+    /// Draws the picture if it changed. Draws it once more with all samples when it rests.
     fn draw(&mut self) -> Result<(), FileFailure> {
         let rests = self.moved.is_some_and(|moved| moved.elapsed() >= REST);
         if self.unconfirmed >= MOST_UNCONFIRMED || !(self.stale || rests) {
@@ -360,7 +354,6 @@ impl<'a> SceneLoop<'a> {
         Ok(())
     }
 
-    /// Sends the state if it changed.
     fn send_state(&mut self) {
         let now = Instant::now();
         if !self.state_stale || now < self.state_due {
@@ -386,8 +379,8 @@ impl<'a> SceneLoop<'a> {
     }
 }
 
-/// Handle of the worker that owns a scene. Dropping it ends its thread and waits for that, at most
-/// five seconds.
+/// Handle of the worker that owns a scene. If you drop this, the thread ends, and the drop waits
+/// for it for at most five seconds.
 #[derive(Debug)]
 pub struct VolumeWorker {
     inputs: Sender<Input>,
@@ -396,8 +389,9 @@ pub struct VolumeWorker {
 }
 
 impl VolumeWorker {
-    /// Starts the thread. It has no scene until [`VolumeCommand::Open`]. `wake` is called on the
-    /// thread after each event, so that a window can be drawn again.
+    /// Starts the thread. There is no scene until you send [`VolumeCommand::Open`]. The thread
+    /// calls
+    /// `wake` after each event, so that you can draw the window again.
     #[must_use]
     pub fn start(wake: impl Fn() + Send + 'static) -> Self {
         let (inputs, receiver) = channel();
@@ -421,8 +415,8 @@ impl VolumeWorker {
         Self { inputs, events, works: Works::OnThread { _thread: thread } }
     }
 
-    /// A worker without a thread, which works only while the front end calls
-    /// [`VolumeWorker::turn`]: for a page in a browser. `wake` is called after each event.
+    /// A worker without a thread, for a page in a browser. It works only while you call
+    /// [`VolumeWorker::turn`], and calls `wake` after each event.
     #[must_use]
     pub fn in_turns(wake: impl Fn() + 'static) -> Self {
         let (inputs, receiver) = channel();
@@ -434,14 +428,15 @@ impl VolumeWorker {
         Self { inputs, events, works: Works::in_turns(work) }
     }
 
-    /// Lets a worker of [`VolumeWorker::in_turns`] work until `deadline`, or until it must wait; a step
-    /// or a picture that it has begun by then it finishes. Returns how long it may wait for the
-    /// next turn; [`Wait::Forever`] is until the next command. A worker on a thread does nothing here.
+    /// Lets a worker of [`VolumeWorker::in_turns`] work until `deadline`, or until it must wait. It
+    /// finishes a step or a picture that it has begun by then. Returns how long you may wait until
+    /// the next turn, where [`Wait::Forever`] means until the next command. On a worker with a
+    /// thread this does nothing.
     pub fn turn(&self, deadline: Instant) -> Wait {
         self.works.turn(|work| work.turn(deadline))
     }
 
-    /// Sends a command. Has no effect after the worker has ended.
+    /// Sends a command. This has no effect after the worker has ended.
     pub fn ask(&self, command: VolumeCommand) {
         let _ = self.inputs.send(Input::Command(Box::new(command)));
     }
@@ -466,14 +461,14 @@ impl Drop for VolumeWorker {
     }
 }
 
-/// Time for a picture of a scene that moves. It is drawn smaller if it would take longer.
+/// Time for a picture of a scene that moves. If it would take longer, it is drawn smaller.
 const MOVING: PictureShareDuration = PictureShareDuration::from_millis(40);
 
 /// Smallest share of width and height at which moving scenes are drawn.
 const SMALLEST: f64 = 0.5;
 
-/// Share of width and height, in eighths, at which a picture of `size` takes no longer than
-/// [`MOVING`], at least [`SMALLEST`].
+/// Share of width and height, in eighths, so that a picture of `size` takes no longer than
+/// [`MOVING`]. It is at least [`SMALLEST`].
 pub(super) fn share_in_time([width, height]: [usize; 2], pixel_seconds: f64) -> f64 {
     let whole = pixel_seconds * (width * height) as f64;
     let share = (MOVING.as_secs_f64() / whole.max(1e-9)).sqrt();

@@ -1,5 +1,5 @@
-//! Writes the JavaScript beside the native part of a page: wasm-bindgen's command as a crate of this
-//! workspace, so that its version is the lock file's and nothing needs to be installed.
+//! Writes the JavaScript for the native part of a page. This is the command of wasm-bindgen as a
+//! crate of this workspace: so you need not install it, and its version comes from the lock file.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! White, dark and tile, which make reflectances of raw counts.
+//! White, dark and tile. You need them to make reflectances of raw counts.
 
 use std::path::Path;
 
@@ -16,7 +16,8 @@ enum Tile {
     File(String),
 }
 
-/// References as the page passes them. A file is its name, with `#` and a name for one of its spectra.
+/// References as the page passes them. A file is given by its name, and `#` with a name picks one
+/// of its spectra.
 #[derive(Debug, Deserialize)]
 pub(crate) struct References {
     white: String,
@@ -44,7 +45,7 @@ impl References {
     }
 }
 
-/// Files on the disk in memory, which are removed when this is dropped.
+/// Files that we put on the disk in memory, and remove when this is dropped.
 #[derive(Debug, Default)]
 pub(crate) struct GivenFiles(Vec<String>);
 
@@ -69,7 +70,7 @@ impl GivenFiles {
 impl Drop for GivenFiles {
     fn drop(&mut self) {
         for name in &self.0 {
-            // A file that was given twice is gone already.
+            // The same file may be there twice, and is gone already then.
             let _ = disk::remove_file(name);
         }
     }

@@ -1,10 +1,11 @@
-//! Errors of the libraries in the words of the page.
+//! Errors of the libraries, in the words of the page.
 
 use documents::hint::{Explain, Hint};
 
 pub(crate) use told::{Result, options, setting};
 
-/// Where the page has each setting that hints name. Others are options of the program alone.
+/// For each setting that hints name, where the page has it. Other settings are options of the
+/// program.
 const CONTROLS: [(&str, &str); 29] = [
     ("reference", "\"White\""),
     ("percent", "\"Readings are in\": percent"),
@@ -37,14 +38,12 @@ const CONTROLS: [(&str, &str); 29] = [
     ("tolerance", "\"Tolerance\""),
 ];
 
-/// A hint that names the controls of the page.
 pub(crate) fn hint_text(hint: &Hint) -> String {
     told::hint_text(hint, &CONTROLS)
 }
 
-/// Results whose errors reach the page.
+/// Passes the error of a result to the page.
 pub(crate) trait Told<T> {
-    /// The error as the page takes it.
     fn told(self) -> Result<T>;
 }
 

@@ -37,7 +37,7 @@ enum Below {
     Floor,
 }
 
-/// Options of a fit, as the page passes them. A `null` leaves the choice to the fit.
+/// Options of a fit, as the page passes them. If you pass `null`, the fit chooses.
 #[derive(Debug, Deserialize)]
 struct Options {
     amounts: Amounts,

@@ -1,7 +1,5 @@
-//! The native part of the calibration page: the front doors of the libraries over names, bytes and JSON.
-//! The page itself is in `../page`.
-//!
-//! Errors reach the page as the crate `told` says.
+//! The native part of the calibration page. It passes names, bytes and JSON to the libraries, and
+//! reports errors as the crate `told` describes. The page itself is in `../page`.
 
 mod failure;
 mod remarks;

@@ -20,7 +20,7 @@ pub struct Library(pub(crate) PigmentLibrary);
 #[derive(Debug, Deserialize)]
 struct Mixture {
     parts: Vec<(String, f64)>,
-    /// `None` for a film that hides.
+    /// A film that hides has no thickness.
     thickness: Option<f64>,
     over: f64,
     viewing: ViewingNames,

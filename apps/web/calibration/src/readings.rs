@@ -53,8 +53,8 @@ pub struct Readings(pub(crate) calibrate::Readings);
 
 #[wasm_bindgen]
 impl Readings {
-    /// Reads files by their names and contents, and a CSV of recipes where these stand in a file of their own.
-    /// `given` are the files that the references of the options name, for readings of raw counts.
+    /// Reads files by their names and contents, and a CSV of recipes if these are in a separate
+    /// file. If the readings are raw counts, pass the files of their references as `given`.
     #[wasm_bindgen(constructor)]
     pub fn open(
         names: &Array<JsString>,

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::failure::hint_text;
 
-/// A list of `warning`, `text` and `hint` of each remark.
+/// For each remark: `warning`, `text` and `hint`.
 pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Value {
     remarks
         .into_iter()

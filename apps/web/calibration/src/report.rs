@@ -12,7 +12,7 @@ use crate::library::Library;
 use crate::readings::Readings;
 use crate::viewing::ViewingNames;
 
-/// Numbers of wavelengths of the quadratures in a report.
+/// How many wavelengths the quadratures in a report have.
 const COUNTS: std::ops::RangeInclusive<usize> = 3..=12;
 
 #[wasm_bindgen]
@@ -23,8 +23,8 @@ impl Library {
         drawn(self.subject(&viewing)?)
     }
 
-    /// The report that also compares each sample with the library; with `validate` each mixture is left out
-    /// in turn too.
+    /// The report that also compares each sample with the library. With `validate` it also leaves
+    /// out each mixture in turn.
     pub fn report_with(
         &self,
         readings: &Readings,

@@ -16,7 +16,6 @@ use crate::remarks::remarks;
 #[derive(Debug)]
 pub struct Targets {
     pub(crate) targets: Vec<ColorTarget>,
-    /// sRGB of each target.
     hex: Vec<String>,
     remarks: Value,
 }
@@ -34,7 +33,8 @@ impl Targets {
         Ok(Self { targets: vec![target], hex: vec![displayed(code.lab())], remarks: json!([]) })
     }
 
-    /// The colours of a swatch file (.ase, .gpl, .aco), or the spectra of paint in a file of readings.
+    /// The colours of a swatch file (.ase, .gpl, .aco), or the spectra of paint in a file of
+    /// readings.
     pub fn of_file(file: &str, bytes: &[u8]) -> Result<Targets> {
         match read_swatch_file(file, bytes).told()? {
             Some(swatches) => Self::of_swatches(swatches),
@@ -96,7 +96,7 @@ impl Targets {
     }
 }
 
-/// sRGB of a colour that is seen adapted to its light.
+/// sRGB of a colour, adapted from its light.
 fn displayed(lab: spectra::color::Lab) -> String {
     use spectra::color::{Adaptation, RgbSpace};
     let white = RgbSpace::Srgb.white();

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use crate::failure::{Result, Told};
 
-/// Names of a light and an observer, as the program takes them.
+/// Names of a light and an observer, as you pass them to the program.
 #[derive(Debug, Deserialize)]
 pub(crate) struct ViewingNames {
     light: String,

@@ -1,13 +1,13 @@
-//! The characters that bytes stand for.
+//! Finds the characters in bytes.
 
-/// How bytes stand for characters.
+/// How bytes encode characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Utf8,
     Utf16Le,
     Utf16Be,
     Windows1252,
-    /// An encoding whose tables are not here.
+    /// An encoding without tables here.
     Unknown,
 }
 
@@ -23,7 +23,7 @@ const WINDOWS_1252: [u16; 32] = [
 pub(crate) enum Next {
     /// A character, and its length in bytes.
     Char(char, usize),
-    /// Bytes that stand for no character.
+    /// This many bytes do not encode a character.
     Malformed(usize),
     /// The beginning of a character.
     Incomplete,

@@ -1,4 +1,4 @@
-//! Decoding text that arrives in pieces.
+//! Decodes text that arrives in pieces.
 
 use crate::characters::{Next, next};
 use crate::encoding::Encoding;
@@ -10,7 +10,7 @@ pub enum DecoderResult {
     InputEmpty,
     /// The output has no room for the next character.
     OutputFull,
-    /// Bytes that stand for no character: their number, and how many bytes were read behind them.
+    /// Bytes that do not encode a character: their number, and how many bytes were read after them.
     Malformed(u8, u8),
 }
 
@@ -33,14 +33,14 @@ impl Decoder {
         self.encoding
     }
 
-    /// Bytes of UTF-8 that `length` bytes become at most; `None` where that overflows.
+    /// Most bytes of UTF-8 that `length` bytes can become, or `None` if that overflows.
     #[must_use]
     pub fn max_utf8_buffer_length_without_replacement(&self, length: usize) -> Option<usize> {
         length.checked_add(self.begun.len())?.checked_mul(3)?.checked_add(3)
     }
 
-    /// Decodes `source` to the end of `text`, as far as its capacity goes. Returns how it ended and the
-    /// number of bytes read. `last` says that no more bytes follow.
+    /// Decodes `source` to the end of `text`, up to its capacity. Returns how it ended and the
+    /// number of bytes read. Pass `last` if no more bytes follow.
     pub fn decode_to_string_without_replacement(
         &mut self,
         source: &[u8],
@@ -51,8 +51,8 @@ impl Decoder {
         self.decode(source, last, room, |found| text.push(found))
     }
 
-    /// Decodes `source` to UTF-8 in `target`. Returns how it ended, and the numbers of bytes read and written.
-    /// `last` says that no more bytes follow.
+    /// Decodes `source` to UTF-8 in `target`. Returns how it ended, and the numbers of bytes read
+    /// and written. Pass `last` if no more bytes follow.
     pub fn decode_to_utf8_without_replacement(
         &mut self,
         source: &[u8],
@@ -101,7 +101,7 @@ impl Decoder {
                 }
             }
         };
-        // What was begun and is not yet read stays.
+        // Keep what was begun and is not read yet.
         self.begun = bytes[at.min(before)..before].to_vec();
         (result, at.max(before) - before)
     }

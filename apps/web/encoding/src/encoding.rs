@@ -32,7 +32,8 @@ impl Encoding {
         self.kind == Kind::Windows1252
     }
 
-    /// Decodes a whole text. Bytes that stand for no character become U+FFFD; returns whether there are any.
+    /// Decodes a whole text. Bytes that do not encode a character become U+FFFD, and you learn
+    /// whether there are any.
     #[must_use]
     pub fn decode_without_bom_handling<'a>(&'static self, bytes: &'a [u8]) -> (Cow<'a, str>, bool) {
         if self.kind == Kind::Utf8 {
@@ -60,7 +61,7 @@ impl Encoding {
         }
     }
 
-    /// Decodes a whole text; `None` if some bytes stand for no character.
+    /// Decodes a whole text. Returns `None` if some bytes do not encode a character.
     #[must_use]
     pub fn decode_without_bom_handling_and_without_replacement<'a>(
         &'static self,

@@ -1,8 +1,9 @@
-//! Decodes the encodings of instruments' files: UTF-8, UTF-16 and Windows-1252, by the interface of the crate
-//! encoding_rs.
+//! Decodes the encodings of instrument files: UTF-8, UTF-16 and Windows-1252. It has the interface
+//! of the crate encoding_rs.
 //!
-//! That crate holds tables of every encoding of the web, a sixth of the page's download. They are linked for the
-//! reader of workbooks, which are UTF-8 but might say otherwise. Text in any other encoding is an error here.
+//! That crate has tables of every encoding of the web, which would be a sixth of the page's
+//! download. They come with the reader of workbooks. Workbooks are UTF-8, but could name another
+//! encoding: this is an error here.
 
 mod characters;
 mod encoding;

@@ -6,7 +6,7 @@ use crate::encoding::Encoding;
 use crate::names::{LABELS, UTF_8, UTF_16BE, UTF_16LE};
 
 impl Encoding {
-    /// The encoding that a file calls `label`; `None` for an unknown one.
+    /// The encoding that a file calls `label`, if it is known.
     #[must_use]
     pub fn for_label(label: &[u8]) -> Option<&'static Self> {
         let label = label.trim_ascii();
@@ -17,7 +17,7 @@ impl Encoding {
             .or_else(|| label.eq_ignore_ascii_case(b"utf-16").then_some(UTF_16LE))
     }
 
-    /// The encoding that a byte order mark tells, and the mark's length.
+    /// The encoding of a byte order mark, and the length of the mark.
     #[must_use]
     pub fn for_bom(bytes: &[u8]) -> Option<(&'static Self, usize)> {
         match bytes {
@@ -28,8 +28,8 @@ impl Encoding {
         }
     }
 
-    /// Decodes a whole text, in the encoding that its mark tells if it has one. Returns also the encoding, and
-    /// whether characters were replaced.
+    /// Decodes a whole text. If it has a byte order mark, the mark decides the encoding. Also
+    /// returns the encoding, and whether characters were replaced.
     #[must_use]
     pub fn decode<'a>(&'static self, bytes: &'a [u8]) -> (Cow<'a, str>, &'static Self, bool) {
         let (encoding, mark) = Self::for_bom(bytes).unwrap_or((self, 0));

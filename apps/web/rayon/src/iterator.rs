@@ -1,4 +1,4 @@
-//! The methods of an iterator whose items are handled one after the other.
+//! Iterator methods that handle one item after the other.
 
 use std::cmp::Ordering;
 use std::iter;
@@ -16,8 +16,8 @@ impl<I: Iterator> IntoIterator for Serial<I> {
     }
 }
 
-/// An iterator whose items might be handled by several threads. The methods are those of [`Iterator`],
-/// but for the ones that are described.
+/// An iterator that could use several threads. The methods work as in [`Iterator`], unless this
+/// says something else.
 pub trait ParallelIterator: IntoIterator + Sized {
     /// Does the work of [`Iterator::map`].
     fn map<R, F: FnMut(Self::Item) -> R>(self, map: F) -> Serial<iter::Map<Self::IntoIter, F>> {
@@ -85,18 +85,18 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().for_each(|item| act(&mut state, item));
     }
 
-    /// Acts until the first error, which is returned.
+    /// Acts until the first error, and returns it.
     ///
     /// # Errors
-    /// That of `act`.
+    /// The error of `act`.
     fn try_for_each<E>(self, act: impl FnMut(Self::Item) -> Result<(), E>) -> Result<(), E> {
         self.into_iter().try_for_each(act)
     }
 
-    /// Acts until the first error, which is returned. The state is made once, as by one thread.
+    /// Acts until the first error, and returns it. Makes the state once, as one thread would.
     ///
     /// # Errors
-    /// That of `act`.
+    /// The error of `act`.
     fn try_for_each_init<T, E>(
         self,
         init: impl Fn() -> T,
@@ -106,7 +106,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().try_for_each(|item| act(&mut state, item))
     }
 
-    /// Joins all items, beginning with that of `identity`.
+    /// Joins all items, starting with `identity`.
     fn reduce(
         self,
         identity: impl Fn() -> Self::Item,
@@ -115,7 +115,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().fold(identity(), join)
     }
 
-    /// Joins all items; none if there is no item.
+    /// Joins all items. Returns `None` if there are no items.
     fn reduce_with(
         self,
         join: impl FnMut(Self::Item, Self::Item) -> Self::Item,
@@ -179,7 +179,7 @@ impl<I: Iterator> ParallelIterator for Serial<I> {}
 
 /// An iterator that knows how many items it has.
 pub trait IndexedParallelIterator: ParallelIterator {
-    /// Returns itself: there are no parts that would be too short.
+    /// Returns itself, because there are no parts that could be too short.
     #[must_use]
     fn with_min_len(self, _: usize) -> Self {
         self
@@ -210,7 +210,7 @@ pub trait IndexedParallelIterator: ParallelIterator {
         Serial(self.into_iter().zip(other))
     }
 
-    /// Puts the items into a list, in the place of what it held.
+    /// Replaces what `list` holds by the items.
     fn collect_into_vec(self, list: &mut Vec<Self::Item>) {
         list.clear();
         list.extend(self);

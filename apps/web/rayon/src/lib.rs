@@ -1,8 +1,8 @@
 //! Stands in for the crate `rayon` in a page, which has one thread.
 //!
-//! Items are handled one after the other, in order, by the iterators of the standard library: the
-//! crate's own splits, queues and threads would be a part of every download and do nothing. In scope is
-//! what the crates of the pages call; the compiler tells what else they come to need.
+//! Iterators of the standard library handle the items in order. The queues and threads of the real
+//! crate would only make every download larger. This crate has what the crates of the pages call.
+//! If you call something else, the compiler says that it is missing.
 
 mod iterator;
 mod sources;

@@ -14,7 +14,7 @@ pub trait IntoParallelIterator: IntoIterator + Sized {
 
 impl<T: IntoIterator> IntoParallelIterator for T {}
 
-/// A collection whose items are read by reference.
+/// A collection that you can read by reference.
 pub trait IntoParallelRefIterator<'data> {
     /// Iterator over references.
     type Iter;
@@ -34,7 +34,7 @@ where
     }
 }
 
-/// A collection whose items are changed in place.
+/// A collection that you can change in place.
 pub trait IntoParallelRefMutIterator<'data> {
     /// Iterator over references.
     type Iter;

@@ -1,4 +1,4 @@
-//! Work that would be shared by threads: done here, at once.
+//! Work that threads would share. Here it is done immediately.
 
 use std::marker::PhantomData;
 
@@ -8,12 +8,12 @@ pub fn current_num_threads() -> usize {
     1
 }
 
-/// Calls both, the first one first.
+/// Calls both functions, first `first`.
 pub fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
     (first(), second())
 }
 
-/// Calls `work` with a scope whose tasks run when they are given.
+/// Calls `work` with a scope. The scope runs tasks immediately.
 pub fn scope<'scope, R>(work: impl FnOnce(&Scope<'scope>) -> R) -> R {
     work(&Scope { tasks: PhantomData })
 }
@@ -23,7 +23,7 @@ pub fn in_place_scope<'scope, R>(work: impl FnOnce(&Scope<'scope>) -> R) -> R {
     scope(work)
 }
 
-/// Runs tasks when they are given.
+/// Runs tasks immediately.
 #[derive(Debug)]
 pub struct Scope<'scope> {
     tasks: PhantomData<&'scope ()>,

@@ -1,4 +1,4 @@
-//! Plays strokes in WebAssembly for the tests, which compare the paint with that of the program.
+//! Plays strokes in WebAssembly, so that tests can compare the paint with what the program paints.
 
 #[path = "../../../../render/paint/examples/replay_digest/replayed.rs"]
 mod replayed;

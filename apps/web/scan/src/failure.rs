@@ -1,10 +1,11 @@
-//! Errors of the libraries in the words of the panel.
+//! Errors of the libraries, in the words of the panel.
 
 use documents::hint::Explain;
 
 pub(crate) use told::{Result, options};
 
-/// Where the panel has each setting that hints name. Others are options of the program alone.
+/// For each setting that hints name, where the panel has it. Other settings are options of the
+/// program.
 const CONTROLS: [(&str, &str); 11] = [
     ("at_most", "\"Pigments of a pixel at most\""),
     ("palette", "\"Only these pigments\""),
@@ -19,9 +20,8 @@ const CONTROLS: [(&str, &str); 11] = [
     ("tile", "\"Reflectance of the white\""),
 ];
 
-/// Results whose errors reach the page.
+/// Passes the error of a result to the page.
 pub(crate) trait Told<T> {
-    /// The error as the page takes it.
     fn told(self) -> Result<T>;
 }
 

@@ -1,8 +1,6 @@
-//! The native part of the panel "Scan": the crate `maps` over slices of files that the browser holds. It is a
-//! module of its own, which only those load who open the panel, and runs in a worker: only there is a slice of a
-//! file read at once.
-//!
-//! Errors reach the page as the crate `told` says.
+//! The native part of the panel "Scan": it runs the crate `maps` on slices of files in the browser,
+//! and reports errors as the crate `told` describes. You load this module only when you open the
+//! panel. It runs in a worker, because only there a slice of a file can be read synchronously.
 
 mod failure;
 mod slices;

@@ -54,7 +54,7 @@ impl Mapped {
     }
 }
 
-/// The JSON of the maps, with the distance of the mapped pixels where not all are.
+/// The JSON of the maps. If not all pixels are mapped, it includes their distance.
 fn whole(mut json: Value, every: usize) -> Value {
     if every > 1 {
         json["every"] = json!(every);

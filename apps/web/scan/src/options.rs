@@ -14,11 +14,10 @@ enum Values {
     Percent,
 }
 
-/// How the scan is read. A `null` leaves the choice to the reader.
+/// How to read the scan. If you pass `null`, the reader chooses.
 #[derive(Debug, Deserialize)]
 pub(crate) struct ReadingOptions {
     values: Values,
-    /// A number that a white reads.
     white: Option<f64>,
     full_scale: Option<f64>,
     white_reading: Option<String>,
@@ -49,7 +48,7 @@ impl ReadingOptions {
     }
 }
 
-/// Which pixels are mapped, and with which pigments.
+/// Which pixels to map, and with which pigments.
 #[derive(Debug, Deserialize)]
 pub(crate) struct MapOptions {
     at_most: usize,
@@ -62,7 +61,7 @@ pub(crate) struct MapOptions {
 }
 
 impl MapOptions {
-    /// Settings as those of the program for the same options.
+    /// The settings that the program uses for the same options.
     pub(crate) fn settings(&self, cube: &Cube) -> MapSettings {
         let usual = MapSettings::default();
         MapSettings {

@@ -17,12 +17,12 @@ use crate::slices::scan_files;
 const BLOCK_BYTES: usize = 64 << 20;
 /// Most pixels that are mapped at once, so that progress is reported often.
 const MOST_PIXELS: usize = 4096;
-/// Bytes of the sums of all maps at most.
+/// Most bytes for the sums of all maps.
 const SUM_BYTES: usize = 256 << 20;
-/// Squares along the longer side of the pictures, as those of the program.
+/// Squares along the longer side of the pictures, as in the program.
 const PICTURE: usize = 1600;
 
-/// A scan that the page was given, with the library of its maps.
+/// A scan of the page, with the library for its maps.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Scan {
@@ -35,7 +35,7 @@ pub struct Scan {
 
 #[wasm_bindgen]
 impl Scan {
-    /// Opens the scan of the worker's files, whose names and sizes are given.
+    /// Opens the scan of the worker's files with these names and sizes.
     #[wasm_bindgen(constructor)]
     pub fn open(names: Vec<String>, sizes: &[f64], reading: &str) -> Result<Scan> {
         let reading: ReadingOptions = options(reading)?;
@@ -57,7 +57,7 @@ impl Scan {
         self.told.clone()
     }
 
-    /// Surveys and maps the scan with the library in the file `name`. The page hears how far it is.
+    /// Surveys and maps the scan with the library in the file `name`. Reports progress to the page.
     pub fn map(&mut self, name: &str, library: &[u8], options_json: &str) -> Result<Mapped> {
         let chosen: MapOptions = options(options_json)?;
         let library = PigmentLibrary::from_json(name, &String::from_utf8_lossy(library)).told()?;
@@ -80,7 +80,8 @@ impl Scan {
         Ok(mapped)
     }
 
-    /// The spot of these rows and columns as JSON: that of `impasto map --spot --json`, and its words.
+    /// The spot of these rows and columns as JSON, as from `impasto map --spot --json`, and its
+    /// words.
     pub fn spot(&self, top: usize, bottom: usize, left: usize, right: usize) -> Result<String> {
         let (Some(library), Some(scan)) = (&self.library, &self.surveyed) else {
             return Err(told::setting("no scan is mapped yet", "map one"));
@@ -93,7 +94,8 @@ impl Scan {
     }
 }
 
-/// Maps every pixel of the surveyed region, or those at the distance `every`, in blocks of rows.
+/// Maps every pixel of the surveyed region, or one pixel at each distance `every`, in blocks of
+/// rows.
 fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
     let rows = scan.about().rows.clone();
     let columns = scan.about().columns.clone();
@@ -132,7 +134,7 @@ fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
     Ok(sums)
 }
 
-/// Squares along the longer side, as many as those of the program where memory is enough.
+/// Squares along the longer side: as many as in the program if there is enough memory.
 fn longest((height, width): (usize, usize), pigments: usize) -> usize {
     let long = height.max(width);
     let mut step = long.div_ceil(PICTURE).max(1);

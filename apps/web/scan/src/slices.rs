@@ -1,4 +1,4 @@
-//! Files that the browser holds, read slice by slice.
+//! Reads files in the browser slice by slice.
 
 use std::io;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
 extern "C" {
-    /// Fills `into` from the byte `start` on of the file number `file`.
+    /// Fills `into` from file number `file`, starting at byte `start`.
     #[wasm_bindgen(catch, js_namespace = globalThis, js_name = impastoSlice)]
     fn slice(file: u32, start: f64, into: &mut [u8]) -> Result<(), JsValue>;
 }
@@ -36,7 +36,7 @@ impl ReadAt for Slices {
     }
 }
 
-/// The worker's files, in the order of their numbers.
+/// The worker's files, sorted by number.
 pub(crate) fn scan_files(names: Vec<String>, sizes: &[f64]) -> Vec<ScanFile> {
     let files = names.into_iter().zip(sizes).zip(0..);
     files

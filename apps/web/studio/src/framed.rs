@@ -20,15 +20,15 @@ use crate::page_fonts::page_fonts;
 /// Most memory for undo, in bytes: 192 MiB. A page has 4 GiB in all and cannot give any back.
 const MOST_UNDO_BYTES: u64 = 192 << 20;
 
-/// Time of a stroke after which other work no longer waits for its end: with the time between two
-/// autosaves at most 20 s of painting are lost.
+/// After a stroke of this length, other work no longer waits for its end. Together with the time
+/// between two autosaves, you lose at most 20 s of painting.
 const LONG_STROKE: Duration = Duration::from_secs(7);
 
-/// The studio, and what the page tells it between frames.
+/// The studio, and what the page reports to it between frames.
 pub(crate) struct Framed {
     pub(crate) studio: Studio,
     context: Context,
-    /// When the pen was set down; `None` while it is lifted.
+    /// When the pen was set down. It is `None` while the pen is lifted.
     down_since: Option<Instant>,
     frame_done: Function,
     /// Pictures that were shown: frames, and parts between them.
@@ -44,7 +44,7 @@ pub(crate) fn options() -> WebOptions {
     WebOptions {
         // Dithering would change the colour of cells.
         dithering: false,
-        // Keys of the browser that the studio does not use stay the browser's.
+        // The browser gets the keys that the studio does not use.
         should_stop_propagation: Box::new(|_| true),
         #[cfg(not(feature = "webgpu"))]
         webgl_context_option: eframe::WebGlContextOption::WebGl2,
@@ -83,7 +83,7 @@ impl Framed {
         if !disk::exists(&home.preferences()) {
             preferences.theme = ThemeChoice::System;
             preferences.touch_targets = fingers;
-            // A page is closed without a question more easily than a window.
+            // You close a page more easily than a window, and without a question.
             preferences.autosave_seconds = 12;
         }
         let undo_bytes = (preferences.undo_mib << 20).min(MOST_UNDO_BYTES);
@@ -114,13 +114,13 @@ impl Framed {
         self.context.request_repaint();
     }
 
-    /// Passes on what the stylus reported, if its stroke is shown between frames.
+    /// Passes on what the stylus reported, if you see its stroke between frames.
     pub(crate) fn take_stylus(&mut self) -> bool {
         self.studio.take_stylus(&self.context)
     }
 
-    /// Changes by a stroke since the last frame, and the physical pixels per point; `None` if frames
-    /// show the stroke.
+    /// What a stroke changed since the last frame, and the physical pixels per point. Returns
+    /// `None` if you see the stroke only in frames.
     pub(crate) fn between(&mut self) -> Option<(Between, f32)> {
         let between = self.studio.between(&self.context)?;
         if between.patch.width > 0 {
@@ -129,8 +129,8 @@ impl Framed {
         Some((between, self.context.pixels_per_point()))
     }
 
-    /// Whether the pen is down, and has not been for long: then work beside the stroke, such as writing
-    /// an autosave, waits, as it would hold the stroke up.
+    /// Whether the pen is down, but not for long. Other work would delay the stroke, so it waits
+    /// meanwhile, e.g. writing an autosave.
     pub(crate) fn is_in_stroke(&mut self, now: Instant) -> bool {
         let since = self.studio.pen.is_down().then(|| self.down_since.unwrap_or(now));
         self.down_since = since;
@@ -164,12 +164,12 @@ impl App for Framed {
         let busy = frame.info().cpu_usage.map(Duration::from_secs_f32);
         self.studio.ui(ui, busy);
         self.frames += 1;
-        // The page asks for a turn of the worker, which has the commands of this frame now.
+        // The page gives the worker a turn, and the worker has the commands of this frame now.
         let _ = self.frame_done.call0(&JsValue::NULL);
     }
 
     fn raw_input_hook(&mut self, context: &Context, input: &mut RawInput) {
-        // The page reads dropped files and opens them by `Page::open`.
+        // The page reads dropped files and opens them with `Page::open`.
         input.dropped_files.clear();
         self.studio.raw_input(context, input);
     }

@@ -1,8 +1,8 @@
 //! The studio in a page: what the scripts of the page call.
 //!
-//! The panels and the session are those of the program. The page gives what a machine has and a
-//! browser has not: turns for the worker instead of a thread ([`Page::turn`]), files
-//! ([`Page::put`], [`Page::changes`]) and styluses ([`Page::pen`]).
+//! The panels and the session are the same as in the program. The page provides what a browser
+//! lacks: turns for the worker instead of a thread ([`Page::turn`]), files ([`Page::put`],
+//! [`Page::changes`]) and styluses ([`Page::pen`]).
 
 mod page_fonts;
 mod framed;
@@ -26,17 +26,17 @@ use web_time::{Duration, Instant};
 
 use framed::Framed;
 
-/// Folder of the files that were opened and saved; the page offers those for download.
+/// Folder of the files that were opened and saved. The page offers them for download.
 const FILES: &str = "/files";
 
-/// Folders whose files should outlive the page: preferences and autosaves.
+/// Folders that should outlive the page: preferences and autosaves.
 const KEPT: [&str; 2] = ["/settings", "/data"];
 
-/// Largest painting that a page takes, in bytes: 512 MiB. Read, it takes several times as much of the
-/// 4 GiB that a page has.
+/// Largest painting that a page opens, in bytes: 512 MiB. In memory it takes several times as much,
+/// and a page has only 4 GiB.
 const MOST_PAINTING_BYTES: u64 = 512 << 20;
 
-/// Largest other file that a page takes, in bytes: 256 MiB, as in the program.
+/// Largest other file that a page opens, in bytes: 256 MiB, as in the program.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// The studio in a page.
@@ -44,7 +44,7 @@ const MOST_BYTES: u64 = 256 << 20;
 pub struct Page {
     runner: WebRunner,
     pens: RefCell<PagePens>,
-    /// Changes of files that were not asked for yet.
+    /// Changes of files that nobody has asked for yet.
     changes: RefCell<Vec<disk::Change>>,
     warm_up: RefCell<WarmUp>,
     fingers: bool,
@@ -52,8 +52,8 @@ pub struct Page {
 
 #[wasm_bindgen]
 impl Page {
-    /// A page in the language of this name, such as `de-AT`. `fingers` tells that the device is pointed at
-    /// with fingers: its targets are large unless the painter has chosen otherwise.
+    /// A page in this language, e.g. `de-AT`. Pass `fingers` if the device is used with fingers:
+    /// targets are large then, unless the painter has chosen otherwise.
     #[wasm_bindgen(constructor)]
     pub fn new(language: &str, fingers: bool) -> Self {
         set_system(Language::of_name(language));
@@ -67,7 +67,7 @@ impl Page {
         }
     }
 
-    /// Puts a file on the disk of the page, without telling it as a change.
+    /// Puts a file on the disk of the page. You do not get this as a change.
     ///
     /// # Errors
     /// If a file is in the way of its folder.
@@ -96,8 +96,8 @@ impl Page {
         self.runner.start(canvas, framed::options(), create).await
     }
 
-    /// Lets the workers work for `budget_ms`. Returns the time until the next turn in ms: 0 for at
-    /// once, and -1 if there is nothing to do until the next frame.
+    /// Lets the workers work for `budget_ms`. Returns the time until the next turn in ms. You get 0
+    /// for immediately, and -1 if there is nothing to do until the next frame.
     pub fn turn(&self, budget_ms: f64) -> f64 {
         let Some(mut framed) = self.runner.app_mut::<Framed>() else { return -1.0 };
         let deadline = Instant::now() + Duration::from_secs_f64(budget_ms.max(0.0) / 1000.0);
@@ -105,7 +105,7 @@ impl Page {
         let waits = framed.is_in_stroke(Instant::now());
         let shown = framed.frames > 0;
         drop(framed);
-        // Work that may ask for the window, with the window free.
+        // Do this while the window is not borrowed, because the work may ask for it.
         if !waits && session::thread::next() {
             return 0.0;
         }
@@ -133,8 +133,8 @@ impl Page {
         told.collect()
     }
 
-    /// Every file that should outlive the page, each as its path and its content: for a storage that has
-    /// lost them.
+    /// Every file that should outlive the page, each as its path and its content. Use this if the
+    /// storage has lost them.
     pub fn kept(&self) -> Array {
         let mut kept = Vec::new();
         KEPT.iter().for_each(|folder| files_below(Path::new(folder), &mut kept));
@@ -146,12 +146,12 @@ impl Page {
         told.collect()
     }
 
-    /// Whether the page takes a file of this name and size; if not, the painter is told why. To be
-    /// asked before the file is read.
+    /// Whether the page can open a file of this name and size. If not, the painter sees why. Ask
+    /// this before you read the file.
     pub fn takes(&self, name: &str, bytes: f64) -> bool {
         let is_painting = name.to_ascii_lowercase().ends_with(".exr");
         let most = if is_painting { MOST_PAINTING_BYTES } else { MOST_BYTES };
-        // A number of JavaScript: whole, and exact up to 8 PiB.
+        // A whole number from JavaScript, exact up to 8 PiB.
         let bytes = bytes as u64;
         if bytes > most {
             self.report(PageProblem::TooLarge { name: name.to_owned(), bytes, most }.into());
@@ -159,7 +159,7 @@ impl Page {
         bytes <= most
     }
 
-    /// Opens a file: as the answer of the dialog that asked for one, or according to its kind.
+    /// Opens a file, either as the answer to the open dialog, or by its kind.
     ///
     /// # Errors
     /// If it has no name.
@@ -173,8 +173,8 @@ impl Page {
         Ok(())
     }
 
-    /// Endings of files that a dialog asks for since the last call, separated by commas; empty for all
-    /// files, undefined if none asks.
+    /// Extensions that a dialog has asked for since the last call, separated by commas. This is
+    /// empty for all files, and undefined if no dialog asks.
     pub fn wanted(&self) -> Option<String> {
         let mut framed = self.runner.app_mut::<Framed>()?;
         let endings = framed.studio.files.take_wanted()?;
@@ -182,13 +182,14 @@ impl Page {
         Some(endings.join(","))
     }
 
-    /// Tells the painter that the browser cannot read the file `name`.
+    /// Shows the painter that the browser cannot read the file `name`.
     pub fn unreadable(&self, name: String, reason: String) {
         self.report(PageProblem::Unreadable { name, reason }.into());
     }
 
-    /// Tells the painter of a problem of the browser's storage: `denied`, `full`, `cleared`, or another one,
-    /// for which `reason` stands in the browser's words.
+    /// Shows the painter a problem of the browser's storage: `denied`, `full`, `cleared`, or
+    /// another one that
+    /// `reason` describes in the browser's words.
     pub fn storage_problem(&self, kind: &str, reason: String) {
         let problem = match kind {
             "denied" => PageProblem::StorageDenied,
@@ -199,10 +200,10 @@ impl Page {
         self.report(problem.into());
     }
 
-    /// Takes a pointer event of a stylus. `phase` is 0 down, 1 move, 2 up, 3 gone; `numbers` are
-    /// x and y in CSS pixels of the canvas, pressure, tiltX, tiltY, twist, buttons, and the age of
-    /// the event in ms. Returns whether its stroke is shown by [`Page::between`], and the worker has
-    /// what it needs of it already.
+    /// Takes a pointer event of a stylus. `phase` is 0 down, 1 move, 2 up, 3 gone. `numbers` are x
+    /// and y in CSS pixels of the canvas, pressure, tiltX, tiltY, twist, buttons, and the age of
+    /// the event in ms. Returns whether you see its stroke in [`Page::between`] and the worker
+    /// already has what it needs.
     pub fn pen(&self, phase: u8, numbers: &[f64]) -> bool {
         let phase = match phase {
             0 => PagePhase::Down,
@@ -240,16 +241,17 @@ impl Page {
         taken
     }
 
-    /// Changes by the stroke of a stylus since the last call or frame, to be shown over the canvas until
-    /// the next frame: `left`, `top`, `width` and `height` in physical pixels, `pixels`, and the head as
-    /// `lines`, `strokes` and `dot`. Width and height are 0 if nothing changed; undefined if frames show
-    /// the stroke.
+    /// What the stroke of a stylus changed since the last call or frame. Show it over the canvas
+    /// until the next frame: `left`, `top`, `width` and `height` in physical pixels, `pixels`, and
+    /// the head as
+    /// `lines`, `strokes` and `dot`. Width and height are 0 if nothing changed. This is undefined if you see
+    /// the stroke only in frames.
     pub fn between(&self) -> Option<Object> {
         let mut framed = self.runner.app_mut::<Framed>()?;
         framed.between().map(|(between, density)| shown::shown(&between, density))
     }
 
-    /// Keeps what the page would forget: to be called when it is hidden.
+    /// Saves what the page would forget. Call this when the page is hidden.
     pub fn leave(&self) {
         if let Some(mut framed) = self.runner.app_mut::<Framed>() {
             framed.studio.keep_tools();

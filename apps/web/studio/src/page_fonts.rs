@@ -5,8 +5,8 @@ use std::sync::Arc;
 use eframe::egui::{FontData, FontDefinitions, FontFamily};
 use epaint_default_fonts::UBUNTU_LIGHT;
 
-/// One font for all text. The program's fonts of emoji and of equal widths would be 0.6 MB of the
-/// download; the digits of this one are equally wide too.
+/// One font for all text. The program's fonts for emoji and monospaced text would add 0.6 MB to the
+/// download, and the digits of this font are equally wide too.
 pub(crate) fn page_fonts() -> FontDefinitions {
     let name = "Ubuntu-Light";
     let mut fonts = FontDefinitions::empty();

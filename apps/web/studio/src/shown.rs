@@ -5,13 +5,14 @@ use studio::app::Between;
 use studio::view::HeadLines;
 use wasm_bindgen::JsValue;
 
-/// The object that the page draws, in physical pixels: `pixels` row by row, and of the head `lines`, each
-/// a list of x and y and whether it is closed, their `strokes` as widths and colours, and the `dot`.
+/// The object that the page draws, in physical pixels: `pixels` row by row, and for the head the
+/// `lines`, each a list of x and y and whether it is closed, their `strokes` as widths and colours,
+/// and the `dot`.
 pub(crate) fn shown(between: &Between, density: f32) -> Object {
     let Between { patch, head } = between;
     let all = Object::new();
     let set = |name: &str, value: &JsValue| {
-        // An object of its own takes every name.
+        // A new object accepts every name.
         let _ = Reflect::set(&all, &name.into(), value);
     };
     let numbers = [patch.left, patch.top, patch.width, patch.height];

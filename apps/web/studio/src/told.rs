@@ -4,7 +4,6 @@ use serde_json::json;
 
 use crate::framed::Framed;
 
-/// State of the page as JSON.
 pub(crate) fn told(framed: &Framed) -> String {
     let studio = &framed.studio;
     let figures = studio.figures();

@@ -1,14 +1,6 @@
-//! The strokes of the bench, one file a case or two.
-//!
-//! Strokes over and along the edge of the canvas.
-//!
-//! Paint over a ground: the weave under a thick film, and a wall covered in pulls.
-//!
-//! Mixing two heaps on the palette.
-//!
-//! Outlines of strokes, and where a mark lies under the pen.
-//!
-//! Films over load, pressure and cell.
+//! The strokes of the bench: over and along the edge of the canvas, over the weave of a ground, a
+//! wall covered in pulls, two heaps mixed on the palette, outlines and where a mark lies under the
+//! pen, and films over load, pressure and cell size.
 
 mod relief;
 
@@ -50,8 +42,8 @@ pub const CASES: &[Case] = &[
     ("fill", fill),
 ];
 
-/// Highest cell at the edge over the film, and the share of the last load that is neither on the
-/// canvas nor on the brush.
+/// Highest cell at the edge relative to the film, and how much of the last load left the canvas and
+/// the brush.
 fn edge(bench: &Bench) -> CaseReport {
     let mut figures = Vec::new();
     let mut panels = Vec::new();
@@ -137,7 +129,7 @@ fn fill(bench: &Bench) -> CaseReport {
         easel.stroke(brush, &Hand::across(PRESSURE).along(&[(from, y_mm), (to, y_mm)]));
     }
     let heights = easel.heights();
-    // The wall without its rim of 3 mm.
+    // Leave out a rim of 3 mm.
     let columns = heights.columns_in(13.0..67.0);
     let rows = heights.rows_in(11.0..45.0);
     let wall = heights.part(columns.clone(), rows.clone());
@@ -159,10 +151,10 @@ fn fill(bench: &Bench) -> CaseReport {
 
 const MIDDLE_MM: (f64, f64) = (25.0, 25.0);
 const RADIUS_MM: f64 = 8.0;
-/// Height in mm from which a cell counts as covered; thinner paint shows the ground.
+/// Height in mm from which a cell counts as covered. Thinner paint shows the ground.
 const COVERED_MM: f64 = 0.05;
 
-/// Path of `count` circles about the middle, whose centres move by 2 mm.
+/// Path of `count` circles about the middle. Their centres move by 2 mm.
 fn circles(count: usize) -> Vec<(f64, f64)> {
     (0..count)
         .flat_map(|index: usize| {
@@ -176,7 +168,6 @@ fn circles(count: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Mixes with one tool.
 fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel>) {
     let mut easel = bench.panel((50.0, 50.0));
     for (recipe, x_mm) in [(BLUE, MIDDLE_MM.0 - 4.0), (YELLOW, MIDDLE_MM.0 + 4.0)] {
@@ -187,8 +178,8 @@ fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel
     easel.stroke(brush, &turning(Hand::across(PRESSURE).along(&circles(12))));
     let heights = easel.heights();
     let inside = |x: usize, y: usize| {
-        let centre = |cell: usize| (cell as f64 + 0.5) * heights.cell_mm();
-        (centre(x) - MIDDLE_MM.0).hypot(centre(y) - MIDDLE_MM.1) < RADIUS_MM + 2.0
+        let [x, y] = [x, y].map(|cell| (cell as f64 + 0.5) * heights.cell_mm());
+        (x - MIDDLE_MM.0).hypot(y - MIDDLE_MM.1) < RADIUS_MM + 2.0
     };
     let columns = heights.columns();
     let patch: Vec<usize> =
@@ -216,7 +207,6 @@ fn mix(bench: &Bench, shape: HeadShape, size_mm: f64) -> (Vec<Figure>, Vec<Panel
     (figures, vec![heaps, mixed])
 }
 
-/// Mixes with knife and brush.
 fn palette(bench: &Bench) -> CaseReport {
     let (mut figures, mut panels) = mix(bench, HeadShape::Knife, 20.0);
     let (more, brushed) = mix(bench, HeadShape::Flat, 10.0);
@@ -241,7 +231,7 @@ fn painted(
     easel
 }
 
-/// Deviations in mm of both edges of the only mark; not a number where it has gaps.
+/// Deviations in mm of both edges of the only mark. They are NaN if it has gaps.
 fn edge_deviations(heights: &Heights) -> [f64; 2] {
     let mark = Mark::along_x(heights);
     let found = mark.and_then(|mark| edge_deviations_mm(heights, mark.steady));
@@ -328,7 +318,7 @@ fn lag(bench: &Bench) -> CaseReport {
     CaseReport { name: "lag", title, figures, panels }
 }
 
-/// Loads in mm, with the film that is wanted of a flat.
+/// Loads in mm, with the film that a flat should leave.
 const LOADS: [(f64, f64); 3] = [(0.3, 0.06), (1.0, 0.2), (2.0, 0.4)];
 const PRESSURES: [f64; 3] = [0.3, PRESSURE, 0.8];
 /// Share by which a film may differ from the wanted one.
@@ -416,7 +406,7 @@ fn film(bench: &Bench) -> CaseReport {
         for (pressure, mm) in [(PRESSURES[0], pressed[0]), (PRESSURES[2], pressed[2])] {
             figures.push(Figure::new(format!("{shape}, pressure {pressure}"), mm, "mm"));
         }
-        // A blade that is pressed harder leaves less.
+        // If you press a blade harder, it leaves less.
         let change = if shape == FilmHeadShape::Knife {
             pressed.reverse();
             "fall"

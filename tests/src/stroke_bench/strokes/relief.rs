@@ -1,10 +1,6 @@
-//! Furrows of a loaded flat, and whether they repeat.
-//!
-//! Thick paint: lips, saw-tooth, and ridges that stay.
-//!
-//! Paint that a brush takes up: a heap, and wet bands across its way.
-//!
-//! The knife: spreading, scraping, and scratching through wet paint.
+//! Strokes with relief: furrows of a loaded flat and whether they repeat, thick paint with lips and
+//! ridges, paint that a brush takes up from a heap or from wet bands, and the knife that spreads,
+//! scrapes and scratches.
 
 use std::ops::Range;
 
@@ -34,9 +30,9 @@ fn stroke(easel: &mut Easel, brush: BrushId, y_mm: f64, length_mm: f64) {
     easel.stroke(brush, &Hand::across(PRESSURE).along(&points));
 }
 
-/// Furrows across the middle 60 % of the width about `y_mm`: profiles, each the mean over 1 mm
-/// along the stroke from `x_mm.start` to `x_mm.end`, without waves longer than 3 mm. So the shape
-/// of the whole mark, which strokes of one brush share, does not count.
+/// Furrows across the middle 60 % of the width about `y_mm`. Each profile is the mean over 1 mm
+/// along the stroke from `x_mm.start` to `x_mm.end`, without waves longer than 3 mm. So this
+/// ignores the shape of the whole mark, which all strokes of one brush share.
 fn furrow_profiles(heights: &Heights, y_mm: f64, x_mm: Range<f64>) -> Vec<Vec<f64>> {
     let rows = heights.rows_in(y_mm - 0.3 * SIZE_MM..y_mm + 0.3 * SIZE_MM);
     let count = (x_mm.end - x_mm.start) as usize;
@@ -122,7 +118,6 @@ pub(super) fn stiffness(bench: &Bench) -> CaseReport {
     CaseReport { name: "stiffness", title, figures, panels }
 }
 
-/// Furrows of several strokes compared.
 pub(super) fn stamp(bench: &Bench) -> CaseReport {
     let mut easel = bench.panel((80.0, 48.0));
     let brushes = [(); 2].map(|()| easel.brush(HeadShape::Flat, SIZE_MM));
@@ -133,9 +128,9 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
     let heights = easel.heights();
     let start_mm = Mark::along_x(&heights).map_or(START_MM, |mark| mark.start_mm);
     let steady = start_mm + 10.0..start_mm + 55.0;
-    let compared = |a: &[Vec<f64>], b: &[Vec<f64>]| {
+    fn compared(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
         mean(&a.iter().zip(b).map(|(a, b)| correlation(a, b)).collect::<Vec<_>>())
-    };
+    }
     let [first, second, other] =
         rows_mm.map(|y_mm| furrow_profiles(&heights, y_mm, steady.clone()));
     let lag = (LENGTH * SIZE_MM * 1.5) as usize;
@@ -158,14 +153,14 @@ pub(super) fn stamp(bench: &Bench) -> CaseReport {
     }
     let heights = long.heights();
     let steady = Mark::along_x(&heights).map_or(0..0, |mark| mark.steady);
-    let line = |index: i32| {
+    let lines = (0..count).map(|index| {
         let middle = 8.0 + 16.0 * f64::from(index);
         let line = heights.along(heights.rows_in(middle - 3.0..middle + 3.0));
         rough(&line[steady.clone()], heights.cell_mm(), 40.0)
-    };
-    let lines: Vec<Vec<f64>> = (0..count).map(line).collect();
-    let cells = |mm: f64| (mm / heights.cell_mm()).round() as usize;
-    let correlations = autocorrelation(&lines, cells(3.0)..cells(20.0) + 1);
+    });
+    let lines: Vec<Vec<f64>> = lines.collect();
+    let [from, to] = [3.0, 20.0].map(|mm: f64| (mm / heights.cell_mm()).round() as usize);
+    let correlations = autocorrelation(&lines, from..to + 1);
     let (at, highest) =
         correlations.iter().enumerate().fold((0, f64::NEG_INFINITY), |best, (at, &value)| {
             if value > best.1 { (at, value) } else { best }
@@ -206,7 +201,7 @@ pub(super) fn lips(bench: &Bench) -> CaseReport {
     CaseReport { name: "lips", title, figures, panels }
 }
 
-/// Pulls over one another, and a ridge beside which strokes are painted.
+/// Pulls over one another, and strokes beside a ridge.
 pub(super) fn saw_tooth(bench: &Bench) -> CaseReport {
     let mut easel = bench.panel((80.0, 24.0));
     let brush = easel.brush(HeadShape::Flat, 10.0);
@@ -242,16 +237,18 @@ pub(super) fn saw_tooth(bench: &Bench) -> CaseReport {
     CaseReport { name: "saw-tooth", title, figures, panels }
 }
 
-/// Share of the height that a ridge along x keeps while strokes pass 3 mm beside it and elsewhere.
+/// Share of its height that a ridge along x keeps while strokes pass 3 mm beside it and elsewhere.
 fn ridge(bench: &Bench) -> (f64, Easel) {
     const AT_MM: f64 = 10.0;
     const BASE_MM: f64 = 1.5;
-    let profile = |y: f64| (1.0 - (2.0 * (y - AT_MM) / BASE_MM).powi(2)).max(0.0);
+    fn profile(y: f64) -> f64 {
+        (1.0 - (2.0 * (y - AT_MM) / BASE_MM).powi(2)).max(0.0)
+    }
     let mut easel =
         Easel::new(bench, bench.cell_mm, (80.0, 48.0), GroundKind::Panel, |x: f64, y: f64| {
             ((15.0..65.0).contains(&x) && profile(y) > 0.0).then(|| (BLUE_SLOT, profile(y)))
         });
-    let crest = |heights: &Heights| {
+    fn crest(heights: &Heights) -> f64 {
         let columns = heights.columns_in(20.0..60.0);
         let rows = heights.rows_in(AT_MM - 1.0..AT_MM + 1.0);
         columns
@@ -259,7 +256,7 @@ fn ridge(bench: &Bench) -> (f64, Easel) {
             .map(|x: usize| rows.clone().map(|y| heights.at(x, y)).fold(0.0, f64::max))
             .sum::<f64>()
             / columns.len() as f64
-    };
+    }
     let before = crest(&easel.heights());
     let brush = easel.brush(HeadShape::Flat, 10.0);
     for y_mm in [AT_MM + 3.0 + 5.0, 38.0] {
@@ -328,7 +325,7 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
     let wet: Layer = easel.wet();
     let heights = easel.heights();
     let across = heights.columns();
-    // Between the bands, where the brush brought or pushed all blue.
+    // All blue between the bands was brought or pushed there by the brush.
     let laid = BANDS_MM.map(|left| {
         let columns = heights.columns_in(left + BAND_MM + 3.0..left + BAND_MM + 9.0);
         let rows = heights.rows_in(9.0..15.0);
@@ -384,7 +381,6 @@ fn spread(bench: &Bench) -> Part {
     (figures, vec![panel])
 }
 
-/// Scrapes a film off linen.
 fn scrape(bench: &Bench) -> Part {
     let mut easel =
         Easel::new(bench, bench.cell_mm, (60.0, 30.0), GroundKind::Linen, |_: f64, _: f64| {
@@ -414,7 +410,6 @@ fn scrape(bench: &Bench) -> Part {
     (figures, vec![panel])
 }
 
-/// Scratches lines through a film.
 fn scratch(bench: &Bench) -> Part {
     const FILM_MM: f64 = 0.3;
     let mut easel =
@@ -442,7 +437,6 @@ fn scratch(bench: &Bench) -> Part {
     (figures, vec![panel])
 }
 
-/// Spreading, scraping and sgraffito.
 pub(super) fn knife(bench: &Bench) -> CaseReport {
     let parts = [spread(bench), scrape(bench), scratch(bench)];
     let (figures, panels): (Vec<_>, Vec<_>) = parts.into_iter().unzip();

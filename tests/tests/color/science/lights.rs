@@ -1,10 +1,6 @@
-//! Daylights and black bodies of a colour temperature, compared with golden values.
-//!
-//! Kubelka-Munk films and Saunderson surfaces, compared with golden values of 50 digits.
-//!
-//! Colour rendering of lights, compared with golden values.
-//!
-//! XYZ of spectra and resampling to another grid, compared with golden values.
+//! Compares with golden values: daylights and black bodies of a colour temperature, Kubelka-Munk
+//! films and Saunderson surfaces (50 digits), colour rendering, XYZ of spectra and resampling to
+//! another grid.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,7 +73,7 @@ fn tabulated_daylights_are_those_of_weights_in_three_decimals() {
     let mut nominal = Vec::new();
     for case in &golden.cases {
         let Some(name) = &case.nominal else { continue };
-        // The tables end at 780 nm. They have three decimals at a power of about 100; some of the
+        // The tables end at 780 nm and have three decimals at a power of about 100. Some of the
         // interpolated rows are truncated instead of rounded.
         let (nm, wanted) = golden.shared.within(&case.spd_rounded, 360.0, 780.0);
         let got = power_at(&Illuminant::named(name).unwrap(), &nm);
@@ -244,15 +240,17 @@ fn indices_of_both_standards_under_every_kind_of_lamp() {
         let found = ColorRendering::of(&Illuminant::named(name).unwrap()).unwrap();
         // The file has two decimals of the temperature.
         assert_near(format!("{name}, K"), &[found.temperature.kelvin], &[case.kelvin], 0.03);
-        let near = |what: &str, found: &[f64], wanted: &[f64]| {
-            assert_near(format!("{name}, {what}"), found, wanted, golden.tolerance);
-        };
-        near("Ra", &[found.index.general], &[case.ra]);
-        near("R1 to R14", &found.index.special, &case.special);
-        near("Rf and Rg", &[found.fidelity.fidelity, found.fidelity.gamut], &[case.rf, case.rg]);
-        near("samples", &found.fidelity.samples, &case.samples);
         let bins: Vec<f64> = found.fidelity.hue_bins.iter().map(|bin| bin.unwrap()).collect();
-        near("hues", &bins, &case.hue_bins);
+        let indices = [found.fidelity.fidelity, found.fidelity.gamut];
+        for (what, found, wanted) in [
+            ("Ra", &[found.index.general][..], &[case.ra][..]),
+            ("R1 to R14", &found.index.special[..], &case.special[..]),
+            ("Rf and Rg", &indices[..], &[case.rf, case.rg][..]),
+            ("samples", &found.fidelity.samples[..], &case.samples[..]),
+            ("hues", &bins[..], &case.hue_bins[..]),
+        ] {
+            assert_near(format!("{name}, {what}"), found, wanted, golden.tolerance);
+        }
     }
 }
 
@@ -333,7 +331,7 @@ fn spectra_on_another_grid() {
     let golden: Golden<Vec<Resampling>, Sources> = read("sprague");
     for case in &golden.cases {
         let source = &golden.shared.spectra[&case.spectrum];
-        // A response may be negative, so values below 0 are not cut off.
+        // A response may be negative, so we do not cut off values below 0.
         let spectrum = Spectrum::<Response>::new(source.grid(), source.values.clone()).unwrap();
         let to = Grid::from_nm(case.to_start_nm, case.to_step_nm, case.values.len()).unwrap();
         let method = interpolation(&case.method);
@@ -347,14 +345,13 @@ fn spectra_on_another_grid() {
     }
 }
 
-/// An orange of steep flank, at `nm`.
 fn orange(nm: f64) -> f64 {
     0.06 + 0.7 / (1.0 + f64::exp(-(nm - 575.0) / 9.0))
 }
 
 #[test]
 fn irregular_wavelengths_keep_the_color_under_lamps_with_lines() {
-    // Steps of 6 to 9 nm, which suit a grid of 10 nm.
+    // Steps of 6 to 9 nm suit a grid of 10 nm.
     let nm: Vec<f64> =
         (0..57).map(|i| 365.0 + 7.5 * f64::from(i) + 1.5 * f64::from(i % 2)).collect();
     let values: Vec<f64> = nm.iter().map(|&nm| orange(nm)).collect();

@@ -1,16 +1,6 @@
-//! Results of `spectra` compared with the golden files, each within the tolerance of its file.
-//!
-//! Chromatic adaptation by Bradford and CAT16, compared with golden values.
-//!
-//! Colour differences by every formula, compared with golden values and the published pairs.
-//!
-//! Conversions between XYZ, xyY, Lab, LCh and Luv, compared with golden values.
-//!
-//! Metamerism index for a change of illuminant, compared with golden values.
-//!
-//! sRGB and Display P3: matrices, whites, colours and transfer curve, compared with golden values.
-//!
-//! CIE whiteness and tint, compared with golden values.
+//! Compares results of `spectra` with the golden files: chromatic adaptation by Bradford and CAT16,
+//! colour differences, conversions between colour spaces, metamerism indices, sRGB and Display P3,
+//! CIE whiteness.
 
 mod lights;
 
@@ -25,7 +15,7 @@ use spectra::color::{
 use spectra::{Grid, Illuminant, Interpolation, Observer, TristimulusWeights};
 use suite::golden::{Golden, assert_near, read};
 
-/// A spectrum at a constant step, in the form of the golden files.
+/// A spectrum at a constant step, as in the golden files.
 #[derive(Deserialize)]
 struct Regular {
     start_nm: f64,
@@ -39,7 +29,6 @@ impl Regular {
     }
 }
 
-/// The observer whose table is called `stem`.
 fn observer(stem: &str) -> Observer {
     Observer::named(stem.strip_prefix("cie-").unwrap()).unwrap()
 }
@@ -141,7 +130,7 @@ fn differences_in_every_formula() {
     }
 }
 
-/// Tolerance of the computed `ciede2000` of Sharma's pairs; `published` has four decimals.
+/// Tolerance of the computed `ciede2000` of Sharma's pairs. `published` has only four decimals.
 const FULL: f64 = 1e-9;
 
 #[derive(Deserialize)]
@@ -174,10 +163,9 @@ fn ciede2000_of_the_published_pairs() {
     }
 }
 
-/// In pairs 10 and 14 the two hues differ by 180 degrees up to rounding. Both ways round the hue
-/// circle are then equally short, so the mean hue has two possible values, and the rounding of one
-/// `atan2` decides between them. The published values treat the difference as not exceeding 180
-/// degrees.
+/// In pairs 10 and 14 the hues differ by 180 degrees up to rounding, so both ways round the hue
+/// circle are equally short. The rounding of one `atan2` then decides between two mean hues. The
+/// published values assume a difference of at most 180 degrees.
 #[test]
 fn ciede2000_where_hues_are_half_a_turn_apart() {
     let golden = published();
@@ -190,7 +178,7 @@ fn ciede2000_where_hues_are_half_a_turn_apart() {
     }
 }
 
-/// Chroma below which hues are not compared, because rounding determines them.
+/// Below this chroma we do not compare hues, because rounding determines them.
 const GREY: f64 = 0.01;
 
 #[derive(Deserialize)]
@@ -247,7 +235,7 @@ fn lch_from_lab_and_back() {
         let told = format!("Lab {:?}", case.lab);
         assert_near(&told, &[lightness, chroma], &case.lch[..2], golden.tolerance);
         if chroma >= GREY {
-            // The golden Lab is rounded, which turns the hue the more, the smaller the chroma is.
+            // The golden Lab is rounded. This turns the hue more if the chroma is smaller.
             let turn = golden.tolerance * (1.0 + 1f64.to_degrees() / chroma);
             assert_near(&told, &[hue_degrees], &case.lch[2..], turn);
         }
@@ -264,13 +252,11 @@ fn chromaticity_from_xyz_and_back() {
         let xyz = Xyz::from(case.xyz);
         let xyy = xyz.to_xyy(white);
         let got = [xyy.x, xyy.y, xyy.luminance];
-        // Black has no chromaticity; it is given that of the white.
-        let of_white = || {
-            let [x, y, z] = case.white;
-            [x / (x + y + z), y / (x + y + z), 0.0]
-        };
+        // Black has no chromaticity, so it gets the chromaticity of the white.
+        let [x, y, z] = case.white;
+        let of_white = [x / (x + y + z), y / (x + y + z), 0.0];
         let told = format!("XYZ {:?}", case.xyz);
-        assert_near(&told, &got, &case.xyy.unwrap_or_else(of_white), golden.tolerance);
+        assert_near(&told, &got, &case.xyy.unwrap_or(of_white), golden.tolerance);
         let back = Xyz::from(xyy).to_array();
         assert_near(format!("back to {told}"), &back, &case.xyz, golden.tolerance);
     }
@@ -334,10 +320,10 @@ fn metamerism_of_pairs_from_light_to_light() {
             TristimulusWeights::new(grid, &light, observer, Interpolation::Sprague).unwrap()
         });
         let [one, two] = [&pair.one, &pair.two].map(|r| [reference.xyz(r), test.xyz(r)]);
-        let differences = |first: Xyz, second: Xyz, white: Xyz| {
+        fn differences(first: Xyz, second: Xyz, white: Xyz) -> [f64; 2] {
             let [first, second] = [first, second].map(|xyz| Lab::from_xyz(xyz, white));
             [delta_e_cie76(first, second), delta_e_ciede2000(first, second)]
-        };
+        }
 
         let apart = differences(one[0], two[0], reference.white());
         let wanted = [case.reference_cie1976, case.reference_ciede2000];
@@ -419,13 +405,14 @@ fn matrices_and_white_of_each_space() {
         let to_xyz = space.xyz_from_linear();
         let from_xyz = to_xyz.inverse();
         let wanted = &golden.shared.spaces[name];
-        let scaled = |matrix: [[f64; 3]; 3], scale: f64| -> Vec<f64> {
-            matrix.as_flattened().iter().map(|v| v * scale).collect()
-        };
         let to_wanted = wanted.to_xyz.as_flattened();
         let from_wanted = wanted.from_xyz.as_flattened();
-        assert_near(name, &scaled(to_xyz.0, 0.01), to_wanted, golden.tolerance);
-        assert_near(name, &scaled(from_xyz.0, 100.0), from_wanted, golden.tolerance);
+        for (matrix, scale, wanted) in
+            [(to_xyz.0, 0.01, to_wanted), (from_xyz.0, 100.0, from_wanted)]
+        {
+            let scaled: Vec<f64> = matrix.as_flattened().iter().map(|v| v * scale).collect();
+            assert_near(name, &scaled, wanted, golden.tolerance);
+        }
     }
 }
 
@@ -434,7 +421,7 @@ fn display_colors_unclipped() {
     let golden = golden();
     for case in &golden.cases.colors {
         for ((name, space), wanted) in SPACES.into_iter().zip([&case.srgb, &case.display_p3]) {
-            // Without a transform the white is that of the space, so XYZ is not adapted.
+            // Without a transform the space keeps its own white, so XYZ is not adapted.
             let (white, adaptation) = match &case.transform {
                 Some(name) => (Xyz::from(case.white), transform(name)),
                 None => (space.white(), Adaptation::Bradford),

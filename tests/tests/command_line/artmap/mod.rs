@@ -1,8 +1,5 @@
-//! The command `impasto artmap`.
-//!
-//! `impasto artmap build`, `check` and `show`: maps of samples.
-//!
-//! `impasto artmap paint`: samples painted by the engine.
+//! The command `impasto artmap`: `build`, `check` and `show` for maps of samples, and `paint`,
+//! which paints samples.
 
 mod sampled;
 
@@ -12,7 +9,6 @@ use serde_json::json;
 use suite::program::{Run, impasto, repository};
 use tempfile::TempDir;
 
-/// A temporary folder, deleted when dropped.
 struct Folder(TempDir);
 
 impl Folder {
@@ -20,7 +16,7 @@ impl Folder {
         Self(tempfile::tempdir().unwrap())
     }
 
-    /// The path of a file in the folder, which need not exist.
+    /// Path of a file in the folder. It need not exist.
     fn file(&self, name: &str) -> String {
         self.0.path().join(name).display().to_string()
     }
@@ -34,19 +30,18 @@ impl Folder {
         std::fs::read(self.0.path().join(name)).unwrap()
     }
 
-    /// Names of the files, sorted.
     fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.0.path()).unwrap();
-        let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
-        let mut names: Vec<_> = entries.map(|entry| name(entry).into_string().unwrap()).collect();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<_> = names.collect();
         names.sort();
         names
     }
 
-    /// A picture of 200 x 120 pixels. Left of x = 100 light strokes at 60 degrees, 10 px apart;
-    /// right of it dark ones at 120 degrees, 8 px apart.
+    /// A picture of 200 x 120 pixels. Left of x = 100 there are light strokes at 60 degrees, 10 px
+    /// apart, and right of it dark ones at 120 degrees, 8 px apart.
     fn strokes(&self) -> String {
-        let color = |i: usize| {
+        let colors = (0..200 * 120).map(|i| {
             let x = (i % 200) as f32;
             let y = (i / 200) as f32;
             let (degrees, spacing, grey) =
@@ -56,8 +51,8 @@ impl Folder {
             let light = 1.0 + 0.2 * (std::f32::consts::TAU * across).cos();
             let [r, g, b] = [1.0, 0.9, 0.7].map(|channel| channel * grey * light);
             [r, g, b, 1.0]
-        };
-        let picture = Field::from_values(200, 120, (0..200 * 120).map(color).collect());
+        });
+        let picture = Field::from_values(200, 120, colors.collect());
         self.write("strokes.png", png8(&picture, 1.0).unwrap().bytes)
     }
 }
@@ -79,7 +74,6 @@ fn artmap(arguments: &[&str]) -> Run {
     impasto(&[&["artmap"], arguments].concat())
 }
 
-/// Runs `impasto artmap` and asserts success.
 #[track_caller]
 fn done(arguments: &[&str]) -> Run {
     let run = artmap(arguments);
@@ -88,7 +82,7 @@ fn done(arguments: &[&str]) -> Run {
 }
 
 impl Folder {
-    /// Samples of four spacings and more, painted in dabs: `name` with `tones` tones.
+    /// Samples of four spacings and more, painted in dabs with `tones` tones, in the file `name`.
     fn painted(&self, name: &str, tones: &str, seed: &str) -> String {
         let text = done(&["paint", "--show-style", "dabs"]).out;
         let small = text
@@ -111,16 +105,19 @@ fn a_map_has_a_tile_of_every_sample_that_agrees_with_the_first() {
     let told = done(&[&build[..], &["--sheet", &sheet, "--json"]].concat()).json();
     let tiles = told["tiles"].as_array().unwrap();
     assert_eq!((tiles.len(), told["size"].as_u64()), (3, Some(64)), "{told}");
-    let number = |index: usize, key: &str| tiles[index][key].as_f64().unwrap();
-    assert!(number(0, "lightness") + 5.0 < number(1, "lightness"), "{told}");
-    assert!(number(1, "lightness") + 5.0 < number(2, "lightness"), "{told}");
-    for index in 0..3 {
-        assert!(number(index, "coherence") >= 0.8, "painted with the same strokes: {told}");
-        assert!(number(index, "stroke_length") > 1.0, "{told}");
+    let lightness: Vec<f64> =
+        tiles.iter().map(|tile| tile["lightness"].as_f64().unwrap()).collect();
+    assert!(lightness[0] + 5.0 < lightness[1], "{told}");
+    assert!(lightness[1] + 5.0 < lightness[2], "{told}");
+    for tile in tiles {
+        let coherence = tile["coherence"].as_f64().unwrap();
+        assert!(coherence >= 0.8, "painted with the same strokes: {told}");
+        assert!(tile["stroke_length"].as_f64().unwrap() > 1.0, "{told}");
     }
     assert!(told["pigments"].as_array().unwrap().len() >= 3, "{told}");
     assert_eq!(done(&["show", &map, "--json"]).json(), told, "the file holds all that was told");
-    // Tiles, three rows of tones between, repeats, relief; 12 pixels around each tile of 64.
+    // Tiles, three rows of tones in between, repeats and relief, with 12 pixels around each tile of
+    // 64.
     let sheet = image::open(&sheet).unwrap();
     assert_eq!((sheet.width(), sheet.height()), (12 + 3 * 76, 12 + 6 * 76));
 
@@ -158,7 +155,7 @@ fn steps_of_a_map_are_pictures_in_order() {
     assert!(last.contains("map-2-level-"), "{names:?}");
     let last = image::open(last).unwrap();
     assert_eq!((last.width(), last.height()), (64, 64));
-    // A file in the place of the folder.
+    // There is a file instead of the folder.
     let run = artmap(&[&build[..], &["--stages", &samples]].concat());
     assert_eq!(run.status, 2, "{}", run.err);
     assert!(run.err.contains("this folder cannot be created"), "{}", run.err);
@@ -169,7 +166,7 @@ fn samples_of_several_files_make_one_map_and_faults_are_told() {
     let folder = Folder::new();
     let samples = folder.painted("s.exr", "2", "1");
     let map = folder.file("m.exr");
-    // The same samples twice: two pairs of equal tones.
+    // The same samples twice make two pairs of equal tones.
     done(&["build", &samples, &samples, "--size", "64", "--output", &map]);
     let run = artmap(&["check", &map]);
     assert_eq!(run.status, 1, "{}", run.out);
@@ -210,7 +207,7 @@ fn maps_that_cannot_be_made_are_refused_and_nothing_is_written() {
 }
 
 impl Folder {
-    /// A style of dabs on a canvas of few and large cells.
+    /// A style of dabs on a canvas of few large cells.
     fn small_style(&self) -> String {
         let text = done(&["paint", "--show-style", "dabs"]).out;
         let small = text
@@ -234,8 +231,9 @@ fn tones_are_painted_in_the_pigments_of_a_library_and_shown_again() {
     let told = done(&[&arguments[..], &["--pigments", &oils, "--json"]].concat()).json();
     let samples = told["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 3);
-    let lightness = |index: usize| samples[index]["lightness"].as_f64().unwrap();
-    assert!(lightness(0) + 5.0 < lightness(1) && lightness(1) + 5.0 < lightness(2), "{told}");
+    let lightness: Vec<f64> =
+        samples.iter().map(|sample| sample["lightness"].as_f64().unwrap()).collect();
+    assert!(lightness[0] + 5.0 < lightness[1] && lightness[1] + 5.0 < lightness[2], "{told}");
     for (index, sample) in samples.iter().enumerate() {
         assert_eq!(sample["name"], format!("tone {}", index + 1));
         assert_eq!((&sample["size"], &sample["mm_per_texel"]), (&json!([36, 36]), &json!(0.3)));
@@ -246,7 +244,7 @@ fn tones_are_painted_in_the_pigments_of_a_library_and_shown_again() {
         told["pigments"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     assert!(pigments.len() >= 3 && pigments.contains(&"Zinc White"), "{pigments:?}");
     assert_eq!(done(&["show", &output, "--json"]).json(), told, "the file holds all that was told");
-    // Colours above, relief below.
+    // Colours are above, relief is below.
     let sheet = image::open(&sheet).unwrap();
     let side = 8 * 36;
     assert_eq!((sheet.width(), sheet.height()), (48 + 3 * side + 32, 48 + 2 * side + 16));

@@ -1,10 +1,5 @@
-//! `impasto artmap sample` of pictures by marks, and `impasto artmap show`.
-//!
-//! `impasto artmap sample` of paintings that impasto made.
-//!
-//! Marks that `impasto artmap sample --propose` writes.
-//!
-//! Refusals of `impasto artmap sample`: exit status, place and way out.
+//! `impasto artmap sample` of pictures by marks and of paintings that impasto made, marks that it writes
+//! with `--propose`, and its refusals with exit status, place and a way out.
 
 use graphics::export::png8;
 use graphics::field::Field;
@@ -13,7 +8,6 @@ use suite::program::impasto;
 
 use super::{Folder, MARKS, artmap, done};
 
-/// Number of a JSON value.
 #[track_caller]
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
@@ -50,7 +44,7 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     );
     assert!((number(&wall["spacing_px"]) - 10.0).abs() < 0.5, "{wall}");
     assert!(number(&wall["sharpness"]) > 0.5 && shade["sharpness"].is_null(), "{told}");
-    // The smaller spacing of two is that of the set.
+    // The set has the smaller spacing of the two.
     assert_eq!((number(&told["spacing"]), number(&shade["scale"][0])), (8.0, 1.0));
     assert!((number(&wall["scale"][0]) - 0.8).abs() < 0.04, "{wall}");
     assert_eq!(shade["bounds"], json!([106, 6, 88, 108]));
@@ -102,15 +96,13 @@ fn the_table_names_each_sample_once_and_files_are_the_same_bytes() {
     let folder = Folder::new();
     let picture = folder.strokes();
     let marks = folder.write("marks.toml", MARKS);
-    let run = |name: &str| {
+    let [first, second] = ["a.exr", "b.exr"].map(|name| {
         let output = folder.file(name);
         let sheet = folder.file(&format!("{name}.png"));
         let arguments = ["sample", &picture, "--marks", &marks, "--density", "width"];
         let more = ["--over", "mean-shift", "--output", &output, "--sheet", &sheet];
         done(&[arguments, more].concat())
-    };
-    let first = run("a.exr");
-    let second = run("b.exr");
+    });
     assert!(
         first.err.lines().all(|line| line.starts_with("Wrote ")),
         "nothing to remark: {}",
@@ -180,7 +172,7 @@ fn marks_of_another_picture_are_used_with_a_warning() {
     assert!(run.err.contains("marks the picture orchard.jpg, not strokes.png"), "{}", run.err);
 }
 
-/// Pigments of the crowded painting, one more than a table of samples holds.
+/// Pigments of the crowded painting. This is one more than a table of samples holds.
 const NINE: [&str; 9] = [
     "Zinc White",
     "Lead White",
@@ -194,11 +186,16 @@ const NINE: [&str; 9] = [
 ];
 
 impl Folder {
-    /// A painting of 80 x 60 cells: upright strokes 4 mm (8 cells) apart in two pigments; with
-    /// `crowded`, a touch of seven further ones below.
+    /// A painting of 80 x 60 cells with upright strokes 4 mm (8 cells) apart in two pigments. If it
+    /// is
+    /// `crowded`, there are touches of seven more below.
     fn painting(&self, crowded: bool) -> String {
-        let load = |pigment: &str, mm: f64| json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}});
-        let stroke = |samples: Value| json!({"stroke": {"brush": "flat", "samples": samples}});
+        fn load(pigment: &str, mm: f64) -> Value {
+            json!({"load": {"brush": "flat", "recipe": {pigment: 1}, "amount_mm": mm}})
+        }
+        fn stroke(samples: Value) -> Value {
+            json!({"stroke": {"brush": "flat", "samples": samples}})
+        }
         let wash = json!({"wash": {"brush": "flat"}});
         let mut actions: Vec<Value> = Vec::new();
         for (index, pigment) in NINE[2..].iter().enumerate().filter(|_| crowded) {
@@ -248,7 +245,7 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     let seen = whole["direction"]["seen_in"].as_str();
     assert!([Some("colour"), Some("relief")].contains(&seen), "{seen:?}");
 
-    // Marks on a painting count its cells.
+    // Marks on a painting are in cells.
     let marks = folder.write(
         "m.toml",
         "[[sample]]\nname = \"half\"\nrectangle = [0, 0, 40, 60]\nspacing = [[4, 9], [12, 9]]\n",
@@ -323,8 +320,8 @@ fn proposed_marks_can_be_sampled() {
     let samples = told["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 2, "{told}");
     // One scribble lies on each side.
-    let left = |index: usize| samples[index]["bounds"][0].as_f64().unwrap();
-    assert!(left(0) > 80.0 && left(1) < 10.0, "{told}");
+    let left = [0, 1].map(|index: usize| samples[index]["bounds"][0].as_f64().unwrap());
+    assert!(left[0] > 80.0 && left[1] < 10.0, "{told}");
     assert!(image::open(&marked).unwrap().width() == 200, "the picture with its marks");
     let told = done(&["sample", &picture, "--propose", "2", "--output", &marks, "--json"]).json();
     assert_eq!(told["samples"].as_array().unwrap().len(), 2, "{told}");
@@ -335,15 +332,15 @@ fn proposed_marks_can_be_sampled() {
 fn passages_whose_spacing_must_be_marked_are_told() {
     let folder = Folder::new();
     // Blotches of 5 px without any order.
-    let color = |i: usize| {
+    let colors = (0..200 * 120).map(|i| {
         let column = i % 200 / 5;
         let row = i / 200 / 5;
         let mixed = (column * 7919 + row * 104_729) as u32;
         let mixed = (mixed ^ (mixed >> 7)).wrapping_mul(0x9E37_79B1) >> 24;
         let grey = 0.3 + 0.1 * mixed as f32 / 255.0;
         [grey, grey, grey, 1.0]
-    };
-    let picture = Field::from_values(200, 120, (0..200 * 120).map(color).collect());
+    });
+    let picture = Field::from_values(200, 120, colors.collect());
     let picture = folder.write("blotches.png", png8(&picture, 1.0).unwrap().bytes);
     let marks = folder.file("m.toml");
     let run = done(&["sample", &picture, "--propose", "1", "--output", &marks]);

@@ -1,4 +1,4 @@
-//! What is refused, with its place and the way out, before anything is written.
+//! What is refused, with its place and a way out, before anything is written.
 
 use std::path::Path;
 
@@ -6,12 +6,12 @@ use suite::program::{impasto, repository};
 
 use super::{SMALL, done, folder, path, stencil};
 
-/// A script over the box whose last line is the 9th.
+/// A script over the box. Its last line is the 9th.
 const SCRIPT: &str = "format = \"paint-volumes\"\nversion = 1\nsubject = \"box.obj\"\n\
     seconds = 0.5\ngrid.cell = 0.2\n[[pour]]\nat = [0.0, 1.0, 0.0]\nfor_s = 0.2\n\
     amount_mm3 = 20.0\n";
 
-/// Runs the verb with `arguments`, checks status and words, and that `p.png` is not written.
+/// Runs the verb, checks status and words, and that `p.png` is not written.
 #[track_caller]
 fn refused(picture: &str, arguments: &[&str], status: u8, words: &[&str]) {
     let run = stencil(&[arguments, &["--picture", picture]].concat());
@@ -99,7 +99,7 @@ fn options_out_of_range_are_refused_by_their_names() {
         (2, &["--pour", "0.5,0.5", "--mask", &model], &["ends in .png or .exr"]),
         (2, &[], &["nothing is poured", "--pour 0.5,0.5"]),
     ] {
-        // The first is an option given twice.
+        // The first fault is an option given twice.
         refused(&picture, &[&[&model[..]], &SMALL[..], options].concat(), status, words);
     }
     let long = ["--seconds", "3600", "--rate", "60", "--animation", &gif];
@@ -194,13 +194,10 @@ fn the_help_names_only_options_of_the_verb() {
         let help = impasto(&[verb, "--help"]).out;
         let words = help.split(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '-'));
         let named: Vec<&str> = words.filter(|word| word.starts_with("--")).collect();
-        let is_listed = |option: &str| {
-            let lines = help.lines().map(str::trim_start);
-            let mut own = lines.filter(|line| line.starts_with('-'));
-            own.any(|line| line.split([' ', ',', '[']).any(|word| word == option))
-        };
+        let lines = help.lines().map(str::trim_start).filter(|line| line.starts_with('-'));
+        let listed: Vec<&str> = lines.flat_map(|line| line.split([' ', ',', '['])).collect();
         assert!(named.len() > 20, "{verb}: {named:?}");
-        let others: Vec<_> = named.into_iter().filter(|option| !is_listed(option)).collect();
+        let others: Vec<_> = named.into_iter().filter(|option| !listed.contains(option)).collect();
         assert!(others.is_empty(), "{verb}: {others:?}");
     }
 }

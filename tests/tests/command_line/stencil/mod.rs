@@ -1,10 +1,5 @@
-//! The command `impasto stencil`.
-//!
-//! Models and photographs that turn to colour where paint is.
-//!
-//! Cameras of options, which a script that is written has too.
-//!
-//! Volumes as films of measured pigments.
+//! The command `impasto stencil`: models and photographs that turn to colour where paint is,
+//! cameras of options and of the scripts that it writes, and volumes as films of measured pigments.
 
 mod faults;
 mod recordings;
@@ -20,12 +15,11 @@ use tempfile::TempDir;
 use volumes::performance::{FirstView, Performance};
 use volumes::script::Script;
 
-/// A red box, 2 units wide, 1 high and 1 deep.
+/// A red box of 2 x 1 x 1 units.
 const BOX: &str = "mtllib box.mtl\nv -1 0 -0.5\nv 1 0 -0.5\nv 1 1 -0.5\nv -1 1 -0.5\nv -1 0 0.5\n\
     v 1 0 0.5\nv 1 1 0.5\nv -1 1 0.5\nusemtl red\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\n\
     f 1 5 8 4\nf 2 3 7 6\n";
 
-/// A folder with the model `box.obj`.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("box.obj"), BOX).unwrap();
@@ -48,18 +42,18 @@ fn done(arguments: &[&str]) -> Run {
     run
 }
 
-/// Options of a small picture: wide cells, half a second, one sample a pixel.
+/// Options of a small picture: wide cells, half a second, one sample per pixel.
 const SMALL: [&str; 8] =
     ["--width", "64", "--seconds", "0.5", "--set", "grid.cell=0.2", "--set", "picture.samples=1"];
 
-/// Options of paint poured before the middle of the first picture.
+/// Pours paint before the middle of the first picture.
 const POUR: [&str; 2] = ["--pour", "0.45,0.6,150"];
 
 fn pixels(path: impl AsRef<Path>) -> RgbImage {
     image::open(path).unwrap().to_rgb8()
 }
 
-/// Names of the files in a folder that end in `ending`, sorted.
+/// Sorted names of the files in a folder that end in `ending`.
 fn files(folder: impl AsRef<Path>, ending: &str) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap();
     let names = names.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
@@ -82,13 +76,12 @@ fn the_mask_is_white_where_the_picture_is_not_the_grey_one() {
     let on_scene = told["paint_mm3"]["on_scene"].as_f64().unwrap();
     assert!((on_scene - 150.0).abs() < 1e-3, "{told}");
     assert_eq!((&told["seconds"], &told["frames"]), (&0.5.into(), &serde_json::Value::Null));
-    let shown = |what: &str| {
-        let file = path(&folder, &format!("{what}.png"));
-        done(&[&scene[..], &["--show", what, "--picture", &file]].concat());
-        pixels(file)
-    };
-    let [grey, color, hatching, again] = ["grey", "colour", "hatching", "mask"].map(shown);
-    let volumes = shown("volumes");
+    let [grey, color, hatching, again, volumes] = ["grey", "colour", "hatching", "mask", "volumes"]
+        .map(|what| {
+            let file = path(&folder, &format!("{what}.png"));
+            done(&[&scene[..], &["--show", what, "--picture", &file]].concat());
+            pixels(file)
+        });
     let picture = pixels(picture);
     let mask = pixels(mask);
     assert!(again == mask, "--mask and --show mask");
@@ -124,18 +117,20 @@ fn a_script_that_was_written_makes_the_same_picture() {
     assert!(text.contains("subject = \"box.obj\""), "{text}");
     let replay = ["--width", "64", "--picture", &again, "--script-out", &second];
     done(&[&[&script[..]], &replay[..]].concat());
-    let read = |name: &str| fs::read(name).unwrap();
-    assert!(read(&picture) == read(&again), "the same bytes");
+    fn same(one: &str, other: &str) -> bool {
+        fs::read(one).unwrap() == fs::read(other).unwrap()
+    }
+    assert!(same(&picture, &again), "the same bytes");
     assert_eq!(text, fs::read_to_string(&second).unwrap());
-    // From another folder the script names the whole path.
+    // From another folder, the script uses the whole path.
     let elsewhere = tempfile::tempdir().unwrap();
     let moved = path(&elsewhere, "moved.toml");
     done(&[&script, "--script-out", &moved]);
     done(&[&moved, "--width", "64", "--picture", &again]);
-    assert!(read(&picture) == read(&again), "the same bytes from another folder");
-    // The picture would be another without one of the options.
+    assert!(same(&picture, &again), "the same bytes from another folder");
+    // If you leave out one of the options, you get another picture.
     done(&[&scene[..], &look, &["--picture", &again]].concat());
-    assert!(read(&picture) != read(&again), "tints change the picture");
+    assert!(!same(&picture, &again), "tints change the picture");
 }
 
 #[test]
@@ -153,13 +148,13 @@ fn settings_come_from_presets_files_and_single_options() {
     assert!(washed == painted(&["--settings", &file]));
     assert!(washed != painted(&[]));
     // Volumes lie on samples of the surface.
-    let volumes = |samples: &str| {
+    let [few, many] = ["grid.samples=64", "grid.samples=200"].map(|samples| {
         let folder = path(&folder, samples);
         let own = ["--set", samples, "--rate", "2", "--volumes", &folder];
         done(&[&[&model[..]], &SMALL[..], &POUR, &own].concat());
         fs::read(Path::new(&folder).join("frame-0002.ply")).unwrap()
-    };
-    assert!(volumes("grid.samples=64") != volumes("grid.samples=200"));
+    });
+    assert!(few != many);
 }
 
 #[test]
@@ -185,9 +180,9 @@ fn an_animation_that_was_interrupted_ends_in_the_same_bytes() {
     assert!(whole == told(2), "the same bytes");
     // A frame is the still of its time, and the first shows no colour yet.
     done(&[&scene[..], &["--at", "0.25", "--picture", &still]].concat());
-    let shown = |index: usize| pixels(frames.join(&names[index]));
-    assert!(pixels(&still) == shown(2) && shown(2) != shown(4));
-    assert!(shown(0).pixels().all(|pixel| pixel.0[0] == pixel.0[2]), "grey at first");
+    let [first, middle, last] = [0, 2, 4].map(|index: usize| pixels(frames.join(&names[index])));
+    assert!(pixels(&still) == middle && middle != last);
+    assert!(first.pixels().all(|pixel| pixel.0[0] == pixel.0[2]), "grey at first");
 }
 
 #[test]
@@ -205,7 +200,7 @@ fn volumes_of_each_frame_are_those_of_the_library_at_that_moment() {
     let view = FirstView::new(&model, &camera, (64, 48));
     let settings = script.settings().unwrap();
     let mut play = Performance::new(&script, &model, &settings, &view).unwrap();
-    // The first frame is the beginning, without volumes.
+    // The first frame shows the beginning, without volumes.
     for (name, step) in names[1..].iter().zip([30, 60]) {
         play.advance_to(step).unwrap();
         let volumes = play.world().volumes();
@@ -234,8 +229,9 @@ fn a_turntable_turns() {
     let told = done(&[&scene[..], &turning].concat()).json();
     assert_eq!((&told["frames"], &told["size"]), (&3.into(), &serde_json::json!([64, 40])));
     let names = files(&frames, ".png");
-    let shown = |index: usize| pixels(Path::new(&frames).join(&names[index]));
-    assert!(names.len() == 3 && shown(0) != shown(1) && shown(1) != shown(2));
+    let shown: Vec<RgbImage> =
+        names.iter().map(|name| pixels(Path::new(&frames).join(name))).collect();
+    assert!(shown.len() == 3 && shown[0] != shown[1] && shown[1] != shown[2]);
 }
 
 #[test]
@@ -267,12 +263,15 @@ fn stages_and_passes_are_the_steps_to_the_picture() {
         "12-picture",
     ];
     assert_eq!(names, wanted.map(|name| format!("{name}.png")));
-    let stage = |index: usize| pixels(Path::new(&stages).join(&names[index - 1]));
-    assert!(stage(12) == pixels(&picture));
-    let bright = |picture: &RgbImage| picture.pixels().filter(|pixel| pixel.0[0] > 0).count();
-    assert_eq!(bright(&stage(6)), 0, "nothing is poured in the first region");
-    assert!(bright(&stage(8)) > 20 && stage(9) == stage(11), "the second alone makes the mask");
-    assert!(stage(1).get_pixel(32, 24).0[0] > 2 * stage(1).get_pixel(32, 24).0[2], "red");
+    let stages: Vec<RgbImage> =
+        names.iter().map(|name| pixels(Path::new(&stages).join(name))).collect();
+    let [seen, .., hidden, _, bright, tint, _, mask, picture_stage] = &stages[..] else { panic!() };
+    assert!(*picture_stage == pixels(&picture));
+    let [none, some] =
+        [hidden, bright].map(|picture| picture.pixels().filter(|pixel| pixel.0[0] > 0).count());
+    assert_eq!(none, 0, "nothing is poured in the first region");
+    assert!(some > 20 && tint == mask, "the second alone makes the mask");
+    assert!(seen.get_pixel(32, 24).0[0] > 2 * seen.get_pixel(32, 24).0[2], "red");
     let image = read().no_deep_data().largest_resolution_level().all_channels();
     let image = image.all_layers().all_attributes().from_file(&passes).unwrap();
     let layers = image.layer_data.iter();
@@ -319,8 +318,8 @@ fn a_graphics_device_draws_the_same_picture() {
     }
     let cpu = pixels(&cpu);
     let gpu = pixels(&gpu);
-    let near = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 2);
-    let off = cpu.pixels().zip(gpu.pixels()).filter(|(a, b)| !near(a, b)).count();
+    let pairs = cpu.pixels().zip(gpu.pixels());
+    let off = pairs.filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2)).count();
     assert!(off as f64 <= 0.002 * f64::from(cpu.width() * cpu.height()), "{off} pixels differ");
 }
 
@@ -329,29 +328,27 @@ fn a_scene_turned_inside_out_is_painted_as_well() {
     let folder = folder();
     let [model, turned, mask] = ["box.obj", "turned.obj", "m.png"].map(|name| path(&folder, name));
     // The box with all its faces the other way round.
-    let faces = |line: &str| match line.strip_prefix("f ") {
+    let faces = BOX.lines().map(|line| match line.strip_prefix("f ") {
         Some(corners) => {
             let corners: Vec<&str> = corners.split(' ').rev().collect();
             format!("f {}\n", corners.join(" "))
         }
         None => format!("{line}\n"),
-    };
-    let held = |model: &str| {
-        done(&[&[model][..], &SMALL[..], &POUR, &["--mask", &mask]].concat());
+    });
+    fs::write(&turned, faces.collect::<String>()).unwrap();
+    let [own, found] = [&model, &turned].map(|model| {
+        done(&[&[&model[..]], &SMALL[..], &POUR, &["--mask", &mask]].concat());
         pixels(&mask).pixels().filter(|pixel| pixel.0[0] > 127).count()
-    };
-    let own = held(&model);
-    fs::write(&turned, BOX.lines().map(faces).collect::<String>()).unwrap();
-    let found = held(&turned);
-    // Other samples stand for the surface, so paint takes another way around the edges.
+    });
+    // The surface has other samples, so paint takes another way around the edges.
     assert!(own > 20 && (own / 2..own * 2).contains(&found), "{own} {found}");
 }
 
-/// Options of a film of five frames, if the camera has no number of its own.
+/// Five frames, unless the camera has its own number.
 const RATE: [&str; 2] = ["--rate", "8"];
 
-/// Paints a still and a film of `subject` with these options of its camera, then with the script
-/// that this wrote alone, and compares their bytes. Returns the still, the film and the script.
+/// Paints a still and a film of `subject` with these options of its camera, and again with only the
+/// script that this wrote. Compares their bytes, and returns the still, the film and the script.
 fn replayed(subject: &str, camera: &[&str]) -> (Vec<u8>, Vec<u8>, String) {
     let folder = tempfile::tempdir().unwrap();
     let [picture, film, script] = ["p.png", "f.gif", "s.toml"].map(|name| path(&folder, name));
@@ -360,12 +357,13 @@ fn replayed(subject: &str, camera: &[&str]) -> (Vec<u8>, Vec<u8>, String) {
     done(&[&[subject], &SMALL[..], &POUR, &RATE, camera, &written].concat());
     let written = ["--picture", &again, "--animation", &second, "--script-out", &other];
     done(&[&[&script[..], "--width", "64"], &RATE[..], &written].concat());
-    let read = |name: &str| fs::read(name).unwrap();
     let text = fs::read_to_string(&script).unwrap();
-    assert!(read(&picture) == read(&again), "{camera:?}: the still");
-    assert!(read(&film) == read(&second), "{camera:?}: the film");
+    let [picture, again, film, second] =
+        [picture, again, film, second].map(|name| fs::read(name).unwrap());
+    assert!(picture == again, "{camera:?}: the still");
+    assert!(film == second, "{camera:?}: the film");
     assert_eq!(text, fs::read_to_string(&other).unwrap(), "{camera:?}");
-    (read(&picture), read(&film), text)
+    (picture, film, text)
 }
 
 #[test]
@@ -445,9 +443,11 @@ fn a_painting_of_volumes_is_relit_and_repainted() {
     let off = own.pixels().zip(same.pixels());
     let off = off.map(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max().unwrap());
     assert!(off.max() <= Some(1), "the picture as it was saved");
-    // Where ultramarine was poured the picture turns from blue to red, and nowhere else.
+    // Where ultramarine was poured, the picture turns from blue to red, and only there.
     let swapped = relit(&["--swap", "all:Ultramarine=Vermilion"]);
-    let redness = |pixel: &Rgb<u8>| i32::from(pixel.0[0]) - i32::from(pixel.0[2]);
+    fn redness(pixel: &Rgb<u8>) -> i32 {
+        i32::from(pixel.0[0]) - i32::from(pixel.0[2])
+    }
     let turned = same.pixels().zip(swapped.pixels()).filter(|(a, b)| a != b);
     let turned: Vec<i32> = turned.map(|(a, b)| redness(b) - redness(a)).collect();
     assert!((20..1500).contains(&turned.len()), "{} pixels changed", turned.len());
@@ -487,7 +487,7 @@ fn pours_take_the_palette_in_turn_and_recipes_mix() {
     for words in ["P1 = \"Eosin Lake (lead, wax)\"", "P2 = \"Ultramarine\"", "P2 = 1.0"] {
         assert!(commas.contains(words), "{words}: {commas}");
     }
-    // Parts of a painting are shown too, but not written as one.
+    // You can show parts of a painting, but not write them as one.
     done(&[&scene[..], &palette, &["--show", "mask", "--picture", &picture]].concat());
     assert!(pixels(&picture).pixels().all(|pixel| [0, 255].contains(&pixel.0[1])));
     let output = path(&folder, "o.exr");
@@ -554,7 +554,7 @@ fn a_written_script_holds_its_ground_and_its_lamp() {
     for other in [["--over", "black"], ["--ground", "paper"], ["--illuminant", "A"]] {
         assert!(replayed(&other) != bytes, "{other:?} is another painting");
     }
-    // Written again from there into another folder, the lamp is found still.
+    // If you write the script again to another folder, the lamp is still found.
     let below = path(&folder, "below");
     fs::create_dir(&below).unwrap();
     let moved = format!("{below}/t.toml");
@@ -579,7 +579,7 @@ fn the_passes_hold_the_heights_of_each_pigment() {
     let library = library();
     let [photo, passes] = ["photo.png", "p.exr"].map(|name| path(&folder, name));
     RgbImage::from_pixel(60, 40, Rgb([180; 3])).save(&photo).unwrap();
-    // A photograph is 200 mm wide and fills the picture: a pixel is 1 mm^2.
+    // A photograph is 200 mm wide and fills the picture, so a pixel is 1 mm^2.
     let scene = [&photo, "--width", "200", "--set", "picture.samples=1", "--pigments", &library];
     let paint = ["--pour", "0.4,0.5,18", "--paint", "Ultramarine=3,Lead White=1"];
     let told = done(&[&scene[..], &paint, &["--passes", &passes, "--json"]].concat()).json();
@@ -612,7 +612,7 @@ fn the_passes_hold_the_heights_of_each_pigment() {
         assert_eq!(*blue > 0.0, *count > 0.0, "a film where volumes are");
         assert!((blue - 3.0 * white).abs() <= 2e-5, "{blue} {white}");
     }
-    // The film of the preset grisaille, and somewhat more at its edge.
+    // This is the film of the preset grisaille, and a little more at its edge.
     let most = blue.iter().zip(&white).map(|(blue, white)| blue + white).fold(0.0, f64::max);
     assert!((0.003..0.012).contains(&most), "{most} mm");
     assert!(counts.iter().filter(|&&count| count > 0.0).count() > 4000);

@@ -1,6 +1,5 @@
-//! Recordings of sessions of the studio, played again by the verb.
-//!
-//! Animations that were interrupted, and runs that fail before anything is written.
+//! Recordings of sessions of the studio that the verb plays again, animations that were
+//! interrupted, and runs that fail before anything is written.
 
 use std::fs;
 use std::path::Path;
@@ -24,13 +23,12 @@ use volumes::settings;
 
 use super::{POUR, done, files, folder, path, stencil};
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Width and height of the pictures in pixels.
+/// Size of the pictures in pixels.
 const SIZE: [usize; 2] = [161, 113];
 
-/// A session of the studio and what it reported last.
+/// A session of the studio, with its last reports.
 struct Session {
     worker: VolumeWorker,
     woken: Receiver<()>,
@@ -41,7 +39,6 @@ struct Session {
 }
 
 impl Session {
-    /// A session that has opened `subject`.
     fn open(subject: Subject) -> Self {
         let (wake, woken) = channel();
         let worker = VolumeWorker::start(move || wake.send(()).unwrap_or(()));
@@ -84,8 +81,7 @@ impl Session {
         self.state.as_ref().unwrap()
     }
 
-    /// Sees the scene from a camera that a hand has turned by some degrees: its numbers have more
-    /// digits than a file.
+    /// Turns the camera by some degrees as a hand does: its numbers have more digits than a file.
     fn orbit(&self, turned_deg: f32) {
         let home = self.state().framed;
         let (sin, cos) = turned_deg.to_radians().sin_cos();
@@ -95,12 +91,12 @@ impl Session {
         self.ask(VolumeCommand::Camera(Camera { eye, near: 0.9 * home.near, ..home }));
     }
 
-    /// Draws a tool over the picture for some steps of time, and lets go.
+    /// Moves a tool over the picture for some steps, and lets go.
     fn gesture(&mut self, grip: Grip, from: [f32; 2], to: [f32; 2]) {
         let began = self.state().time.step;
         let pen = |share: f32, pressure: f32| {
-            let between = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
-            ScenePen { at: [between(0), between(1)], pressure }
+            let at = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share);
+            ScenePen { at, pressure }
         };
         self.ask(VolumeCommand::PenDown(grip, pen(0.0, 0.731)));
         for (share, steps) in [(0.31, 8), (0.64, 16), (1.0, 24)] {
@@ -113,7 +109,7 @@ impl Session {
         assert!(events > 0, "{} has done something", grip.tool.name());
     }
 
-    /// Stops time and goes to the end of what was recorded, where the verb ends. Returns its step.
+    /// Stops time and goes to the end of the recording, where the verb ends. Returns its step.
     fn seek_end(&mut self) -> u64 {
         self.ask(VolumeCommand::Play(false));
         self.wait(|session| !session.state().time.playing);
@@ -122,7 +118,6 @@ impl Session {
         end
     }
 
-    /// Stops time at a step.
     fn seek(&mut self, step: u64) {
         self.ask(VolumeCommand::Seek(step));
         self.wait(|session| {
@@ -131,7 +126,7 @@ impl Session {
         });
     }
 
-    /// The file of the picture that the studio exports now.
+    /// The picture file that the studio exports now.
     fn exported(&mut self, format: PictureFormat) -> Vec<u8> {
         self.drawn = None;
         self.ask(VolumeCommand::Draw(1, SIZE));
@@ -139,7 +134,7 @@ impl Session {
         self.drawn.as_ref().unwrap().file(format).unwrap()
     }
 
-    /// The file of the painting that the studio exports now.
+    /// The painting file that the studio exports now.
     fn painting(&mut self) -> Vec<u8> {
         self.painted = None;
         self.ask(VolumeCommand::Paint(2, SIZE));
@@ -147,7 +142,6 @@ impl Session {
         paint::file::write(self.painted.as_ref().unwrap()).unwrap()
     }
 
-    /// Writes the recording in a file.
     fn save(&mut self, file: &str) {
         self.recording = None;
         self.ask(VolumeCommand::Recording(1));
@@ -156,13 +150,17 @@ impl Session {
     }
 }
 
-/// A hand at work on the village: it pours along two drags, blows, takes up, dries, pours and takes
-/// that back, and turns the scene between all of them.
+/// A hand works on the village: it pours along two drags, blows, takes up and dries paint, pours
+/// and undoes this, and turns the scene between all of them.
 fn painted() -> Session {
     let mut session = Session::open(Subject::Shape("village".to_owned()));
     session.orbit(0.0);
-    let pour = |tube| Grip { tube, rate_mm3_s: 333.0, ..Grip::default() };
-    let with = |tool| Grip { tool, strength: 0.77, radius_mm: 31.7, ..Grip::default() };
+    fn pour(tube: usize) -> Grip {
+        Grip { tube, rate_mm3_s: 333.0, ..Grip::default() }
+    }
+    fn with(tool: SceneTool) -> Grip {
+        Grip { tool, strength: 0.77, radius_mm: 31.7, ..Grip::default() }
+    }
     session.gesture(pour(5), [0.45, 0.55], [0.55, 0.6]);
     session.orbit(12.34);
     session.gesture(pour(3), [0.5, 0.62], [0.41, 0.58]);
@@ -178,7 +176,7 @@ fn painted() -> Session {
     session
 }
 
-/// The picture that the verb makes of a recording, with more options.
+/// The picture that the verb makes from a recording, with more options.
 fn replayed(recording: &str, picture: &str, options: &[&str]) -> Vec<u8> {
     let [width, height] = SIZE.map(|side| side.to_string());
     let size = ["--width", &width, "--height", &height, "--backend", "cpu"];
@@ -200,18 +198,18 @@ fn a_recording_of_the_studio_replayed_by_the_verb_has_the_same_bytes() {
     assert!(shown == replayed(&recording, &picture, &[]), "at the end");
     let shown = session.exported(PictureFormat::LinearExr);
     assert!(shown == replayed(&recording, &exact, &[]), "at the end, all bits");
-    // A moment before: while the sponge works.
+    // Go back to a moment when the sponge works.
     session.seek(117);
     let before = session.exported(PictureFormat::LinearExr);
     assert!(before != shown && end > 200, "the moment is another");
     assert!(before == replayed(&recording, &exact, &["--at", "0.975"]), "at 0.975 s");
-    // Opened again and played to that moment.
+    // Open it again and play it to this moment.
     let mut again = Session::open(Subject::Script(recording.clone().into()));
     let camera = again.state().seen_from.unwrap();
     again.ask(VolumeCommand::Camera(camera));
     again.seek(117);
     assert!(again.exported(PictureFormat::LinearExr) == before, "opened again");
-    // Without strokes, and with glazes of the pigments, which the recording names.
+    // Without strokes, and with glazes of the pigments that the recording names.
     let look = Look { hatching: false, inside: Inside::Glaze, ..session.state().look };
     session.ask(VolumeCommand::Look(look));
     session.seek(end);
@@ -221,7 +219,7 @@ fn a_recording_of_the_studio_replayed_by_the_verb_has_the_same_bytes() {
     let by_verb = replayed(&recording, &exact, &["--output", &painting]);
     assert!(by_day == by_verb, "in pigments");
     assert!(session.painting() == fs::read(&painting).unwrap(), "the painting");
-    // Other pigments of a library of the painter's own, by lamplight.
+    // Other pigments from the painter's own library, by lamplight.
     let library = path(&folder, "mine.pigments.json");
     fs::copy(repository("measurements/van-gogh-oils.pigments.json"), &library).unwrap();
     session.ask(VolumeCommand::Library(library.into()));
@@ -256,7 +254,7 @@ fn a_recording_on_a_photograph_is_replayed_from_its_own_camera() {
     assert!(shown != session.exported(PictureFormat::LinearExr), "it is seen from its camera");
 }
 
-/// A script of two regions, of which one shows a glaze and the other its own colours.
+/// A script of two regions: one shows a glaze, the other its own colours.
 const REGIONS: &str = r#"format = "paint-volumes"
 version = 1
 subject = "shape:still-life"
@@ -309,7 +307,7 @@ fn regions_that_differ_are_shown_and_saved_as_the_verb_draws_them() {
     let read = Script::open(Path::new(&saved)).unwrap();
     let insides: Vec<_> = read.regions.iter().map(|region| region.inside).collect();
     assert_eq!(insides, [Some(settings::Inside::Glaze), None]);
-    // One choice for all is another picture, and the choice of the regions can be had again.
+    // One choice for all makes another picture, and you can go back to the choice of the regions.
     session.ask(VolumeCommand::Look(Look { light, inside: Inside::Glaze, ..opened }));
     session.seek(end);
     assert!(session.exported(PictureFormat::LinearExr) != each, "all of them glazes");
@@ -317,7 +315,7 @@ fn regions_that_differ_are_shown_and_saved_as_the_verb_draws_them() {
     assert!(session.exported(PictureFormat::LinearExr) == each, "as it was");
 }
 
-/// Two steps of the world a frame, 157 frames.
+/// Two steps of the world per frame, 157 frames.
 const LONG: [&str; 10] = [
     "--width",
     "16",
@@ -331,7 +329,7 @@ const LONG: [&str; 10] = [
     "picture.samples=1",
 ];
 
-/// A folder that has the manifest of `whole`, and in which frame `number` cannot be written.
+/// A folder with the manifest of `whole`. Frame `number` cannot be written there.
 fn blocked(whole: &str, folder: &str, number: usize) {
     fs::create_dir_all(folder).unwrap();
     fs::copy(Path::new(whole).join("animation.json"), Path::new(folder).join("animation.json"))
@@ -355,9 +353,10 @@ fn copied(from: &str, to: &str) {
 fn same_frames(whole: &str, other: &str) {
     let names = files(whole, ".png");
     assert_eq!((names.len(), &names), (157, &files(other, ".png")), "all frames, in both folders");
-    let read = |folder: &str, name: &String| fs::read(Path::new(folder).join(name)).unwrap();
     for name in &names {
-        assert!(read(whole, name) == read(other, name), "{other}: {name}");
+        let [first, second] =
+            [whole, other].map(|folder| fs::read(Path::new(folder).join(name)).unwrap());
+        assert!(first == second, "{other}: {name}");
     }
     assert_eq!(files(other, ".world"), [""; 0], "an animation that is complete needs none");
 }
@@ -371,18 +370,11 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     let told = |folder: &str| {
         let run = done(&[&scene[..], &[folder]].concat());
         let told = run.json();
-        (
-            [
-                told["frames_found"].clone(),
-                told["from_seconds"].clone(),
-                told["steps_computed"].clone(),
-            ],
-            run.err,
-        )
+        (["frames_found", "from_seconds", "steps_computed"].map(|key| told[key].clone()), run.err)
     };
-    let numbers = |found: u64, from: Option<f64>, steps: u64| {
+    fn numbers(found: u64, from: Option<f64>, steps: u64) -> [Value; 3] {
         [found.into(), from.map_or(Value::Null, Value::from), steps.into()]
-    };
+    }
     // Everything is played twice: before the first frame is painted, and for the frames.
     assert_eq!(told(&whole).0, numbers(0, None, 2 * 312));
     blocked(&whole, &cut, 121);
@@ -409,7 +401,7 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     assert!(words.iter().all(|words| err.contains(words)), "{err}");
     same_frames(&whole, &far);
 
-    // Both are useless, and the run is cut once more: then the newest two are there.
+    // Both are useless, and the run is cut once more. Then the newest two are there.
     let shortened = fs::read(Path::new(&none).join("frame-0051.world")).unwrap();
     fs::write(Path::new(&none).join("frame-0051.world"), &shortened[..100]).unwrap();
     fs::write(Path::new(&none).join("frame-0101.world"), "no world at all").unwrap();
@@ -422,7 +414,7 @@ fn a_run_that_was_cut_goes_on_from_its_snapshot_to_the_same_bytes() {
     assert_eq!(told(&none).0, numbers(154, Some(300.0 / 120.0), 2 * 12));
     same_frames(&whole, &none);
 
-    // Snapshots of another animation are told, and go with its frames.
+    // Snapshots of another animation are reported, and removed with its frames.
     let other = ["--seconds", "0.1", "--json", "--frames", &cut];
     let short: Vec<&str> =
         LONG.into_iter().filter(|own| !["--seconds", "2.6"].contains(own)).collect();
@@ -450,12 +442,12 @@ fn a_script_that_cannot_be_played_leaves_nothing_behind() {
     assert!(run.status == 1 && run.err.contains("volume 1 is not there"), "{}", run.err);
     let left = names.into_iter().filter(|name| Path::new(&path(&folder, name)).exists());
     assert_eq!(left.collect::<Vec<_>>(), [""; 0]);
-    // With the volume there in time, all of them are made.
+    // If the volume is there in time, all of them are made.
     fs::write(&script, text.replace("from_s = 0.4", "from_s = 0.0")).unwrap();
     done(&[&[&script[..]], &written[..], &more, &paint].concat());
     let made = names.into_iter().filter(|name| Path::new(&path(&folder, name)).exists());
     assert_eq!(made.collect::<Vec<_>>(), names);
-    // Folders that cannot be made are told at once.
+    // Folders that cannot be made are reported at once.
     let inside = path(&folder, "box.obj/inside");
     for option in ["--stages", "--volumes", "--pigment-maps", "--frames"] {
         let run = stencil(&[&[&script[..]], &paint[..], &[option, &inside]].concat());

@@ -1,15 +1,8 @@
-//! Text formats of instruments, read by the library and by the program.
-//!
-//! Formats of instruments: every fixture is recognized and gives the known values, with the reader
-//! and with `impasto color`.
-//!
-//! Tables of readings as instruments and people write them: headings of names and wavelengths, lines above
-//! the table, falling wavelengths, decimal commas.
-//!
-//! Instrument files with faults or with other quantities than reflectance: refused with the place
-//! and a hint.
-//!
-//! Arbitrary and damaged bytes: no reader of text formats panics, and every error names the file.
+//! Text formats of instruments, read by the library and by the program. Every fixture is recognized
+//! and gives the known values. Tables may be written as instruments and people do: headings of
+//! names and wavelengths, lines above the table, falling wavelengths, decimal commas. Files with
+//! faults or with other quantities are refused with the place and a hint, and damaged bytes never
+//! make a reader panic.
 mod workbooks;
 
 use std::path::PathBuf;
@@ -20,12 +13,10 @@ use spectra::instrument::{Format, MeasuredQuantity, MeasuredSpectrum, Role, Unit
 use suite::golden::assert_near;
 use suite::program::{Run, impasto};
 
-/// Path of a made-up file in tests/fixtures/instruments.
 fn fixture(name: &str) -> String {
     suite::program::repository(&format!("tests/fixtures/instruments/{name}"))
 }
 
-/// Names and bytes of all made-up instrument files.
 fn fixtures() -> Vec<(String, Vec<u8>)> {
     let mut paths: Vec<PathBuf> =
         std::fs::read_dir(fixture("")).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -41,7 +32,7 @@ const NM: [f64; 7] = [400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0];
 const MADDER: [f64; 7] = [20.0, 10.5, 12.0, 15.25, 60.0, 70.0, 75.0];
 const SLATE: [f64; 7] = [50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.5];
 
-/// File, format, names of its spectra, and the reading of a perfect white.
+/// File, format, names of its spectra, and the value of a perfect white.
 const FILES: [(&str, Format, &[&str], f64); 18] = [
     ("two.cgats", Format::Cgats, &["Madder", "Slate"], 1.0),
     ("two.ti3", Format::Cgats, &["Madder", "Slate"], 100.0),
@@ -71,8 +62,8 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
         let found = read(file, bytes, None).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found.format, format, "{file}");
         assert_eq!(read(file, bytes, Some(format)).unwrap(), found, "{file}: format given");
-        let is_main = |record: &&MeasuredSpectrum| record.role == Role::Main;
-        let mains: Vec<&MeasuredSpectrum> = found.spectra.iter().filter(is_main).collect();
+        let mains: Vec<&MeasuredSpectrum> =
+            found.spectra.iter().filter(|record| record.role == Role::Main).collect();
         let found_names: Vec<&str> = mains.iter().map(|record| record.name.as_str()).collect();
         assert_eq!(found_names, names, "{file}");
         for (record, paint) in mains.iter().zip([MADDER, SLATE]) {
@@ -92,10 +83,10 @@ fn every_file_is_known_by_its_content_and_holds_what_it_holds() {
 
 #[test]
 fn what_the_files_say_of_themselves_is_kept() {
-    let record = |file: &str| {
+    fn record(file: &str) -> MeasuredSpectrum {
         let bytes = std::fs::read(fixture(file)).unwrap();
         read(file, &bytes, None).unwrap().spectra.remove(0)
-    };
+    }
     for (file, quantity, unit) in [
         ("two.qtx", MeasuredQuantity::Reflectance, Unit::Percent),
         ("madder.sp", MeasuredQuantity::Reflectance, Unit::Percent),
@@ -125,10 +116,9 @@ fn every_file_gives_the_same_colors() {
         let found = run.json();
         for (index, name) in names.iter().enumerate() {
             assert_eq!(found[index]["sample"], *name, "{file}");
-            let lab = |json: &serde_json::Value| {
-                [0, 1, 2].map(|axis| json[index]["lab"][axis].as_f64().unwrap())
-            };
-            assert_near(file, &lab(&found), &lab(&sheet), 1e-6);
+            let [found, wanted] = [&found, &sheet]
+                .map(|json| [0, 1, 2].map(|axis| json[index]["lab"][axis].as_f64().unwrap()));
+            assert_near(file, &found, &wanted, 1e-6);
         }
     }
 }
@@ -139,8 +129,9 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     let file = folder.path().join("ends.dpt");
     let color = |bad: &[f64]| {
         let steps = (0..31).map(|i| 340.0 + 13.5 * f64::from(i));
-        let noise = |nm: f64| if bad.contains(&nm) { -0.05 } else { 0.5 };
-        let lines: String = steps.map(|nm| format!("{nm},{}\n", noise(nm))).collect();
+        let lines: String = steps
+            .map(|nm| format!("{nm},{}\n", if bad.contains(&nm) { -0.05 } else { 0.5 }))
+            .collect();
         std::fs::write(&file, lines).unwrap();
         impasto(&["color", file.to_str().unwrap()])
     };
@@ -150,7 +141,7 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
     assert!(run.err.contains(said), "{}", run.err);
     let run = color(&[691.0]);
     assert!(run.status == 1 && run.err.contains("column `691 nm`"), "{}", run.err);
-    // A file without wavelengths in the middle of the visible band has no ends to cut off.
+    // Without wavelengths in the middle of the visible band, there are no ends to cut off.
     std::fs::write(&file, "340,0.5\n360,-0.1\n380,0.5\n").unwrap();
     let run = impasto(&["color", file.to_str().unwrap()]);
     assert!(run.status == 1 && run.err.contains("column `360 nm`"), "{}", run.err);
@@ -169,18 +160,15 @@ fn noise_at_the_ends_is_cut_and_said_and_inside_it_is_refused() {
 fn readings_just_below_zero_count_as_zero_and_are_said() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("dark.dpt");
-    let color = |least: f64| {
+    let [zero, below, far] = [0.0, -0.019, -0.021].map(|least| {
         let steps = (0..31).map(|i| 400.0 + 10.0 * f64::from(i));
         let lines = steps.map(|nm| format!("{nm},{}\n", if nm < 425.0 { least } else { 0.5 }));
         std::fs::write(&file, lines.collect::<String>()).unwrap();
         impasto(&["color", file.to_str().unwrap()])
-    };
-    let zero = color(0.0);
-    let below = color(-0.019);
+    });
     assert_eq!((below.status, &below.out), (0, &zero.out), "{}", below.err);
     let said = "dark: 3 readings just below zero count as 0";
     assert!(below.err.contains(said) && !zero.err.contains(said), "{}", below.err);
-    let far = color(-0.021);
     assert!(far.status == 1 && far.err.contains("column `400 nm`"), "{}", far.err);
 }
 
@@ -188,18 +176,18 @@ fn readings_just_below_zero_count_as_zero_and_are_said() {
 fn a_jaz_file_holds_its_own_white_and_dark() {
     let jaz = fixture("madder.jaz");
     let [white, dark] = ["R", "D"].map(|letter| format!("{jaz}#madder ({letter})"));
-    let lab = |run: &Run| {
+    fn lab(run: &Run) -> [f64; 3] {
         assert_eq!(run.status, 0, "{}", run.err);
         let json = run.json();
         assert_eq!(json.as_array().unwrap().len(), 1, "one sample: {}", run.out);
         [0, 1, 2].map(|axis| json[0]["lab"][axis].as_f64().unwrap())
-    };
+    }
     let processed = impasto(&["color", &jaz, "--json"]);
     assert!(!processed.err.contains("left out"), "{}", processed.err);
     let counts = impasto(&["color", &jaz, "--white", &white, "--dark", &dark, "--json"]);
     assert_eq!(counts.json()[0]["sample"], "madder (S)");
     assert_near("S against R and D", &lab(&counts), &lab(&processed), 1e-9);
-    // In a file that states no roles, the name in `--white` finds the white.
+    // In a file that states no roles, `--white` finds the white by its name.
     let columns = fixture("columns.txt");
     let slate = format!("{columns}#Slate");
     let run =
@@ -210,7 +198,7 @@ fn a_jaz_file_holds_its_own_white_and_dark() {
 #[test]
 fn files_in_memory_give_the_readings_of_files_on_the_disk() {
     let folder = tempfile::tempdir().unwrap();
-    // Its column is no amount: only its spectra can be read.
+    // Its column is not an amount, so you can only read its spectra.
     let remark = b"sample,film,backing,Blue,400,500,600\nA,paint,white,much,0.1,0.2,0.3\n".to_vec();
     let files = fixtures().into_iter().chain([("remark.csv".to_owned(), remark)]);
     for (name, bytes) in files {
@@ -219,7 +207,9 @@ fn files_in_memory_give_the_readings_of_files_on_the_disk() {
         let path = path.to_str().unwrap();
         let options = ReadingOptions::default();
         let files = [(path, bytes)];
-        let told = |readings: Result<Readings, ReadingsError>| readings.map_err(|e| e.to_string());
+        fn told(readings: Result<Readings, ReadingsError>) -> Result<Readings, String> {
+            readings.map_err(|e| e.to_string())
+        }
         let whole = told(Readings::open_all(&[path], &options));
         assert_eq!(told(Readings::from_files(&files, &options)), whole, "{name}");
         let spectra = told(Readings::open_spectra(&[path], &options));
@@ -227,7 +217,6 @@ fn files_in_memory_give_the_readings_of_files_on_the_disk() {
     }
 }
 
-/// Runs `color` on a file with this content.
 fn color(name: &str, content: &str) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(name);
@@ -238,11 +227,11 @@ fn color(name: &str, content: &str) -> Run {
 fn colors(run: &Run) -> Vec<(String, Vec<f64>)> {
     assert_eq!(run.status, 0, "{}", run.err);
     let json = run.json();
-    let samples = json.as_array().unwrap().iter();
-    let lab = |sample: &serde_json::Value| {
-        [0, 1, 2].iter().map(|axis| sample["lab"][axis].as_f64().unwrap()).collect()
-    };
-    samples.map(|sample| (sample["sample"].as_str().unwrap().to_owned(), lab(sample))).collect()
+    let samples = json.as_array().unwrap().iter().map(|sample| {
+        let lab = [0, 1, 2].iter().map(|axis| sample["lab"][axis].as_f64().unwrap()).collect();
+        (sample["sample"].as_str().unwrap().to_owned(), lab)
+    });
+    samples.collect()
 }
 
 const PLAIN: &str = "sample,400,500,600,700\nRed,0.1,0.2,0.6,0.7\nBlue,0.5,0.4,0.2,0.1\n";
@@ -250,14 +239,16 @@ const PLAIN: &str = "sample,400,500,600,700\nRed,0.1,0.2,0.6,0.7\nBlue,0.5,0.4,0
 #[test]
 fn every_way_to_write_a_table_gives_the_same_colors() {
     let expected = colors(&color("plain.csv", PLAIN));
-    let heading = |name: &str| PLAIN.replace("sample", name);
-    let comma = |separator: &str| {
-        let quoted = |line: &str| {
+    fn heading(name: &str) -> String {
+        PLAIN.replace("sample", name)
+    }
+    fn comma(separator: &str) -> String {
+        let lines = PLAIN.lines().map(|line| {
             let cells = line.split(',').map(|cell| format!("\"{}\"", cell.replace('.', ",")));
-            cells.collect::<Vec<_>>().join(separator)
-        };
-        PLAIN.lines().map(|line| quoted(line) + "\r\n").collect::<String>()
-    };
+            cells.collect::<Vec<_>>().join(separator) + "\r\n"
+        });
+        lines.collect()
+    }
     let falling = "Name;700;600;500;400\nRed;0,7;0,6;0,2;0,1\nBlue;0,1;0,2;0,4;0,5\n";
     let words = PLAIN.replacen("400,500,600,700", "400[nm],500[nm],600[nm],700[nm]", 1);
     let minolta = "Konica Minolta\n\nData Name\tL*(D65)\tSCI 400nm\tSCI 500nm\tSCI 600nm\tSCI 700nm\t\
@@ -342,7 +333,7 @@ fn columns_beside_the_names_are_told() {
     assert_eq!(run.status, 0, "amounts take no part in colours: {}", run.err);
 }
 
-/// Runs `color` on a fixture in which the first `from` is replaced by `to`.
+/// Runs `color` on a fixture, with the first `from` replaced by `to`.
 fn color_of(name: &str, from: &str, to: &str) -> Run {
     let bytes = std::fs::read(fixture(name)).unwrap();
     let text = String::from_utf8(bytes).unwrap();
@@ -450,7 +441,7 @@ fn a_format_that_is_told_is_the_one_that_is_read() {
 
 const FILE: &str = "some/file.txt";
 
-/// Reads the bytes in every format and with the detected format; checks the spectra or the error.
+/// Reads the bytes in every format and with the detected format. Checks the spectra or the error.
 fn read_every_way(bytes: &[u8]) {
     let told = Format::ALL.into_iter().map(Some).chain([None]);
     for format in told {
@@ -471,7 +462,7 @@ fn read_every_way(bytes: &[u8]) {
     }
 }
 
-/// Damage to a file: places, as fractions of its length, and the bytes that replace the content.
+/// Edits of a file: places, as fractions of its length, and bytes to put there.
 fn edits() -> impl Strategy<Value = Vec<(f64, Vec<u8>)>> {
     let piece = prop_oneof![
         proptest::collection::vec(any::<u8>(), 0..4),

@@ -1,6 +1,5 @@
-//! Workbooks of readings and of recipes, and binary files: read like text, refused with sheet and cell.
-//!
-//! Recipes in a file of their own: the fit gives the same library as one CSV of both.
+//! Workbooks of readings and of recipes, and binary files: read like text, refused with sheet and
+//! cell. If recipes are in a separate file, the fit gives the same library as one CSV of both.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Write};
@@ -16,14 +15,14 @@ const MAIN: &str = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
 const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
 const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationships";
 
-/// A workbook whose only sheet, `Readings`, has the cells of a CSV from its row `first` on.
+/// A workbook with the cells of a CSV from row `first` on in its only sheet, `Readings`.
 fn workbook(csv: &str, first: usize) -> Vec<u8> {
     workbook_of(&[("Readings", csv)], first)
 }
 
-/// A workbook with sheets of these names, which have the cells of a CSV from their row `first` on.
+/// A workbook with sheets of these names. Each has the cells of a CSV from row `first` on.
 fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
-    let cell = |text: &str, row: usize, column: usize| {
+    fn cell(text: &str, row: usize, column: usize) -> String {
         let letter = char::from(b'A' + u8::try_from(column).unwrap());
         match text {
             "" => String::new(),
@@ -32,7 +31,7 @@ fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
             }
             text => format!("<c r=\"{letter}{row}\" t=\"str\"><v>{text}</v></c>"),
         }
-    };
+    }
     let rows = |csv: &str| -> String {
         let rows = csv.lines().zip(first..).map(|(line, row)| {
             let cells = line.split(',').enumerate();
@@ -96,10 +95,10 @@ fn a_workbook_gives_what_its_csv_gives() {
     std::fs::write(path("r.xlsx"), workbook(READINGS, 1)).unwrap();
     std::fs::write(path("below.xlsx"), workbook(&format!("Paints of 2026\n\n{READINGS}"), 3))
         .unwrap();
-    let fit = |file: &str| impasto(&["fit", &path(file), "--json"]);
-    let csv = fit("r.csv").json();
-    for file in ["r.xlsx", "below.xlsx"] {
-        let run = fit(file);
+    let [csv, one, below] =
+        ["r.csv", "r.xlsx", "below.xlsx"].map(|file| impasto(&["fit", &path(file), "--json"]));
+    let csv = csv.json();
+    for (file, run) in [("r.xlsx", one), ("below.xlsx", below)] {
         assert_eq!(run.status, 0, "{}", run.err);
         assert!(run.err.contains(&format!("{file}, sheet `Readings`: 3 readings")), "{}", run.err);
         assert_eq!(run.json()["delta_e"], csv["delta_e"], "{file}");
@@ -119,16 +118,17 @@ fn a_workbook_gives_what_its_csv_gives() {
     let both = [("Spectra", spectra.join("\n")), ("Recipes", recipes.join("\n"))];
     let both = both.each_ref().map(|(name, csv)| (*name, csv.as_str()));
     std::fs::write(path("both.xlsx"), workbook_of(&both, 1)).unwrap();
-    let sheet = |name: &str| format!("{}#{name}", path("both.xlsx"));
-    let run = impasto(&["fit", &sheet("Spectra"), "--recipes", &sheet("Recipes"), "--json"]);
+    let [spectra, recipes, wrong] =
+        ["Spectra", "Recipes", "recipes"].map(|name| format!("{}#{name}", path("both.xlsx")));
+    let run = impasto(&["fit", &spectra, "--recipes", &recipes, "--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
     assert_eq!(run.json()["delta_e"], csv["delta_e"]);
     assert!(!run.err.contains("is read, not"), "a sheet was named: {}", run.err);
-    let run = impasto(&["fit", &sheet("Spectra"), "--recipes", &sheet("recipes"), "--json"]);
+    let run = impasto(&["fit", &spectra, "--recipes", &wrong, "--json"]);
     assert_eq!(run.status, 1, "{}", run.err);
     assert!(run.err.contains("no sheet is called `recipes`; its sheets are Spectra, Recipes"));
-    let over = ["--recipes", &sheet("Recipes"), "--output", &path("both.xlsx")];
-    let run = impasto(&[&["fit", &sheet("Spectra")], &over[..]].concat());
+    let over = ["--recipes", &recipes, "--output", &path("both.xlsx")];
+    let run = impasto(&[&["fit", &spectra], &over[..]].concat());
     assert_eq!(run.status, 2, "{}", run.err);
     assert!(run.err.contains("is an input file"), "{}", run.err);
 }
@@ -169,9 +169,9 @@ fn columns_in_a_workbook_are_colors() {
     assert_eq!(run.status, 0, "{}", run.err);
     assert!(run.err.contains("Excel workbook"), "{}", run.err);
     let sheet = impasto(&["color", &fixture("sheet.csv"), "--json"]).json();
-    let lab =
-        |json: &serde_json::Value| [0, 1, 2].map(|axis| json[0]["lab"][axis].as_f64().unwrap());
-    assert_near("madder", &lab(&run.json()), &lab(&sheet), 1e-6);
+    let [found, wanted] = [run.json(), sheet]
+        .map(|json| [0, 1, 2].map(|axis| json[0]["lab"][axis].as_f64().unwrap()));
+    assert_near("madder", &found, &wanted, 1e-6);
 }
 
 #[test]
@@ -226,9 +226,9 @@ fn oils_apart() -> (String, String) {
         write!(cgats, " SPECTRAL_NM{nm}").unwrap();
     }
     write!(cgats, "\nEND_DATA_FORMAT\nNUMBER_OF_SETS {}\nBEGIN_DATA\n", reader.len()).unwrap();
-    let quoted = |cells: &[String]| {
+    fn quoted(cells: &[String]) -> String {
         cells.iter().map(|cell| format!("\"{cell}\"")).collect::<Vec<_>>().join(",")
-    };
+    }
     let mut recipes = format!("reading,{}\n", quoted(labels));
     for (row, number) in reader.iter().zip(1..) {
         let (labels, values) = row.split_at(first_nm);
@@ -240,9 +240,9 @@ fn oils_apart() -> (String, String) {
     (cgats, recipes)
 }
 
-/// Cells of a CSV whose quoted cells contain no quotes.
+/// Cells of a CSV. Quoted cells must not contain quotes.
 fn csv_rows(text: &str) -> Vec<Vec<String>> {
-    let row = |line: &str| {
+    let rows = text.lines().map(|line| {
         let mut cells = vec![String::new()];
         let mut quoted = false;
         for c in line.chars() {
@@ -253,30 +253,28 @@ fn csv_rows(text: &str) -> Vec<Vec<String>> {
             }
         }
         cells
-    };
-    text.lines().map(row).collect()
+    });
+    rows.collect()
 }
 
 #[test]
 fn recipes_apart_give_the_library_of_the_csv() {
     let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let names = ["oils.txt", "recipes.csv", "one.json", "two.json"];
+    let [readings, mixed, one, two] =
+        names.map(|name| folder.path().join(name).to_str().unwrap().to_owned());
     let (cgats, recipes) = oils_apart();
-    std::fs::write(path("oils.txt"), cgats).unwrap();
-    std::fs::write(path("recipes.csv"), recipes).unwrap();
-    let one = path("one.json");
-    let two = path("two.json");
+    std::fs::write(&readings, cgats).unwrap();
+    std::fs::write(&mixed, recipes).unwrap();
     let csv = repository("measurements/van-gogh-oils.csv");
     let direct = impasto(&["fit", &csv, "--method", "weighted", "-o", &one]);
     assert_eq!(direct.status, 0, "{}", direct.err);
-    let files = [&path("oils.txt"), "--recipes", &path("recipes.csv")];
+    let files = [&readings, "--recipes", &mixed];
     let run = impasto(&[&["fit"], &files[..], &["--method", "weighted", "-o", &two]].concat());
     assert_eq!(run.status, 0, "{}", run.err);
-    let read = |path: &str| -> serde_json::Value {
+    let [one, two] = [one, two].map(|path| -> serde_json::Value {
         serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-    };
-    let one = read(&one);
-    let two = read(&two);
+    });
     assert!(one["pigments"].as_array().unwrap().len() > 10, "{}", one["pigments"]);
     for key in ["grid", "reference", "saunderson", "pigments"] {
         assert_eq!(one[key], two[key], "{key}");
@@ -305,10 +303,11 @@ unread,50,50
 
 fn fit(readings: &str, recipes: &str) -> Run {
     let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    std::fs::write(path("readings.csv"), readings).unwrap();
-    std::fs::write(path("recipes.csv"), recipes).unwrap();
-    impasto(&["fit", &path("readings.csv"), "--recipes", &path("recipes.csv"), "--json"])
+    let [readings_file, recipes_file] = ["readings.csv", "recipes.csv"]
+        .map(|name| folder.path().join(name).to_str().unwrap().to_owned());
+    std::fs::write(&readings_file, readings).unwrap();
+    std::fs::write(&recipes_file, recipes).unwrap();
+    impasto(&["fit", &readings_file, "--recipes", &recipes_file, "--json"])
 }
 
 #[test]
@@ -322,10 +321,10 @@ fn what_stands_on_one_side_only_is_said() {
 
 #[test]
 fn faulty_recipes_are_refused_with_their_place() {
-    let changed = |from: &str, to: &str| {
+    fn changed(from: &str, to: &str) -> String {
         assert!(RECIPES.contains(from), "{from}");
         RECIPES.replace(from, to)
-    };
+    }
     for (recipes, words) in [
         (changed("unread", "m"), &["row 5", "`m`", "row 4", "hint"][..]),
         (changed("White,Red", "White,400"), &["row 1", "`400`", "hint"]),
@@ -361,7 +360,7 @@ fn columns_of_instruments_are_no_pigments() {
     assert_eq!(run.json()["pigments"], 2, "{}", run.out);
 }
 
-/// Two amounts of one paint over paper, which is measured bare and stands in the first row.
+/// Two amounts of one paint over paper. The bare paper is in the first row.
 const WASHES: &str = "\
 sample,film,Blue,400,500,600
 paper,none,,0.9,0.9,0.9
@@ -371,9 +370,9 @@ thick,paint,0.2,0.7,0.55,0.3
 
 fn fit_washes(readings: &str, options: &[&str]) -> Run {
     let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    std::fs::write(path("washes.csv"), readings).unwrap();
-    impasto(&[&["fit", &path("washes.csv"), "--json"], options].concat())
+    let file = folder.path().join("washes.csv");
+    std::fs::write(&file, readings).unwrap();
+    impasto(&[&["fit", file.to_str().unwrap(), "--json"], options].concat())
 }
 
 #[test]

@@ -1,10 +1,6 @@
-//! CxF3 files, lamps, and counts referenced to a white and a dark.
-//!
-//! CxF3 files: measurement conditions, encodings, and a round trip of arbitrary names and values.
-//!
-//! Lamps read from instrument files: sampling, choice by name, hints of errors.
-//!
-//! Arbitrary and damaged bytes: no reader of XML or lamps panics, and every error names the file.
+//! CxF3 files (conditions, encodings, a round trip of arbitrary names and values), lamps read from
+//! instrument files, and counts referenced to a white and a dark. Damaged bytes never make a reader
+//! panic, and every error names the file.
 mod referencing;
 
 use std::path::Path;
@@ -21,13 +17,12 @@ use spectra::{
 };
 use suite::program::impasto;
 
-/// Content of a file in tests/fixtures/instruments_xml.
 fn fixture(name: &str) -> Vec<u8> {
     let path = suite::program::repository(&format!("tests/fixtures/instruments_xml/{name}"));
     std::fs::read(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Reads the spectra in `bytes` with detection of the format.
+/// Reads the spectra in `bytes` and detects the format.
 fn records(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     read(file, bytes, None).map(|file| file.spectra)
 }
@@ -93,7 +88,7 @@ proptest! {
         let text = write_cxf(&HEAD, &named);
         let found = read("f", text.as_bytes(), None).unwrap();
         prop_assert_eq!(found.format, Format::Cxf);
-        // Readers of XML turn a bare line break or tab in an attribute into a space.
+        // In an attribute, readers of XML turn a bare line break or tab into a space.
         prop_assert!(!text.contains(['\t', '\r']), "{text}");
         prop_assert_eq!(text.split('\n').filter(|line: &&str| line.contains("<Object ") && line.contains("Id=\"object")).count(), paints.len());
         prop_assert_eq!(found.spectra.len(), paints.len());
@@ -102,7 +97,7 @@ proptest! {
                 '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
                 _ => '\u{fffd}',
             }).collect();
-            // An object with an empty name is read under its Id.
+            // If the name is empty, the object is called by its Id.
             let id = format!("object{number}");
             let name = if name.trim().is_empty() { &id } else { name.trim() };
             prop_assert_eq!(&record.name, name);
@@ -231,7 +226,7 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
                 // Digits and markup characters reach more code than arbitrary bytes.
                 1 => bytes[at] = b"0123456789.-+eE<>&;,/\"' \n"[usize::from(byte) % 25],
                 2 => drop(bytes.drain(at..end)),
-                // No finite number.
+                // This is not a finite number.
                 3 => bytes.splice(at..at, *b"1e999").for_each(drop),
                 _ => bytes.splice(at..at, bytes[at..end].to_vec()).for_each(drop),
             }

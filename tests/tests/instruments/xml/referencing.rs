@@ -1,7 +1,5 @@
-//! Reflectance from detector counts: made-up counts of a grey of known reflectance, its white and
-//! darks, with integration times, saturation and noise.
-//!
-//! Detector counts referenced to a white and a dark, on the command line.
+//! Reflectance from detector counts, also on the command line: made-up counts of a grey of known
+//! reflectance, its white and darks, with integration times, saturation and noise.
 
 use std::path::Path;
 
@@ -31,7 +29,6 @@ fn reading(name: &str, time_ms: Option<f64>, counts: impl Fn(f64) -> f64) -> Mea
 
 const TILE: f64 = 0.98;
 
-/// Counts per millisecond of a perfect white.
 fn lamp(nm: f64) -> f64 {
     400.0 + 1.5 * (nm - 340.0)
 }
@@ -50,12 +47,12 @@ fn measured(
     sample_ms: f64,
     white_ms: f64,
 ) -> (MeasuredSpectrum, MeasuredSpectrum, Vec<MeasuredSpectrum>) {
-    let light = |ms: f64, reflectance: &dyn Fn(f64) -> f64, nm: f64| {
+    fn light(ms: f64, reflectance: impl Fn(f64) -> f64, nm: f64) -> f64 {
         reflectance(nm) * lamp(nm) * ms + dark(ms, nm)
-    };
+    }
     (
-        reading("grey", Some(sample_ms), |nm| light(sample_ms, &grey, nm)),
-        reading("white", Some(white_ms), |nm| light(white_ms, &|_| TILE, nm)),
+        reading("grey", Some(sample_ms), |nm| light(sample_ms, grey, nm)),
+        reading("white", Some(white_ms), |nm| light(white_ms, |_| TILE, nm)),
         [sample_ms, white_ms].map(|ms| reading("dark", Some(ms), |nm| dark(ms, nm))).into(),
     )
 }
@@ -89,16 +86,16 @@ fn a_grey_comes_out_as_it_went_in() {
 fn other_pixels_are_joined_by_straight_lines() {
     let (sample, mut white, mut darks) = measured(10.0, 10.0);
     for record in std::iter::once(&mut white).chain(&mut darks) {
-        // Light and dark are linear in the wavelength, so every second pixel determines the rest.
-        let keep = |values: &[f64]| values.iter().copied().step_by(2).collect::<Vec<f64>>();
-        (record.wavelengths_nm, record.values) =
-            (keep(&record.wavelengths_nm), keep(&record.values));
+        // Light and dark are linear in the wavelength, so every second pixel determines the others.
+        for values in [&mut record.wavelengths_nm, &mut record.values] {
+            *values = values.iter().copied().step_by(2).collect();
+        }
     }
     let found = against(&white, &darks).reflectance(&sample).unwrap();
     for (&nm, &value) in found.wavelengths_nm.iter().zip(&found.values) {
         assert!((value - grey(nm)).abs() < 1e-12, "{nm} nm: {value}");
     }
-    // The last pixel of the sample lies beyond the last pixel of the white.
+    // The last pixel of the sample is beyond the last pixel of the white.
     assert_eq!(found.values.len() + 1, sample.values.len(), "{:?}", found.remarks);
     assert!(found.remarks[0].contains("the white has no value"), "{:?}", found.remarks);
 }
@@ -131,14 +128,13 @@ fn a_dark_subtracted_before_is_not_subtracted_again() {
 #[test]
 fn saturation_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     let (sample, mut white, darks) = measured(10.0, 10.0);
-    let at = |nm: f64| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap();
-    let seen = at(600.0);
-    let beyond = at(780.0);
+    let [seen, beyond] =
+        [600.0, 780.0].map(|nm| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap());
     let kept = white.values[seen];
     white.values[seen] = 65535.0;
     let error = against(&white, &darks).reflectance(&sample).unwrap_err();
-    let wanted = |nm: f64| matches!(error, ReferencingError::Saturated { role: "white", nm: at, .. } if at == nm);
-    assert!(wanted(white.wavelengths_nm[seen]), "{error}");
+    let ReferencingError::Saturated { role: "white", nm, .. } = error else { panic!("{error}") };
+    assert_eq!(nm, white.wavelengths_nm[seen]);
     white.values[seen] = kept;
     white.values[beyond] = 65535.0;
     let found = against(&white, &darks).reflectance(&sample).unwrap();
@@ -155,9 +151,8 @@ fn saturation_is_refused_where_the_eye_sees_and_cut_off_beyond() {
 #[test]
 fn too_little_light_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     let (sample, mut white, darks) = measured(10.0, 10.0);
-    let index = |nm: f64| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap();
-    let below = index(360.0);
-    let seen = index(500.0);
+    let [below, seen] =
+        [360.0, 500.0].map(|nm| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap());
     white.values[below] = darks[0].values[below];
     let found = against(&white, &darks).reflectance(&sample).unwrap();
     assert_eq!(found.wavelengths_nm[0], white.wavelengths_nm[below + 1], "{:?}", found.remarks);
@@ -183,13 +178,13 @@ fn a_noisy_dark_asks_for_more_light() {
 
 #[test]
 fn power_needs_no_dark_and_no_time() {
-    let power = |name: &str, ms: f64, reflectance: &dyn Fn(f64) -> f64| {
+    fn power(name: &str, ms: f64, reflectance: impl Fn(f64) -> f64) -> MeasuredSpectrum {
         let mut record = reading(name, Some(ms), |nm| reflectance(nm) * lamp(nm));
         record.quantity = MeasuredQuantity::Power;
         record
-    };
-    let sample = power("grey", 40.0, &grey);
-    let white = power("white", 10.0, &|_| TILE);
+    }
+    let sample = power("grey", 40.0, grey);
+    let white = power("white", 10.0, |_| TILE);
     let found = against(&white, &[]).reflectance(&sample).unwrap();
     assert!((found.values[7] - grey(found.wavelengths_nm[7])).abs() < 1e-12, "{found:?}");
     assert_eq!(found.remarks, ["no dark was subtracted"]);
@@ -223,9 +218,9 @@ fn a_measured_tile_counts_as_it_is() {
 #[test]
 fn a_sample_below_its_dark_is_refused_and_noise_is_black() {
     let (_, white, darks) = measured(10.0, 10.0);
-    let below = |share: f64| {
+    fn below(share: f64) -> MeasuredSpectrum {
         reading("black", Some(10.0), move |nm| dark(10.0, nm) - share * lamp(nm) * 10.0)
-    };
+    }
     let black = against(&white, &darks).reflectance(&below(0.005)).unwrap();
     assert!(black.values.iter().all(|&value| value == 0.0), "{:?}", black.values);
     let error = against(&white, &darks).reflectance(&below(0.02)).unwrap_err();
@@ -234,7 +229,9 @@ fn a_sample_below_its_dark_is_refused_and_noise_is_black() {
 
 #[test]
 fn a_measured_tile_is_a_smooth_curve_between_its_wavelengths() {
-    let ceramic = |nm: f64| 0.85 / (1.0 + f64::exp(-(nm - 395.0) / 12.0));
+    fn ceramic(nm: f64) -> f64 {
+        0.85 / (1.0 + f64::exp(-(nm - 395.0) / 12.0))
+    }
     let (sample, white, darks) = measured(10.0, 10.0);
     let nm: Vec<f64> = (0..52).map(|i| 345.0 + 10.0 * f64::from(i)).collect();
     let tile = MeasuredSpectrum {
@@ -253,7 +250,7 @@ fn a_measured_tile_is_a_smooth_curve_between_its_wavelengths() {
     }
 }
 
-/// Writes the counts `of` a wavelength, every 10 nm from 380 to 730 nm; returns the path.
+/// Writes the counts `of` each wavelength, every 10 nm from 380 to 730 nm. Returns the path.
 fn counts(folder: &Path, name: &str, of: impl Fn(f64) -> f64) -> String {
     let lines = (0..36).map(|i| 380.0 + 10.0 * f64::from(i));
     let lines: String = lines.map(|nm| format!("{nm}\t{}\n", of(nm))).collect();

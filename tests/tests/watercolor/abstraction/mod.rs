@@ -1,10 +1,6 @@
-//! Segmentation, morphology, and the abstraction of photographs that uses both.
-//!
-//! Pictures with known regions, generated exactly as in `tests/golden/segmentation.py`.
-//!
-//! Abstraction of photographs: regions, opacity, size, and CPU against GPU.
-//!
-//! Quality of segmentation: regions and boundaries against OpenCV's mean shift.
+//! Segmentation and morphology (its quality compared with OpenCV's mean shift), and the abstraction
+//! of photographs that uses both: regions, opacity, size, and CPU against GPU. The pictures have
+//! known regions and are generated exactly as in `tests/golden/segmentation.py`.
 
 mod segmentation;
 
@@ -24,8 +20,8 @@ use watercolor::{AbstractionError, RegionSettings, abstract_photograph};
 const WIDTH: usize = 160;
 const HEIGHT: usize = 120;
 
-/// A shape with a soft outline, drawn over those before it. `across` and `down` are the changes of
-/// colour to the right and to the bottom; `texture` is the amplitude of a diagonal wave.
+/// A shape with a soft outline, drawn over the shapes before it. `across` and `down` are the
+/// changes of colour to the right and to the bottom. `texture` is the amplitude of a diagonal wave.
 #[derive(Deserialize)]
 struct Shape {
     kind: String,
@@ -46,7 +42,7 @@ struct Found {
     precision: f64,
 }
 
-/// A picture as the golden file describes it, with OpenCV's results by range radius.
+/// A picture of the golden file, with OpenCV's results by range radius.
 #[derive(Deserialize)]
 struct Told {
     name: String,
@@ -165,20 +161,20 @@ fn photographs_become_flat_with_their_opacity() {
     let found = abstract_photograph(&mut Compute::cpu(), &photograph(), 90, &settings(3)).unwrap();
     assert_eq!((found.original.width(), found.original.height()), (90, 60));
     assert_eq!(found.regions, 4);
-    let near = |found: [f32; 4], wanted: [f32; 4]| {
+    fn near(found: [f32; 4], wanted: [u8; 4]) -> bool {
+        let wanted = wanted.map(|byte| f32::from(byte) / 255.0);
         found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 2e-5)
-    };
-    let bytes = |rgba: [u8; 4]| rgba.map(|byte| f32::from(byte) / 255.0);
+    }
     for stage in [&found.original, &found.segmented, &found.smoothed] {
-        assert!(near(stage[(5, 5)], bytes([200, 40, 30, 255])), "{:?}", stage[(5, 5)]);
-        assert!(near(stage[(45, 5)], bytes([30, 60, 180, 128])), "{:?}", stage[(45, 5)]);
+        assert!(near(stage[(5, 5)], [200, 40, 30, 255]), "{:?}", stage[(5, 5)]);
+        assert!(near(stage[(45, 5)], [30, 60, 180, 128]), "{:?}", stage[(45, 5)]);
         assert_eq!(stage[(80, 5)], [1.0, 1.0, 1.0, 0.0]);
     }
-    // One pixel of the red is a little lighter; segmentation gives its region one colour.
-    assert!(near(found.original[(20, 50)], bytes([203, 40, 30, 255])), "as it was read");
+    // One pixel of the red is a little lighter. Segmentation gives its region one colour.
+    assert!(near(found.original[(20, 50)], [203, 40, 30, 255]), "as it was read");
     assert_eq!(found.segmented[(20, 50)], found.segmented[(5, 5)], "one region, one colour");
-    assert!(near(found.segmented[(10, 30)], bytes([90, 90, 90, 255])));
-    assert!(near(found.smoothed[(10, 30)], bytes([200, 40, 30, 255])));
+    assert!(near(found.segmented[(10, 30)], [90, 90, 90, 255]));
+    assert!(near(found.smoothed[(10, 30)], [200, 40, 30, 255]));
 }
 
 #[test]
@@ -227,7 +223,7 @@ struct Cases {
     pictures: Vec<Told>,
 }
 
-/// Pixels whose label differs from that of the pixel to the right or below.
+/// Pixels with another label than the pixel to the right or below.
 fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
     let width = labels.width();
     let height = labels.height();
@@ -244,14 +240,15 @@ fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
     found
 }
 
-/// Share of the pixels `found` with one of `wanted` within 2 px.
+/// Share of the pixels `found` that have one of `wanted` within 2 px.
 fn near(found: &[(i32, i32)], wanted: &[(i32, i32)]) -> f64 {
-    let close = |a: &(i32, i32), b: &(i32, i32)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2) <= 4;
-    let count = found.iter().filter(|a| wanted.iter().any(|b| close(a, b))).count();
+    let close = found
+        .iter()
+        .filter(|a| wanted.iter().any(|b| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2) <= 4));
+    let count = close.count();
     if found.is_empty() { 0.0 } else { count as f64 / found.len() as f64 }
 }
 
-/// Sum of the results of all pictures.
 fn whole<'a>(found: impl Iterator<Item = &'a Found>) -> Found {
     let none = Found { regions: 0, recall: 0.0, precision: 0.0 };
     found.fold(none, |sum, found| Found {
@@ -261,10 +258,10 @@ fn whole<'a>(found: impl Iterator<Item = &'a Found>) -> Found {
     })
 }
 
-/// Compares with OpenCV's mean shift filter, whose output is divided into regions by the same
-/// rules. On each picture the recall is at most 0.005 below that of any range radius of OpenCV.
-/// Over all pictures, against the range radius with the highest recall: no lower recall, no more
-/// regions, and a mean precision at most 0.05 lower.
+/// Compares with OpenCV's mean shift filter. The same rules divide its output into regions. On each
+/// picture the recall is at most 0.005 below OpenCV with any range radius. Over all pictures,
+/// compared with the range radius of the highest recall, there is no lower recall, there are no
+/// more regions, and the mean precision is at most 0.05 lower.
 #[test]
 fn boundaries_are_found_no_worse_than_by_opencv() {
     let golden: Golden<Cases, Shared> = read("segmentation");

@@ -1,6 +1,5 @@
-//! Segmentation of small synthetic pictures: regions, connectivity, coverage and settings.
-//!
-//! Openings and closings: definition, algebraic properties, and CPU against GPU.
+//! Segmentation of small synthetic pictures (regions, connectivity, coverage, settings), and
+//! openings and closings (definition, algebraic properties, CPU against GPU).
 
 use documents::hint::Explain;
 use graphics::compute::{ColorImage, Compute};
@@ -128,11 +127,11 @@ fn regions_hang_together_and_none_is_too_small() {
 #[test]
 fn threads_do_not_count() {
     let picture = wild();
-    let with = |threads: usize| {
+    let [one, two] = [1, 2].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| segment(&picture, &settings(12)).unwrap())
-    };
-    assert_eq!(with(1), with(2));
+    });
+    assert_eq!(one, two);
 }
 
 #[test]
@@ -275,10 +274,10 @@ fn extrema_are_those_of_all_pixels_under_the_element() {
 
 #[test]
 fn opening_and_closing_keep_their_laws() {
-    let all = |a: &Colors, b: &Colors| {
+    fn all(a: &Colors, b: &Colors) -> bool {
         let pairs = a.values().iter().flatten().zip(b.values().iter().flatten());
         pairs.clone().all(|(a, b)| a <= b) && pairs.clone().any(|(a, b)| a < b)
-    };
+    }
     for (width, height) in [(3, 40), (64, 48), (230, 120)] {
         let field = noise(width, height);
         for radius in [1, 2, 4, 7] {

@@ -1,8 +1,5 @@
-//! Effects, textures and settings of watercolour, on CPU and GPU.
-//!
-//! Helpers that apply an effect to fields: upload, compute, download.
-//!
-//! Each effect on the CPU against its definition.
+//! Effects, textures and settings of watercolour, on CPU and GPU. Applies each effect to fields
+//! (upload, compute, download) and compares it on the CPU with its definition.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -19,7 +16,7 @@ use watercolor::{
 mod twins;
 mod photographs;
 
-/// A random picture of small patches whose coverage is 0, 1 or between.
+/// A random picture of small patches with a coverage of 0, 1 or between.
 fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let patches: Vec<[f32; 4]> = (0..64)
@@ -38,7 +35,7 @@ fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
     )
 }
 
-/// `settings` with all effects switched off, on smooth white paper.
+/// `settings` without effects, on smooth white paper.
 fn without_effects(mut settings: Settings) -> Settings {
     settings.wash.density = 1.0;
     settings.wobble.amount_px = 0.0;
@@ -220,7 +217,7 @@ fn density_is_the_formula_within_its_limits() {
     }
 }
 
-/// A column of opaque paint on bare paper. Bare pixels have an arbitrary colour, which must not
+/// A column of opaque paint on bare paper. Bare pixels have an arbitrary colour. This must not
 /// matter.
 fn column(color: [f32; 3]) -> Field<[f32; 4]> {
     let [r, g, b] = color;
@@ -279,7 +276,7 @@ fn edges_are_the_symmetric_gradient() {
             assert!((edges[(x, y)] - sum / 3.0).abs() < 1e-6, "at {x}, {y}");
         }
     }
-    // A blur widens the gradient of a step by `width_px` and keeps its sum.
+    // A blur widens the gradient of a step by `width_px` and preserves its sum.
     let step = (0..400).map(|i| if i % 40 < 20 { [0.0, 0.0, 0.0, 1.0] } else { [1.0; 4] });
     let step = Field::from_values(40, 10, step.collect());
     for width_px in [0.0, 0.7, 2.0] {
@@ -289,7 +286,7 @@ fn edges_are_the_symmetric_gradient() {
         assert!((sum - 2.0).abs() < 1e-5, "{width_px}: {sum}");
         let around = row.iter().zip(0..).map(|(e, x)| e * (x as f32 - 19.5_f32).powi(2));
         let spread = (around.sum::<f32>() / sum).sqrt();
-        // The difference over two pixels has a spread of half a pixel itself.
+        // The difference over two pixels itself has a spread of half a pixel.
         let wanted = width_px.hypot(0.5);
         assert!((spread - wanted).abs() < 0.1 * wanted, "{width_px}: {spread} for {wanted}");
     }
@@ -343,13 +340,9 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     let heights = any_grey(200, 100, 7);
     let flow = Field::filled(200, 100, 0.5);
     let paint = Field::filled(200, 100, [0.2, 0.3, 0.4, 1.0]);
-    let reach = |threshold| DryBrushReach {
-        threshold,
-        softness: 1e-3,
-        patches: 0.0,
-        outline: 0.0,
-        darkest: 0.0,
-    };
+    fn reach(threshold: f32) -> DryBrushReach {
+        DryBrushReach { threshold, softness: 1e-3, patches: 0.0, outline: 0.0, darkest: 0.0 }
+    }
     for threshold in [0.1, 0.37, 0.8] {
         let found = apply_dry_brush(
             &mut Compute::Cpu,
@@ -404,13 +397,13 @@ fn a_dry_brush_keeps_from_outlines_and_from_dark_washes() {
         let paper = (&heights, &flow);
         apply_dry_brush(&mut Compute::Cpu, color, paper, reach, (edges, None))
     };
-    let bare = |found: &Field<[f32; 4]>, columns: std::ops::Range<usize>| {
+    fn bare(found: &Field<[f32; 4]>, columns: std::ops::Range<usize>) -> usize {
         let rows = (0..40).flat_map(|y| columns.clone().map(move |x| (x, y)));
         rows.filter(|&at| found[at][3] < 0.5).count()
-    };
-    // An outline along the middle.
-    let strength = |i: usize| if (25..35).contains(&(i % 60)) { 0.1 } else { 0.0 };
-    let edges = Field::from_values(60, 40, (0..2400).map(strength).collect());
+    }
+    // There is an outline along the middle.
+    let strength = (0..2400).map(|i| if (25..35).contains(&(i % 60)) { 0.1 } else { 0.0 });
+    let edges = Field::from_values(60, 40, strength.collect());
     let found = on(&light, Some(&edges));
     assert_eq!(bare(&found, 25..35), 0, "bare paper on the outline");
     assert!(bare(&found, 0..25) > 400, "{} bare away from it", bare(&found, 0..25));
@@ -424,14 +417,14 @@ fn a_dry_brush_keeps_from_outlines_and_from_dark_washes() {
 #[test]
 fn wobble_on_finer_paper_is_the_mean_of_its_cells() {
     let fine = any_grey(72, 54, 19);
-    // Even paint stays even; its coverage is a mean.
+    // Even paint stays even, and its coverage is a mean.
     let even = Field::filled(24, 18, [0.3, 0.5, 0.7, 1.0]);
     for color in wobble(&mut Compute::Cpu, &even, &fine, 2.0).values() {
         for (found, wanted) in color.iter().zip([0.3, 0.5, 0.7, 1.0]) {
             assert!((found - wanted).abs() < 1e-5, "{color:?}");
         }
     }
-    // A slope of one cell's height displaces all samples alike.
+    // A slope of one cell's height displaces all samples by the same distance.
     let ramp = Field::from_values(72, 54, (0..72 * 54).map(|i| 0.01 * (i % 72) as f32).collect());
     let colors = (0..24 * 18).map(|i| [(i % 24) as f32 / 100.0, 0.5, 0.5, 1.0]).collect();
     let found = wobble(&mut Compute::Cpu, &Field::from_values(24, 18, colors), &ramp, 100.0);
@@ -442,11 +435,11 @@ fn wobble_on_finer_paper_is_the_mean_of_its_cells() {
 fn colors_alike_are_told_by_cielab() {
     let picture = any_picture(40, 40, 8);
     let like = Rgb::from_hex("#8060a0").unwrap();
-    let lab = |rgb: Rgb| {
+    fn lab(rgb: Rgb) -> [f64; 3] {
         let white = RgbSpace::Srgb.white();
         let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb.linear().0);
         Lab::from_xyz(xyz.into(), white).to_array()
-    };
+    }
     let range = ColorRange::around(like, 40.0);
     let found = color_mask(&mut Compute::Cpu, &picture, range, None);
     for (found, color) in found.values().iter().zip(picture.values()) {
@@ -465,7 +458,7 @@ fn a_sheet_shows_its_color_where_bare_and_its_slopes_in_the_light() {
     let picture = column([0.5, 0.4, 0.3]);
     let shading = PaperShading { color: [0.9, 0.8, 0.7], relief: 0.5 };
     let found = shade_paper(&mut Compute::Cpu, &picture, &heights, shading);
-    // The heights rise by 0.04 over two pixels; the relief is 0.5.
+    // The heights rise by 0.04 over two pixels, and the relief is 0.5.
     let light = 1.02;
     for (x, own) in [(5, [1.0, 1.0, 1.0]), (15, [0.5, 0.4, 0.3])] {
         for i in 0..3 {

@@ -1,8 +1,6 @@
-//! Effects of photographs alone: soft steps, lifted darks, reserved whites, a margin, back-runs.
-//!
-//! Settings of watercolour: presets, TOML files and their errors, scaling to a picture.
-//!
-//! Glazes of calibrated pigments over paper of known reflectance.
+//! Effects only of photographs (soft steps, lifted darks, reserved whites, a margin, back-runs),
+//! settings of watercolour (presets, TOML files and their errors, scaling to a picture), and glazes
+//! of calibrated pigments over paper of known reflectance.
 
 use std::collections::BTreeSet;
 use std::io::Cursor;
@@ -13,7 +11,7 @@ use graphics::compute::Compute;
 use graphics::field::Field;
 use graphics::picture::Photograph;
 use image::{ImageFormat, Rgb, RgbImage};
-use spectra::color::{Lab, delta_e_ciede2000};
+use spectra::color::delta_e_ciede2000;
 use watercolor::{
     BackRunSettings, BrushTouch, Controls, FrameTextures, GlazeError, Glazes, PaperTexture,
     PhotographPainter, PreparedPhotograph, Preset, Settings, Textures, Wash, back_runs, paint,
@@ -31,7 +29,7 @@ fn photograph(width: u32, height: u32, color: impl Fn(u32, u32) -> [u8; 3]) -> P
     Photograph::from_bytes("made.png", bytes.get_ref()).unwrap()
 }
 
-/// Settings in which only the effects of photographs are left, all off.
+/// Settings with only the effects of photographs left, all switched off.
 fn plain() -> Settings {
     let mut settings = without_effects(Settings::default());
     settings.reference_px = 400.0;
@@ -47,7 +45,7 @@ fn prepared(photograph: &Photograph, settings: Settings) -> PreparedPhotograph {
     PhotographPainter::new(settings).prepare(photograph).unwrap()
 }
 
-/// A sky that grows paler downwards, with a dark tower before it.
+/// A sky that becomes paler downwards, with a dark tower in front.
 fn sky() -> Photograph {
     photograph(400, 300, |x, y| match x {
         180..230 if y > 90 => [60, 30, 25],
@@ -58,7 +56,7 @@ fn sky() -> Photograph {
     })
 }
 
-/// The greatest step of red between neighbours of a column.
+/// Largest step of red between neighbours of a column.
 fn steepest(color: &Field<[f32; 4]>, x: usize) -> f32 {
     let steps = (1..color.height()).map(|y| (color[(x, y)][0] - color[(x, y - 1)][0]).abs());
     steps.fold(0.0, f32::max)
@@ -72,8 +70,9 @@ fn steps_of_a_sky_run_together_and_outlines_stay() {
     settings.wet.tone_px = 24.0;
     let soft = prepared(&sky(), settings).wash.color;
     assert!(steepest(&soft, 60) < 0.02, "no arc in the sky: {}", steepest(&soft, 60));
-    let edge = |color: &Field<[f32; 4]>| (color[(176, 200)][0] - color[(184, 200)][0]).abs();
-    assert!((edge(&soft) - edge(&hard)).abs() < 0.03, "{} {}", edge(&soft), edge(&hard));
+    let [own, other] =
+        [&soft, &hard].map(|color| (color[(176, 200)][0] - color[(184, 200)][0]).abs());
+    assert!((own - other).abs() < 0.03, "{own} {other}");
 }
 
 #[test]
@@ -82,7 +81,7 @@ fn wet_outlines_run_over_their_share_of_the_picture() {
     let mut settings = plain();
     settings.abstraction.range_luv = 5.0;
     settings.wet.reach_px = 12.0;
-    let moved = |amount: f32| {
+    let [none, some, all] = [0.0, 0.4, 1.0].map(|amount| {
         settings.wet.amount = amount;
         let color = prepared(&two, settings.clone()).wash.color;
         (0..300)
@@ -94,11 +93,9 @@ fn wet_outlines_run_over_their_share_of_the_picture() {
                     > 4
             })
             .count()
-    };
-    let mut of = moved;
-    let [none, some, all] = [0.0, 0.4, 1.0].map(&mut of);
+    });
     assert!(none == 0 && some > 20 && some < 280 && all > 285, "{none} {some} {all} rows");
-    // An outline of black against white stays on the wettest paper.
+    // On the wettest paper, an outline of black against white stays.
     let strong = photograph(400, 300, |x, _| [if x < 200 { 20 } else { 235 }; 3]);
     let [dry, wet] = [0.0, 1.0].map(|amount| {
         settings.wet.amount = amount;
@@ -136,8 +133,8 @@ fn a_margin_stays_bare_and_its_rim_is_ragged() {
     let mut settings = plain();
     (settings.margin.width_px, settings.margin.ragged_px) = (30.0, 10.0);
     let color = prepared(&photo, settings).wash.color;
-    let first = |y: usize| (0..400).find(|&x| color[(x, y)][3] > 0.5).unwrap() as f32;
-    let rims: Vec<f32> = (80..220).map(first).collect();
+    let rims = (80..220).map(|y| (0..400).find(|&x| color[(x, y)][3] > 0.5).unwrap() as f32);
+    let rims: Vec<f32> = rims.collect();
     let mean = rims.iter().sum::<f32>() / rims.len() as f32;
     let spread = rims.iter().map(|rim| (rim - mean).powi(2)).sum::<f32>() / rims.len() as f32;
     assert!((mean - 30.0).abs() < 12.0, "the mean margin is {mean} px");
@@ -148,19 +145,18 @@ fn a_margin_stays_bare_and_its_rim_is_ragged() {
 #[test]
 fn back_runs_are_pale_with_a_dark_rim_and_follow_their_share() {
     let wash = Field::filled(300, 300, [0.4, 0.5, 0.7, 1.0]);
-    let of = |share| {
+    let [none, some, again, all] = [0.0, 0.4, 0.4, 1.0].map(|share| {
         let settings = BackRunSettings { size_px: 80.0, share, ..BackRunSettings::default() };
         back_runs(&wash, &settings)
-    };
-    assert!(of(0.0).values().iter().all(|value| *value == 0.5));
-    let count = |field: &Field<f32>, inside: fn(&&f32) -> bool| {
+    });
+    assert!(none.values().iter().all(|value| *value == 0.5));
+    fn count(field: &Field<f32>, inside: fn(&&f32) -> bool) -> usize {
         field.values().iter().filter(inside).count()
-    };
-    let [some, all] = [0.4, 1.0].map(of);
+    }
     let [pale, dark] = [count(&all, |v| **v < 0.4), count(&all, |v| **v > 0.58)];
     assert!(pale > 9000 && dark > 1500 && dark < pale, "{pale} pale, {dark} dark pixels");
     assert!(count(&some, |v| **v < 0.4) < pale * 3 / 4);
-    assert_eq!(some, of(0.4));
+    assert_eq!(some, again);
 }
 
 #[test]
@@ -168,15 +164,15 @@ fn back_runs_stay_in_the_wash_that_their_water_falls_into() {
     let settings = BackRunSettings { size_px: 80.0, share: 1.0, ..BackRunSettings::default() };
     let [blue, sand] = [[0.3, 0.4, 0.7, 1.0], [0.9, 0.8, 0.6, 1.0]];
     let even = back_runs(&Field::filled(300, 300, blue), &settings);
-    let columns = |left, right| {
+    fn columns(left: [f32; 4], right: [f32; 4]) -> Field<[f32; 4]> {
         let row = (0..300).map(move |x| if x < 150 { left } else { right });
         Field::from_values(300, 300, (0..300).flat_map(|_| row.clone()).collect())
-    };
-    let changed = |field: &Field<f32>, columns: std::ops::Range<usize>| {
+    }
+    fn changed(field: &Field<f32>, columns: std::ops::Range<usize>) -> usize {
         let places = (0..300).flat_map(|y| columns.clone().map(move |x| (x, y)));
         places.filter(|&at| field[at] != 0.5).count()
-    };
-    // A tone of the same wash ends no bloom; the other wash and bare paper do.
+    }
+    // A tone of the same wash does not end a bloom. The other wash and bare paper do.
     let lighter = back_runs(&columns(blue, [0.4, 0.5, 0.8, 1.0]), &settings);
     let parts = [&even, &lighter].map(|field| changed(field, 0..300));
     assert!(parts[0].abs_diff(parts[1]) < 20, "{parts:?} pixels");
@@ -212,7 +208,7 @@ fn streaks_run_along_their_direction() {
         let bare = field.values().iter().filter(|v| **v < touch.quantiles.at(0.3)).count();
         assert!((bare as f32 / 57600.0 - 0.3).abs() < 0.01, "{bare} of 57600 pixels are bare");
     }
-    // Counterclockwise in a picture whose rows go down: up to the right.
+    // Counterclockwise in a picture with rows from top to bottom: up to the right.
     settings.dry_brush.direction_deg = 45.0;
     let touch = BrushTouch::new(&paper, &settings.dry_brush, &settings.paper).unwrap().touch;
     let [mut rising, mut falling] = [0.0_f32; 2];
@@ -239,11 +235,9 @@ fn a_large_picture_has_the_regions_of_a_smaller_one_with_crisp_outlines() {
     assert_eq!((color.width(), color.height()), (2400, 1800));
     assert_eq!(large.flat_regions().width(), 2400);
     // The side of the tower lies at 180 of 400 and is at most three pixels soft.
-    let row = |x: usize| color[(x, 1200)][0];
-    let sky = row(1000);
-    let tower = row(1200);
+    let [sky, tower] = [1000, 1200].map(|x| color[(x, 1200)][0]);
     let between = (1000..1200).filter(|&x| {
-        let t = (row(x) - sky) / (tower - sky);
+        let t = (color[(x, 1200)][0] - sky) / (tower - sky);
         (0.1..0.9).contains(&t)
     });
     let between: Vec<usize> = between.collect();
@@ -265,24 +259,19 @@ fn outlines_of_small_pictures_have_no_saw_teeth() {
         coarse.textures.paper.with_fine_heights(1, &coarse.settings.paper).unwrap();
     let teeth = painter.paint_prepared(&coarse, None).unwrap();
     // Differences of second order along the outline show pixels that jump to and fro.
-    let at =
-        |color: &Field<[f32; 4]>, x: usize| -> f32 { (90..110).map(|y| color[(x, y)][0]).sum() };
-    let jump = |color: &Field<[f32; 4]>| -> f32 {
-        (1..299).map(|x| (at(color, x - 1) - 2.0 * at(color, x) + at(color, x + 1)).abs()).sum()
-    };
-    let [own, coarse] = [&found, &teeth].map(|color: &Field<[f32; 4]>| -> f32 {
-        let places: Vec<f32> = (0..300).map(|x| at(color, x)).collect();
+    let [own, coarse] = [&found, &teeth].map(|color| {
+        let places = (0..300).map(|x| (90..110).map(|y| color[(x, y)][0]).sum());
+        let places: Vec<f32> = places.collect();
+        let jumps = places.windows(3).map(|at| (at[0] - 2.0 * at[1] + at[2]).abs());
         let [low, high] = [f32::min, f32::max].map(|of| places.iter().copied().reduce(of).unwrap());
-        high - low
+        (high - low, jumps.sum::<f32>())
     });
-    assert!(own > 0.3 * coarse && own > 0.3, "the outline wanders by {own} and {coarse}");
-    let found = jump(&found);
-    let teeth = jump(&teeth);
-    assert!(found < 0.6 * teeth, "{found}, on the paper of the picture {teeth}");
+    assert!(own.0 > 0.3 * coarse.0 && own.0 > 0.3, "wanders by {} and {}", own.0, coarse.0);
+    assert!(own.1 < 0.6 * coarse.1, "{}, on the paper of the picture {}", own.1, coarse.1);
 }
 
-/// `group.key` of every key, and whether a comment is on the line above it. Includes keys that
-/// are commented out.
+/// `group.key` of every key, and whether there is a comment on the line above it. Includes keys that are
+/// commented out.
 fn keys(text: &str) -> Vec<(String, bool)> {
     let mut group = String::new();
     let mut found = Vec::new();
@@ -304,7 +293,7 @@ fn keys(text: &str) -> Vec<(String, bool)> {
 
 #[test]
 fn presets_are_read_and_tell_of_every_key() {
-    // All keys, including those without a default value.
+    // All keys, including keys without a default value.
     let mut settings = Settings::default();
     settings.paper.scan = Some("x".to_owned());
     settings.toon.greys = Some("x".to_owned());
@@ -434,7 +423,6 @@ fn made() -> &'static Made {
     })
 }
 
-/// Default light without relief.
 fn level() -> Lighting {
     Lighting { relief: 0.0, ..Lighting::default() }
 }
@@ -472,9 +460,10 @@ fn a_density_of_1_is_the_recipe_and_no_coverage_is_the_paper() {
 fn a_density_of_2_is_two_glazes() {
     let Made { glazes, light, sheet } = made();
     let color = any_picture(40, 30, 52);
-    let of = |times| glazes.document("made", &color, &Field::filled(40, 30, times), sheet, level());
-    let twice = seen(&of(2.0), light);
-    let mut glazed = of(1.0);
+    let [twice, mut glazed] = [2.0, 1.0].map(|times| {
+        glazes.document("made", &color, &Field::filled(40, 30, times), sheet, level())
+    });
+    let twice = seen(&twice, light);
     let once = seen(&glazed, light);
     glazed.dry.push(glazed.dry[0].clone());
     let glazed = seen(&glazed, light);
@@ -518,19 +507,21 @@ fn a_painting_of_glazes_keeps_grain_edges_and_bare_paper_of_its_effects() {
     let uploaded = textures.upload(&mut cpu).unwrap();
     let plain = paint(&mut cpu, images, FrameTextures::from(&uploaded), &settings, None).unwrap();
     let plain = cpu.download(&plain).unwrap();
-    // Green of both, encoded; their differences from the mean of each half must agree.
-    let encoded = |linear: f32| f64::from(linear.max(0.0)).powf(1.0 / 2.2);
+    // Green of both, encoded. Their differences from the mean of each half must agree.
+    fn product(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
     for columns in [4..56, 64..116] {
         let places: Vec<(usize, usize)> =
             (4..86).flat_map(|y| columns.clone().map(move |x| (x, y))).collect();
-        let of = |value: &dyn Fn((usize, usize)) -> f64| -> Vec<f64> {
-            let values: Vec<f64> = places.iter().map(|&at| value(at)).collect();
+        let greens: [Vec<f64>; 2] = [
+            places.iter().map(|&at| f64::from(found[at][1].max(0.0)).powf(1.0 / 2.2)).collect(),
+            places.iter().map(|&at| f64::from(plain[at][1])).collect(),
+        ];
+        let [glazed, painted] = greens.map(|values| {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            values.into_iter().map(|value| value - mean).collect()
-        };
-        let glazed = of(&|at| encoded(found[at][1]));
-        let painted = of(&|at| f64::from(plain[at][1]));
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            values.into_iter().map(|value| value - mean).collect::<Vec<f64>>()
+        });
         let own = product(&glazed, &glazed);
         let other = product(&painted, &painted);
         let alike = product(&glazed, &painted) / (own * other).sqrt();
@@ -558,15 +549,15 @@ fn a_palette_is_chosen_and_comes_near_to_colors_that_watercolor_has() {
     let glazes = Glazes::new(&library, &slots, paper.clone(), light).unwrap();
     let film = glazes.film();
     let white = film.rgb(&[0.0; 8]);
-    // Black is raised to the reflectance of the surface, the lowest that paint reaches.
+    // Paint cannot be darker than the reflectance of the surface, so we raise black to it.
     let black = library.saunderson.floor() as f32;
     for color in colors {
         let linear = spectra::color::Rgb([color[0], color[1], color[2]].map(f64::from)).linear();
         let wanted: [f32; 3] =
             std::array::from_fn(|i| black + (1.0 - black) * linear.0[i] as f32 * white[i]);
         let found = film.rgb(&glazes.heights_mm(color));
-        let lab = |rgb: [f32; 3]| -> Lab { film.lab_from_rgb(rgb) };
-        let off = delta_e_ciede2000(lab(wanted), lab(found));
+        let [wanted, found] = [wanted, found].map(|rgb| film.lab_from_rgb(rgb));
+        let off = delta_e_ciede2000(wanted, found);
         assert!(off < 4.0, "{color:?}: {off} CIEDE2000");
     }
     let none = Glazes::new(&library, &Slots::default(), paper, light).unwrap_err();

@@ -1,8 +1,5 @@
-//! Every effect on the GPU against its CPU implementation.
-//!
-//! The pipeline of all effects: its stages, their observer, and CPU against GPU.
-//!
-//! Textures of flow, dispersion and paper: mean, spread, spectrum and seed.
+//! Every effect on the GPU compared with the CPU, the pipeline of all effects with its stages and
+//! observer, and textures of flow, dispersion and paper (mean, spread, spectrum and seed).
 
 use documents::hint::Explain;
 use graphics::compute::Compute;
@@ -25,7 +22,7 @@ use paint::ground::PaperFinish;
 /// Tolerance for f32 where only one of the two backends uses fused multiply-add.
 const NEAR: f64 = 2e-6;
 
-/// Sizes of pictures, below and above those of a workgroup and of a band of rows.
+/// Sizes of pictures, below and above the size of a workgroup and of a band of rows.
 const SIZES: [(usize, usize); 6] = [(1, 1), (1, 9), (7, 5), (8, 8), (67, 33), (30, 71)];
 
 /// Both backends, and a picture of one of the [`SIZES`].
@@ -91,7 +88,7 @@ fn density_agrees() {
                     .map(|i| (&textures[i], strengths[i], [0.5, 0.0][i % 2]))
                     .collect();
                 let case = format!("{strengths:?}, {overall}, {masked}");
-                // A strength of 9 enlarges rounding errors.
+                // A strength of 9 makes rounding errors larger.
                 both.compare(&case, 10.0 * NEAR, |compute, picture| {
                     apply_density(compute, picture, overall, &layers, mask)
                 });
@@ -115,7 +112,7 @@ fn wobble_agrees() {
     Both::for_each(|both| {
         let heights = both.grey(11);
         for px in [0.0_f32, 0.01, 0.8, -3.0, 500.0] {
-            // At low coverage the colour is a quotient of small numbers; the error of a position
+            // At low coverage the colour is a quotient of small numbers. The error of a position
             // grows with the displacement.
             let near = NEAR * (10.0 + 10.0 * f64::from(px.abs()));
             both.compare(&format!("{px} px"), near, |compute, picture| {
@@ -175,7 +172,7 @@ fn color_mask_agrees() {
         for (color, tolerance) in [("#ffffff", 30.0), ("#4060a0", 1.0), ("#000000", 200.0)] {
             for mask in [None, Some(&mask)] {
                 let range = ColorRange::around(Rgb::from_hex(color).unwrap(), tolerance);
-                // `pow` of WGSL is inexact; the mask divides errors in CIELAB by its tolerance.
+                // `pow` of WGSL is inexact, and the mask divides errors in CIELAB by its tolerance.
                 let near = 1e-3 / f64::from(tolerance);
                 both.compare_greys(&format!("{color} {tolerance}"), near, |compute, picture| {
                     color_mask(compute, picture, range, mask)
@@ -198,7 +195,6 @@ fn paper_shading_agrees() {
     });
 }
 
-/// The picture after each stage.
 type Stages = Vec<(Stage, Field<[f32; 4]>)>;
 
 fn painted(
@@ -281,7 +277,7 @@ fn processor_and_device_paint_the_same() {
         for observed in [false, true] {
             let (here, before) = painted(&mut Compute::cpu(), &wash, &settings, observed);
             let (there, after) = painted(&mut gpu, &wash, &settings, observed);
-            // Displacement and a narrow band of the dry brush enlarge rounding errors.
+            // Displacement and a narrow band of the dry brush make rounding errors larger.
             assert_near(format!("{preset:?}"), &numbers(&there), &numbers(&here), 5e-4);
             for ((stage, here), (_, there)) in before.iter().zip(&after) {
                 let case = format!("{preset:?}, {stage:?}");
@@ -293,7 +289,6 @@ fn processor_and_device_paint_the_same() {
 
 const SIZE: usize = 512;
 
-/// Mean and standard deviation.
 fn moments(field: &Field<f32>) -> (f64, f64) {
     let count = field.values().len() as f64;
     let mean = field.values().iter().map(|&v| f64::from(v)).sum::<f64>() / count;
@@ -301,14 +296,14 @@ fn moments(field: &Field<f32>) -> (f64, f64) {
     (mean, (squares / count).sqrt())
 }
 
-/// Side of the square whose spectrum is computed, in pixels.
+/// Side of the square that we compute the spectrum of, in pixels.
 const PART: usize = 256;
 
 /// Power of the upper left square by radial frequency, in waves per [`PART`] pixels. A Hann window
 /// suppresses leakage from its borders.
 fn spectrum(field: &Field<f32>) -> Vec<f64> {
     let turn = std::f64::consts::TAU / PART as f64;
-    let window = |i: usize| 0.5 - 0.5 * (turn * i as f64).cos();
+    let window: Vec<f64> = (0..PART).map(|i| 0.5 - 0.5 * (turn * i as f64).cos()).collect();
     let waves: Vec<(f64, f64)> = (0..PART).map(|i| (turn * i as f64).sin_cos()).collect();
     let transformed = |row: &[[f64; 2]]| -> Vec<[f64; 2]> {
         (0..PART)
@@ -320,11 +315,12 @@ fn spectrum(field: &Field<f32>) -> Vec<f64> {
             })
             .collect()
     };
-    let row = |y: usize| -> Vec<[f64; 2]> {
-        let value = |x: usize| (f64::from(field[(x, y)]) - 0.5) * window(x) * window(y);
-        transformed(&(0..PART).map(|x| [value(x), 0.0]).collect::<Vec<_>>())
-    };
-    let rows: Vec<_> = (0..PART).map(row).collect();
+    let rows = (0..PART).map(|y| {
+        let row =
+            (0..PART).map(|x| [(f64::from(field[(x, y)]) - 0.5) * window[x] * window[y], 0.0]);
+        transformed(&row.collect::<Vec<_>>())
+    });
+    let rows: Vec<_> = rows.collect();
     let mut power = vec![0.0; PART];
     for x in 0..PART {
         let column = transformed(&rows.iter().map(|row| row[x]).collect::<Vec<_>>());
@@ -367,7 +363,8 @@ fn grains_are_no_finer_than_their_finest() {
         let grains = dispersion(SIZE, SIZE, &settings);
         let (mean, spread) = moments(&grains);
         assert!((mean - 0.5).abs() < 0.01 && (spread - 0.2).abs() < 0.01, "{mean} {spread}");
-        // At this frequency the finest blur keeps exp(-4) of the power, at twice of it exp(-16).
+        // At this frequency the finest blur leaves exp(-4) of the power, and at twice of it
+        // exp(-16).
         let cut = PART as f64 / (std::f64::consts::PI * f64::from(finest_px));
         if cut < 100.0 {
             let beyond = share(&spectrum(&grains), 2.0 * cut, PART as f64);
@@ -380,17 +377,18 @@ fn grains_are_no_finer_than_their_finest() {
 
 #[test]
 fn textures_follow_their_seed_alone() {
-    let flow = |seed| turbulent_flow(60, 50, &FlowSettings { seed, ..FlowSettings::default() });
-    let grains = |width, seed| {
-        dispersion(width, 50, &DispersionSettings { seed, ..DispersionSettings::default() })
-    };
-    assert_eq!(flow(3), flow(3));
-    assert_ne!(flow(3), flow(4));
-    assert_eq!(grains(60, 3), grains(60, 3));
-    assert_ne!(grains(60, 3), grains(60, 4));
+    let [flow, again, other] = [3, 3, 4]
+        .map(|seed| turbulent_flow(60, 50, &FlowSettings { seed, ..FlowSettings::default() }));
+    assert_eq!(flow, again);
+    assert_ne!(flow, other);
+    let [grains, again, other] = [3, 3, 4].map(|seed| {
+        dispersion(60, 50, &DispersionSettings { seed, ..DispersionSettings::default() })
+    });
+    assert_eq!(grains, again);
+    assert_ne!(grains, other);
     // A larger picture has the same values where the two overlap.
     let large = turbulent_flow(90, 70, &FlowSettings { seed: 3, ..FlowSettings::default() });
-    assert_eq!(large.row(20, 0, 60), flow(3).row(20, 0, 60));
+    assert_eq!(large.row(20, 0, 60), flow.row(20, 0, 60));
 }
 
 #[test]

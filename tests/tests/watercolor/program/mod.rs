@@ -1,10 +1,6 @@
-//! The command `impasto watercolor`.
-//!
-//! `impasto watercolor` of meshes: file formats, shapes, cameras, stages, and the GPU.
-//!
-//! `impasto watercolor` of photographs: colours, formats, stages, masks, and the GPU.
-//!
-//! `impasto watercolor` with a moving camera: frames, GIF and APNG, and resumed runs.
+//! The command `impasto watercolor`: meshes (file formats, shapes, cameras, stages, GPU),
+//! photographs (colours, formats, stages, masks, GPU), and a moving camera (frames, GIF and APNG,
+//! resumed runs).
 
 mod refusals;
 mod pigments;
@@ -22,7 +18,6 @@ use image::{AnimationDecoder, Rgb, RgbImage};
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
-/// A temporary folder, deleted when dropped.
 struct Folder(TempDir);
 
 impl Folder {
@@ -30,7 +25,7 @@ impl Folder {
         Self(tempfile::tempdir().unwrap())
     }
 
-    /// The path of a file in the folder, which need not exist.
+    /// Path of a file in the folder. It need not exist.
     fn file(&self, name: &str) -> String {
         self.0.path().join(name).display().to_string()
     }
@@ -40,19 +35,19 @@ impl Folder {
         self.file(name)
     }
 
-    /// The names in the subfolder `inside`, sorted; empty if there is no such folder.
+    /// Sorted names in the subfolder `inside`. There are none if the folder does not exist.
     fn names(&self, inside: &str) -> Vec<String> {
         let Ok(entries) = std::fs::read_dir(self.0.path().join(inside)) else { return Vec::new() };
-        let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
-        let mut names: Vec<_> = entries.map(|entry| name(entry).into_string().unwrap()).collect();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<_> = names.collect();
         names.sort();
         names
     }
 
-    /// A photograph of 160 x 120 pixels: red on the left, blue on the right, darker
-    /// downwards, with a yellow disc in the middle.
+    /// A photograph of 160 x 120 pixels: red on the left, blue on the right, darker downwards, with
+    /// a yellow disc in the middle.
     fn photograph(&self) -> String {
-        let color = |i: usize| {
+        let colors = (0..160 * 120).map(|i| {
             let x = (i % 160) as f32;
             let y = (i / 160) as f32;
             let light = 1.0 - 0.5 * y / 120.0;
@@ -62,8 +57,8 @@ impl Folder {
                 _ => [0.05, 0.15, 0.5],
             };
             [r * light, g * light, b * light, 1.0]
-        };
-        let picture = Field::from_values(160, 120, (0..160 * 120).map(color).collect());
+        });
+        let picture = Field::from_values(160, 120, colors.collect());
         self.write("photo.png", png8(&picture, 1.0).unwrap().bytes)
     }
 
@@ -100,7 +95,6 @@ const CORNERS: [([i8; 3], [u8; 3]); 5] = [
     ([-1, 0, -1], [1, 1, 0]),
     ([0, 2, 0], [1, 0, 1]),
 ];
-/// Triangles of the pyramid, as indices of [`CORNERS`].
 const SIDES: [[u16; 3]; 6] = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]];
 
 fn watercolor(subject: &str, options: &[&str]) -> Run {
@@ -201,7 +195,9 @@ fn glb() -> Vec<u8> {
     });
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
-    let number = |value: usize| (value as u32).to_le_bytes();
+    fn number(value: usize) -> [u8; 4] {
+        (value as u32).to_le_bytes()
+    }
     let mut glb = b"glTF\x02\0\0\0".to_vec();
     glb.extend(number(12 + 8 + text.len() + 8 + buffer.len()));
     glb.extend(number(text.len()));
@@ -213,7 +209,7 @@ fn glb() -> Vec<u8> {
     glb
 }
 
-/// Number of painted pixels: those with a channel below 200.
+/// Number of painted pixels. These have a channel below 200.
 fn covered(picture: &RgbImage) -> usize {
     picture.pixels().filter(|pixel: &&Rgb<u8>| pixel.0.iter().any(|value| *value < 200)).count()
 }
@@ -318,9 +314,8 @@ fn a_device_paints_the_same_mesh() {
         let made = opened(&out);
         let (mean, _) = difference(&on_cpu, &made);
         let pairs = on_cpu.pixels().zip(made.pixels());
-        let far = |(a, b): &(&Rgb<u8>, &Rgb<u8>)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2);
-        let far = pairs.filter(far).count();
-        // At an edge between two triangles CPU and GPU may choose different ones.
+        let far = pairs.filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 2)).count();
+        // At an edge between two triangles, CPU and GPU may choose different ones.
         assert!(far <= 19 && mean < 0.02, "{mesh}: {far} pixels, {mean} in the mean");
     }
 }
@@ -412,8 +407,9 @@ fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
     let alone = folder.file("alone");
     painted(&photo, &["--stages", &alone, "--preset", "sketch"]);
     assert_eq!(folder.names("alone"), names);
-    let file = |folder: &str| std::fs::read(format!("{folder}/11-sheet.png")).unwrap();
-    assert!(file(&alone) == file(&stages), "the picture changed the stages");
+    let [one, other] =
+        [&alone, &stages].map(|folder| std::fs::read(format!("{folder}/11-sheet.png")).unwrap());
+    assert!(one == other, "the picture changed the stages");
 }
 
 #[test]
@@ -436,11 +432,8 @@ fn masks_say_where_density_changes_and_where_the_brush_is_dry() {
     let size: &[&str] = &["--width", "160", "--height", "120"];
     for (subject, size) in [(&photo, &[][..]), (&mesh, size)] {
         for (option, look) in [("--density-mask", &[][..]), ("--dry-brush-mask", dry)] {
-            let with =
-                |more: &[&str]| decoded(&picture(&folder, subject, &[size, look, more].concat()));
-            let all = with(&[]);
-            let half = with(&[option, &mask]);
-            let nothing = with(&[option, &none]);
+            let [all, half, nothing] = [&[][..], &[option, &mask], &[option, &none]]
+                .map(|more| decoded(&picture(&folder, subject, &[size, look, more].concat())));
             assert!(difference(&all, &nothing).0 > 0.5, "{option} does nothing");
             for (x, y, pixel) in half.enumerate_pixels() {
                 let wanted = if x < 80 { &all } else { &nothing };
@@ -480,7 +473,7 @@ fn small_and_narrow_photographs_are_painted() {
 
 const TURN: [&str; 4] = ["--width", "48", "--turntable", "4"];
 
-/// Paints a turntable of four frames of the pyramid, with `into` as further options.
+/// Paints a turntable of four frames of the pyramid, with the options `into`.
 #[track_caller]
 fn turned(folder: &Folder, into: &[&str]) -> Run {
     painted(&folder.pyramid(), &[&TURN[..], into, &["--json"]].concat())
@@ -512,7 +505,7 @@ fn a_gif_and_an_apng_hold_every_frame() {
         assert!(difference(&pair[0], &pair[1]).0 > 1.0, "two frames are alike");
     }
 
-    // Both animations use one folder of frames: another format and rate need no new frame.
+    // Both animations use one folder of frames, so another format and rate need no new frame.
     let told = turned(&folder, &["--animation", &apng]).json();
     assert_eq!(told["frames_found"], 4);
     let decoder = GifDecoder::new(BufReader::new(File::open(&gif).unwrap())).unwrap();
@@ -539,12 +532,12 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
     let found = |options: &[&str]| turned(&folder, options).json()["frames_found"].as_u64();
     let wish: &[&str] = &["--frames", &frames, "--animation", &gif];
     assert_eq!(found(wish), Some(0));
-    let all = |folder: &Folder| -> Vec<Vec<u8>> {
+    fn all(folder: &Folder) -> Vec<Vec<u8>> {
         (1..=4).map(|n| std::fs::read(frame(folder, "frames", n)).unwrap()).collect()
-    };
+    }
     let first = all(&folder);
     let animation = std::fs::read(&gif).unwrap();
-    // One frame is missing, one is truncated, one is a picture of other software.
+    // One frame is missing, one is truncated, and one is a picture of other software.
     std::fs::remove_file(frame(&folder, "frames", 2)).unwrap();
     std::fs::write(frame(&folder, "frames", 3), &first[2][..first[2].len() - 9]).unwrap();
     RgbImage::new(5, 5).save(frame(&folder, "frames", 4)).unwrap();
@@ -597,8 +590,8 @@ fn other_content_of_an_input_is_another_wish() {
 #[test]
 fn noise_follows_the_mesh_unless_it_is_static() {
     let folder = Folder::new();
-    // A ball of one colour, lit from the camera, looks the same from all sides; only noise
-    // changes between two frames.
+    // A ball of one colour, lit from the camera, looks the same from all sides. Only noise changes
+    // between two frames.
     let look = ["--width", "64", "--turntable", "8", "--set", "flow.strength=3"];
     let mut first_frames = Vec::new();
     for (method, moves) in [("static", false), ("particles", true), ("features", true)] {

@@ -1,6 +1,5 @@
-//! `impasto watercolor --pigments`: glazes of calibrated pigments instead of RGB densities.
-//!
-//! `impasto watercolor` with presets, files of settings, and single settings.
+//! `impasto watercolor --pigments` with glazes of calibrated pigments instead of RGB densities, and presets,
+//! files of settings, and single settings.
 
 use suite::program::{Run, impasto, repository};
 
@@ -48,13 +47,19 @@ fn a_painting_of_glazes_is_kept_and_relit() {
         let name = format!("painting.{pigment}.png");
         assert!(names.contains(&name), "{name} is none of {names:?}");
     }
-    let amount = |pigment: &str, left: u32, right: u32| {
+    let [red, no_red, blue, no_blue] = [
+        ("vermilion", 4..40),
+        ("vermilion", 120..156),
+        ("prussian-blue", 120..156),
+        ("prussian-blue", 4..40),
+    ]
+    .map(|(pigment, columns)| {
         let map = image::open(format!("{maps}/painting.{pigment}.png")).unwrap().into_luma16();
-        let inside = map.enumerate_pixels().filter(|(x, ..)| (left..right).contains(x));
+        let inside = map.enumerate_pixels().filter(|(x, ..)| columns.contains(x));
         inside.map(|(.., pixel)| u64::from(pixel.0[0])).sum::<u64>()
-    };
-    assert!(amount("vermilion", 4, 40) > 2 * amount("vermilion", 120, 156));
-    assert!(amount("prussian-blue", 120, 156) > 2 * amount("prussian-blue", 4, 40));
+    });
+    assert!(red > 2 * no_red);
+    assert!(blue > 2 * no_blue);
 
     let [same, lamp] = ["D65", "A"].map(|light| {
         let again = folder.file(&format!("{light}.png"));
@@ -79,10 +84,10 @@ fn pigments_are_chosen_and_paper_and_light_are_given() {
     };
     let (chosen, count) = with(&[]);
     assert!((3..=8).contains(&count), "{count}");
-    let sum = |picture: &_| mean(picture, 0, 48).iter().sum::<f64>();
     let palette: &[&str] = &["--palette", PALETTE];
     let [white, grey] = ["0.95", "0.3"].map(|over| with(&[palette, &["--over", over]].concat()).0);
-    assert!(sum(&white) > sum(&grey) + 60.0, "{} {}", sum(&white), sum(&grey));
+    let [light, dark] = [&white, &grey].map(|picture| mean(picture, 0, 48).iter().sum::<f64>());
+    assert!(light > dark + 60.0, "{light} {dark}");
     let [red, blue] = ["paper.colour=#c06060", "paper.colour=#6060c0"].map(|set| {
         let [r, _, b] = mean(&with(&[palette, &["--set", set]].concat()).0, 0, 48);
         r / b
@@ -171,7 +176,7 @@ fn a_file_changes_what_it_names_and_an_option_changes_the_file() {
     let thinner = ["--preset", "sketch", "--settings", &file, "--set", "wash.density=0.5"];
     let back = ["--preset", "sketch", "--set", "flow.seed=9"];
     assert!(made(&thinner) == made(&back), "the preset's density is 0.5");
-    // Of two values for a key the last applies.
+    // If a key has two values, the last one applies.
     let twice = ["--preset", "sketch", "--set", "wash.density=3", "--set", "wash.density=.50"];
     assert!(made(&twice) == made(&["--preset", "sketch"]), "the first of two applies");
 }
@@ -182,10 +187,11 @@ fn numbers_words_and_colors_are_set() {
     let photo = folder.photograph();
     let usual = decoded(&picture(&folder, &photo, &[]));
     let with = |set: &str| decoded(&picture(&folder, &photo, &["--set", set]));
-    let sum = |picture: &_| mean(picture, 0, 160).iter().sum::<f64>();
     let thin = with("wash.density=0.2");
     let thick = with("wash.density = 2");
-    assert!(sum(&thin) > sum(&usual) + 60.0 && sum(&usual) > sum(&thick) + 60.0);
+    let [light, middle, dark] =
+        [&thin, &usual, &thick].map(|picture| mean(picture, 0, 160).iter().sum::<f64>());
+    assert!(light > middle + 60.0 && middle > dark + 60.0);
     let word = with("paper.kind=rough");
     assert!(difference(&usual, &word).0 > 0.2, "a word changes nothing");
     assert_eq!(word, with("paper.kind=\"rough\""), "quotes change the value");

@@ -15,7 +15,7 @@ fn refused(run: &Run, status: u8, what: &str, hint: &str) {
     assert!(run.out.is_empty(), "{what}: {}", run.out);
 }
 
-/// Asserts exit status 2 and `what` in the error; unlike [`refused`], no hint is required.
+/// Asserts exit status 2 and `what` in the error. Unlike [`refused`], this requires no hint.
 #[track_caller]
 fn misused(run: &Run, what: &str) {
     assert_eq!(run.status, 2, "{what}: {}", run.err);
@@ -42,10 +42,9 @@ fn subjects_that_cannot_be_read() {
     let stl = folder.write("model.stl", "solid");
     let broken = folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     let photo = folder.photograph();
-    let none = |name: &str| folder.file(name);
     for (subject, options, status, what, hint) in [
-        (&none("none.png"), &[][..], 2, "none.png", "check the path"),
-        (&none("none.obj"), &[], 2, "none.obj", "check the path"),
+        (&folder.file("none.png"), &[][..], 2, "none.png", "check the path"),
+        (&folder.file("none.obj"), &[], 2, "none.obj", "check the path"),
         (&text, &[], 1, "text.png: not a PNG, JPEG, TIFF or WebP picture", "save it as PNG"),
         (&stl, &[], 1, "model.stl: not a PNG, JPEG, TIFF or WebP picture", "save it as PNG"),
         (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "names of meshes end in .obj"),
@@ -110,13 +109,15 @@ fn looks_that_are_none() {
     let folder = Folder::new();
     let photo = folder.photograph();
     let out = folder.file("out.png");
-    let file = |name: &str, text: &str| folder.write(name, text);
-    let key = file("key.toml", "[edges]\n# too much\nstronger = 1\n");
-    let range = file("range.toml", "\n[edges]\nstrength = 99\n");
-    let color = file("colour.toml", "[paper]\ncolour = \"red\"\n");
-    let torn = file("torn.toml", "[paper\n");
+    let [key, range, color, torn, scan] = [
+        ("key.toml", "[edges]\n# too much\nstronger = 1\n"),
+        ("range.toml", "\n[edges]\nstrength = 99\n"),
+        ("colour.toml", "[paper]\ncolour = \"red\"\n"),
+        ("torn.toml", "[paper\n"),
+        ("scan.toml", "[paper]\nscan = \"none.png\"\n"),
+    ]
+    .map(|(name, text)| folder.write(name, text));
     let none = folder.file("none.toml");
-    let scan = file("scan.toml", "[paper]\nscan = \"none.png\"\n");
     for (option, value, status, what, hint) in [
         ("--settings", none.as_str(), 2, "none.toml: cannot be read", "check that the file"),
         (
@@ -210,12 +211,14 @@ fn cameras_that_see_nothing() {
         refused(&with(&[camera]), 2, &what, "try --camera 30,20");
     }
     let keyframe = "[[keyframe]]\neye = [0.0, 0.0, 9.0]\ntarget = [0.0, 0.0, 0.0]\n";
-    let file = |name: &str, text: &str| folder.write(name, text);
-    let torn = file("torn.toml", "frames = 2\nframes = 3\n");
-    let empty = file("empty.toml", "frames = 2\n");
-    let none = file("none.toml", &format!("frames = 0\n{keyframe}"));
-    let shut = file("shut.toml", &format!("frames = 2\n{keyframe}field_of_view_deg = 0.0\n"));
-    let sound = file("sound.toml", &format!("frames = 2\n{keyframe}"));
+    let [torn, empty, none, shut, sound] = [
+        ("torn.toml", "frames = 2\nframes = 3\n".to_owned()),
+        ("empty.toml", "frames = 2\n".to_owned()),
+        ("none.toml", format!("frames = 0\n{keyframe}")),
+        ("shut.toml", format!("frames = 2\n{keyframe}field_of_view_deg = 0.0\n")),
+        ("sound.toml", format!("frames = 2\n{keyframe}")),
+    ]
+    .map(|(name, text)| folder.write(name, text));
     let shape = "a path has `frames` and [[keyframe]] tables";
     refused(&with(&[&folder.file("missing.toml")]), 2, "missing.toml: ", "check that the file");
     refused(&with(&[&torn]), 1, "torn.toml, line 2: ", shape);
@@ -284,7 +287,7 @@ fn files_that_cannot_be_written() {
     misused(&watercolor(&photo, &["--stages", &taken]), "taken: this folder cannot be created");
     assert_eq!(folder.names("."), ["photo.png", "pyramid.obj", "taken"]);
 
-    // A mask is an input too, and a subject in the folder of stages may not be overwritten.
+    // A mask is an input too. A subject in the folder of stages may not be overwritten.
     let mask = folder.mask();
     let run = watercolor(&photo, &["--density-mask", &mask, "--picture", &mask]);
     refused(&run, 2, "mask.png: is an input", "give the output");
@@ -296,7 +299,7 @@ fn files_that_cannot_be_written() {
     assert_eq!(folder.names("stages"), ["02-regions.png"], "no stage was written");
     assert!(std::fs::read(&inside).unwrap() == before);
 
-    // Frames of unknown origin are kept, and nothing else is written.
+    // Frames of unknown origin stay, and nothing else is written.
     std::fs::create_dir(folder.file("theirs")).unwrap();
     folder.write("theirs/frame-0002.png", "whose?");
     let run = turned(&["--frames", &folder.file("theirs"), "--picture", &out]);
