@@ -220,7 +220,7 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     let equal = |found: &[RecipeMatch]| -> Vec<RecipeMatch> {
         let most = nearest(found) + 0.5;
         found.iter().filter(|recipe| recipe.distance <= most).cloned().collect()
-    }
+    };
     let equals = equal(&found);
     assert!(
         equals.len() > 1

@@ -346,7 +346,7 @@ fn a_ground_of_the_color_of_the_picture_is_covered() {
     let painter = Painter { target: &target, separation: &HIDING, plan: &plan };
     let mut script = bare_script();
     let mut session = PaintingSession::new(opened(&script), None).unwrap();
-    painter.paint(&mut session, &mut script, |_| {}).unwrap();
+    painter.paint(&mut session, &mut script, &Task::default()).unwrap();
     let layers = session.canvas_mut().document().unwrap().dry;
     let covered = (0..48 * 36)
         .filter(|&cell| layers.iter().any(|layer| layer.paint.cell(cell).volume() > 0))

@@ -192,7 +192,7 @@ fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
     for count in bench.paints.unknowns()..40 {
         let start = usual(&bench.paints, &bench.pool, count).unwrap();
         assert_eq!(start.len(), count);
-        let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
+        let best = optimal(&bench.information, &start, 1, &Task::default()).unwrap();
         for (name, design) in [("usual", start), ("optimal", best)] {
             let shares = design.iter().map(|&index| {
                 let mut shares = vec![0.0; bench.paints.names.len()];

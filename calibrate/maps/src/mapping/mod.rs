@@ -140,11 +140,7 @@ impl Mapper {
     /// # Errors
     /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped,
     /// [`MapError::Cancelled`] if `task` was cancelled.
-    pub fn survey(
-        &self,
-        spectra: &[f32],
-        task: &Task,
-    ) -> Result<Book, MapError> {
+    pub fn survey(&self, spectra: &[f32], task: &Task) -> Result<Book, MapError> {
         let pixels = self.pixels(spectra)?;
         let chosen = pixels.clone().step_by(survey_step(pixels.len()));
         let surveyed = chosen.len();
