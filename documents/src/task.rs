@@ -48,7 +48,7 @@ pub struct Task {
 /// A function that we call at each report.
 type Observer = dyn Fn(&Progress) + Send + Sync;
 
-/// What all clones of a task share.
+/// State that all clones of a task share.
 #[derive(Default)]
 struct Shared {
     stage: Mutex<Arc<str>>,

@@ -26,11 +26,11 @@ pub struct PenSample {
 pub enum Pace {
     /// Without pauses, as fast as the machine allows.
     Fast,
-    /// As fast as the painter painted, by the times of the samples.
+    /// At the pace of the painter, by the times of the samples.
     AsPainted,
 }
 
-/// What a painting starts from.
+/// The start of a painting.
 #[derive(Debug, Clone)]
 pub enum Origin {
     /// A canvas without paint as the header of a script describes it. The actions are not played.

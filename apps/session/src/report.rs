@@ -52,7 +52,7 @@ struct BrushLoad {
 /// change its colour much.
 const DIRTY: f64 = 0.05;
 
-/// What the worker adds to each report.
+/// State that the worker adds to each report.
 #[derive(Debug, Clone)]
 pub(super) struct WorkerStatus {
     pub(super) revision: u64,

@@ -296,7 +296,7 @@ pub enum PhotographError {
     Profile {
         /// Path of the file.
         name: String,
-        /// What we cannot convert.
+        /// The property that we cannot convert.
         reason: ProfileError,
     },
     /// The picture has more than [`MOST_PIXELS`] pixels.

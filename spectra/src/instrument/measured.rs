@@ -106,7 +106,7 @@ pub struct MeasuredSpectrum {
     pub values: Vec<f64>,
     /// Number of the line on which the spectrum begins, from 1.
     pub line: usize,
-    /// What else the file states about the spectrum, e.g. geometry, instrument or integration time:
+    /// Other facts that the file states about the spectrum, e.g. geometry, instrument or integration time:
     /// pairs of keyword and text in the order of the file.
     pub details: Vec<(String, String)>,
     /// Assumptions and corrections made in reading the spectrum, as messages for the user.

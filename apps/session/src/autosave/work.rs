@@ -1,4 +1,4 @@
-//! What an autosave holds besides its documents: the recording, the brushes with their paint, and
+//! The parts of an autosave besides its documents: the recording, the brushes with their paint, and
 //! the mask. Paint and mask are stored as bytes.
 //!
 //! The recording is a file that only grows, with one action per line. A generation names this file

@@ -114,7 +114,7 @@ pub struct BrushFileError {
     /// Path of the key in the file, e.g. `presets[2].options.range`. It is empty for the whole
     /// file.
     pub key: String,
-    /// What is wrong there.
+    /// The fault.
     pub what: String,
     /// Advice on what to do.
     pub hint: Option<Hint>,

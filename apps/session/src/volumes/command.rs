@@ -1,4 +1,4 @@
-//! What the front end asks of a scene: commands, the tools of the pen, and subjects to open.
+//! Requests of the front end to a scene: commands, the tools of the pen, and subjects to open.
 
 use std::path::{Path, PathBuf};
 
@@ -137,7 +137,7 @@ pub struct ScenePen {
 /// The names of models that come with the program start with this.
 pub const SHAPE: &str = "shape:";
 
-/// What a scene is opened from.
+/// The source of a scene that you open.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Subject {
     /// A model that comes with the program, e.g. `village`.

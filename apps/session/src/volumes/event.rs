@@ -1,4 +1,4 @@
-//! What the worker of scenes sends to the front end: events, the state of a scene, and pictures for
+//! Messages of the worker of scenes to the front end: events, the state of a scene, and pictures for
 //! export.
 
 use std::path::PathBuf;

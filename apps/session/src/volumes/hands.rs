@@ -1,4 +1,4 @@
-//! What hands do to a scene, recorded as events.
+//! Gestures on a scene, recorded as events.
 
 use volumes::script::{Action, Dry, Recipe};
 

@@ -6,7 +6,7 @@ use volumes::painter::Show;
 use volumes::script::{RegionStyle, Script};
 use volumes::settings::{self, Settings};
 
-/// What the surfaces inside the volumes show.
+/// Picture on the surfaces inside the volumes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Inside {
     /// Their own colours.
@@ -16,7 +16,7 @@ pub enum Inside {
     Glaze,
     /// A film of the paint over their own colours.
     Both,
-    /// What each region of the script chooses, if they differ.
+    /// The choice of each region of the script, if they differ.
     ByRegion,
 }
 
@@ -91,7 +91,7 @@ pub struct Look {
     pub show: Show,
     /// Whether surfaces are hatched.
     pub hatching: bool,
-    /// What surfaces inside the volumes show.
+    /// Picture on surfaces inside the volumes.
     pub inside: Inside,
     /// Where the light stands.
     pub light: SceneLight,

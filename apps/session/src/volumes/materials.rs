@@ -36,7 +36,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// What a script names. Its files are relative to `folder`, and errors show its `name` and
+    /// Files and pigments that a script names. The files are relative to `folder`, and errors show its `name` and
     /// `text`. If it has no library, the palette is of the one that comes with the program. Fails
     /// for a library that cannot be read, a pigment that it lacks, and the file of a lamp, because
     /// the studio cannot use one here.

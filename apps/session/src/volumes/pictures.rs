@@ -1,4 +1,4 @@
-//! What you see of a scene: pictures, its painting, volumes, paint and colour at a place, and its
+//! Views of a scene: pictures, its painting, volumes, paint and colour at a place, and its
 //! script.
 
 use glam::Vec3;

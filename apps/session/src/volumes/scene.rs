@@ -36,7 +36,7 @@ pub(super) struct Scene {
     pub(super) folder: PathBuf,
     pub(super) file: Option<PathBuf>,
     pub(super) settings: Settings,
-    /// What each region of the script chose when it was opened. `None` leaves it to the settings.
+    /// The choice of each region of the script when it was opened. `None` leaves it to the settings.
     insides: Vec<Option<settings::Inside>>,
     by_region: bool,
     view: FirstView,

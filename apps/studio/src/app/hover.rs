@@ -1,4 +1,4 @@
-//! What moves with the pen: the head of a hovering brush, the mirrored twins of a stroke, and the
+//! Marks that move with the pen: the head of a hovering brush, the mirrored twins of a stroke, and the
 //! dashes of a mask.
 
 use eframe::egui::{Color32, Painter, Shape, Stroke};

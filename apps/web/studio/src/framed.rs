@@ -119,7 +119,7 @@ impl Framed {
         self.studio.take_stylus(&self.context)
     }
 
-    /// What a stroke changed since the last frame, and the physical pixels per point. Returns
+    /// Pixels that a stroke changed since the last frame, and the physical pixels per point. Returns
     /// `None` if you see the stroke only in frames.
     pub(crate) fn between(&mut self) -> Option<(Between, f32)> {
         let between = self.studio.between(&self.context)?;

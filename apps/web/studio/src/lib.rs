@@ -241,7 +241,7 @@ impl Page {
         taken
     }
 
-    /// What the stroke of a stylus changed since the last call or frame. Show it over the canvas
+    /// Pixels that the stroke of a stylus changed since the last call or frame. Show it over the canvas
     /// until the next frame: `left`, `top`, `width` and `height` in physical pixels, `pixels`, and
     /// the head as
     /// `lines`, `strokes` and `dot`. Width and height are 0 if nothing changed. This is undefined if you see

@@ -2,7 +2,7 @@
 
 use documents::hint::Explain;
 
-/// What you let compute: the processor or a graphics adapter.
+/// Your choice of what computes: the processor or a graphics adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BackendChoice {
     /// A hardware adapter if there is one, else the processor.

@@ -1,4 +1,4 @@
-//! What a script starts on: bare surfaces or a painting to continue, its pigment library, and the
+//! The start of a script: bare surfaces or a painting to continue, its pigment library, and the
 //! pictures of its grounds.
 
 use std::path::{Path, PathBuf};

@@ -28,7 +28,7 @@ pub enum SceneTab {
     View,
     /// The light.
     Light,
-    /// What was found by the last right click.
+    /// The findings of the last right click.
     Here,
     /// The list of events.
     Events,

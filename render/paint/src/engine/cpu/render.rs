@@ -27,7 +27,7 @@ pub(super) struct PaintLayers<'a> {
     pub(super) dry: &'a [SparseLayer],
 }
 
-/// What a view needs to compute its picture: the picture itself is not kept, as it would take
+/// Data from which a view computes its picture. The picture itself is not kept, as it would take
 /// 16 bytes a cell and is read once after it changed. Allocated when first rendered.
 #[derive(Debug, Default)]
 pub(super) struct RenderedView {

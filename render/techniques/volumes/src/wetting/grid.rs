@@ -11,7 +11,7 @@ use super::lattice::WettingError;
 use super::pieces::{Bodies, Pieces};
 use super::samples::SurfaceSamples;
 
-/// What we know of the surface before paint lies on it.
+/// Facts about the surface before paint lies on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// The surface in samples.
