@@ -1,5 +1,5 @@
-//! Cropping: the rectangle of cells that stays, as data, and the tool that draws and drags it over
-//! the canvas.
+//! Cropping: the rectangle of cells that stays, as data, and the tool that draws it over the canvas
+//! and lets you drag it.
 
 use eframe::egui::{
     Button, Color32, ComboBox, Context, CursorIcon, Id, Key, Modifiers, PointerButton, Pos2,
@@ -12,14 +12,11 @@ use crate::language::{tr, tr_format};
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
 
-/// Fewest cells of a side.
 const LEAST: f64 = 8.0;
 
-/// One of the eight handles: -1, 0 or 1 for left, middle and right, and for top, middle and
-/// bottom.
+/// One of the eight handles: -1, 0 or 1 for left, middle and right, and for top, middle and bottom.
 type Handle = [i8; 2];
 
-/// The handles, clockwise from the upper left.
 const HANDLES: [(Handle, &str); 8] = [
     ([-1, -1], "Crop upper left"),
     ([0, -1], "Crop top"),
@@ -44,12 +41,10 @@ impl CropFrame {
         Self { x: [0.0, width as f64], y: [0.0, height as f64] }
     }
 
-    /// Width and height in cells.
     fn size(&self) -> [f64; 2] {
         [self.x[1] - self.x[0], self.y[1] - self.y[0]]
     }
 
-    /// Place of a handle.
     fn place(&self, [across, down]: Handle) -> [f64; 2] {
         let at = |[low, high]: [f64; 2], side: i8| match side {
             ..0 => low,
@@ -59,7 +54,7 @@ impl CropFrame {
         [at(self.x, across), at(self.y, down)]
     }
 
-    /// Moved by `by` cells, as far as the canvas allows.
+    /// The frame moved by `by` cells, as far as the canvas allows.
     fn moved(self, by: [f64; 2], (width, height): (usize, usize)) -> Self {
         let shift = |[low, high]: [f64; 2], by: f64, most: usize| {
             let by = by.clamp(-low, most as f64 - high);
@@ -68,8 +63,8 @@ impl CropFrame {
         Self { x: shift(self.x, by[0], width), y: shift(self.y, by[1], height) }
     }
 
-    /// The frame with a handle dragged to `to`, on a canvas of `cells`. With `shape`, width over
-    /// height stays that: the opposite corner holds still.
+    /// The frame after you drag a handle to `to`, on a canvas of `cells`. `shape` fixes width over
+    /// height. The opposite corner stays.
     fn dragged(
         self,
         [across, down]: Handle,
@@ -133,14 +128,14 @@ impl CropFrame {
     }
 }
 
-/// Side of a handle as it is drawn, in points. In touch mode it is pressed in a larger square.
+/// Side of a drawn handle, in points. In touch mode you press in a larger square.
 const HANDLE: f32 = 14.0;
 
-/// Shapes that are offered: name, and width over height of the longer side over the shorter.
+/// Shapes to choose from: name, and the ratio of the longer to the shorter side.
 const SHAPES: [(&str, f64); 5] =
     [("1 : 1", 1.0), ("5 : 4", 1.25), ("4 : 3", 4.0 / 3.0), ("3 : 2", 1.5), ("16 : 9", 16.0 / 9.0)];
 
-/// Decision of the painter about a crop.
+/// Your decision about a crop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CropAnswer {
     /// Crops to these cells.
@@ -149,12 +144,12 @@ pub enum CropAnswer {
     Leave,
 }
 
-/// A crop that is being framed.
+/// A crop that you are framing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CropTool {
     frame: CropFrame,
     cells: (usize, usize),
-    /// Width over height, if it is kept.
+    /// Width over height, if fixed.
     shape: Option<f64>,
 }
 
@@ -171,7 +166,7 @@ impl CropTool {
         self.frame.cells(self.cells)
     }
 
-    /// Draws the frame over `canvas`, whose `response` moves it. Enter and Escape decide.
+    /// Draws the frame over `canvas`. `response` moves it. Enter and Escape decide.
     pub fn show(
         &mut self,
         ui: &Ui,
@@ -196,7 +191,6 @@ impl CropTool {
         (pressed(Key::Enter) && self.changes()).then(|| CropAnswer::Crop(self.rect()))
     }
 
-    /// Whether anything is cut off.
     fn changes(&self) -> bool {
         let rect = self.rect();
         (rect.width, rect.height) != self.cells
@@ -215,7 +209,7 @@ impl CropTool {
             let rect = ScreenRect::from_center_size(at, theme::at_least(ui, vec2(HANDLE, HANDLE)));
             let response = ui.interact(rect, Id::unique(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-            // Movements just before the release may come in its frame.
+            // The last movements may come in the frame of the release.
             let held = response.dragged() || response.drag_stopped();
             if let Some(point) = response.interact_pointer_pos().filter(|_| held) {
                 let to = placement.cell(point);
@@ -256,7 +250,7 @@ impl CropTool {
         }
     }
 
-    /// Draws the size that stays, its shape, and the buttons. Cells are `cell_mm` wide.
+    /// Draws the remaining size, its shape, and the buttons. Cells are `cell_mm` wide.
     pub fn bar(&mut self, ui: &mut Ui, cell_mm: f64) -> Option<CropAnswer> {
         let mut answer = None;
         let rect = self.rect();
@@ -286,7 +280,6 @@ impl CropTool {
         answer
     }
 
-    /// Free or kept shape.
     fn shapes(&mut self, ui: &mut Ui) {
         let [width, height] = self.frame.size();
         let near = |shape: f64| self.shape.is_some_and(|own| (own - shape).abs() < 1e-6);

@@ -11,8 +11,8 @@ use session::Performance;
 pub struct FrameRate {
     /// Frames drawn per second.
     pub frames_a_second: f64,
-    /// Mean time from the arrival of a pen sample to the end of the frame that shows
-    /// it, in ms; 0 if no sample was shown.
+    /// Mean time from the arrival of a pen sample to the end of the frame that shows it, in ms; 0
+    /// without a sample.
     pub latency_ms: f64,
     /// Longest such time, in ms.
     pub worst_ms: f64,

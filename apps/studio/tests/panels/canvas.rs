@@ -28,10 +28,9 @@ use super::fixture::{PanelWindow, made_painting};
 use super::harness::{Window, button};
 use crate::harness::{has_adapter, keep};
 
-/// Size of the test surfaces in cells: more than one chunk, not a multiple of it.
+/// Size of the test surfaces in cells. This is more than one chunk, and not a multiple of it.
 const CELLS: (usize, usize) = (700, 530);
 
-/// Colour of a cell; neighbouring cells differ.
 fn cell(x: usize, y: usize) -> [u8; 4] {
     [(x % 251) as u8, (y % 241) as u8, ((x / 16 + y / 16) % 2 * 255) as u8, 255]
 }
@@ -57,7 +56,6 @@ fn surface(outline: Outline) -> SurfaceView {
     surface
 }
 
-/// Creates a window that shows only a surface.
 fn shown(
     surface: SurfaceView,
     size: Vec2,
@@ -67,7 +65,7 @@ fn shown(
     shown_by(Drawing::default(), surface, size, density, split)
 }
 
-/// Creates such a window whose quads are drawn in this way.
+/// Like [`shown`], but you choose how the quads are drawn.
 fn shown_by(
     drawing: Drawing,
     surface: SurfaceView,
@@ -176,7 +174,7 @@ fn egui_draws_what_the_shader_of_quads_draws() {
             surface.view =
                 ViewState { centre: [511.0, 509.0], zoom, rotation, mirror, fitted: false };
             let mut harness = shown_by(drawing, surface, vec2(300.0, 200.0), 1.0, split);
-            // Tiles change when their textures are there.
+            // Tiles change only when their textures exist.
             let around = tile::Rect { x: 505, y: 500, width: 40, height: 20 };
             let changed = tiles(|x: usize, y: usize| cell(x, y).map(|channel| channel / 2 + 127))
                 .into_iter()
@@ -246,7 +244,7 @@ fn only_changed_and_visible_tiles_are_uploaded() {
     let mut harness = shown(surface, vec2(100.0, 100.0), 1.0, None);
     let bytes = |harness: &Harness<SurfaceView>| harness.state().picture(false).unwrap().uploaded();
     let first = bytes(&harness);
-    // One of four chunks, and the edges of its neighbours.
+    // This is one of four chunks, and the edges of its neighbours.
     assert_eq!(first, 4 * 513 * 513);
     let text = tiles(|_, _| [9, 9, 9, 255]);
     let at =
@@ -285,7 +283,6 @@ fn the_hole_of_the_palette_shows_the_surround() {
     assert_ne!(pixel(&picture, on.x as u32, on.y as u32), [grey, grey, grey, 255]);
 }
 
-/// Whether a place is near the drawn outline.
 fn near_edge(place: [usize; 2]) -> bool {
     let [x, y] = place;
     x < 3 || y < 3 || x + 4 > CELLS.0 || y + 4 > CELLS.1
@@ -305,7 +302,7 @@ fn until(window: &mut Window, what: &str, done: impl Fn(&mut Window) -> bool) {
     window.settle();
 }
 
-/// A window with a red picture of 300 x 100 pixels pinned and laid over the canvas.
+/// A window with a red picture of 300 x 100 pixels, pinned and laid over the canvas.
 fn overlaid(name: &'static str) -> Window {
     let path = file(&format!("{name}.png"));
     RgbImage::from_pixel(300, 100, Pixel([200, 20, 20])).save(&path).unwrap();
@@ -321,7 +318,7 @@ fn overlaid(name: &'static str) -> Window {
 fn the_reference_lies_over_the_canvas_and_is_never_painted() {
     let mut window = overlaid("over-canvas");
     let history = window.studio().painting().unwrap().history.clone();
-    // Fitted: as wide as the canvas of 32 x 20 mm, and 10.7 mm high.
+    // The fitted picture is as wide as the canvas of 32 x 20 mm, and 10.7 mm high.
     let inside = window.point(SurfaceId::Canvas, 25.0, 10.0);
     let beside = window.point(SurfaceId::Canvas, 25.0, 2.0);
     if let Some(picture) = window.picture() {
@@ -460,7 +457,7 @@ fn hold(window: &mut Window, x_mm: f64, kind: impl Fn(PointerState) -> ReportKin
     window.studio_mut().pen.feed(report);
 }
 
-/// A window with the stroke of a stylus that is open, and its context.
+/// A window with an open stroke of a stylus.
 fn in_stroke(name: &'static str) -> (Window, Context) {
     let mut window = Window::open(name);
     window.click("Load brush");
@@ -471,7 +468,7 @@ fn in_stroke(name: &'static str) -> (Window, Context) {
     (window, context)
 }
 
-/// Moves the stylus from 6 to 24 mm, without frames. Returns what was shown.
+/// Moves the stylus from 6 to 24 mm without frames. Returns what was shown.
 fn moved(window: &mut Window, context: &Context) -> Vec<Between> {
     let mut shown = Vec::new();
     let mut show = |window: &mut Window| {
@@ -571,10 +568,11 @@ fn frames_show_what_is_more_than_paint_and_head() {
     assert!(window.studio_mut().between(&context).is_none(), "no stroke is open");
 }
 
-/// Largest difference of a channel: both round, and egui's shader filters by itself in tests.
+/// Largest difference of a channel. Both shaders round, and egui's shader filters by itself in
+/// tests.
 const NEAR: u8 = 3;
 
-/// Widgets, text of two sizes, a picture that changes, and a translucent card over them.
+/// Shows widgets, text of two sizes, a picture that changes, and a translucent card over them.
 fn show(ui: &mut Ui, state: &mut (usize, Option<TextureHandle>)) {
     let (frame, picture) = state;
     let image = |side: usize, value: u8| {

@@ -16,12 +16,12 @@ use super::look::drawn_texts;
 
 const SIZE: Vec2 = vec2(1280.0, 800.0);
 
-/// Whether the window draws a text that contains `words`.
+/// Whether the window draws a text with `words`.
 fn draws(window: &mut Window, words: &str) -> bool {
     drawn_texts(window).iter().any(|(_, text)| text.contains(words))
 }
 
-/// Where the window draws a text that contains `words`.
+/// Where the window draws a text with `words`.
 fn place_of_text(window: &mut Window, words: &str) -> Option<eframe::egui::Rect> {
     window.harness().output().shapes.iter().find_map(|clipped| match &clipped.shape {
         Shape::Text(text) if text.galley.text().contains(words) => {
@@ -53,7 +53,7 @@ fn the_first_steps_are_gone_at_the_first_stroke_and_back_under_help() {
         assert!(draws(&mut window, words), "{words} is not shown");
     }
     let before = done(&window);
-    // Over the lines: they take no clicks.
+    // You can paint over the hints, because they take no clicks.
     let from = window.studio().canvas.rect().center_top() + vec2(-60.0, 40.0);
     let on = window.studio().canvas.position(from).is_some();
     let from = if on { from } else { window.studio().canvas.rect().center() };
@@ -124,7 +124,7 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     window.click("Discard");
     let began = web_time::Instant::now();
     let title = |window: &Window| window.studio().painting().unwrap().title.clone();
-    // The worker measures the layers when it has nothing else to do.
+    // The worker measures the layers only when it is idle.
     let measured = |window: &Window| {
         let layers = &window.studio().painting().unwrap().layers;
         layers.len() == 3 && layers.iter().all(|layer| layer.coverage > 0.0)
@@ -146,7 +146,7 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     assert!(message.text.contains("the recording was played"), "{message:?}");
 }
 
-/// Pixels of the window that changed between two pictures, with their new colours.
+/// Pixels of the window that differ between two pictures, with their new colours.
 fn changed(window: &mut Window, at: Pos2, reach: f32, hover: Pos2) -> Option<Vec<(Vec2, [u8; 3])>> {
     window.frame(vec![eframe::egui::Event::PointerGone]);
     window.harness().run_ok();
@@ -171,7 +171,7 @@ fn the_cursor_is_an_outline_that_leaves_its_place_free() {
     for (brush, turn) in [("flat", 0.0), ("round", 0.7), ("knife", 0.0), ("rigger", 0.0)] {
         window.studio_mut().tools.brush = brush.to_owned();
         window.studio_mut().canvas.view.rotation = turn;
-        // Fitted, a millimetre is 25 points; smaller, the rigger is small.
+        // A fitted millimetre is 25 points. If the view is smaller, so is the rigger.
         window.studio_mut().canvas.view.zoom = if brush == "rigger" { 0.5 } else { 1.0 };
         window.studio_mut().canvas.view.fitted = false;
         window.harness().run_ok();
@@ -200,7 +200,7 @@ fn the_bent_head_of_an_open_stroke_is_an_outline_too() {
     window.settle();
     let Some(picture) = window.picture() else { return };
     window.save("cursor-bent");
-    // Inside, the window shows the cells of the canvas as they are.
+    // Inside, the window shows the cells of the canvas unchanged.
     let view = &window.studio().canvas;
     let [x, y] = view.position(last).unwrap().map(|cells| cells as usize);
     let cell = view.picture(false).unwrap().pixels(Rect { x, y, width: 1, height: 1 }).pixels[0];
@@ -257,12 +257,10 @@ fn the_palette_is_shown_under_either_of_two_lights() {
     window.key(Modifiers::NONE, Key::Escape);
 }
 
-/// The fixture's painting without layers and history.
 fn bare() -> PaintingState {
     PaintingState { history: Vec::new(), history_done: 0, layers: Vec::new(), ..painting() }
 }
 
-/// Adds an action to the history.
 fn add(painting: &mut PaintingState, label: &str) {
     painting.history.truncate(painting.history_done);
     painting.history.push(label.to_owned());
@@ -370,7 +368,7 @@ fn draw(window: &mut Window, surface: SurfaceId, from: (f64, f64), to: (f64, f64
 
 fn double_click_tube(window: &mut Window, name: &str) {
     let label = format!("tube of {name}");
-    // Time passes, or the clicks before would make these two a triple click.
+    // Time must pass, or these and the earlier clicks would be a triple click.
     window.harness().run_steps(60);
     let tube = window.harness().get_by_label(&label);
     tube.click();
@@ -442,7 +440,7 @@ fn the_card_goes_back_and_on_and_escape_leaves_it() {
     }
     window.click("Back");
     assert_eq!(window.studio().tour().step(), Some(TourStep::Paint));
-    // A window over the tour comes first.
+    // A window over the tour gets the key first.
     window.key(Modifiers::NONE, Key::F1);
     window.key(Modifiers::NONE, Key::Escape);
     assert!(window.studio().tour().is_running(), "Escape closed the keys");

@@ -47,7 +47,7 @@ fn ctrl_click(harness: &mut Panel, label: &str) {
     harness.run();
 }
 
-/// A place of the row of a layer where it has no control: its name.
+/// A place in the row of a layer without a control: its name.
 fn name_at(harness: &Panel, label: &str) -> Pos2 {
     harness.get_by_label(label).rect().left_center() + vec2(4.0, 0.0)
 }
@@ -145,8 +145,7 @@ fn dragging_the_opacity_adjusts_and_ends_once() {
         }
     }
     assert!(values.is_sorted() && values[0] > 0.0 && values[2] < 4.0, "{values:?}");
-    // While the worker lags, the slider shows the requested value and sends nothing
-    // more.
+    // While the worker lags, the slider shows the requested value and sends nothing more.
     harness.drop_at(start + vec2(30.0, 0.0));
     harness.run();
     assert_requests(&mut harness, &[Request::Worker(Command::EndAdjustment)]);
@@ -200,7 +199,7 @@ fn a_name_is_edited_by_a_double_click_or_by_f2() {
     assert_requests(&mut harness, &[named("sky")]);
     harness.state_mut().painting.layers[1].name = "sky".to_owned();
     harness.run();
-    // The double click chose it as well, so that F2 edits it again; its text is selected.
+    // The double click also chose the layer, so F2 edits it again with its text selected.
     key(&mut harness, Key::F2);
     harness.get_by_label("name of sky").type_text("water");
     harness.run();
@@ -489,7 +488,7 @@ fn rows_show_the_canvas_after_their_action_and_hovering_enlarges_it() {
             let at = drawn.get_pixel((rect.left() + x) as u32, (rect.top() + 5.0) as u32).0;
             i32::from(at[0]) - i32::from(at[1])
         };
-        // The third action has no picture, those around it have.
+        // The third action has no picture, the others have one.
         assert!(red("2 stroke, round", 42.0) > 60, "{}", red("2 stroke, round", 42.0));
         assert!(red("3 dry 50 %", 42.0).abs() < 10, "{}", red("3 dry 50 %", 42.0));
     }

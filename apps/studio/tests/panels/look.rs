@@ -17,7 +17,6 @@ use super::fixture::{SeenText, Target, targets, texts};
 use super::harness::Window;
 use super::volumes::scene;
 
-/// All panels of the columns.
 pub(super) const TABS: [Tab; 8] = [
     Tab::Brush,
     Tab::Layers,
@@ -29,10 +28,9 @@ pub(super) const TABS: [Tab; 8] = [
     Tab::Files,
 ];
 
-/// Sizes of windows, in points.
 const SIZES: [Vec2; 3] = [vec2(1280.0, 800.0), vec2(1440.0, 1000.0), vec2(1920.0, 1080.0)];
 
-/// Themes, and whether everything is to be touched.
+/// Themes, and whether the window is in touch mode.
 const LOOKS: [(ThemeChoice, bool); 4] = [
     (ThemeChoice::Dark, false),
     (ThemeChoice::Light, false),
@@ -104,7 +102,7 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
         let mut window = Window::sized("whole-brush-panel", size, 1.0);
         for look in LOOKS {
             set_look(&mut window, look);
-            // Whichever panel was used last, the spectral curve yields.
+            // The spectral curve makes room for any panel that was used last.
             show(&mut window, Tab::Light);
             show(&mut window, Tab::Brush);
             let heads = ["Fold Light", "Unfold Light"];
@@ -133,7 +131,8 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
     for look in [(ThemeChoice::Dark, false), (ThemeChoice::Light, false)] {
         set_look(&mut window, look);
         show(&mut window, Tab::Brush);
-        // With paint there are numbers above; without, the panel is shorter, and Light stays open.
+        // If there is paint, numbers stand above. If not, the panel is shorter, and Light stays
+        // open.
         for key in [Key::D, Key::W] {
             window.click("Load brush");
             window.key(Modifiers::NONE, key);
@@ -143,7 +142,7 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
             window.show(&format!("whole-tip-{key:?}"));
             assert!(tip.bottom() < below.top(), "{look:?} {key:?}: {tip} {below}");
         }
-        // Settings of a tool take the place of the numbers of the film.
+        // The settings of a tool replace the numbers of the film.
         window.click("Load brush");
         for mode in [Mode::Blend, Mode::Scrape, Mode::Erase] {
             window.studio_mut().tools.mode = mode;
@@ -182,7 +181,7 @@ fn palette_and_tubes_grow_with_the_window() {
     assert!(large[1].y > 1.25 * small[1].y, "the tubes: {small:?} {large:?}");
 }
 
-/// Colour that most pixels of a rectangle have.
+/// The most frequent colour of a rectangle.
 fn background(picture: &RgbaImage, rect: Rect) -> [u8; 3] {
     let mut counts: std::collections::BTreeMap<[u8; 3], usize> = std::collections::BTreeMap::new();
     for y in rect.top().max(0.0) as u32..(rect.bottom() as u32).min(picture.height()) {
@@ -219,7 +218,7 @@ fn all_text_on_the_screen_has_a_contrast_of_seven() {
     }
 }
 
-/// Targets that may be smaller, and why.
+/// Targets that can be smaller, with the reason.
 const SMALLER: [(&str, &str); 4] = [
     ("Close window", "the window's own button; Escape and a click elsewhere close it too"),
     ("Height of ", "edges are dragged, not clicked; folding does without them"),
@@ -227,7 +226,7 @@ const SMALLER: [(&str, &str); 4] = [
     ("Target colour", "it shows a colour and does nothing when it is clicked"),
 ];
 
-/// Targets that are smaller than a finger.
+/// Targets smaller than a finger.
 pub(super) fn small(window: &mut Window) -> Vec<Target> {
     let all = targets(&window.harness().root());
     assert!(all.len() > 20, "{} targets", all.len());
@@ -249,7 +248,7 @@ fn everything_that_is_touched_is_44_points_wide_and_high() {
         window.studio_mut().ask(Command::Apply(action));
     }
     let layers = |window: &Window| window.studio().painting().map_or(0, |p| p.layers.len());
-    // On a busy machine its picture comes after the answers.
+    // On a busy machine this picture comes after the answers.
     for _ in 0..20 {
         window.settle();
         if layers(&window) > 0 {
@@ -307,7 +306,7 @@ fn the_menu_changes_theme_targets_and_scale_at_once() {
     let choose = |window: &mut Window, entry: &str| {
         window.open_menu("View");
         let entry = window.harness().query_all_by_label_contains(entry).last();
-        // It may be scrolled out of view.
+        // The entry may be out of view.
         entry.expect("an entry of the menu").click_accesskit();
         window.harness().step();
         window.harness().run_ok();
@@ -349,7 +348,7 @@ fn nothing_is_cut_at_any_scale_of_any_screen() {
     }
 }
 
-/// A window over the canvas: its name, a label that is seen while it is open, and how it is opened.
+/// A window over the canvas: its name, a label that you see while it is open, and how to open it.
 type Over = (&'static str, &'static str, fn(&mut Window));
 
 const OVER: [Over; 7] = [
@@ -364,7 +363,7 @@ const OVER: [Over; 7] = [
     }),
 ];
 
-/// Opens a window over the canvas and waits for what it reads.
+/// Opens a window over the canvas and waits until it has read its files.
 fn open(window: &mut Window, (name, label, opens): Over) {
     opens(window);
     window.settle();
@@ -416,7 +415,7 @@ fn every_character_over_the_canvas_has_a_glyph() {
     }
 }
 
-/// Texts that were drawn in the last frame, with the family of their font.
+/// Collects the texts of the last frame, with the family of their font.
 fn drawn(shape: &Shape, texts: &mut BTreeSet<(FontFamily, String)>) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| drawn(shape, texts)),
@@ -442,8 +441,7 @@ pub(super) fn drawn_texts(window: &mut Window) -> BTreeSet<(FontFamily, String)>
     texts
 }
 
-/// Checks what is shown now: drawn texts, and the names for screen readers. Returns the number of
-/// texts.
+/// Checks all drawn texts and all names for screen readers. Returns the number of texts.
 pub(super) fn check(window: &mut Window, place: &str) -> usize {
     let mut texts = drawn_texts(window);
     let nodes = window.harness().query_all_by(|_| true);
@@ -520,7 +518,7 @@ fn every_character_of_the_workspace_of_scenes_has_a_glyph() {
     let mut window = scene("glyphs-of-scenes");
     check_menus(&mut window);
     for tab in ["View", "Light", "Here", "Events", "Export"] {
-        // After the menu of this name.
+        // This label stands after the menu of the same name.
         window.harness().get_all_by_label(tab).last().unwrap().click();
         window.harness().run_ok();
         check(&mut window, tab);

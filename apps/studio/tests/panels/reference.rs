@@ -65,7 +65,6 @@ fn click(stage: &mut PanelWindow<Reference>, place: Pos2) {
     stage.run();
 }
 
-/// Picked colour as 8-bit sRGB.
 fn wanted(stage: &mut PanelWindow<Reference>) -> Option<[u8; 3]> {
     stage.state().tools.reference_color.take().map(|linear| Rgb(linear).encoded().to_bytes())
 }
@@ -89,7 +88,7 @@ fn a_click_picks_the_color_shown_there() {
 
 #[test]
 fn pictures_of_every_format_have_their_colors() {
-    // JPEG rounds.
+    // JPEG rounds values.
     for (name, off) in [("kind.tif", 0), ("kind.webp", 0), ("kind.jpg", 4)] {
         let mut stage = stage(name);
         for (field, (x, y)) in
@@ -130,7 +129,7 @@ fn the_mean_over_the_radius_is_in_linear_light() {
     let left = linear(FIELDS[0]);
     let right = linear(FIELDS[1]);
     for ((found, left), right) in found.iter().zip(left).zip(right) {
-        // Equal numbers of pixels on both sides, except at the rim.
+        // Both sides have equal numbers of pixels, except at the rim.
         let share = (found - left) / (right - left);
         assert!((share - 0.5).abs() < 0.15, "{share}");
     }
@@ -166,7 +165,7 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
     stage.wait(1.0);
     click(&mut stage, about);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "zooming keeps the position under the pointer");
-    // The boundary was 20 pixels to the right and is farther away after zooming.
+    // The boundary was 20 pixels to the right. After zooming it is farther away.
     let right = about + vec2(30.0, 0.0);
     click(&mut stage, right);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "still the same field after zooming");
@@ -229,12 +228,10 @@ fn an_unreadable_picture_shows_an_error_with_its_name() {
     assert!(text.contains("broken.png") && text.contains("PNG, JPEG, TIFF or WebP"), "{text}");
 }
 
-/// Width and height of the picture.
 const SIZE: [f64; 2] = [800.0, 400.0];
 
 type Stage = PanelWindow<Reference>;
 
-/// A panel with a picture of stripes.
 fn drawing_panel(name: &str) -> (Stage, PathBuf) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let stripe = |x: u32, y: u32| if (x + y / 3) % 24 < 12 { [196, 150, 80] } else { [90, 70, 60] };
@@ -264,7 +261,7 @@ fn draw(stage: &mut Stage, places: &[[f64; 2]]) {
     stage.drag(&along);
 }
 
-/// The drawing that a click on this button asks to save.
+/// The drawing that this button asks to save.
 fn drawn(stage: &mut Stage, button: &str) -> DrawnFile {
     stage.click(button);
     match &stage.requests()[..] {
@@ -342,7 +339,7 @@ fn a_zoomed_and_mirrored_picture_gives_the_same_places() {
     let zoom = 2.0_f32.exp()
         * (drawing_place(&stage, [401.0, 200.0]) - drawing_place(&stage, [400.0, 200.0])).x;
     let middle = drawing_place(&stage, [400.0, 200.0]);
-    // To the left on the screen, so to the right in the mirrored picture.
+    // This goes left on the screen, so right in the mirrored picture.
     stage.drag(&[middle, middle + zoom * vec2(-50.0, 20.0)]);
     let points = scribble(&marks(&mut stage).samples[0].area).to_vec();
     assert!(near(points[0], [400.0, 200.0]) && near(points[1], [450.0, 220.0]), "{points:?}");
@@ -368,7 +365,7 @@ fn spacing_is_drawn_or_clicked_for_the_selected_sample() {
     assert!(near(found.samples[0].spacing.unwrap()[0], [150.0, 110.0]), "{found:?}");
     assert!(shows(&stage, "24.0 px") || shows(&stage, "23.9 px") || shows(&stage, "24.1 px"));
     stage.save("reference-spacing");
-    // A click selects the sample below it.
+    // Click the sample below to select it.
     stage.click("Scribble");
     draw(&mut stage, &[[200.0, 100.0], [200.0, 100.0]]);
     stage.click("Spacing");

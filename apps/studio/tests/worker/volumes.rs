@@ -11,7 +11,6 @@ use session::volumes::{
 };
 use volumes::script::Script;
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 const SIZE: [usize; 2] = [200, 150];
@@ -29,7 +28,7 @@ struct Client {
 }
 
 impl Client {
-    /// A worker that has opened `subject` and is seen by `camera`.
+    /// A worker that has opened `subject` and shows it to `camera`.
     fn open(subject: Subject) -> Self {
         let (wake, woken) = channel();
         let worker = VolumeWorker::start(move || wake.send(()).unwrap_or(()));
@@ -101,7 +100,6 @@ impl Client {
         self.wait(|client| client.state().time.step >= step);
     }
 
-    /// Stops time at a step.
     fn seek(&mut self, step: u64) {
         self.ask(VolumeCommand::Seek(step));
         self.wait(|client| {
@@ -135,7 +133,6 @@ fn village() -> Subject {
     Subject::Shape("village".to_owned())
 }
 
-/// Number of pixels with a colour.
 fn colored(picture: &ScenePicture) -> usize {
     picture
         .pixels
@@ -272,7 +269,7 @@ fn time_runs_on_and_pictures_come_while_paint_is_mixed() {
     client.wait(|client| client.state().prepares);
     let step = client.state().time.step;
     let pictures = client.pictures;
-    // What takes long is done beside the scene: it is not awaited.
+    // Slow work runs beside the scene, so we need not wait for it.
     client.wait(|client| client.pictures > pictures + 1 || !client.state().prepares);
     assert!(client.state().prepares, "a picture comes before the paint is mixed");
     client.wait(|client| client.state().time.step > step + 2);

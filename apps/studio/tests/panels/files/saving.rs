@@ -161,7 +161,7 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
         let texts = paths.filter_map(|path| std::fs::read_to_string(path).ok());
         texts.into_iter().any(|text| text.contains("orchard.png"))
     });
-    // Simulate a crash: the lock is released, the folder stays.
+    // This simulates a crash: the lock is released, the folder stays.
     drop(first);
 
     let mut second = window(folder.path(), painted("Another"));
@@ -196,7 +196,6 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "a regular exit leaves nothing");
 }
 
-/// All files below a folder.
 fn walk(folder: &Path) -> Vec<std::path::PathBuf> {
     let paths = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path());
     paths.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
@@ -323,7 +322,6 @@ fn opening_another_painting_asks_before_discarding_changes() {
     assert!(!window.state_mut().files().has_unsaved_changes(), "the painting equals its file");
 }
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn state(revision: u64) -> SceneState {
@@ -400,7 +398,7 @@ fn a_scene_left_by_a_crash_is_offered_and_recovered() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = scene_window(folder.path());
     autosaved(&mut first, "the script", folder.path());
-    // A crash: the window ends without finishing.
+    // This simulates a crash: the window ends without finishing.
     drop(first);
     let start = Instant::now();
     let scenes = Home::in_folder(folder.path()).scenes();
