@@ -207,12 +207,14 @@ fn paint(
         let y = top + 0.15 * (bottom - top) + height * now / seconds;
         Pos2::new(x as f32 / DENSITY, y as f32 / DENSITY)
     };
-    let button = |pos: Pos2, pressed: bool| Event::PointerButton {
-        pos,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    fn button(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }
+    }
     let mut frame = |events: Vec<Event>| {
         harness.input_mut().events.extend(events);
         let began = Instant::now();

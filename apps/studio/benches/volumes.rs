@@ -152,8 +152,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         bench.worker.ask(VolumeCommand::PenUp);
         bench.worker.ask(VolumeCommand::Undo);
         bench.worker.ask(VolumeCommand::Seek(0));
-        let step = |bench: &Bench| bench.state.as_ref().map_or(0, |state| state.time.step);
-        while bench.colored() > 0 || step(&bench) > 0 {
+        while bench.colored() > 0 || bench.state.as_ref().map_or(0, |state| state.time.step) > 0 {
             bench.receive(HAND);
         }
     }

@@ -497,11 +497,11 @@ mod tests {
 
     #[test]
     fn without_room_the_group_used_last_stays_open() {
-        let share = |uses: [u64; 2]| {
+        fn share(uses: [u64; 2]) -> Vec<Option<f32>> {
             let brush = request(510.0, true, uses[0]);
             let light = request(800.0, false, uses[1]);
             heights(&[brush, light], 680.0)
-        };
+        }
         assert_eq!(share([2, 1]), [Some(680.0), None]);
         assert_eq!(share([1, 2]), [None, Some(680.0)]);
         assert_eq!(share([0, 0]), [Some(680.0), None], "the upper one is open at first");

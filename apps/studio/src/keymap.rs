@@ -439,11 +439,11 @@ mod tests {
     }
 
     fn rows() -> Vec<KeyRow> {
-        let key = |text: &str| text.parse::<Shortcut>().unwrap();
-        let row = |name: &str, keys: &[&str]| {
-            let keys: Vec<Shortcut> = keys.iter().map(|text| key(text)).collect();
+        fn row(name: &str, keys: &[&str]) -> KeyRow {
+            let keys: Vec<Shortcut> =
+                keys.iter().map(|text| text.parse::<Shortcut>().unwrap()).collect();
             KeyRow::new(name.to_owned(), name, "", "Edit", &keys)
-        };
+        }
         vec![row("undo", &["Ctrl+Z"]), row("redo", &["Ctrl+Shift+Z", "Ctrl+Y"]), row("dry", &["D"])]
     }
 

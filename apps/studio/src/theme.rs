@@ -108,10 +108,10 @@ pub fn contrast(one: Color32, other: Color32) -> f64 {
 
 /// Relative luminance of an opaque colour in sRGB, 0 to 1.
 fn luminance(color: Color32) -> f64 {
-    let linear = |byte: u8| {
+    fn linear(byte: u8) -> f64 {
         let encoded = f64::from(byte) / 255.0;
         if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-    };
+    }
     0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
 }
 
@@ -274,13 +274,12 @@ pub fn at_least(ui: &Ui, size: Vec2) -> Vec2 {
 
 fn style(theme: Theme, touch: bool) -> Style {
     let mut style = Style { visuals: visuals(theme), animation_time: 0.08, ..Style::default() };
-    let font = |size, family| FontId::new(size, family);
     style.text_styles = [
-        (TextStyle::Small, font(11.0, FontFamily::Proportional)),
-        (TextStyle::Body, font(13.0, FontFamily::Proportional)),
-        (TextStyle::Button, font(13.0, FontFamily::Proportional)),
-        (TextStyle::Heading, font(15.0, FontFamily::Proportional)),
-        (TextStyle::Monospace, font(12.0, FontFamily::Monospace)),
+        (TextStyle::Small, FontId::new(11.0, FontFamily::Proportional)),
+        (TextStyle::Body, FontId::new(13.0, FontFamily::Proportional)),
+        (TextStyle::Button, FontId::new(13.0, FontFamily::Proportional)),
+        (TextStyle::Heading, FontId::new(15.0, FontFamily::Proportional)),
+        (TextStyle::Monospace, FontId::new(12.0, FontFamily::Monospace)),
     ]
     .into();
     style.spacing.item_spacing = vec2(6.0, 5.0);

@@ -90,8 +90,13 @@ fn at_work(window: &mut Window) {
     led.truncate(led.len() * 4 / 5);
     let arrived = Instant::now();
     // The pen is held in the right hand.
-    let held = |sample| Sample { tilt_x_deg: 38.0, tilt_y_deg: 26.0, ..sample };
-    let led = led.into_iter().map(|sample| PenSample { sample: held(sample), arrived }).collect();
+    let led = led
+        .into_iter()
+        .map(|sample| PenSample {
+            sample: Sample { tilt_x_deg: 38.0, tilt_y_deg: 26.0, ..sample },
+            arrived,
+        })
+        .collect();
     window.studio_mut().ask(Command::PenMove(led));
     window.settle();
 }

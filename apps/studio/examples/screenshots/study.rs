@@ -355,26 +355,27 @@ pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
         }
         *along.last().expect("a stroke leads somewhere")
     };
-    let sample = |index: usize| {
-        let share = index as f64 / count as f64;
-        let way = share * whole;
-        let (x_mm, y_mm) = place(way);
-        // We average over a few mm, so that the head does not jump at corners.
-        let behind = place(way - 2.0);
-        let ahead = place(way + 2.0);
-        let course = (ahead.1 - behind.1).atan2(ahead.0 - behind.0);
-        let soft = (share.min(1.0 - share) * 6.0).min(1.0);
-        Sample {
-            seconds: way / SPEED,
-            x_mm,
-            y_mm,
-            pressure: pressure * (0.1 + 0.9 * soft),
-            tilt_x_deg: 25.0 * course.cos(),
-            tilt_y_deg: 25.0 * course.sin(),
-            twist_deg: course.to_degrees() - 90.0,
-        }
-    };
-    (0..=count).map(sample).collect()
+    (0..=count)
+        .map(|index| {
+            let share = index as f64 / count as f64;
+            let way = share * whole;
+            let (x_mm, y_mm) = place(way);
+            // We average over a few mm, so that the head does not jump at corners.
+            let behind = place(way - 2.0);
+            let ahead = place(way + 2.0);
+            let course = (ahead.1 - behind.1).atan2(ahead.0 - behind.0);
+            let soft = (share.min(1.0 - share) * 6.0).min(1.0);
+            Sample {
+                seconds: way / SPEED,
+                x_mm,
+                y_mm,
+                pressure: pressure * (0.1 + 0.9 * soft),
+                tilt_x_deg: 25.0 * course.cos(),
+                tilt_y_deg: 25.0 * course.sin(),
+                twist_deg: course.to_degrees() - 90.0,
+            }
+        })
+        .collect()
 }
 
 fn length(from: Place, to: Place) -> f64 {
@@ -383,20 +384,22 @@ fn length(from: Place, to: Place) -> f64 {
 
 /// Parses parts by letter.
 fn recipe(parts: &str) -> Recipe {
-    let part = |part: &str| {
-        let (letter, amount) = part.split_at(1);
-        let name = match letter {
-            "W" => "Zinc White",
-            "L" => "Chrome Yellow (Otero)",
-            "Y" => "Chrome Yellow",
-            "R" => "Vermilion",
-            "C" => "Cochineal Lake",
-            "U" => "Ultramarine",
-            "P" => "Prussian Blue",
-            "K" => "Bone Black",
-            _ => panic!("{letter} of \"{parts}\" is no paint"),
-        };
-        (name.to_owned(), amount.parse().expect("parts are a number"))
-    };
-    parts.split_whitespace().map(part).collect()
+    parts
+        .split_whitespace()
+        .map(|part| {
+            let (letter, amount) = part.split_at(1);
+            let name = match letter {
+                "W" => "Zinc White",
+                "L" => "Chrome Yellow (Otero)",
+                "Y" => "Chrome Yellow",
+                "R" => "Vermilion",
+                "C" => "Cochineal Lake",
+                "U" => "Ultramarine",
+                "P" => "Prussian Blue",
+                "K" => "Bone Black",
+                _ => panic!("{letter} of \"{parts}\" is no paint"),
+            };
+            (name.to_owned(), amount.parse().expect("parts are a number"))
+        })
+        .collect()
 }

@@ -179,8 +179,8 @@ fn draw(window: &mut Window, places: &[[f32; 2]]) {
     let panel = window.harness().get_by_label("Reference picture").rect();
     let zoom = (panel.width() / VIEW.0 as f32).min(panel.height() / VIEW.1 as f32);
     let middle = 0.5 * vec2(VIEW.0 as f32, VIEW.1 as f32);
-    let point = |place: eframe::egui::Vec2| panel.center() + zoom * (place - middle);
-    let along = (0..=40).map(|step| point(curve(places, step as f32 / 40.0)));
+    let along =
+        (0..=40).map(|step| panel.center() + zoom * (curve(places, step as f32 / 40.0) - middle));
     window.pen_stroke(&along.collect::<Vec<Pos2>>());
     window.harness().run_steps(3);
 }

@@ -46,20 +46,22 @@ impl CropFrame {
     }
 
     fn place(&self, [across, down]: Handle) -> [f64; 2] {
-        let at = |[low, high]: [f64; 2], side: i8| match side {
-            ..0 => low,
-            0 => 0.5 * (low + high),
-            1.. => high,
-        };
+        fn at([low, high]: [f64; 2], side: i8) -> f64 {
+            match side {
+                ..0 => low,
+                0 => 0.5 * (low + high),
+                1.. => high,
+            }
+        }
         [at(self.x, across), at(self.y, down)]
     }
 
     /// The frame moved by `by` cells, as far as the canvas allows.
     fn moved(self, by: [f64; 2], (width, height): (usize, usize)) -> Self {
-        let shift = |[low, high]: [f64; 2], by: f64, most: usize| {
+        fn shift([low, high]: [f64; 2], by: f64, most: usize) -> [f64; 2] {
             let by = by.clamp(-low, most as f64 - high);
             [low + by, high + by]
-        };
+        }
         Self { x: shift(self.x, by[0], width), y: shift(self.y, by[1], height) }
     }
 
@@ -75,14 +77,14 @@ impl CropFrame {
         if let Some(shape) = shape {
             return self.dragged_in_shape([across, down], to, shape, (width, height));
         }
-        let edge = |[low, high]: [f64; 2], side: i8, to: f64, most: usize| {
+        fn edge([low, high]: [f64; 2], side: i8, to: f64, most: usize) -> [f64; 2] {
             let most = most as f64;
             match side {
                 ..0 => [to.clamp(0.0, (high - LEAST).max(0.0)), high],
                 0 => [low, high],
                 1.. => [low, to.clamp((low + LEAST).min(most), most)],
             }
-        };
+        }
         Self { x: edge(self.x, across, to[0], width), y: edge(self.y, down, to[1], height) }
     }
 
@@ -96,9 +98,9 @@ impl CropFrame {
         // A handle in the middle of an edge grows the frame to the right and downwards.
         let [right, lower] = [across >= 0, down >= 0];
         let fixed = [self.x[usize::from(!right)], self.y[usize::from(!lower)]];
-        let room = |forward: bool, fixed: f64, most: usize| {
+        fn room(forward: bool, fixed: f64, most: usize) -> f64 {
             if forward { most as f64 - fixed } else { fixed }
-        };
+        }
         let room = [room(right, fixed[0], width), room(lower, fixed[1], height)];
         let reach = [0, 1].map(|axis: usize| (to[axis] - fixed[axis]).abs());
         let wanted = match (across, down) {
@@ -109,19 +111,19 @@ impl CropFrame {
         let most = room[0].min(room[1] * shape);
         let least = LEAST.max(LEAST * shape).min(most);
         let width = wanted.clamp(least, most);
-        let side = |forward: bool, fixed: f64, length: f64| {
+        fn side(forward: bool, fixed: f64, length: f64) -> [f64; 2] {
             if forward { [fixed, fixed + length] } else { [fixed - length, fixed] }
-        };
+        }
         Self { x: side(right, fixed[0], width), y: side(lower, fixed[1], width / shape) }
     }
 
     /// Whole cells of the frame on a canvas of `cells`.
     fn cells(&self, (width, height): (usize, usize)) -> Rect {
-        let whole = |[low, high]: [f64; 2], most: usize| {
+        fn whole([low, high]: [f64; 2], most: usize) -> (usize, usize) {
             let low = (low.round().max(0.0) as usize).min(most.saturating_sub(1));
             let high = (high.round().max(0.0) as usize).clamp(low + 1, most);
             (low, high - low)
-        };
+        }
         let (x, width) = whole(self.x, width);
         let (y, height) = whole(self.y, height);
         Rect { x, y, width, height }

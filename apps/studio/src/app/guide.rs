@@ -37,10 +37,6 @@ impl Facts {
         let done = &painting.history[..painting.history_done.min(painting.history.len())];
         let count = |start: &str| done.iter().filter(|label| label.starts_with(start)).count();
         let last = done.iter().rev().find_map(|label| label.strip_prefix("stroke, "));
-        let is_glaze = |brush: &str| {
-            let mut brushes = painting.brushes.iter();
-            brushes.any(|state| state.name == brush && state.vehicle >= GLAZE)
-        };
         Self {
             loads: painting
                 .brushes
@@ -50,7 +46,11 @@ impl Facts {
             strokes: count("stroke, "),
             mixing_strokes: count("stroke on the palette"),
             dryings: count("dry "),
-            glazed: !painting.layers.is_empty() && last.is_some_and(is_glaze),
+            glazed: !painting.layers.is_empty()
+                && last.is_some_and(|brush| {
+                    let mut brushes = painting.brushes.iter();
+                    brushes.any(|state| state.name == brush && state.vehicle >= GLAZE)
+                }),
             lighting: painting.lighting.clone(),
         }
     }

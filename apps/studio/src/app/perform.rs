@@ -53,9 +53,6 @@ impl Studio {
     pub(super) fn perform(&mut self, intent: Intent, context: &Context) {
         let area = self.canvas.rect();
         let density = context.pixels_per_point();
-        let zoom = |studio: &mut Self, factor: f64| {
-            studio.canvas.view.zoom_by(factor, area.center(), area, density);
-        };
         match intent {
             Intent::New => self.file(FileRequest::New),
             Intent::Open => self.file(FileRequest::Open(None)),
@@ -105,8 +102,10 @@ impl Studio {
             Intent::Perspective => self.toggle_guide(GuideKind::Perspective),
             Intent::Snapping => self.toggle_snapping(),
             Intent::Symmetry => self.toggle_symmetry(),
-            Intent::ZoomIn => zoom(self, ZOOM),
-            Intent::ZoomOut => zoom(self, 1.0 / ZOOM),
+            Intent::ZoomIn => self.canvas.view.zoom_by(ZOOM, area.center(), area, density),
+            Intent::ZoomOut => {
+                self.canvas.view.zoom_by(1.0 / ZOOM, area.center(), area, density);
+            }
             Intent::Fit => {
                 self.canvas.fit();
                 self.palette.fit();
@@ -223,8 +222,9 @@ impl Studio {
     /// shown.
     fn scene_subject(&self, path: &Path) -> Option<Subject> {
         let subject = Subject::from_text(path.to_str()?);
-        let picture = || self.shows_volumes && has_picture_ending(path);
-        subject.or_else(|| picture().then(|| Subject::of_file(path)))
+        subject.or_else(|| {
+            (self.shows_volumes && has_picture_ending(path)).then(|| Subject::of_file(path))
+        })
     }
 
     pub(super) fn update_title(&mut self, context: &Context) {
@@ -356,10 +356,13 @@ impl Studio {
             return;
         }
         let pointer = context.input(|input| input.pointer.hover_pos());
-        let over = |point: &Pos2| {
-            self.visible_surfaces().into_iter().any(|one| self.view(one).rect().contains(*point))
-        };
-        let point = pointer.filter(over).unwrap_or_else(|| self.canvas.rect().center());
+        let point = pointer
+            .filter(|point| {
+                self.visible_surfaces()
+                    .into_iter()
+                    .any(|one| self.view(one).rect().contains(*point))
+            })
+            .unwrap_or_else(|| self.canvas.rect().center());
         self.open_quick_palette(context, point, false);
     }
 
@@ -494,14 +497,13 @@ impl Studio {
         if !self.visible.palette || !self.visible.panels {
             return;
         }
-        let above = |part: Rect| pos2(part.center().x, part.top());
         let palette = self.palette.rect();
         let mixing = palette_lines(ui.ctx());
         let mut arrows: Vec<(Pos2, f32, &[String])> =
-            vec![(above(palette), palette.width(), &mixing)];
+            vec![(pos2(palette.center().x, palette.top()), palette.width(), &mixing)];
         let filling = TUBES.map(|line| tr(line).to_owned());
         if let Some(tubes) = intent::rect(ui.ctx(), Part::Tubes) {
-            arrows.push((above(tubes), tubes.width(), &filling));
+            arrows.push((pos2(tubes.center().x, tubes.top()), tubes.width(), &filling));
         }
         for (tip, width, lines) in arrows {
             plate(painter, tip, Arrow::Down, width.min(WIDTH), lines);

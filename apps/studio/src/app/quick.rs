@@ -223,9 +223,9 @@ impl QuickPalette {
         held: Option<[u8; 3]>,
     ) -> Self {
         let room = context.content_rect().shrink(radius(&choices) + 4.0);
-        let within = |at: f32, low: f32, high: f32| {
+        fn within(at: f32, low: f32, high: f32) -> f32 {
             if low < high { at.clamp(low, high) } else { 0.5 * (low + high) }
-        };
+        }
         let center = pos2(
             within(point.x, room.left(), room.right()),
             within(point.y, room.top(), room.bottom()),

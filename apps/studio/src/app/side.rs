@@ -83,9 +83,9 @@ impl Tab {
 
 /// The standard layout: two groups at the right.
 pub(super) fn standard() -> Arrangement {
-    let keys = |group: usize| -> Vec<&str> {
+    fn keys(group: usize) -> Vec<&'static str> {
         PANELS.iter().filter(|panel| panel.group == group).map(|panel| panel.key).collect()
-    };
+    }
     let groups: Vec<Vec<&str>> = (0..).map(keys).take_while(|keys| !keys.is_empty()).collect();
     let groups: Vec<&[&str]> = groups.iter().map(Vec::as_slice).collect();
     Arrangement::in_right_column(&groups)
@@ -157,9 +157,9 @@ pub(super) struct DrawnGroup {
 
 /// The place at a point of the window, and the rectangle that marks it.
 fn place_at(point: Pos2, groups: &[DrawnGroup], columns: &[(Side, Rect)]) -> Option<(Place, Rect)> {
-    let line = |rect: Rect, y: f32| {
+    fn line(rect: Rect, y: f32) -> Rect {
         Rect::from_min_max(pos2(rect.left(), y - 2.0), pos2(rect.right(), y + 2.0))
-    };
+    }
     if let Some(&DrawnGroup { side, index, rect }) =
         groups.iter().find(|group| group.rect.contains(point))
     {

@@ -599,13 +599,11 @@ impl Studio {
             Event::Snapshot(_) | Event::Kept(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::DirtyBrush(brush) => {
                 let text = tr_format!("the brush \u{201c}{brush}\u{201d} is dirty", brush);
-                let key = |name| {
+                let [wash, wipe] = ["wash", "wipe"].map(|name| {
                     let row = self.keymap.easel.row(name);
                     let key = row.and_then(|row| row.keys.first());
                     key.map_or_else(String::new, |key| format!(" ({})", key.text()))
-                };
-                let wash = key("wash");
-                let wipe = key("wipe");
+                });
                 let hint =
                     tr_format!("wash{wash} or wipe{wipe} it before another colour", wash, wipe);
                 self.show_message(text, Some(hint), false);

@@ -415,8 +415,13 @@ impl Studio {
     /// Draws a ring of the colour under the pointer inside a neutral ring.
     fn draw_ring(&self, ui: &Ui) {
         let Some(point) = ui.input(|input| input.pointer.hover_pos()) else { return };
-        let over = |surface: &SurfaceId| self.view(*surface).position(point).is_some();
-        let Some(surface) = self.visible_surfaces().into_iter().find(over) else { return };
+        let Some(surface) = self
+            .visible_surfaces()
+            .into_iter()
+            .find(|surface| self.view(*surface).position(point).is_some())
+        else {
+            return;
+        };
         let Some(color) = self.color_at(surface, point) else { return };
         let painter = ui.painter_at(self.view(surface).rect());
         painter.circle_stroke(point, RING + 6.0, Stroke::new(6.0, theme::SURROUND));
@@ -653,9 +658,8 @@ fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
     let way = to - from;
     // The steps of the outline are shorter than the line is wide. Longer ends close the corners.
     let cap = 0.5 * WIDTH * way.normalized();
-    let along = |point: Pos2| point.x + point.y + phase;
-    let start = along(from);
-    let end = along(to);
+    let start = from.x + from.y + phase;
+    let end = to.x + to.y + phase;
     let run = end - start;
     if run.abs() < 0.01 {
         painter.line_segment([from, to], Stroke::new(WIDTH, Color32::WHITE));
@@ -668,8 +672,10 @@ fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
         let dash = (at / DASH).floor();
         let next = ((dash + 1.0) * DASH).min(high).max(at + 0.01);
         let color = if dash.rem_euclid(2.0) < 0.5 { Color32::BLACK } else { Color32::WHITE };
-        let place = |value: f32| from + way * ((value - start) / run);
-        painter.line_segment([place(at) - cap, place(next) + cap], Stroke::new(WIDTH, color));
+        painter.line_segment(
+            [from + way * ((at - start) / run) - cap, from + way * ((next - start) / run) + cap],
+            Stroke::new(WIDTH, color),
+        );
         at = next;
     }
 }

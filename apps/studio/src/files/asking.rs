@@ -362,19 +362,24 @@ impl Files {
 
     /// The unsaved drawings that this action would lose.
     pub(super) fn drawings_lost_by(&self, action: &PendingAction) -> Vec<DrawnFile> {
-        let lost = |drawn: &&DrawnFile| match action {
-            PendingAction::Close { drawings_given_up } => !drawings_given_up,
-            PendingAction::Replace(_) | PendingAction::Reference(ReferenceChange::Saved(_)) => {
-                false
-            }
-            PendingAction::Reference(ReferenceChange::Draw(new)) => {
-                new.drawing.kind() == drawn.drawing.kind()
-            }
-            PendingAction::Reference(
-                ReferenceChange::Open(_) | ReferenceChange::Restore { .. } | ReferenceChange::Close,
-            ) => true,
-        };
-        self.unsaved_drawings.iter().filter(lost).cloned().collect()
+        self.unsaved_drawings
+            .iter()
+            .filter(|drawn| match action {
+                PendingAction::Close { drawings_given_up } => !drawings_given_up,
+                PendingAction::Replace(_) | PendingAction::Reference(ReferenceChange::Saved(_)) => {
+                    false
+                }
+                PendingAction::Reference(ReferenceChange::Draw(new)) => {
+                    new.drawing.kind() == drawn.drawing.kind()
+                }
+                PendingAction::Reference(
+                    ReferenceChange::Open(_)
+                    | ReferenceChange::Restore { .. }
+                    | ReferenceChange::Close,
+                ) => true,
+            })
+            .cloned()
+            .collect()
     }
 
     /// Changes the picture beside the canvas. If this loses drawings, it asks first.

@@ -89,16 +89,18 @@ impl DeskReference {
     /// The lines drawn on the picture. This leaves out lines that cannot be read.
     #[must_use]
     pub fn drawn(&self) -> Vec<DrawnFile> {
-        let read = |DeskDrawing { marks, path, toml }: &DeskDrawing| {
-            let name = path.display().to_string();
-            let drawing = if *marks {
-                Drawing::Marks(Marks::from_toml(&name, toml).ok()?)
-            } else {
-                Drawing::Guides(Guides::from_toml(&name, toml).ok()?)
-            };
-            Some(DrawnFile { drawing, path: path.clone() })
-        };
-        self.drawings.iter().filter_map(read).collect()
+        self.drawings
+            .iter()
+            .filter_map(|DeskDrawing { marks, path, toml }| {
+                let name = path.display().to_string();
+                let drawing = if *marks {
+                    Drawing::Marks(Marks::from_toml(&name, toml).ok()?)
+                } else {
+                    Drawing::Guides(Guides::from_toml(&name, toml).ok()?)
+                };
+                Some(DrawnFile { drawing, path: path.clone() })
+            })
+            .collect()
     }
 
     /// Message if the picture is gone or was replaced by another one.

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use documents::file::{disk, write_whole};
-use documents::hint::Explain;
 use eframe::egui::{DragValue, Grid, Ui};
 use graphics::export::{AnimationFormat, FrameRate, OutsideGamut, PictureFormat, picture_file};
 use paint::document::Document;
@@ -309,38 +308,36 @@ impl Recorded {
         progress: &Progress,
     ) -> Result<(), JobError> {
         progress.report(0.0)?;
-        let problem = |error: &dyn Explain| Problem::from_error(error);
         let files = export.files(path)?;
-        let timelapse =
-            Timelapse::new(&self.script, export.settings()).map_err(|error| problem(&error))?;
+        let timelapse = Timelapse::new(&self.script, export.settings())
+            .map_err(|error| Problem::from_error(&error))?;
         let mut session = self.session()?;
         let written = timelapse
             .write(&mut session, &files, |done| match progress.report(done) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             })
-            .map_err(|error| problem(&error))?;
+            .map_err(|error| Problem::from_error(&error))?;
         written.map(drop).ok_or(JobError::Cancelled)
     }
 
     fn session(&self) -> Result<PaintingSession, Problem> {
-        let problem = |error: &dyn Explain| Problem::from_error(error);
         let start = self.start_document()?;
-        let (canvas, palette) =
-            self.script.surfaces(&self.library, start).map_err(|error| problem(&error))?;
-        let open = |document: Document| {
-            let engine = PaintEngine::on_cpu(document.ground.height.clone());
-            Painting::open(document, engine, self.undo_bytes).map_err(|error| problem(&error))
-        };
-        let canvas = open(canvas)?;
+        let (canvas, palette) = self
+            .script
+            .surfaces(&self.library, start)
+            .map_err(|error| Problem::from_error(&error))?;
+        let engine = PaintEngine::on_cpu(canvas.ground.height.clone());
+        let canvas = Painting::open(canvas, engine, self.undo_bytes)
+            .map_err(|error| Problem::from_error(&error))?;
         let light = Arc::clone(canvas.light());
         let palette = palette.map(|palette| {
             let engine = PaintEngine::on_cpu(palette.ground.height.clone());
             Painting::open_under(palette, light, engine, self.undo_bytes)
-                .map_err(|error| problem(&error))
+                .map_err(|error| Problem::from_error(&error))
         });
-        let mut session =
-            PaintingSession::new(canvas, palette.transpose()?).map_err(|error| problem(&error))?;
+        let mut session = PaintingSession::new(canvas, palette.transpose()?)
+            .map_err(|error| Problem::from_error(&error))?;
         session.set_undo_bytes(self.undo_bytes);
         Ok(session)
     }

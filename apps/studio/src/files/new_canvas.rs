@@ -67,8 +67,9 @@ impl Format {
     pub(crate) fn of(width_mm: f64, height_mm: f64) -> Option<&'static Self> {
         let long = width_mm.max(height_mm);
         let short = width_mm.min(height_mm);
-        let near = |a: f64, b: f64| (a - b).abs() < 0.05;
-        FORMATS.iter().find(|own| near(own.long_mm, long) && near(own.short_mm, short))
+        FORMATS
+            .iter()
+            .find(|own| (own.long_mm - long).abs() < 0.05 && (own.short_mm - short).abs() < 0.05)
     }
 }
 
@@ -198,9 +199,9 @@ impl Default for NewCanvas {
 impl NewCanvas {
     /// Moves numbers out of range to the nearest allowed ones.
     pub(crate) fn bound(&mut self) {
-        let within = |value: f64, [least, most]: [f64; 2], usual: f64| {
+        fn within(value: f64, [least, most]: [f64; 2], usual: f64) -> f64 {
             if value.is_finite() { value.clamp(least, most) } else { usual }
-        };
+        }
         let canvas = &mut self.canvas;
         canvas.width_mm = within(canvas.width_mm, SIDE_MM, 192.0);
         canvas.height_mm = within(canvas.height_mm, SIDE_MM, 108.0);
@@ -520,17 +521,15 @@ mod tests {
     fn each_tone_can_be_mixed_and_is_found_again() {
         let library = PigmentLibrary::van_gogh_oils();
         let weights = Viewing::default().weights(library.grid).unwrap();
-        let lab = |tone: &Tone| {
-            let primer = tone.primer().unwrap_or(Primer::Grey(0.87));
-            let found = primer.reflectance(&library).unwrap();
-            Lab::from_xyz(weights.xyz(&found), weights.white())
-        };
         for tone in &TONES {
             assert!(tone.is_in(&library), "{}", tone.name);
             assert_eq!(Tone::of(tone.primer().as_ref()), Some(tone));
         }
-        let [warm, cool, brown, golden, red] =
-            [1, 2, 3, 4, 5].map(|index: usize| lab(&TONES[index]));
+        let [warm, cool, brown, golden, red] = [1, 2, 3, 4, 5].map(|index: usize| {
+            let primer = TONES[index].primer().unwrap_or(Primer::Grey(0.87));
+            let found = primer.reflectance(&library).unwrap();
+            Lab::from_xyz(weights.xyz(&found), weights.white())
+        });
         assert!(warm.b > cool.b + 3.0, "{warm:?} {cool:?}");
         assert!(warm.a.hypot(warm.b) < 15.0 && cool.a.hypot(cool.b) < 15.0, "greys");
         assert!((45.0..75.0).contains(&brown.lightness) && brown.b > 15.0, "{brown:?}");

@@ -82,8 +82,7 @@ fn lit(document: &Document) -> Result<Picture, Problem> {
 /// Size after reduction, so that no side is above `longest`.
 pub(crate) fn reduced_size((width, height): (usize, usize), longest: usize) -> (usize, usize) {
     let scale = (longest as f64 / width.max(height).max(1) as f64).min(1.0);
-    let side = |pixels: usize| ((pixels as f64 * scale).round() as usize).max(1);
-    (side(width), side(height))
+    [width, height].map(|side| ((side as f64 * scale).round() as usize).max(1)).into()
 }
 
 /// Converts linear light to an sRGB picture. Each colour first passes through `change`.

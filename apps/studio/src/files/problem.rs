@@ -131,11 +131,10 @@ pub enum PageProblem {
 
 impl From<PageProblem> for Problem {
     fn from(problem: PageProblem) -> Self {
-        let save = || tr("save the painting often: it is downloaded");
         match problem {
             PageProblem::StorageDenied => {
                 let text = tr("no autosaves: this browser denies its storage to the page");
-                Self::new(text, save())
+                Self::new(text, tr("save the painting often: it is downloaded"))
             }
             PageProblem::StorageFull => {
                 let text = tr("no autosaves: the browser's storage is full");
@@ -147,14 +146,14 @@ impl From<PageProblem> for Problem {
             }
             PageProblem::StorageCleared => {
                 let text = tr("the browser's storage was emptied: the autosave is written anew");
-                Self::new(text, save())
+                Self::new(text, tr("save the painting often: it is downloaded"))
             }
             PageProblem::StorageFailed(reason) => {
                 let text = tr_format!(
                     "no autosaves: the browser's storage cannot be written: {reason}",
                     reason
                 );
-                Self::new(text, save())
+                Self::new(text, tr("save the painting often: it is downloaded"))
             }
             PageProblem::TooLarge { name, bytes, most } => {
                 let bytes = size(bytes);

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use artmap::passages::Marks;
 use documents::file::write_whole;
-use documents::hint::Explain;
 use graphics::tile::Rect;
 use painterly::guides::Guides;
 use pigment::library::PigmentLibrary;
@@ -211,11 +210,12 @@ impl SwatchFormat {
         (library, weights): (&PigmentLibrary, &TristimulusWeights),
     ) -> Result<(), Problem> {
         let colors = || book.colors(library, weights);
-        let refused = |error: &dyn Explain| Problem::from_error(error);
         let bytes = match self {
             Self::Json => book.to_json().into_bytes(),
-            Self::Gpl => write_gpl(&colors()).map_err(|error| refused(&error))?.into_bytes(),
-            Self::Ase => write_ase(&colors()).map_err(|error| refused(&error))?,
+            Self::Gpl => {
+                write_gpl(&colors()).map_err(|error| Problem::from_error(&error))?.into_bytes()
+            }
+            Self::Ase => write_ase(&colors()).map_err(|error| Problem::from_error(&error))?,
         };
         Ok(write_whole(path, &bytes)?)
     }

@@ -139,10 +139,9 @@ impl Files {
 
     /// Adds a set and shows it. If another set has this name, it gets a number.
     pub fn add_brush_set(&mut self, set: BrushSet) {
-        let taken = |name: &str| self.brush_sets.sets.iter().any(|own| own.set.name() == name);
         let mut name = set.name().to_owned();
         let mut number = 2;
-        while taken(&name) {
+        while self.brush_sets.sets.iter().any(|own| own.set.name() == name) {
             name = format!("{} {number}", set.name());
             number += 1;
         }
@@ -466,18 +465,22 @@ mod tests {
     fn the_sample_painting_has_dry_layers_glazes_and_wet_paint() {
         let script = script().unwrap();
         script.resolve(&PigmentLibrary::van_gogh_oils()).unwrap();
-        let dries = |action: &Action| matches!(action, Action::Dry { .. });
-        let layers: Vec<&[Action]> = script.actions.split(dries).collect();
+        let layers: Vec<&[Action]> =
+            script.actions.split(|action| matches!(action, Action::Dry { .. })).collect();
         assert!(layers.len() >= 4, "{} layers", layers.len());
-        let strokes = |actions: &[Action]| {
-            actions.iter().filter(|action| matches!(action, Action::Stroke(_))).count()
-        };
-        assert!(layers.iter().all(|layer| strokes(layer) > 2), "a layer has no strokes");
+        assert!(
+            layers.iter().all(|layer| layer
+                .iter()
+                .filter(|action| matches!(action, Action::Stroke(_)))
+                .count()
+                > 2),
+            "a layer has no strokes"
+        );
         assert!(
             script
                 .actions
                 .iter()
-                .any(|action: &Action| matches!(action, Action::Load(load) if load.vehicle > 0.9)),
+                .any(|action| matches!(action, Action::Load(load) if load.vehicle > 0.9)),
             "there is no glaze"
         );
         assert!(ORANGES.len() < 60_000, "{} bytes", ORANGES.len());

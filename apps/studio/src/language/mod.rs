@@ -335,9 +335,9 @@ mod tests {
 
     #[test]
     fn the_first_name_that_is_not_empty_decides() {
-        let language = |names: [&str; 3]| {
+        fn language(names: [&str; 3]) -> Language {
             Language::of_locales(names.map(|name| Some(name.to_owned()).filter(|_| name != "-")))
-        };
+        }
         assert_eq!(language(["-", "-", "-"]), Language::English);
         assert_eq!(language(["-", "-", "de_AT.UTF-8"]), Language::German);
         assert_eq!(language(["", "de", "en_GB.UTF-8"]), Language::German);

@@ -155,6 +155,11 @@ pub(super) fn button_background(ui: &Ui, response: &Response, name: &str, chosen
     ui.painter().rect(response.rect, theme::CORNER_RADIUS, fill, edge, StrokeKind::Inside);
 }
 
+/// The part of a row between these places, in points from the left edge of the window.
+pub(super) fn between(row: Rect, left: f32, right: f32) -> Rect {
+    Rect::from_min_max(pos2(left, row.top()), pos2(right, row.bottom()))
+}
+
 /// Draws a patch of colour in sRGB. `None` is crossed out.
 pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
     let line = Stroke::new(1.0, theme::colors(painter.ctx()).well);
@@ -305,10 +310,12 @@ fn fitted(
 
 /// Whether nothing is truncated, and no word is broken.
 fn is_whole(laid: &Galley) -> bool {
-    let broken = |row: &str| !row.ends_with(|last: char| !last.is_alphanumeric());
     let rows = laid.rows.len();
     let all_but_last = laid.rows.iter().take(rows.saturating_sub(1));
-    !laid.elided && all_but_last.map(|row| row.text()).all(|row| !broken(&row))
+    !laid.elided
+        && all_but_last
+            .map(|row| row.text())
+            .all(|row| row.ends_with(|last: char| !last.is_alphanumeric()))
 }
 
 /// How well a name matches the typed text, the best first.
@@ -370,9 +377,8 @@ impl Highlight {
         if !focused {
             return;
         }
-        let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
-        let down = pressed(Key::ArrowDown);
-        let up = pressed(Key::ArrowUp);
+        let [down, up] = [Key::ArrowDown, Key::ArrowUp]
+            .map(|key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)));
         self.line = (self.line + down).saturating_sub(up);
         self.moved |= down + up > 0;
     }

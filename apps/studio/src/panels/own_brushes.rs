@@ -2,15 +2,14 @@
 //! MyPaint brush we could take over.
 
 use eframe::egui::{
-    Align, CollapsingHeader, ComboBox, Context, Key, Rect, Response, ScrollArea, TextStyle, Ui,
-    pos2, vec2,
+    Align, CollapsingHeader, ComboBox, Context, Key, Response, ScrollArea, TextStyle, Ui, vec2,
 };
 use session::brushes::{BrushOptions, BrushPreset, ImportedBrush};
 
 use crate::files::BrushSets;
 use crate::language::{tr, tr_format};
 use crate::panels::brushes::row;
-use crate::panels::controls::{button, millimetres, row, text};
+use crate::panels::controls::{between, button, millimetres, row, text};
 use crate::{floating, theme};
 
 const WIDTH: f32 = 400.0;
@@ -251,13 +250,15 @@ const HEIGHT: f32 = 34.0;
 fn preset_row(ui: &mut Ui, preset: &BrushPreset, chosen: bool) -> Response {
     let response = row(ui, HEIGHT, &tr_format!("own brush {name}", name = preset.name), chosen);
     let inner = response.rect.shrink2(vec2(6.0, 3.0));
-    let between = |left: f32, right: f32| {
-        Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
-    };
-    row::draw(ui.painter(), between(inner.left(), inner.left() + 24.0), preset.brush.shape, None);
+    row::draw(
+        ui.painter(),
+        between(inner, inner.left(), inner.left() + 24.0),
+        preset.brush.shape,
+        None,
+    );
     let colors = theme::colors(ui.ctx());
     let (name, below) =
-        between(inner.left() + 32.0, inner.right()).split_top_bottom_at_fraction(0.55);
+        between(inner, inner.left() + 32.0, inner.right()).split_top_bottom_at_fraction(0.55);
     text(ui, name, Align::Min, TextStyle::Body, colors.strong, &preset.name);
     let faint = if chosen { colors.text } else { colors.faint };
     text(ui, below, Align::Min, TextStyle::Small, faint, &summary(preset));

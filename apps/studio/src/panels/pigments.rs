@@ -4,7 +4,7 @@
 use std::sync::{Arc, OnceLock};
 
 use eframe::egui::{
-    Align, ComboBox, Context, Key, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2,
+    Align, ComboBox, Context, Key, Rect, RichText, ScrollArea, TextStyle, Ui, vec2,
 };
 use paint::document::Slots;
 use paint::light::Light;
@@ -19,7 +19,7 @@ use session::{LayerState, PaintingState};
 use crate::chart::{Chart, Curve};
 use crate::language::{layer_label, tr, tr_format};
 use crate::panels::PanelContext;
-use crate::panels::controls::{self, Highlight, mark, millimetres, patch, row, text};
+use crate::panels::controls::{self, Highlight, between, mark, millimetres, patch, row, text};
 use crate::{floating, theme};
 
 /// Colour of one pigment, alone and as a tint.
@@ -97,16 +97,18 @@ fn colors(library: &PigmentLibrary, light: &Light) -> Vec<PigmentColors> {
         encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
     };
     let palette = Palette::new(library, &light.viewing, Cards::standard(library.grid)).ok();
-    let colors_of = |pigment: PigmentId| {
-        let alone = library.mix([(pigment, 1.0)]).expect("one part is a mixture");
-        let masstone = alone.hiding(library.saunderson);
-        let palette = palette.as_ref().filter(|_| library[pigment].identified);
-        let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
-        let masstone_srgb = srgb(&masstone);
-        let tint_srgb = tint.as_deref().map(srgb);
-        PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
-    };
-    library.ids().map(colors_of).collect()
+    library
+        .ids()
+        .map(|pigment| {
+            let alone = library.mix([(pigment, 1.0)]).expect("one part is a mixture");
+            let masstone = alone.hiding(library.saunderson);
+            let palette = palette.as_ref().filter(|_| library[pigment].identified);
+            let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
+            let masstone_srgb = srgb(&masstone);
+            let tint_srgb = tint.as_deref().map(srgb);
+            PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
+        })
+        .collect()
 }
 
 fn strengths(library: &PigmentLibrary, light: &Light) -> Vec<PaintStrength> {
@@ -222,16 +224,13 @@ impl PigmentList {
 
 fn places(rect: Rect) -> [Rect; 4] {
     let inner = rect.shrink2(vec2(4.0, 3.0));
-    let between = |left: f32, right: f32| {
-        Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
-    };
     let left = inner.left();
     let right = inner.right();
     [
-        between(left, left + 40.0),
-        between(left + 48.0, right - 128.0),
-        between(right - 124.0, right - 72.0),
-        between(right - 68.0, right),
+        between(inner, left, left + 40.0),
+        between(inner, left + 48.0, right - 128.0),
+        between(inner, right - 124.0, right - 72.0),
+        between(inner, right - 68.0, right),
     ]
 }
 

@@ -36,9 +36,11 @@ impl Swatches {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, book: &SwatchBook) {
         self.chosen = self.chosen.filter(|&index| index < book.swatches.len());
         self.header(ui, cx, book);
-        let own = |index: usize| book.swatches[index].library == cx.painting.library.title;
-        let shown: Vec<usize> =
-            (0..book.swatches.len()).filter(|&index| self.all_libraries || own(index)).collect();
+        let shown: Vec<usize> = (0..book.swatches.len())
+            .filter(|&index| {
+                self.all_libraries || book.swatches[index].library == cx.painting.library.title
+            })
+            .collect();
         if shown.is_empty() {
             ui.weak(
                 tr("No mixture is kept. \u{201c}Keep\u{201d} in the panel Brush keeps what the brush holds, beside a \

@@ -156,12 +156,12 @@ impl Wheel {
     /// the mixture nearest in the plane.
     fn color_at(&self, wheel: &ColorWheel, [a, b]: [f64; 2]) -> TargetColor {
         let away = |lab: &Lab| (lab.a - a).hypot(lab.b - b);
-        let nearest = || {
-            let labs = wheel.gamut.samples.iter().map(|sample| sample.color.lab);
-            labs.min_by(|one, other| away(one).total_cmp(&away(other)))
-        };
         let round = |value: f64| (10.0 * value).round() / 10.0;
-        let lightness = self.lightness.or_else(|| Some(nearest()?.lightness)).map_or(50.0, round);
+        let nearest = self.lightness.or_else(|| {
+            let labs = wheel.gamut.samples.iter().map(|sample| sample.color.lab);
+            Some(labs.min_by(|one, other| away(one).total_cmp(&away(other)))?.lightness)
+        });
+        let lightness = nearest.map_or(50.0, round);
         let lab = Lab { lightness, a: round(a), b: round(b) };
         let name = format!("Lab {lightness} {} {}", lab.a, lab.b);
         TargetColor { name, color: Color::Lab(lab) }
@@ -231,8 +231,10 @@ fn legend(ui: &mut Ui, cx: &PanelContext<'_>, nearest: Option<f64>, wanted: Opti
 /// Names the tube below the pointer, or the colour there.
 fn tip(response: Response, painting: &PaintingState, wheel: &ColorWheel, plane: &Plane) {
     let Some(pointer) = response.hover_pos() else { return };
-    let near = |lab: Lab| plane.point([lab.a, lab.b]).distance(pointer) < 7.0;
-    let tube = wheel.masstones.iter().find(|(_, color)| near(color.lab));
+    let tube = wheel
+        .masstones
+        .iter()
+        .find(|(_, color)| plane.point([color.lab.a, color.lab.b]).distance(pointer) < 7.0);
     let words = match tube {
         Some((pigment, color)) => {
             let [l, a, b] = color.lab.to_array();
@@ -271,9 +273,8 @@ fn frame(painter: &Painter, plane: &Plane) {
     painter.hline(rect.x_range(), middle.y, line);
     painter.vline(middle.x, rect.y_range(), line);
     let rings = (plane.reach / RING) as usize;
-    let radius = |ring: usize| plane.point([ring as f64 * RING, 0.0]).x - middle.x;
     for ring in 1..=rings {
-        painter.circle_stroke(middle, radius(ring), line);
+        painter.circle_stroke(middle, plane.point([ring as f64 * RING, 0.0]).x - middle.x, line);
     }
     let font = FontId::proportional(10.0);
     let names = [

@@ -450,10 +450,9 @@ impl TestField {
             return;
         };
         points.extend(stroke.take_samples().into_iter().map(|taken| {
-            let point = |mm: f64| (mm / MM_PER_POINT) as f32;
             let sample = taken.sample;
             TestPoint {
-                at: pos2(point(sample.x_mm), point(sample.y_mm)),
+                at: pos2((sample.x_mm / MM_PER_POINT) as f32, (sample.y_mm / MM_PER_POINT) as f32),
                 pressure: sample.pressure,
             }
         }));

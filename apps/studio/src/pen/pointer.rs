@@ -293,17 +293,19 @@ mod tests {
 
     /// The reports as letters: upper case for touch, lower case for the mouse.
     fn letters(reports: &[Report]) -> String {
-        let letter = |report: &Report| match (report.device, report.kind) {
-            (Device::Touch, ReportKind::Pressed(_)) => 'P',
-            (Device::Touch, ReportKind::Moved(_)) => 'M',
-            (Device::Touch, ReportKind::Released) => 'R',
-            (_, ReportKind::Pressed(_)) => 'p',
-            (_, ReportKind::Moved(_)) => 'm',
-            (_, ReportKind::Released) => 'r',
-            (_, ReportKind::Gone) => 'g',
-            (_, ReportKind::Barrel { .. }) => 'b',
-        };
-        reports.iter().map(letter).collect()
+        reports
+            .iter()
+            .map(|report| match (report.device, report.kind) {
+                (Device::Touch, ReportKind::Pressed(_)) => 'P',
+                (Device::Touch, ReportKind::Moved(_)) => 'M',
+                (Device::Touch, ReportKind::Released) => 'R',
+                (_, ReportKind::Pressed(_)) => 'p',
+                (_, ReportKind::Moved(_)) => 'm',
+                (_, ReportKind::Released) => 'r',
+                (_, ReportKind::Gone) => 'g',
+                (_, ReportKind::Barrel { .. }) => 'b',
+            })
+            .collect()
     }
 
     #[test]
@@ -342,9 +344,10 @@ mod tests {
     #[test]
     fn a_finger_paints_once_no_second_one_can_follow_and_no_report_is_lost() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
+        let mut frame = |ms, events: &[Event]| {
+            letters(&pointer.reports(events, start + Duration::from_millis(ms)))
+        };
         // egui adds these pointer events for a finger.
         let down = [touch(1, Start, 0.0), button(true)];
         assert_eq!(frame(0, &down), "");
@@ -382,9 +385,10 @@ mod tests {
     #[test]
     fn two_fingers_paint_nothing_and_end_a_stroke() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
+        let mut frame = |ms, events: &[Event]| {
+            letters(&pointer.reports(events, start + Duration::from_millis(ms)))
+        };
         let first = touch(1, Start, 0.0);
         let pinch = [first.clone(), touch(2, Start, 50.0)];
         assert_eq!(frame(0, &pinch), "");

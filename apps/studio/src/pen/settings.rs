@@ -100,11 +100,11 @@ impl PenSettings {
         let default = Self::default();
         let grip = &mut self.grip;
         // NaN lies in no range, so this replaces it too.
-        let bound = |value: &mut f64, least: f64, most: f64, default: f64| {
+        fn bound(value: &mut f64, least: f64, most: f64, default: f64) {
             if !(least..=most).contains(value) {
                 *value = default;
             }
-        };
+        }
         bound(&mut grip.lean_deg, 0.0, 80.0, default.grip.lean_deg);
         bound(&mut grip.towards_deg, 0.0, 360.0, default.grip.towards_deg);
         bound(&mut grip.twist_deg, 0.0, 360.0, default.grip.twist_deg);

@@ -255,8 +255,9 @@ mod tests {
 
     /// A line to the right with a jitter of 0.5 mm across.
     fn shaky() -> Vec<Place> {
-        let jitter = |at: u32| if at.is_multiple_of(2) { 0.5 } else { -0.5 };
-        (0..200).map(|at| (0.3 * f64::from(at), jitter(at))).collect()
+        (0_u32..200)
+            .map(|at| (0.3 * f64::from(at), if at.is_multiple_of(2) { 0.5 } else { -0.5 }))
+            .collect()
     }
 
     fn near(a: Place, b: Place) -> bool {
@@ -313,12 +314,12 @@ mod tests {
 
     #[test]
     fn the_mean_does_not_depend_on_how_often_the_pen_reports() {
-        let brush = |steps: u32| {
+        fn brush(steps: u32) -> Option<Place> {
             let mut brush = Stabiliser::new(StabiliserMethod::Average, 4.0);
             (0..=steps)
                 .map(|at| brush.follow((10.0 * f64::from(at) / f64::from(steps), 0.0)))
                 .last()
-        };
+        }
         for steps in [5, 17, 400] {
             assert!(near(brush(steps).unwrap(), (8.0, 0.0)), "{steps}: {:?}", brush(steps));
         }

@@ -199,11 +199,13 @@ mod tests {
         emulate_pointer(&reports, Modifiers::NONE, &mut Pos2::default(), &mut input);
         let moved = Event::PointerMoved(state.at);
         assert_eq!(input.events[..2], [moved.clone(), moved]);
-        let pressed = |event: &Event| match event {
-            Event::PointerButton { pos, pressed, .. } if *pos == state.at => Some(*pressed),
-            _ => None,
-        };
-        let pressed: Vec<Option<bool>> = input.events[2..].iter().map(pressed).collect();
+        let pressed: Vec<Option<bool>> = input.events[2..]
+            .iter()
+            .map(|event| match event {
+                Event::PointerButton { pos, pressed, .. } if *pos == state.at => Some(*pressed),
+                _ => None,
+            })
+            .collect();
         assert_eq!(pressed, [Some(true), Some(false), None]);
         assert_eq!(input.events[4], Event::PointerGone);
     }

@@ -17,14 +17,14 @@ use super::{
 
 /// Canvas and palette at 4 points per mm; the palette begins at x = 800.
 fn transforms() -> [SurfaceTransform; 2] {
-    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), vec2(width, 600.0));
-    let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    [
-        SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
-        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at: Pos2| {
-            mm(at - vec2(800.0, 0.0))
-        }),
-    ]
+    [(SurfaceId::Canvas, 0.0, 800.0), (SurfaceId::Palette, 800.0, 200.0)].map(
+        |(id, left, width)| {
+            let area = Rect::from_min_size(pos2(left, 0.0), vec2(width, 600.0));
+            SurfaceTransform::new(id, area, |at| {
+                (f64::from(at.x - left) / 4.0, f64::from(at.y) / 4.0)
+            })
+        },
+    )
 }
 
 struct TestPen {
@@ -91,16 +91,18 @@ fn samples(output: &[PenEvent]) -> Vec<PenSample> {
 
 /// The events as letters: D down, M move, U up, H hover, L leave, B barrel.
 fn letters(output: &[PenEvent]) -> String {
-    let letter = |event: &PenEvent| match event {
-        PenEvent::Down { .. } => 'D',
-        PenEvent::Move(_) => 'M',
-        PenEvent::Up => 'U',
-        PenEvent::Hover { .. } => 'H',
-        PenEvent::Leave => 'L',
-        PenEvent::Barrel { .. } => 'B',
-        PenEvent::Tap { .. } => 'T',
-    };
-    output.iter().map(letter).collect()
+    output
+        .iter()
+        .map(|event| match event {
+            PenEvent::Down { .. } => 'D',
+            PenEvent::Move(_) => 'M',
+            PenEvent::Up => 'U',
+            PenEvent::Hover { .. } => 'H',
+            PenEvent::Leave => 'L',
+            PenEvent::Barrel { .. } => 'B',
+            PenEvent::Tap { .. } => 'T',
+        })
+        .collect()
 }
 
 #[test]
@@ -393,33 +395,21 @@ fn barrel_buttons_are_reported() {
 
 #[test]
 fn a_tap_beside_a_surface_or_of_a_hand_that_holds_a_pen_is_none() {
-    let tap = |x: f32| {
-        let touch = |id, phase, x| {
-            let device_id = TouchDeviceId(0);
-            let id = TouchId(id);
-            Event::Touch { device_id, id, phase, pos: pos2(x, 99.0), force: None }
-        };
-        let both = |phase| [touch(1, phase, x), touch(2, phase, x + 30.0)];
-        [both(TouchPhase::Start), both(TouchPhase::End)].concat()
-    };
+    fn tap(x: f32) -> Vec<Event> {
+        let both = [TouchPhase::Start, TouchPhase::End].map(|phase| {
+            [(1, x), (2, x + 30.0)].map(|(id, x)| {
+                let device_id = TouchDeviceId(0);
+                Event::Touch { device_id, id: TouchId(id), phase, pos: pos2(x, 99.0), force: None }
+            })
+        });
+        both.concat()
+    }
     let mut test = TestPen::new();
     assert_eq!(letters(&test.frame(0, &tap(300.0))), "T");
     assert_eq!(letters(&test.frame(100, &tap(1300.0))), "", "beside the surfaces");
     test.feed(190, ReportKind::Moved(state(300.0, 0.0)));
     assert_eq!(letters(&test.frame(200, &tap(300.0))), "H", "the pen is near");
     assert_eq!(letters(&test.frame(900, &tap(300.0))), "T", "it is gone");
-}
-
-/// Canvas of 200 x 150 mm at 4 points per mm. The palette lies right of it and begins at 0 mm too.
-fn both_surfaces() -> [SurfaceTransform; 2] {
-    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), vec2(width, 600.0));
-    let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    [
-        SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
-        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at| {
-            mm(at - vec2(800.0, 0.0))
-        }),
-    ]
 }
 
 fn hold(x_mm: f64, y_mm: f64) -> PointerState {
@@ -439,7 +429,7 @@ fn wavy() -> Vec<PointerState> {
 /// The samples of each stroke.
 fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -> Vec<Vec<Sample>> {
     let start = Instant::now();
-    let transforms = both_surfaces();
+    let transforms = transforms();
     let mut script = Script::new(Device::Pen);
     for holds in strokes {
         script = script.stroke(holds.iter().copied(), Duration::from_millis(5));
@@ -509,8 +499,13 @@ fn a_stroke_along_the_ruler_is_straight_and_keeps_time_and_pressure() {
     }
     // The broad side lies across the ruler (slope 3 to 4) from the first sample on.
     let across = 0.75_f64.atan().to_degrees() + 90.0;
-    let twist = |sample: &Sample| (sample.twist_deg - across + 90.0).rem_euclid(180.0) - 90.0;
-    assert!(led.iter().all(|sample| twist(sample).abs() < 1e-3), "{:?}", led[0]);
+    assert!(
+        led.iter().all(|sample| ((sample.twist_deg - across + 90.0).rem_euclid(180.0) - 90.0)
+            .abs()
+            < 1e-3),
+        "{:?}",
+        led[0]
+    );
 }
 
 #[test]
@@ -550,9 +545,9 @@ fn a_touch_in_perspective_paints_a_dot() {
     let led = stroke(Some(perspective()), touch.clone());
     let free = stroke(None, touch);
     assert!(led.len() >= 3);
-    let places = |samples: &[Sample]| {
+    fn places(samples: &[Sample]) -> Vec<[f64; 2]> {
         samples.iter().map(|sample| [sample.x_mm, sample.y_mm]).collect::<Vec<_>>()
-    };
+    }
     assert_eq!(places(&led)[..3], places(&free)[..3]);
 }
 
@@ -644,18 +639,17 @@ fn moved_samples(events: &[PenEvent]) -> Vec<Sample> {
 fn a_stabilised_stroke_is_steadier_ends_at_the_pen_and_keeps_its_times_in_order() {
     let end = wave(true)[100].at;
     for device in [Device::Pen, Device::Mouse] {
-        let states = || wave(device.is_pen());
         let mut plain = Pen::new(PenSettings::default());
-        let plain = moved_samples(&stabilised_stroke(&mut plain, device, states()));
+        let plain = moved_samples(&stabilised_stroke(&mut plain, device, wave(device.is_pen())));
         for method in [StabiliserMethod::Average, StabiliserMethod::String] {
             let mut pen = Pen::new(settings(method, 12.0, LengthUnit::Mm));
-            let steady = moved_samples(&stabilised_stroke(&mut pen, device, states()));
-            let swing = |samples: &[Sample]| {
+            let steady = moved_samples(&stabilised_stroke(&mut pen, device, wave(device.is_pen())));
+            fn swing(samples: &[Sample]) -> f64 {
                 let ys = samples.iter().filter(|at| (30.0..70.0).contains(&at.x_mm));
                 let ys: Vec<f64> = ys.map(|sample| sample.y_mm).collect();
                 let most = ys.iter().copied().fold(f64::MIN, f64::max);
                 most - ys.iter().copied().fold(f64::MAX, f64::min)
-            };
+            }
             assert!(
                 swing(&steady) < 0.8 * swing(&plain),
                 "{device:?} {method:?}: {} of {}",
@@ -688,10 +682,10 @@ fn the_eraser_end_has_the_options_of_its_own_brush() {
     let mut pen = Pen::new(PenSettings::default());
     pen.options.range = [0.9, 1.0];
     pen.eraser_options.range = [0.0, 0.5];
-    let most = |device, pen: &mut Pen| {
+    fn most(device: Device, pen: &mut Pen) -> f64 {
         let found = moved_samples(&stabilised_stroke(pen, device, wave(true)));
         found.iter().map(|sample| sample.pressure).fold(0.0, f64::max)
-    };
+    }
     assert!((most(Device::Pen, &mut pen) - 0.97).abs() < 1e-9, "the brush in hand");
     assert!((most(Device::Eraser, &mut pen) - 0.35).abs() < 1e-9, "that of the eraser");
 }

@@ -40,8 +40,9 @@ impl SurfaceTransform {
     /// Converts a tilt towards the right and the lower edge of the window to a tilt towards those
     /// of the surface, in degrees from upright.
     pub(super) fn surface_tilt(&self, (tilt_x, tilt_y): (f64, f64)) -> (f64, f64) {
-        let slope = |degrees: f64| degrees.clamp(-89.0, 89.0).to_radians().tan();
-        let lean = (slope(tilt_x), slope(tilt_y));
+        let lean = [tilt_x, tilt_y]
+            .map(|degrees: f64| degrees.clamp(-89.0, 89.0).to_radians().tan())
+            .into();
         let (x, y) = self.displacement(lean);
         let length = x.hypot(y);
         if length == 0.0 {

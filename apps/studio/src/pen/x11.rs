@@ -80,8 +80,7 @@ impl X11Pens {
 
     /// Places and times of the events of mice since the last call.
     pub(super) fn mouse_times(&mut self, pixels: f32) -> impl Iterator<Item = Stamp> + '_ {
-        let in_points = move |at: Pos2| (at.to_vec2() / pixels).to_pos2();
-        self.mouse_times.try_iter().map(move |(at, time)| (in_points(at), time))
+        self.mouse_times.try_iter().map(move |(at, time)| ((at.to_vec2() / pixels).to_pos2(), time))
     }
 }
 
@@ -508,9 +507,9 @@ mod tests {
         pen.0[1].value = f64::NAN;
         assert_eq!(pen.state(Pos2::ZERO).tilt_deg, None);
         // The pressure range does not start at 0, and tilt has another unit.
-        let normalized = |axis, range, value| {
+        fn normalized(axis: Axis, range: (f64, f64), value: f64) -> f64 {
             Valuator { number: 0, axis, range, value }.normalized().unwrap_or(f64::NAN)
-        };
+        }
         assert_eq!(normalized(Axis::Pressure, (100.0, 300.0), 150.0), 0.25);
         assert_eq!(normalized(Axis::TiltX, (-9000.0, 9000.0), -4500.0), -30.0);
     }

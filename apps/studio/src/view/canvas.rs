@@ -125,12 +125,11 @@ pub fn quicken(context: &Context) {
     if canvas.drawing == Drawing::Egui {
         return;
     }
-    let moved = |layer: &LayerId| context.layer_transform_to_global(*layer).is_some();
     let mut layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
     if !layers.contains(&LayerId::background()) {
         layers.push(LayerId::background());
     }
-    layers.retain(|layer| !moved(layer));
+    layers.retain(|layer| context.layer_transform_to_global(*layer).is_none());
     context.graphics_mut(|graphics| {
         for layer in layers {
             let Some(list) = graphics.get_mut(layer) else { continue };
@@ -187,8 +186,9 @@ fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
         let [left, right] = [(rect.left(), inner.left()), (inner.right(), rect.right())];
         let top = rect.top() + corner;
         let bottom = rect.bottom() - corner;
-        let side = |(from, to)| Rect::from_min_max(pos2(from, top), pos2(to, bottom));
-        parts.extend([side(left), side(right)]);
+        parts.extend(
+            [left, right].map(|(from, to)| Rect::from_min_max(pos2(from, top), pos2(to, bottom))),
+        );
     }
     let quads = parts.into_iter().map(|part| filled(part, shape.fill)).collect();
     let mut all = vec![canvas.shape(quads)];

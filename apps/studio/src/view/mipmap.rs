@@ -133,9 +133,8 @@ static DECODED: LazyLock<[f32; 256]> = LazyLock::new(|| {
 
 /// The nearest 8-bit sRGB value of each step of linear light.
 static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let step = |step| step as f32 / (STEPS - 1) as f32;
-    let nearest = |linear| Srgb::<u8>::from_linear(LinSrgb::new(linear, linear, linear)).red;
-    (0..STEPS).map(|at| nearest(step(at))).collect()
+    let steps = (0..STEPS).map(|step| step as f32 / (STEPS - 1) as f32);
+    steps.map(|light| Srgb::<u8>::from_linear(LinSrgb::new(light, light, light)).red).collect()
 });
 
 /// The nearest step of linear light.
@@ -195,10 +194,12 @@ mod tests {
         // We use odd sizes, and pieces with edges that do not fall on blocks of two by two.
         let width = 333;
         let height = 257;
-        let value = |x: usize, y: usize| ((x * 31 + y * 17 + x * y) % 256) as u8;
         let cells = |rect: Rect| -> Vec<[u8; 4]> {
             (rect.y..rect.y + rect.height)
-                .flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| grey(value(x, y))))
+                .flat_map(|y| {
+                    (rect.x..rect.x + rect.width)
+                        .map(move |x| grey(((x * 31 + y * 17 + x * y) % 256) as u8))
+                })
                 .collect()
         };
         let mut at_once = MipLevels::new(width, height, Color32::BLACK);
@@ -218,10 +219,10 @@ mod tests {
 
     #[test]
     fn the_last_level_has_at_most_the_smallest_size() {
-        let sizes = |width, height| {
+        fn sizes(width: usize, height: usize) -> Vec<usize> {
             let levels = MipLevels::new(width, height, Color32::BLACK);
             (0..levels.count()).map(|level| levels.bounds(level).width).collect::<Vec<_>>()
-        };
+        }
         assert_eq!(sizes(1920, 1080), [1920, 960, 480, 240, 120]);
         assert_eq!(sizes(100, 30), [100]);
     }

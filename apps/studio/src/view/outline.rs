@@ -151,16 +151,17 @@ pub(super) fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
         let normal = (to - from).normalized().rot90();
         if normal.dot(from - middle.to_pos2()) < 0.0 { -normal } else { normal }
     };
-    let moved = |at: usize| {
-        let before = edge[(at + count - 1) % count];
-        let here = edge[at];
-        let next = edge[(at + 1) % count];
-        let one = outwards(before, here);
-        let other = outwards(here, next);
-        // Both sides move by `by`, so a corner moves further.
-        here + (one + other) * (by / (1.0 + one.dot(other)))
-    };
-    (0..count).map(moved).collect()
+    (0..count)
+        .map(|at| {
+            let before = edge[(at + count - 1) % count];
+            let here = edge[at];
+            let next = edge[(at + 1) % count];
+            let one = outwards(before, here);
+            let other = outwards(here, next);
+            // Both sides move by `by`, so a corner moves further.
+            here + (one + other) * (by / (1.0 + one.dot(other)))
+        })
+        .collect()
 }
 
 fn corner(cells: (usize, usize)) -> f64 {
@@ -316,23 +317,23 @@ fn outside(edge: &[Pos2], root: Pos2, end: Pos2) -> Option<Pos2> {
 /// Convex hull by Andrew's monotone chain (1979).
 fn hull(mut points: Vec<Pos2>) -> Vec<Pos2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let turn = |a: Pos2, b: Pos2, c: Pos2| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    let half = |points: &mut dyn Iterator<Item = &Pos2>| {
+    let mut all: Vec<Pos2> = Vec::new();
+    for _ in 0..2 {
         let mut chain: Vec<Pos2> = Vec::new();
-        for &point in points {
-            while chain.len() > 1
-                && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0
+        for &c in &points {
+            while let [.., a, b] = chain[..]
+                && (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0.0
             {
                 chain.pop();
             }
-            chain.push(point);
+            chain.push(c);
         }
         chain.pop();
-        chain
-    };
-    let mut lower = half(&mut points.iter());
-    lower.extend(half(&mut points.iter().rev()));
-    lower
+        all.extend(chain);
+        // The second half goes back.
+        points.reverse();
+    }
+    all
 }
 
 fn mean(places: &[[f32; 3]]) -> [f32; 3] {
@@ -381,11 +382,9 @@ mod tests {
     fn the_drawn_edge_bounds_the_surface() {
         let middle = [300.0, 200.0];
         for place in Outline::Palette.edge(CELLS) {
-            let towards = |by: f64| {
+            let [within, beyond] = [0.999, 1.001].map(|by| {
                 [0, 1].map(|axis: usize| middle[axis] + (place[axis] - middle[axis]) * by)
-            };
-            let within = towards(0.999);
-            let beyond = towards(1.001);
+            });
             assert!(Outline::Palette.contains(within, CELLS), "{within:?}");
             assert!(!Outline::Palette.contains(beyond, CELLS), "{beyond:?}");
         }

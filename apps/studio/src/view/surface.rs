@@ -437,9 +437,8 @@ impl Patch {
         let x = left as f32 + 0.5;
         let y = top as f32 + 0.5;
         let from = place(x, y);
-        let step = |to: [f64; 2]| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32];
-        let right = step(place(x + 1.0, y));
-        let down = step(place(x, y + 1.0));
+        let [right, down] = [place(x + 1.0, y), place(x, y + 1.0)]
+            .map(|to| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32]);
         let cells = Cells::new(picture, placement, density);
         let mut rgba = Vec::with_capacity(4 * width * height);
         for row in 0..height {
@@ -483,8 +482,7 @@ impl<'a> Cells<'a> {
 
     /// Colour at a place in cells.
     fn color(&self, [x, y]: [f32; 2]) -> Color32 {
-        let beyond = |at: f32, size: f32| (-at).max(at - size);
-        let outside = self.points * beyond(x, self.size[0]).max(beyond(y, self.size[1]));
+        let outside = self.points * (-x).max(x - self.size[0]).max((-y).max(y - self.size[1]));
         let color = if outside < 0.0 {
             self.sample(x / self.scale, y / self.scale)
         } else {
@@ -506,12 +504,10 @@ impl<'a> Cells<'a> {
             return cell(x as usize, y as usize);
         }
         // Weights have 8 bits, as in samplers of graphics cards.
-        let along = |at: f32| {
+        let [(column, right), (row, down)] = [x, y].map(|at| {
             let at = ((at - 0.5).max(0.0) * 256.0) as usize;
             (at >> 8, (at & 255) as u32)
-        };
-        let (column, right) = along(x);
-        let (row, down) = along(y);
+        });
         let [a, b] = [cell(column, row), cell(column + 1, row)];
         let [c, d] = [cell(column, row + 1), cell(column + 1, row + 1)];
         let mixed = |channel: fn(&Color32) -> u8| {

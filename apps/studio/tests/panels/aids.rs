@@ -10,11 +10,11 @@ use paint::strokes::{Action, Stroke, StrokeTool, SurfaceId};
 use session::{Command, Pace};
 use studio::files::Desk;
 use studio::pen::{
-    Device, DrawingAids, GuideKind, PointerState, Report, ReportKind, RulerShape, Script,
-    SymmetryKind,
+    Device, DrawingAids, GuideKind, PointerState, ReportKind, RulerShape, Script, SymmetryKind,
 };
 
 use super::harness::{Window, button};
+use super::pen::report;
 
 /// Places of a wavy stroke from a place in mm.
 fn wavy(x_mm: f64, y_mm: f64) -> Vec<[f64; 2]> {
@@ -129,8 +129,11 @@ fn strokes_follow_the_ruler_while_they_are_to_and_are_free_else() {
     aids(&mut window).ruler.ends = [[2.0, 2.0], [22.0, 17.0]];
     paint(&mut window, &wavy(8.0, 4.0));
     let led = last(&window);
-    let off = |at: &Sample| (at.y_mm - led[0].y_mm) - 0.75 * (at.x_mm - led[0].x_mm);
-    assert!(led.iter().all(|at| off(at).abs() < 0.002), "{led:?}");
+    assert!(
+        led.iter()
+            .all(|at| ((at.y_mm - led[0].y_mm) - 0.75 * (at.x_mm - led[0].x_mm)).abs() < 0.002),
+        "{led:?}"
+    );
     assert_eq!((led[0].x_mm, led[0].y_mm), (8.0, 4.0));
     window.save("aids-ruler");
     // You see the ruler, but strokes do not follow it. This must equal a stroke without aids to the
@@ -153,11 +156,12 @@ fn strokes_in_perspective_run_to_a_vanishing_point() {
     window.harness().run_steps(2);
     let [left, right] = [0, 1].map(|at| window.studio().aids.perspective.points[at]);
     for (to, steps) in [(left, [-0.2, -0.12]), (right, [0.2, -0.11])] {
-        let place = |step: u8| {
-            let along = f64::from(step);
-            [16.0 + steps[0] * along, 17.0 + steps[1] * along + 0.3 * (0.3 * along).sin()]
-        };
-        let places: Vec<[f64; 2]> = (0..50).map(place).collect();
+        let places: Vec<[f64; 2]> = (0..50)
+            .map(|step: u8| {
+                let along = f64::from(step);
+                [16.0 + steps[0] * along, 17.0 + steps[1] * along + 0.3 * (0.3 * along).sin()]
+            })
+            .collect();
         paint(&mut window, &places);
         let led = last(&window);
         let across = to[0] - 16.0;
@@ -268,11 +272,6 @@ fn a_stroke_that_another_action_ends_has_no_twins() {
     let mut window = Window::open("aids-cut");
     window.click("Load brush");
     window.key(Modifiers::NONE, Key::Y);
-    let report = |window: &mut Window, kind| {
-        let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
-        window.studio_mut().pen.feed(report);
-        window.frame(Vec::new());
-    };
     for (order, &place) in wavy(4.0, 6.0).iter().enumerate() {
         let state = hold(&window, SurfaceId::Canvas, place);
         let kind = if order == 0 { ReportKind::Pressed(state) } else { ReportKind::Moved(state) };
@@ -298,10 +297,10 @@ fn handles_are_dragged_while_the_window_of_the_aids_is_open() {
     window.key(Modifiers::SHIFT, Key::G);
     window.harness().run_steps(3);
     drag(&mut window, centre, [22.0, 13.0]);
-    let near = |found: [f64; 2], wanted: [f64; 2]| {
+    fn near(found: [f64; 2], wanted: [f64; 2]) {
         let off = (found[0] - wanted[0]).hypot(found[1] - wanted[1]);
         assert!(off < 0.1, "{found:?}, not {wanted:?}");
-    };
+    }
     near(window.studio().aids.symmetry.centre, [22.0, 13.0]);
     drag(&mut window, "Angle of the symmetry", [27.0, 8.2]);
     assert_eq!(window.studio().aids.symmetry.angle_deg, 45.0);

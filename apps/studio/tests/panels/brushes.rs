@@ -190,10 +190,10 @@ fn loading_uses_tube_or_medium_with_the_slider_values() {
     harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(40.0);
     harness.run();
     click(&mut harness, "Load from tube");
-    let load = |recipe: &[(&str, f64)], vehicle| {
+    fn load(recipe: &[(&str, f64)], vehicle: f64) -> Request {
         let recipe = recipe.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
         act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle, amount_mm: 0.75 }))
-    };
+    }
     assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
     harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(99.5);
     harness.run();

@@ -73,13 +73,6 @@ fn shown_by(
     density: f32,
     mut split: Option<f32>,
 ) -> Harness<'static, SurfaceView> {
-    let show = move |ui: &mut Ui, surface: &mut SurfaceView| {
-        let room = ui.ctx().content_rect();
-        ui.set_clip_rect(room);
-        ui.painter().rect_filled(room, 0.0, theme::SURROUND);
-        let split = split.as_mut().map(|at| Split { at, lights: ["D65", "A"] });
-        surface.show(ui, room, DragMode::None, split);
-    };
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(density)
@@ -88,7 +81,16 @@ fn shown_by(
             theme::apply(context);
             set_drawing(context, drawing);
         })
-        .build_ui_state(show, surface);
+        .build_ui_state(
+            move |ui: &mut Ui, surface: &mut SurfaceView| {
+                let room = ui.ctx().content_rect();
+                ui.set_clip_rect(room);
+                ui.painter().rect_filled(room, 0.0, theme::SURROUND);
+                let split = split.as_mut().map(|at| Split { at, lights: ["D65", "A"] });
+                surface.show(ui, room, DragMode::None, split);
+            },
+            surface,
+        );
     harness.run();
     harness
 }
@@ -575,9 +577,9 @@ const NEAR: u8 = 3;
 /// Shows widgets, text of two sizes, a picture that changes, and a translucent card over them.
 fn show(ui: &mut Ui, state: &mut (usize, Option<TextureHandle>)) {
     let (frame, picture) = state;
-    let image = |side: usize, value: u8| {
+    fn image(side: usize, value: u8) -> ColorImage {
         ColorImage::filled([side, side], Color32::from_rgb(value, 255 - value, 90))
-    };
+    }
     let options = TextureOptions::NEAREST;
     let picture =
         picture.get_or_insert_with(|| ui.ctx().load_texture("picture", image(16, 20), options));
@@ -616,11 +618,13 @@ fn the_interface_looks_alike_with_either_shader() {
     }
     for density in [1.0, 1.5] {
         let by_egui = rendered(theme::apply, density);
-        let quick = |context: &Context| {
-            theme::apply(context);
-            view::draw_meshes(context);
-        };
-        let by_quads = rendered(quick, density);
+        let by_quads = rendered(
+            |context: &Context| {
+                theme::apply(context);
+                view::draw_meshes(context);
+            },
+            density,
+        );
         assert_eq!(by_egui.dimensions(), by_quads.dimensions());
         let colors: BTreeSet<[u8; 4]> = by_egui.pixels().map(|pixel| pixel.0).collect();
         assert!(colors.len() > 60, "a picture with {} colours", colors.len());

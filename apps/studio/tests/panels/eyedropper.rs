@@ -40,7 +40,7 @@ fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
     let find = |name: &str| library.find(name).unwrap();
-    let layer = |label: &str, paint: &[(PigmentId, f64)], vehicle: f64| {
+    fn layer(label: &str, paint: &[(PigmentId, f64)], vehicle: f64) -> PickedLayer {
         let mut layer = PickedLayer {
             label: label.to_owned(),
             slots: [None; SLOTS],
@@ -52,7 +52,7 @@ fn picked(painting: &PaintingState) -> Picked {
         }
         layer.amounts_mm[SLOTS] = vehicle;
         layer
-    };
+    }
     let white = find("Zinc White");
     let blue = find("Ultramarine");
     let mixture = library.mix([(white, 3.0), (blue, 1.0)]).unwrap();
@@ -191,9 +191,10 @@ fn a_typed_color_gets_the_recipes_of_the_library_search() {
         assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
     for (index, recipe) in wanted.iter().enumerate() {
-        let name = |at: usize| painting.library[recipe.shares.parts()[at].0].name.clone();
         let parts = recipe.parts.as_ref().unwrap();
-        let all = parts.iter().enumerate().map(|(at, part)| (name(at), f64::from(*part)));
+        let all = parts.iter().enumerate().map(|(at, part)| {
+            (painting.library[recipe.shares.parts()[at].0].name.clone(), f64::from(*part))
+        });
         let all = all.collect();
         stage.click(&format!("Load recipe {}", index + 1));
         let commands = stage.commands();

@@ -89,7 +89,7 @@ pub(crate) fn painting() -> PaintingState {
 
 /// Pictures of all states but the last but one. Each changes a corner.
 fn shots() -> HistoryShots {
-    let shot = |state: usize| {
+    fn shot(state: usize) -> HistoryShot {
         let picture = Thumbnail {
             width: 48,
             height: 30,
@@ -102,7 +102,7 @@ fn shots() -> HistoryShots {
         };
         let changed = (state > 0).then(|| [12 * (state - 1), 0, 12, 12]);
         HistoryShot { picture: Arc::new(picture), changed }
-    };
+    }
     let shots = (0..5).map(|state| (state != 3).then(|| shot(state))).collect();
     HistoryShots { shots, bytes: 3 << 20, most_bytes: 24 << 20 }
 }
@@ -458,15 +458,14 @@ pub(crate) struct Target {
 
 /// Everything below `root` that you can click, and all sliders.
 pub(crate) fn targets(root: &Node<'_>) -> Vec<Target> {
-    let touched = |node: &Node<'_>| {
-        let inner = node.accesskit_node();
-        // For fingers there are no scroll bars. You drag the content instead.
-        let is_bar = inner.role() == Role::ScrollBar;
-        let is_clicked = inner.data().supports_action(Action::Click);
-        (is_clicked && !is_bar) || inner.role() == Role::Slider
-    };
     root.children_recursive()
-        .filter(touched)
+        .filter(|node| {
+            let inner = node.accesskit_node();
+            // For fingers there are no scroll bars. You drag the content instead.
+            let is_bar = inner.role() == Role::ScrollBar;
+            let is_clicked = inner.data().supports_action(Action::Click);
+            (is_clicked && !is_bar) || inner.role() == Role::Slider
+        })
         .map(|node: Node<'_>| {
             let inner = node.accesskit_node();
             let name = inner.label().or(inner.value());

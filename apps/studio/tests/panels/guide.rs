@@ -100,15 +100,14 @@ fn the_first_steps_stay_within_a_small_window() {
 #[test]
 fn a_message_does_not_cover_the_first_steps() {
     let mut window = Window::first_start("first-steps-message", SIZE);
-    let place = |window: &mut Window| place_of_text(window, "Press here").unwrap();
-    let before = place(&mut window);
+    let before = place_of_text(&mut window, "Press here").unwrap();
     window.click("Load brush");
     window.settle();
     window.click("Keep this mixture");
     window.settle();
     window.save("first-steps-message");
     let message = place_of_text(&mut window, "Kept").expect("a message");
-    let lines = place(&mut window);
+    let lines = place_of_text(&mut window, "Press here").unwrap();
     assert!(message.intersects(before), "{message} would cover {before}");
     assert!(lines.top() > message.bottom(), "{message} covers {lines}");
 }
@@ -123,14 +122,15 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     assert!(window.studio().files.has_dialog(), "unsaved changes are asked for");
     window.click("Discard");
     let began = web_time::Instant::now();
-    let title = |window: &Window| window.studio().painting().unwrap().title.clone();
     // The worker measures the layers only when it is idle.
-    let measured = |window: &Window| {
+    fn measured(window: &Window) -> bool {
         let layers = &window.studio().painting().unwrap().layers;
         layers.len() == 3 && layers.iter().all(|layer| layer.coverage > 0.0)
-    };
-    let playing = |window: &Window| window.studio().files.is_playing();
-    while title(&window) != "Oranges and a lemon" || playing(&window) || !measured(&window) {
+    }
+    while window.studio().painting().unwrap().title != "Oranges and a lemon"
+        || window.studio().files.is_playing()
+        || !measured(&window)
+    {
         assert!(began.elapsed().as_secs() < 60, "it is not opened");
         std::thread::sleep(std::time::Duration::from_millis(5));
         window.harness().step();
@@ -189,8 +189,8 @@ fn the_cursor_is_an_outline_that_leaves_its_place_free() {
 #[test]
 fn the_bent_head_of_an_open_stroke_is_an_outline_too() {
     let mut window = Window::open("cursor-bent");
-    let at = |x| window_point(&window, x);
-    let along: Vec<Pos2> = (0..20).map(|step| at(8.0 + 0.4 * f64::from(step))).collect();
+    let along: Vec<Pos2> =
+        (0..20).map(|step| window_point(&window, 8.0 + 0.4 * f64::from(step))).collect();
     let last = along[19];
     window.frame(vec![eframe::egui::Event::PointerMoved(along[0])]);
     window.frame(vec![super::harness::button(along[0], true)]);
@@ -272,17 +272,14 @@ type Act<'a> = &'a dyn Fn(&mut PaintingState);
 
 #[test]
 fn each_step_is_done_by_its_own_action_only() {
-    let with_medium = |painting: &mut PaintingState| {
-        painting.layers = super::fixture::painting().layers;
-        painting.brushes[0].vehicle = 0.97;
-    };
     let acts: [(TourStep, Act); 6] = [
         (TourStep::Load, &|painting| painting.brushes[1].amount_mm += 0.3),
         (TourStep::Paint, &|painting| add(painting, "stroke, round")),
         (TourStep::Mix, &|painting| add(painting, "stroke on the palette, round")),
         (TourStep::Dry, &|painting| add(painting, "dry all")),
         (TourStep::Glaze, &|painting| {
-            with_medium(painting);
+            painting.layers = super::fixture::painting().layers;
+            painting.brushes[0].vehicle = 0.97;
             add(painting, "stroke, round");
         }),
         (TourStep::Relight, &|painting| painting.lighting.illuminant = "A".to_owned()),
@@ -428,11 +425,11 @@ fn a_painter_goes_through_the_whole_tour() {
 #[test]
 fn the_card_goes_back_and_on_and_escape_leaves_it() {
     let mut window = Window::open("tour-card");
-    let start = |window: &mut Window| {
+    fn start(window: &mut Window) {
         window.harness().get_all_by_label("Help").next().unwrap().click();
         window.harness().run_ok();
         window.click("Guided tour");
-    };
+    }
     start(&mut window);
     for step in [TourStep::Paint, TourStep::Mix] {
         window.click("Next");
@@ -454,7 +451,7 @@ fn the_card_goes_back_and_on_and_escape_leaves_it() {
 
 #[test]
 fn the_steps_tell_the_keys_in_use() {
-    let key = |intent: Intent| {
+    fn key(intent: Intent) -> String {
         let keys = [
             (Intent::Tool(Mode::Paint), "F5"),
             (Intent::Dry, "F6"),
@@ -463,7 +460,7 @@ fn the_steps_tell_the_keys_in_use() {
         ];
         let own = keys.iter().find(|(own, _)| *own == intent);
         own.map_or_else(String::new, |(_, key)| (*key).to_owned())
-    };
+    }
     let with = |step: TourStep| step.lines(key).concat();
     assert!(with(TourStep::Mix).contains("Choose Paint (F5) and"), "{}", with(TourStep::Mix));
     assert!(with(TourStep::Dry).starts_with("Press F6, or this button."));

@@ -33,11 +33,14 @@ fn injected_window(name: &'static str, size: Vec2, density: f32) -> Window {
         [(SurfaceId::Canvas, 1920, 1080), (SurfaceId::Palette, 640, 420)]
     {
         let rect = tile::Rect { x: 0, y: 0, width, height };
-        let grey = |x: usize| match surface {
-            SurfaceId::Canvas => [235 - (x / 96) as u8, 232 - (x / 96) as u8, 224, 255],
-            SurfaceId::Palette => [120 + (x % 23) as u8, 84, 52, 255],
-        };
-        let pixels = (0..width * height).map(|at| grey(at % width)).collect();
+        let pixels = (0..width * height)
+            .map(|at| match surface {
+                SurfaceId::Canvas => {
+                    [235 - ((at % width) / 96) as u8, 232 - ((at % width) / 96) as u8, 224, 255]
+                }
+                SurfaceId::Palette => [120 + ((at % width) % 23) as u8, 84, 52, 255],
+            })
+            .collect();
         let tiles = vec![TilePixels { rect, pixels }];
         studio.handle_event(Event::Tiles { surface, second: false, tiles, newest: None });
     }

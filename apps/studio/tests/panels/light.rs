@@ -437,10 +437,10 @@ fn the_pigment_whose_whole_name_was_typed_is_taken_by_enter() {
     let mut window = Window::open("searched-pigment");
     window.studio_mut().tools.tube = 7;
     window.click("Tubes...");
-    let name = |window: &Window| {
+    fn name(window: &Window) -> String {
         let painting = window.studio().painting().unwrap();
         painting.library[painting.slots[7].unwrap()].name.clone()
-    };
+    }
     assert_eq!(name(&window), "Bone Black");
     window.harness().get_by_label("Search").focus();
     window.harness().step();
@@ -505,14 +505,14 @@ fn a_key_asks_the_system_for_full_screen_and_back() {
     let mut press = |full: bool| {
         let viewport = window.harness().input_mut().viewports.entry(ViewportId::ROOT).or_default();
         viewport.fullscreen = Some(full);
-        let key = |pressed| Event::Key {
+        let keys = [true, false].map(|pressed| Event::Key {
             key: Key::F11,
             physical_key: None,
             pressed,
             repeat: false,
             modifiers: Modifiers::NONE,
-        };
-        window.frame(vec![key(true), key(false)]);
+        });
+        window.frame(keys.to_vec());
         window.harness().output().viewport_output[&ViewportId::ROOT].commands.clone()
     };
     assert!(press(false).contains(&ViewportCommand::Fullscreen(true)));

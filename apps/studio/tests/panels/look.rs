@@ -171,12 +171,11 @@ fn words_stand_in_the_middle_of_high_buttons() {
 
 #[test]
 fn palette_and_tubes_grow_with_the_window() {
-    let sizes = |size| {
+    let [small, large] = [SIZES[0], SIZES[2]].map(|size| {
         let mut window = Window::sized("growing", size, 1.0);
-        let mut rect = |label| window.harness().get_by_label(label).rect();
-        [rect("Palette").size(), rect("tube of Vermilion").size()]
-    };
-    let [small, large] = [sizes(SIZES[0]), sizes(SIZES[2])];
+        ["Palette", "tube of Vermilion"]
+            .map(|label| window.harness().get_by_label(label).rect().size())
+    });
     assert!(large[0].y > 1.25 * small[0].y, "the palette: {small:?} {large:?}");
     assert!(large[1].y > 1.25 * small[1].y, "the tubes: {small:?} {large:?}");
 }
@@ -231,9 +230,12 @@ pub(super) fn small(window: &mut Window) -> Vec<Target> {
     let all = targets(&window.harness().root());
     assert!(all.len() > 20, "{} targets", all.len());
     let least = theme::TOUCH_TARGET - 0.5;
-    let is_small = |target: &Target| target.size.x < least || target.size.y < least;
-    let excused = |target: &Target| SMALLER.iter().any(|(name, _)| target.name.starts_with(name));
-    all.into_iter().filter(|target| is_small(target) && !excused(target)).collect()
+    all.into_iter()
+        .filter(|target| {
+            (target.size.x < least || target.size.y < least)
+                && !SMALLER.iter().any(|(name, _)| target.name.starts_with(name))
+        })
+        .collect()
 }
 
 #[test]
@@ -303,14 +305,14 @@ fn scenes_have_the_same_theme_and_targets() {
 #[test]
 fn the_menu_changes_theme_targets_and_scale_at_once() {
     let mut window = Window::open("look-menu");
-    let choose = |window: &mut Window, entry: &str| {
+    fn choose(window: &mut Window, entry: &str) {
         window.open_menu("View");
         let entry = window.harness().query_all_by_label_contains(entry).last();
         // The entry may be out of view.
         entry.expect("an entry of the menu").click_accesskit();
         window.harness().step();
         window.harness().run_ok();
-    };
+    }
     choose(&mut window, "Light theme");
     assert_eq!(window.harness().ctx.theme(), Theme::Light);
     choose(&mut window, "Dark theme");
@@ -475,7 +477,7 @@ fn check_menus(window: &mut Window) {
 #[test]
 fn a_chosen_entry_has_a_tick_that_is_drawn() {
     let mut window = Window::open("ticks");
-    let lines = |window: &mut Window| {
+    fn lines(window: &mut Window) -> (usize, String) {
         window.harness().get_all_by_label("View").next().unwrap().click();
         window.harness().run_ok();
         let entry = window.harness().get_by_role_and_label(Role::CheckBox, "Mirror");
@@ -489,7 +491,7 @@ fn a_chosen_entry_has_a_tick_that_is_drawn() {
         let found = (ticks.count(), format!("{chosen:?}"));
         window.key(Modifiers::NONE, Key::Escape);
         found
-    };
+    }
     let plain = lines(&mut window);
     window.key(Modifiers::NONE, Key::M);
     let ticked = lines(&mut window);

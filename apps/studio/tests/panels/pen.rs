@@ -19,6 +19,13 @@ use web_time::{Duration, Instant};
 
 use super::harness::{Window, button};
 
+/// Draws a frame with this report of a pen.
+pub(crate) fn report(window: &mut Window, kind: ReportKind) {
+    let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
+    window.studio_mut().pen.feed(report);
+    window.frame(Vec::new());
+}
+
 fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
     let at = window.point(SurfaceId::Canvas, x_mm, y_mm);
     PointerState { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
@@ -55,8 +62,9 @@ fn painted(window: &Window, before: &RgbaImage, after: &RgbaImage, y_mm: f64) ->
     let [from, to] = [y_mm - 4.0, y_mm + 4.0].map(|y| window.point(SurfaceId::Canvas, 2.0, y));
     let right = window.point(SurfaceId::Canvas, 30.0, y_mm).x as u32;
     let rows = from.y as u32..to.y as u32;
-    let differs = |&(x, y): &(u32, u32)| before.get_pixel(x, y) != after.get_pixel(x, y);
-    rows.flat_map(|y| (from.x as u32..right).map(move |x| (x, y))).filter(differs).count()
+    rows.flat_map(|y| (from.x as u32..right).map(move |x| (x, y)))
+        .filter(|&(x, y)| before.get_pixel(x, y) != after.get_pixel(x, y))
+        .count()
 }
 
 #[test]
@@ -152,14 +160,11 @@ fn points_of_the_curve_are_added_dragged_and_removed() {
     assert_eq!(points(&window).len(), 2);
     let point = window.harness().get_by_label("curve point 2").rect().center();
     let modifiers = Modifiers::NONE;
-    let secondary = |pressed| {
-        let pos = point;
-        let button = PointerButton::Secondary;
-        Event::PointerButton { pos, button, pressed, modifiers }
-    };
     window.frame(vec![Event::PointerMoved(point)]);
-    window.frame(vec![secondary(true)]);
-    window.frame(vec![secondary(false)]);
+    for pressed in [true, false] {
+        let button = PointerButton::Secondary;
+        window.frame(vec![Event::PointerButton { pos: point, button, pressed, modifiers }]);
+    }
     assert_eq!(points(&window).len(), 2, "two must stay");
     window.click("Firm");
     assert_eq!(window.studio().files.preferences.pen.curve, PressureCurve::FIRM);
@@ -186,11 +191,6 @@ fn the_test_field_shows_the_pressure_after_the_curve() {
     let mut window = open("pen-field");
     window.click("Firm");
     let field = window.harness().get_by_label("Test field").rect();
-    let report = |window: &mut Window, kind| {
-        let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
-        window.studio_mut().pen.feed(report);
-        window.frame(Vec::new());
-    };
     for step in 0..=20_u8 {
         let at = field.left_center() + vec2(10.0 + 10.0 * f32::from(step), 0.0);
         let state =
@@ -334,11 +334,11 @@ fn tools_of_the_toolbar_work_the_wet_paint_and_the_status_line_tells_what_they_t
     window.click("Load brush");
     draw(&mut window, 8.0, 0.6);
     window.settle();
-    let brush = |window: &Window| {
+    fn brush(window: &Window) -> session::BrushState {
         let painting = window.studio().painting().expect("a painting is open");
         let name = &window.studio().tools.brush;
         painting.brushes.iter().find(|brush| brush.name == *name).expect("it is listed").clone()
-    };
+    }
     let loaded = brush(&window);
     for (key, tool, wanted) in [
         (Key::N, "blend", "of paint wiped off the head: "),
@@ -378,10 +378,10 @@ fn a_tool_over_dry_paint_alone_says_that_there_was_no_wet_paint() {
 #[test]
 fn the_brush_tab_shows_the_settings_of_the_tool() {
     let mut window = Window::sized("working-settings", vec2(1920.0, 1080.0), 1.0);
-    let shown = |window: &mut Window, label: &str| {
+    fn shown(window: &mut Window, label: &str) -> bool {
         use egui_kittest::kittest::Queryable;
         window.harness().query_all_by_label(label).next().is_some()
-    };
+    }
     assert!(!shown(&mut window, "Strength") && !shown(&mut window, "Height"));
     for (tool, label) in [("Blend", "Strength"), ("Erase", "Strength"), ("Scrape", "Height")] {
         window.click(tool);

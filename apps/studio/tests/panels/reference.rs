@@ -125,9 +125,8 @@ fn the_mean_over_the_radius_is_in_linear_light() {
     let middle = at(&stage, 0.5, 0.25);
     click(&mut stage, middle);
     let found = stage.state().tools.reference_color.take().unwrap();
-    let linear = |bytes: [u8; 3]| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0;
-    let left = linear(FIELDS[0]);
-    let right = linear(FIELDS[1]);
+    let [left, right] = [FIELDS[0], FIELDS[1]]
+        .map(|bytes| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0);
     for ((found, left), right) in found.iter().zip(left).zip(right) {
         // Both sides have equal numbers of pixels, except at the rim.
         let share = (found - left) / (right - left);
@@ -178,12 +177,14 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
 }
 
 fn drag_middle(stage: &mut PanelWindow<Reference>, from: Pos2, by: Vec2) {
-    let button = |pos: Pos2, pressed: bool| Event::PointerButton {
-        pos,
-        button: PointerButton::Middle,
-        pressed,
-        modifiers: Default::default(),
-    };
+    fn button(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Middle,
+            pressed,
+            modifiers: Default::default(),
+        }
+    }
     stage.harness.hover_at(from);
     stage.harness.event(button(from, true));
     stage.harness.hover_at(from + by / 2.0);
@@ -234,9 +235,12 @@ type Stage = PanelWindow<Reference>;
 
 fn drawing_panel(name: &str) -> (Stage, PathBuf) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let stripe = |x: u32, y: u32| if (x + y / 3) % 24 < 12 { [196, 150, 80] } else { [90, 70, 60] };
     let [width, height] = SIZE.map(|side| side as u32);
-    RgbImage::from_fn(width, height, |x, y| Pixel(stripe(x, y))).save(&path).unwrap();
+    RgbImage::from_fn(width, height, |x, y| {
+        Pixel(if (x + y / 3) % 24 < 12 { [196, 150, 80] } else { [90, 70, 60] })
+    })
+    .save(&path)
+    .unwrap();
     let panel = Reference::default();
     let mut stage = Stage::new(panel, vec2(460.0, 520.0), made_painting(), Reference::show);
     let context = stage.harness.ctx.clone();
@@ -396,7 +400,7 @@ fn samples_are_renamed_and_deleted() {
     for y in [100.0, 200.0, 300.0] {
         draw(&mut stage, &[[100.0, y], [300.0, y]]);
     }
-    let rename = |stage: &mut Stage, index: usize, name: &str| {
+    fn rename(stage: &mut Stage, index: usize, name: &str) {
         let role = eframe::egui::Role::TextInput;
         stage.harness.get_all_by_role(role).nth(index).unwrap().focus();
         stage.run();
@@ -406,13 +410,13 @@ fn samples_are_renamed_and_deleted() {
         stage.run();
         stage.harness.key_press(Key::Enter);
         stage.run();
-    };
+    }
     rename(&mut stage, 0, "sky");
     rename(&mut stage, 1, "sky");
     stage.click("Delete sample 3");
-    let names = |stage: &mut Stage| -> Vec<String> {
+    fn names(stage: &mut Stage) -> Vec<String> {
         marks(stage).samples.into_iter().map(|mark| mark.name).collect()
-    };
+    }
     assert_eq!(names(&mut stage), ["sky", "sample 2"], "a name is used once");
     stage.click("Undo mark");
     assert_eq!(names(&mut stage), ["sky", "sample 2", "sample 3"], "it is back");

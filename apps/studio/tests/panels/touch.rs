@@ -121,9 +121,9 @@ fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     let place = middle;
     let mut at = around(&window, &[-50.0, 50.0]);
     window.frame(fingers(TouchPhase::Start, &at));
-    let go = |window: &mut Window, at: &[Pos2]| {
+    fn go(window: &mut Window, at: &[Pos2]) {
         window.frame(fingers(TouchPhase::Move, at));
-    };
+    }
     go(&mut window, &at);
     // The fingers move together, and the picture follows.
     for _ in 0..4 {
@@ -172,8 +172,10 @@ fn handles_over_the_canvas_and_points_of_the_curve_are_large_enough_to_be_touche
         window.studio_mut().files.preferences.touch_targets = touch;
         let large = |rects: &[Rect], count: usize, what: &str| {
             assert_eq!(rects.len(), count, "{what}: {rects:?}");
-            let least = |rect: &Rect| rect.width().min(rect.height());
-            let least = rects.iter().map(least).fold(f32::INFINITY, f32::min);
+            let least = rects
+                .iter()
+                .map(|rect| rect.width().min(rect.height()))
+                .fold(f32::INFINITY, f32::min);
             assert_eq!(least >= TOUCH_TARGET - 0.5, touch, "{what}: {least}");
         };
         window.studio_mut().visible.pen = true;

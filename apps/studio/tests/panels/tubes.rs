@@ -159,10 +159,10 @@ fn a_pigment_is_exchanged_in_every_layer_where_possible() {
     harness.run();
     click(&mut harness, "Exchange in the painting...");
     click_row(&mut harness, "Cobalt Blue");
-    let swap = |layer| {
+    fn swap(layer: LayerRef) -> Request {
         let [from, to] = ["Ultramarine", "Cobalt Blue"].map(str::to_owned);
         act(Action::Swap { layer, from, to })
-    };
+    }
     assert_requests(&mut harness, &[swap(LayerRef::Id(LayerId(1))), swap(LayerRef::Wet)]);
     assert!(harness.query_by_label("Search").is_none(), "the window is closed");
 }
@@ -311,12 +311,14 @@ fn escape_a_click_outside_and_the_key_close_it() {
 fn the_right_button_is_dragged_to_a_size_and_let_go() {
     let mut window = Window::open("quick-drag");
     let point = over_canvas(&mut window);
-    let secondary = |pos, pressed| Event::PointerButton {
-        pos,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    fn secondary(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }
+    }
     window.frame(vec![secondary(point, true)]);
     window.frame(Vec::new());
     let size = place(&mut window, "quick size 12 mm");

@@ -14,6 +14,11 @@ use web_time::{Duration, Instant, SystemTime};
 use crate::program::{Program, keep_preferences};
 use crate::screen::{CONTROL, Pixels, RETURN, SHIFT, until};
 
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).collect()
+}
+
 /// Asserts that two captures are equal. If they are not, this saves both for you to inspect.
 fn same(what: &str, before: &Pixels, after: &Pixels) {
     let differing = before.differing(after);
@@ -34,7 +39,6 @@ fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
     let program = Program::start(&screen, &home, "1280x800", &[]);
     screen.key(u32::from('1'), &[CONTROL]);
     let (x, y) = program.room.clone();
-    let at = |across, down| program.at(across, down);
     let now = || {
         screen.aside();
         screen.still(x.clone(), y.clone())
@@ -44,11 +48,11 @@ fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
         until(what, || Some(now()).filter(|after| before.differing(after) > 1_000))
     };
     let bare = now();
-    screen.drag(at(0.2, 0.3), at(0.8, 0.35), 0.5);
+    screen.drag(program.at(0.2, 0.3), program.at(0.8, 0.35), 0.5);
     let wet = changed("a stroke is seen", &bare);
     screen.key(u32::from('d'), &[]);
     let dried = changed("its gloss is gone", &wet);
-    screen.drag(at(0.5, 0.1), at(0.45, 0.9), 0.4);
+    screen.drag(program.at(0.5, 0.1), program.at(0.45, 0.9), 0.4);
     let crossed = changed("a second stroke is seen", &dried);
     screen.key(u32::from('z'), &[CONTROL]);
     same("undo takes the stroke back", &dried, &changed("undo is seen", &crossed));
@@ -85,10 +89,6 @@ const AUTOSAVE: u64 = 2;
 
 /// Newest autosaved painting below `home`, and its time of writing.
 fn kept(home: &Path) -> Option<(PathBuf, SystemTime)> {
-    let entries = |folder: &Path| {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        entries.map(|entry| entry.path()).collect::<Vec<_>>()
-    };
     let sessions = Home::in_folder(home).sessions();
     let canvases = entries(&sessions).into_iter().flat_map(|session| entries(&session));
     let canvases = canvases.filter(|folder| {
@@ -135,19 +135,18 @@ fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     let program = Program::start(&screen, &home, "1280x800", &[]);
     screen.key(u32::from('1'), &[CONTROL]);
     let (x, y) = program.room.clone();
-    let at = |across, down| program.at(across, down);
-    screen.drag(at(0.2, 0.2), at(0.8, 0.2), 0.5);
+    screen.drag(program.at(0.2, 0.2), program.at(0.8, 0.2), 0.5);
     let first = until("the first stroke is kept", || {
         let document = painting(&kept(&home)?.0);
         (wet(&document) > 0).then_some(document)
     });
     // We kill the program during a long stroke, once part of it was autosaved.
-    screen.begin_drag(at(0.2, 0.5), at(0.8, 0.5), 4.0);
+    screen.begin_drag(program.at(0.2, 0.5), program.at(0.8, 0.5), 4.0);
     let some = until("some of the open stroke is kept", || {
         let document = painting(&kept(&home)?.0);
         (wet(&document) > wet(&first)).then_some(document)
     });
-    screen.begin_drag(at(0.8, 0.5), at(0.8, 0.9), 1.0);
+    screen.begin_drag(program.at(0.8, 0.5), program.at(0.8, 0.9), 1.0);
     let before = screen.pixels(x.clone(), y.clone());
     let killed = SystemTime::now();
     program.kill();
@@ -203,10 +202,6 @@ fn colored(pixels: &Pixels) -> usize {
 
 /// Text of the autosaved script below `home`, if there is one.
 fn autosaved_scene(home: &Path) -> Option<String> {
-    let entries = |folder: &Path| {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        entries.map(|entry| entry.path()).collect::<Vec<_>>()
-    };
     let scenes = entries(&Home::in_folder(home).scenes());
     let generations = scenes.into_iter().flat_map(|scene| entries(&scene));
     let mut scripts = generations.map(|folder| folder.join("scene.toml"));

@@ -54,9 +54,9 @@ impl<'a> Program<'a> {
 
     /// Position in the canvas view by shares of its width and height.
     pub(crate) fn at(&self, across: f64, down: f64) -> (i32, i32) {
-        let place = |range: &Range<usize>, share: f64| {
+        fn place(range: &Range<usize>, share: f64) -> i32 {
             (range.start as f64 + share * range.len() as f64) as i32
-        };
+        }
         (place(&self.room.0, across), place(&self.room.1, down))
     }
 
@@ -79,9 +79,8 @@ impl<'a> Program<'a> {
     /// the canvas there, at any zoom.
     fn fitted(&self) -> Option<(Range<usize>, Range<usize>)> {
         let [left, top, right, bottom] = self.canvas()?;
-        let whole = |from: f64, to: f64| from.ceil() as usize..to.floor() as usize;
-        let x = whole(left, right);
-        let y = whole(top, bottom);
+        let [x, y] = [(left, right), (top, bottom)]
+            .map(|(from, to): (f64, f64)| from.ceil() as usize..to.floor() as usize);
         // The window gets its size shortly after it appears.
         let (width, height) = self.screen.size();
         let wide = x.len() > width / 2;

@@ -18,9 +18,14 @@ use paint::strokes::{
     Action, LayerRef, MaskChange, SampleDecimals, Squeeze, StrokeScript, SurfaceId,
 };
 use session::{
-    Autosave, Command, Event, KeptPainting, LostSession, Origin, Pace, PenSample, SessionMeta,
-    Snapshot,
+    Autosave, BrushState, Command, Event, KeptPainting, LostSession, Origin, Pace, PenSample,
+    SessionMeta, Snapshot,
 };
+
+fn round(window: &Window) -> BrushState {
+    let found = window.state().brushes.iter().find(|brush| brush.name == "round");
+    found.cloned().expect("the brush exists")
+}
 
 #[test]
 fn layers_report_height_coverage_and_thumbnail() {
@@ -60,10 +65,10 @@ fn layers_report_height_coverage_and_thumbnail() {
         let share = opaque as f64 / thumbnail.pixels.len() as f64;
         assert!((share - reported.coverage).abs() < 0.05, "{share} of {}", reported.coverage);
     }
-    let reddest = |window: &Window| {
+    fn reddest(window: &Window) -> Option<i32> {
         let pixels = &window.state().layers[0].thumbnail.pixels;
         pixels.iter().filter(|p| p[3] == 255).map(|p| i32::from(p[0]) - i32::from(p[2])).max()
-    };
+    }
     assert!(reddest(&window) > Some(40), "vermilion is red: {:?}", reddest(&window));
     let layer = LayerRef::Dry(0);
     let from = "Vermilion".to_owned();
@@ -136,10 +141,6 @@ fn brushes_and_tubes_are_reported() {
     assert!(state.masstones.iter().all(Option::is_some), "eight tubes");
     assert!(state.tints.iter().all(Option::is_some), "all can be mixed with white");
     window.act(load("round", "Ultramarine"));
-    let round = |window: &Window| {
-        let found = window.state().brushes.iter().find(|brush| brush.name == "round");
-        found.cloned().expect("the brush exists")
-    };
     window.wait_until("paint on the brush", |window| round(window).amount_mm > 0.0);
     let loaded = round(&window);
     assert!((loaded.amount_mm - 0.3).abs() < 1e-4, "{}", loaded.amount_mm);
@@ -162,10 +163,10 @@ fn brushes_and_tubes_are_reported() {
 #[test]
 fn the_first_dirty_brush_is_told_once() {
     let mut window = Window::open(BackendChoice::Cpu);
-    let dirty = |window: &mut Window| {
+    fn dirty(window: &mut Window) -> Vec<String> {
         window.snapshot();
         std::mem::take(&mut window.dirty)
-    };
+    }
     window.act(load("round", "Ultramarine"));
     let path = wander(43, 60, 10.0, 8.0);
     window.stroke(SurfaceId::Canvas, "round", [&path[..]]);
@@ -219,9 +220,6 @@ fn a_painting_opens_as_it_was_left_and_its_recording_replays() {
     today.ask(Command::Open(origin));
     today.wait("the painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     assert_same(&today.snapshot(), &left, "opened");
-    let round = |window: &Window| {
-        window.state().brushes.iter().find(|brush| brush.name == "round").cloned().unwrap()
-    };
     window.wait_until("the used brush", |window| round(window).amount_mm < 0.299);
     assert_eq!(round(&today), round(&window), "as it was reported");
 
@@ -308,15 +306,13 @@ fn lost(folder: &Path) -> LostSession {
 /// Opens the session lost in `folder`, as the studio does.
 fn recovered(folder: &Path) -> Window {
     let lost = lost(folder);
-    let read = |path: &Path| {
-        let bytes = std::fs::read(path).unwrap();
-        Box::new(read("autosave", &bytes).unwrap())
-    };
     let [canvas, palette] = lost.files();
     let kept = lost.work().unwrap().map(|work| Box::new(work.session));
     let mut window = Window::new(BackendChoice::Cpu);
-    let canvas = read(&canvas);
-    let palette = read(&palette);
+    let [canvas, palette] = [canvas, palette].map(|path| {
+        let bytes = std::fs::read(path).unwrap();
+        Box::new(read("autosave", &bytes).unwrap())
+    });
     window.ask(Command::Open(Origin::Recovered { canvas, palette, kept }));
     window.wait("the painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     window

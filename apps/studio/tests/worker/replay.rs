@@ -258,9 +258,8 @@ fn pictures_stay_with_their_actions_through_undo_and_adjustments() {
     });
     let before: Vec<_> = shots(&window).into_iter().map(Option::<&HistoryShot>::cloned).collect();
     assert_eq!(window.state().history_done, 1);
-    let turned = |azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() });
-    let first = turned(10.0);
-    let last = turned(200.0);
+    let [first, last] = [10.0, 200.0]
+        .map(|azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() }));
     window.ask(Command::Adjust(first));
     window.ask(Command::Adjust(last));
     window.ask(Command::EndAdjustment);
@@ -304,7 +303,6 @@ type Step<'a> = &'a dyn Fn(&mut Window);
 #[test]
 fn tiles_cover_every_change() {
     let mut window = Window::open(BackendChoice::Cpu);
-    let turned = |azimuth_deg| Lighting { azimuth_deg, ..Lighting::default() };
     let lamp = Lighting { illuminant: "A".to_owned(), ..Lighting::default() };
     let far = wander(11, 150, 32.0, 20.0);
     let near = wander(12, 80, 10.0, 8.0);
@@ -328,8 +326,10 @@ fn tiles_cover_every_change() {
         ("the first state", &|w| w.ask(Command::GoTo(1))),
         ("the last state", &|w| w.ask(Command::GoTo(6))),
         ("a lamp that turns", &|w| {
-            w.ask(Command::Adjust(Action::Light(turned(10.0))));
-            w.ask(Command::Adjust(Action::Light(turned(120.0))));
+            for azimuth_deg in [10.0, 120.0] {
+                let turned = Lighting { azimuth_deg, ..Lighting::default() };
+                w.ask(Command::Adjust(Action::Light(turned)));
+            }
             w.ask(Command::EndAdjustment);
         }),
         ("scraping", &|w| w.act(Action::Scrape { on: SurfaceId::Palette })),

@@ -22,10 +22,10 @@ use session::{Command, Event, Origin, Pace, PenSample, Picked, Snapshot};
 pub(crate) fn session() -> PaintingSession {
     let Origin::Blank { script, library } = small() else { panic!("a bare canvas") };
     let (canvas, palette) = script.surfaces(&library, None).unwrap();
-    let painting = |document: Document| {
+    fn painting(document: Document) -> Painting {
         let engine = PaintEngine::on_cpu(document.ground.height.clone());
         Painting::open(document, engine, 1 << 28).unwrap()
-    };
+    }
     let mut session =
         PaintingSession::recorded(painting(canvas), palette.map(painting), &script).unwrap();
     for (name, spec) in &script.brushes {
@@ -92,10 +92,10 @@ fn a_snapshot_does_not_wait_for_the_pen() {
         brush: "filbert".to_owned(),
         decimals: SampleDecimals::RECORDING,
     });
-    let moves = |samples: &[Sample]| {
+    fn moves(samples: &[Sample]) -> Command {
         let arrived = Instant::now();
         Command::PenMove(samples.iter().map(|&sample| PenSample { sample, arrived }).collect())
-    };
+    }
     window.ask(moves(&samples[..90]));
     let midway = window.snapshot();
     assert!(midway.canvas.wet.totals() != [0; 9], "the paint so far is in it");
@@ -427,10 +427,10 @@ fn a_pick_equals_an_instrument_reading() {
         amount_mm: 0.2,
     });
     window.snapshot();
-    let filbert = |window: &Window| {
+    fn filbert(window: &Window) -> session::BrushState {
         let found = window.state().brushes.iter().find(|brush| brush.name == "filbert");
         found.cloned().expect("the brush exists")
-    };
+    }
     window.wait_until("paint on the brush", |window| {
         let state = filbert(window);
         (state.amount_mm - 0.2).abs() < 1e-3 && state.parts[0] == 0.0

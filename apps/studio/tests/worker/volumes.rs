@@ -282,13 +282,16 @@ fn time_runs_on_and_pictures_come_while_paint_is_mixed() {
         client.picture.as_ref().is_some_and(|shown| shown.fine && shown.step == last)
     });
     let shown = client.picture.clone().unwrap();
-    let rounded = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     let off = shown.pixels.iter().zip(glaze.pixels.values()).filter(|(pixel, linear)| {
-        let encoded = |value: f32| match value {
-            value if value <= 0.003_130_8 => 12.92 * value,
-            value => 1.055 * value.powf(1.0 / 2.4) - 0.055,
-        };
-        (0..3).any(|i| pixel[i].abs_diff(rounded(encoded(linear[i]))) > 1)
+        fn encoded(value: f32) -> f32 {
+            match value {
+                value if value <= 0.003_130_8 => 12.92 * value,
+                value => 1.055 * value.powf(1.0 / 2.4) - 0.055,
+            }
+        }
+        (0..3).any(|i| {
+            pixel[i].abs_diff((encoded(linear[i]).clamp(0.0, 1.0) * 255.0).round() as u8) > 1
+        })
     });
     assert_eq!(off.count(), 0, "the picture at rest is the one that is exported");
     client.ask(VolumeCommand::Look(Look { inside: Inside::OwnColours, ..client.state().look }));

@@ -198,8 +198,9 @@ impl Volumes {
                 self.with_panels(|cx| cx.change_look(|look| look.hatching ^= true));
             }
             SceneIntent::Inside => {
-                let next = |state: &SceneState| state.look.inside.next(state.by_region);
-                if let Some(inside) = self.state().map(next) {
+                if let Some(inside) =
+                    self.state().map(|state| state.look.inside.next(state.by_region))
+                {
                     self.with_panels(|cx| cx.change_look(|look| look.inside = inside));
                     self.tell_inside(inside);
                 }

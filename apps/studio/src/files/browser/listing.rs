@@ -126,12 +126,11 @@ pub(super) fn arranged<'a>(
 ) -> Vec<&'a Entry> {
     let typed = typed.to_lowercase();
     let words: Vec<&str> = typed.split_whitespace().collect();
-    let named = |entry: &Entry| {
+    let mut shown: Vec<&Entry> = entries.iter().collect();
+    shown.retain(|entry| {
         let name = entry.name.to_lowercase();
-        words.iter().all(|word| name.contains(word))
-    };
-    let fits = |entry: &&Entry| (entry.folder || filter.passes(&entry.name)) && named(entry);
-    let mut shown: Vec<&Entry> = entries.iter().filter(fits).collect();
+        (entry.folder || filter.passes(&entry.name)) && words.iter().all(|word| name.contains(word))
+    });
     if order == BrowserOrder::Date {
         // A stable order keeps the names sorted at equal times.
         shown.sort_by_key(|entry| (!entry.folder, Reverse(entry.changed)));

@@ -439,7 +439,6 @@ pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) 
     let side = rect.width().min(rect.height()) * 0.8;
     let size = if folder { vec2(side, 0.78 * side) } else { vec2(0.72 * side, side) };
     let corner = rect.center() - 0.5 * size;
-    let place = |(x, y): (f32, f32)| pos2(corner.x + x * size.x, corner.y + y * size.y);
     let stroke = Stroke::new((side / 22.0).clamp(1.0, 2.0), color);
     let lines: [&[(f32, f32)]; 2] = if folder {
         [
@@ -461,7 +460,11 @@ pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) 
         ]
     };
     for line in lines {
-        let places: Vec<Pos2> = line.iter().copied().map(place).collect();
+        let places: Vec<Pos2> = line
+            .iter()
+            .copied()
+            .map(|(x, y)| pos2(corner.x + x * size.x, corner.y + y * size.y))
+            .collect();
         painter.add(Shape::line(places, stroke));
     }
 }

@@ -89,10 +89,11 @@ impl Preview {
 /// this is the whole canvas.
 fn piece(canvas: &Canvas, light: &PreviewLight) -> Result<ColorImage, Problem> {
     let PreviewLight { library, lighting, light } = light;
-    let named = || Light::named(library, &lighting.illuminant, &lighting.observer).map(Arc::new);
     let light = match light {
         Some(light) => Arc::clone(light),
-        None => named().map_err(|error| Problem::from_error(&error))?,
+        None => Light::named(library, &lighting.illuminant, &lighting.observer)
+            .map(Arc::new)
+            .map_err(|error| Problem::from_error(&error))?,
     };
     let part = part_of(canvas);
     let ground = part.ground(library).map_err(|error| Problem::from_error(&error))?;
@@ -148,10 +149,10 @@ mod tests {
         canvas.ground.reflectance = Some(Primer::Grey(0.2));
         let grey = piece(&canvas, &light()).unwrap();
         assert!(mean(&grey) < mean(&white) - 60.0, "{} {}", mean(&grey), mean(&white));
-        let spread = |image: &ColorImage| {
+        fn spread(image: &ColorImage) -> u8 {
             let greens = image.pixels.iter().map(|pixel| pixel.g());
             greens.clone().max().unwrap() - greens.min().unwrap()
-        };
+        }
         canvas.ground = GroundKind::Panel.spec(1);
         let panel = piece(&canvas, &light()).unwrap();
         assert!(spread(&white) > spread(&panel), "linen has more relief than a panel");

@@ -392,13 +392,16 @@ impl BrushList {
         }
         self.brushes.retain(|entry| entry.requested.is_some() || reported(&entry.name).is_some());
         self.removed.retain(|name| reported(name).is_some());
-        let new = |brush: &&BrushState| {
-            !self.removed.contains(&brush.name) && self.position(&brush.name).is_none()
-        };
-        let mut new: Vec<&BrushState> = cx.painting.brushes.iter().filter(new).collect();
+        let mut new: Vec<&BrushState> = cx
+            .painting
+            .brushes
+            .iter()
+            .filter(|brush| {
+                !self.removed.contains(&brush.name) && self.position(&brush.name).is_none()
+            })
+            .collect();
         // In the order of the shapes, from round to knife.
-        let shape = |brush: &BrushState| HeadShape::ALL.iter().position(|s| *s == brush.spec.shape);
-        new.sort_by_key(|brush| shape(brush));
+        new.sort_by_key(|brush| HeadShape::ALL.iter().position(|s| *s == brush.spec.shape));
         for BrushState { name, .. } in new {
             self.brushes.push(ListedBrush {
                 name: name.clone(),
@@ -421,8 +424,9 @@ impl BrushList {
     fn spec(&self, painting: &PaintingState, name: &str) -> Option<BrushSpec> {
         let requested =
             self.position(name).and_then(|entry| self.brushes[entry].requested.as_ref());
-        let reported = || painting.brushes.iter().find(|brush| brush.name == name);
-        requested.map(|requested| requested.spec.clone()).or_else(|| Some(reported()?.spec.clone()))
+        requested.map(|requested| requested.spec.clone()).or_else(|| {
+            Some(painting.brushes.iter().find(|brush| brush.name == name)?.spec.clone())
+        })
     }
 
     /// Selects a brush, and the paint tool unless another tool with a head is in use.

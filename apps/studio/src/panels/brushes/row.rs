@@ -10,7 +10,7 @@ use session::{BrushState, BrushSwatch, FilmColor, PaintingState};
 
 use crate::language::{brush_label, english, tr, tr_format};
 use crate::panels::controls::{
-    button, fits_on_a_line, millimetres, named_button, percent, row, slider, text,
+    between, button, fits_on_a_line, millimetres, named_button, percent, row, slider, text,
 };
 use crate::panels::{Mode, PanelContext};
 use crate::theme;
@@ -36,23 +36,20 @@ impl Row<'_> {
         let label = brush_label(self.label);
         let response = row(ui, HEIGHT, &label, self.is_selected);
         let inner = response.rect.shrink2(vec2(6.0, 2.0));
-        let between = |left: f32, right: f32| {
-            Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
-        };
         let faint = if self.is_selected {
             theme::colors(ui.ctx()).text
         } else {
             theme::colors(ui.ctx()).faint
         };
         if self.number <= 9 {
-            let key = between(inner.left(), inner.left() + 12.0);
+            let key = between(inner, inner.left(), inner.left() + 12.0);
             let number = self.number.to_string();
             text(ui, key, Align::Center, TextStyle::Small, faint, &number);
         }
         let color = self.state.and_then(|state| state.color);
-        let icon_rect = between(inner.left() + 18.0, inner.left() + 42.0);
+        let icon_rect = between(inner, inner.left() + 18.0, inner.left() + 42.0);
         draw(ui.painter(), icon_rect, self.spec.shape, color);
-        let words = between(inner.left() + 50.0, inner.right() - 84.0);
+        let words = between(inner, inner.left() + 50.0, inner.right() - 84.0);
         let strong = theme::colors(ui.ctx()).strong;
         let (name, below) = words.split_top_bottom_at_fraction(0.55);
         if fits_on_a_line(ui, name, TextStyle::Body, &label) {
@@ -64,7 +61,7 @@ impl Row<'_> {
             text(ui, words, Align::Min, TextStyle::Body, strong, &label);
         }
         let (amount, bar) =
-            between(inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
+            between(inner, inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
         let amount_text = match self.state {
             Some(state) if state.amount_mm > 0.0 => millimetres(state.tip_mm),
             _ => tr("clean").to_owned(),
@@ -393,10 +390,10 @@ fn clean(ui: &Ui, rect: Rect, brush: Option<&BrushState>) {
 }
 
 fn tip(response: Response, swatch: &BrushSwatch) {
-    let lab = |color: FilmColor| {
+    fn lab(color: FilmColor) -> String {
         let [l, a, b] = color.lab.to_array();
         format!("Lab {l:.1} {a:.1} {b:.1}")
-    };
+    }
     response.on_hover_text(tr_format!("The paint at the tip, by its measured K and S under the light of the painting.\n\
          Left: a film that hides, {film}.\n\
          Then the film as thick as the paint at the tip: over the ground, {ground}; over a black card, \

@@ -177,14 +177,18 @@ impl LayerPaint {
 
     /// Recipe in whole parts or in shares rounded to 0.0001, and the share of clear vehicle.
     pub(super) fn recipe(&self, library: &PigmentLibrary) -> (Recipe, f64) {
-        let part = |(at, (pigment, share)): (usize, &(PigmentId, f64))| {
-            let part = match &self.parts {
-                Some(parts) => f64::from(parts[at]),
-                None => (1e4 * share).round() / 1e4,
-            };
-            (library[*pigment].name.clone(), part)
-        };
-        let parts = self.shares.iter().enumerate().map(part).filter(|(_, part)| *part > 0.0);
+        let parts = self
+            .shares
+            .iter()
+            .enumerate()
+            .map(|(at, (pigment, share)): (usize, &(PigmentId, f64))| {
+                let part = match &self.parts {
+                    Some(parts) => f64::from(parts[at]),
+                    None => (1e4 * share).round() / 1e4,
+                };
+                (library[*pigment].name.clone(), part)
+            })
+            .filter(|(_, part)| *part > 0.0);
         (parts.collect(), self.vehicle.clamp(0.0, 1.0))
     }
 

@@ -334,8 +334,7 @@ fn place(count: usize, from: usize, gap: usize) -> usize {
 fn stiffness(ui: &mut Ui, cx: &mut PanelContext<'_>, pending: &mut PendingValue<f64>) {
     let now = ui.input(|input| input.time);
     // Recorded values have six digits, so they may differ slightly.
-    let near = |a: &f64, b: &f64| (a - b).abs() < 1e-3;
-    let mut value = pending.shown(&cx.painting.medium.stiffness, near, now);
+    let mut value = pending.shown(&cx.painting.medium.stiffness, |a, b| (a - b).abs() < 1e-3, now);
     let control = Slider::new(&mut value, 0.0..=1.0).fixed_decimals(2);
     let tip =
         tr("How stiff the wet paint is, on canvas and palette: 0 is stand oil, which levels \

@@ -374,10 +374,14 @@ impl Thumbnails {
 
 /// The thumbnail with other columns and rows. Each pixel is the mean of the area that it covers.
 fn scaled(thumbnail: &Thumbnail, [width, height]: [usize; 2]) -> Vec<Color32> {
-    let color = |[red, green, blue, alpha]: [u8; 4]| {
-        Rgba::from(Color32::from_rgba_unmultiplied(red, green, blue, alpha))
-    };
-    let source: Vec<Rgba> = thumbnail.pixels.iter().copied().map(color).collect();
+    let source: Vec<Rgba> = thumbnail
+        .pixels
+        .iter()
+        .copied()
+        .map(|[red, green, blue, alpha]| {
+            Rgba::from(Color32::from_rgba_unmultiplied(red, green, blue, alpha))
+        })
+        .collect();
     let columns: Vec<_> = (0..width).map(|x| shares(x, width, thumbnail.width)).collect();
     let mut pixels = Vec::with_capacity(width * height);
     for y in 0..height {

@@ -163,10 +163,12 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
             mesh.colored_vertex(place, grey(u, v));
         }
     }
-    let vertex = |ring: usize, spoke: usize| match ring {
-        0 => 0,
-        _ => (1 + (ring - 1) * SPOKES + spoke % SPOKES) as u32,
-    };
+    fn vertex(ring: usize, spoke: usize) -> u32 {
+        match ring {
+            0 => 0,
+            _ => (1 + (ring - 1) * SPOKES + spoke % SPOKES) as u32,
+        }
+    }
     for ring in 0..RINGS {
         for spoke in 0..SPOKES {
             let outer = [vertex(ring + 1, spoke), vertex(ring + 1, spoke + 1)];

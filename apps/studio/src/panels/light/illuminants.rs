@@ -63,11 +63,12 @@ impl ListedIlluminant {
 
 /// All illuminants of `spectra`, grouped by kind, each group in the CIE's order.
 pub(super) fn listed_illuminants() -> Vec<ListedIlluminant> {
-    let lamp = |name: &'static str| {
-        let (kind, note) = description(name);
-        ListedIlluminant { name, kind, note }
-    };
-    let mut lamps: Vec<ListedIlluminant> = Illuminant::names().map(lamp).collect();
+    let mut lamps: Vec<ListedIlluminant> = Illuminant::names()
+        .map(|name: &'static str| {
+            let (kind, note) = description(name);
+            ListedIlluminant { name, kind, note }
+        })
+        .collect();
     lamps.sort_by_key(|lamp| lamp.kind);
     lamps
 }
@@ -404,9 +405,9 @@ pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illu
 
 fn curve(light: &Illuminant, color: Option<Color32>) -> Curve {
     let grid = light.power().grid();
-    let shown = |point: &(f64, f64)| BAND_NM.contains(&point.0);
     let values = light.power().values().iter().copied();
-    let mut points: Vec<(f64, f64)> = grid.wavelengths_nm().zip(values).filter(shown).collect();
+    let mut points: Vec<(f64, f64)> =
+        grid.wavelengths_nm().zip(values).filter(|point| BAND_NM.contains(&point.0)).collect();
     let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len().max(1) as f64;
     points = points.into_iter().step_by(STEP_NM).map(|(nm, power)| (nm, power / mean)).collect();
     Curve { name: light.name().to_owned(), points, color }
@@ -473,13 +474,13 @@ mod tests {
 
     #[test]
     fn the_search_matches_words_of_name_kind_and_note() {
-        let found = |search: &str| -> Vec<&str> {
+        fn found(search: &str) -> Vec<&'static str> {
             listed_illuminants()
                 .into_iter()
                 .filter(|lamp| lamp.matches(search))
                 .map(|lamp| lamp.name)
                 .collect()
-        };
+        }
         assert_eq!(found("window PANE"), ["ID50", "ID65"]);
         assert_eq!(found("violet"), ["LED-V1", "LED-V2"]);
         assert_eq!(found("led-rgb"), ["LED-RGB1"]);

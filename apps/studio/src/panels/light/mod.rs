@@ -260,16 +260,15 @@ fn same_lighting(a: &Lighting, b: &Lighting) -> bool {
     let numbers =
         |l: &Lighting| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief, l.adaptation];
     // Recorded lighting has six digits, so it may differ slightly.
-    let near = |(a, b): (f64, f64)| (a - b).abs() < 1e-3;
     a.illuminant == b.illuminant
         && a.observer == b.observer
-        && numbers(a).into_iter().zip(numbers(b)).all(near)
+        && numbers(a).into_iter().zip(numbers(b)).all(|(a, b)| (a - b).abs() < 1e-3)
 }
 
 fn same_gloss(a: &(Gloss, Gloss), b: &(Gloss, Gloss)) -> bool {
-    let near = |a: Gloss, b: Gloss| {
+    fn near(a: Gloss, b: Gloss) -> bool {
         (a.strength - b.strength).abs() < 1e-3 && (a.exponent / b.exponent - 1.0).abs() < 1e-3
-    };
+    }
     near(a.0, b.0) && near(a.1, b.1)
 }
 

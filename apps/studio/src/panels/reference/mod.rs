@@ -542,10 +542,15 @@ mod tests {
 
     #[test]
     fn guides_of_a_view_need_its_model_and_camera() {
-        let command = |camera| paint_command(Path::new("a.png"), camera, Path::new("g.toml"));
         let rest = "--style oil-flat --directions g.toml --picture a.painted.png";
-        assert_eq!(command(None), format!("impasto painterly a.png {rest}"));
+        assert_eq!(
+            paint_command(Path::new("a.png"), None, Path::new("g.toml")),
+            format!("impasto painterly a.png {rest}")
+        );
         let model = "impasto painterly MODEL --camera 30,20.5,30";
-        assert_eq!(command(Some([30.0, 20.5, 30.0])), format!("{model} {rest}"));
+        assert_eq!(
+            paint_command(Path::new("a.png"), Some([30.0, 20.5, 30.0]), Path::new("g.toml")),
+            format!("{model} {rest}")
+        );
     }
 }

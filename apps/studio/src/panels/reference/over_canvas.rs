@@ -201,9 +201,12 @@ impl Reference {
             Drawn::Click(point) => match self.first_place {
                 Some(first) => (first, place(point)),
                 None => {
-                    let inside = |(at, side): (f64, usize)| (0.0..side as f64).contains(&at);
                     let at = place(point);
-                    self.first_place = at.into_iter().zip(size).all(inside).then_some(at);
+                    self.first_place = at
+                        .into_iter()
+                        .zip(size)
+                        .all(|(at, side)| (0.0..side as f64).contains(&at))
+                        .then_some(at);
                     return;
                 }
             },

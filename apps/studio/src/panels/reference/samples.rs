@@ -40,9 +40,11 @@ impl SampleMarks {
 
     /// Adds a sample grown from a line, and selects it.
     pub(super) fn add(&mut self, line: Vec<[f64; 2]>, size: [usize; 2]) {
-        let taken = |name: &String| self.marks().iter().any(|mark| mark.name == *name);
         let names = (1..).map(|number| format!("sample {number}"));
-        let name = names.into_iter().find(|name| !taken(name)).unwrap_or_default();
+        let name = names
+            .into_iter()
+            .find(|name| !self.marks().iter().any(|mark| mark.name == *name))
+            .unwrap_or_default();
         let mark = Mark { name, area: MarkedArea::Scribble(line), spacing: None };
         self.marks.change(|marks| marks.push(mark));
         self.selected = self.marks().len() - 1;
@@ -92,13 +94,16 @@ impl SampleMarks {
 
     /// The sample with the nearest line or rectangle, within `reach` pixels of a place.
     pub(super) fn nearest(&self, place: [f64; 2], reach: f64) -> Option<usize> {
-        let far = |mark: &Mark| {
-            let lines = outlines(&mark.area);
-            let segments = lines.iter().flat_map(|line| line.windows(2));
-            let distances = segments.map(|ends| distance(place, [ends[0], ends[1]]));
-            distances.fold(f64::INFINITY, f64::min)
-        };
-        let all = self.marks().iter().map(far).enumerate();
+        let all = self
+            .marks()
+            .iter()
+            .map(|mark| {
+                let lines = outlines(&mark.area);
+                let segments = lines.iter().flat_map(|line| line.windows(2));
+                let distances = segments.map(|ends| distance(place, [ends[0], ends[1]]));
+                distances.fold(f64::INFINITY, f64::min)
+            })
+            .enumerate();
         let nearest = all.min_by(|one, other| one.1.total_cmp(&other.1));
         nearest.filter(|(_, far)| *far <= reach).map(|(index, _)| index)
     }
@@ -136,10 +141,9 @@ impl SampleMarks {
     }
 
     fn of(&self, picture: &Path, path: &Path) -> Marks {
-        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
         Marks {
-            file: name(path).unwrap_or_default(),
-            painting: name(picture),
+            file: name_of(path).unwrap_or_default(),
+            painting: name_of(picture),
             samples: self.marks().to_vec(),
         }
     }
@@ -148,6 +152,11 @@ impl SampleMarks {
         let marks = self.of(Path::new(""), Path::new("marks"));
         self.fault = marks.check(width, height).err().map(|error| Problem::from_error(&error));
     }
+}
+
+/// The name of a file without its folder.
+fn name_of(path: &Path) -> Option<String> {
+    path.file_name().map(|name| name.to_string_lossy().into_owned())
 }
 
 /// The lines that show an area: a scribble, or the sides of a rectangle. Single pixels have none.
@@ -236,11 +245,15 @@ impl Combing {
 
     /// The guide nearest to a place, within `reach` pixels.
     pub(super) fn nearest(&self, place: [f64; 2], reach: f64) -> Option<usize> {
-        let far = |line: &Vec<[f64; 2]>| {
-            let distances = line.windows(2).map(|ends| distance(place, [ends[0], ends[1]]));
-            distances.fold(f64::INFINITY, f64::min)
-        };
-        let all = self.combed().lines.iter().map(far).enumerate();
+        let all = self
+            .combed()
+            .lines
+            .iter()
+            .map(|line| {
+                let distances = line.windows(2).map(|ends| distance(place, [ends[0], ends[1]]));
+                distances.fold(f64::INFINITY, f64::min)
+            })
+            .enumerate();
         let nearest = all.min_by(|one, other| one.1.total_cmp(&other.1));
         nearest.filter(|(_, far)| *far <= reach).map(|(index, _)| index)
     }
@@ -266,11 +279,10 @@ impl Combing {
     /// The guides as a file for `picture` of this width and height.
     pub(super) fn drawn(&self, picture: &Path, size: [usize; 2]) -> DrawnFile {
         let path = self.path.clone().unwrap_or_else(|| DrawingKind::Guides.beside(picture));
-        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
         let Combed { lines, camera } = self.combed().clone();
         let guides = Guides {
-            file: name(&path).unwrap_or_default(),
-            picture: name(picture),
+            file: name_of(&path).unwrap_or_default(),
+            picture: name_of(picture),
             size_px: size.map(|side| u32::try_from(side).unwrap_or(u32::MAX)),
             camera,
             lines,
@@ -294,10 +306,10 @@ const ROUNDED_TO: f64 = 0.1;
 pub(super) fn traced(points: &[[f64; 2]], size: [usize; 2], tolerance: f64) -> Vec<[f64; 2]> {
     // A place exactly at the far edge would be outside the last pixel.
     let most = size.map(|side| side as f64 - ROUNDED_TO);
-    let rounded = |place: f64, most: f64| {
+    fn rounded(place: f64, most: f64) -> f64 {
         // We divide, because a tenth is not exact in binary.
         ((place / ROUNDED_TO).round() / ROUNDED_TO.recip()).clamp(0.0, most.max(0.0))
-    };
+    }
     let piece = first_piece(points, most);
     let mut line: Vec<[f64; 2]> = simplified(&piece, tolerance)
         .into_iter()

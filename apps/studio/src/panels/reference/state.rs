@@ -363,12 +363,14 @@ impl Overlay<'_> {
     /// Draws a guide with its number and arrows along it, thicker if it is selected.
     pub(super) fn guide(&self, number: usize, places: &[[f64; 2]], selected: bool) {
         let points = self.points(places);
-        let arrow = |(tip, along): (Pos2, Vec2)| {
-            let back = tip - 1.5 * BAR * along;
-            let side = BAR * along.rot90();
-            vec![back + side, tip, back - side]
-        };
-        let mut lines: Vec<Vec<Pos2>> = arrows(&points).into_iter().map(arrow).collect();
+        let mut lines: Vec<Vec<Pos2>> = arrows(&points)
+            .into_iter()
+            .map(|(tip, along)| {
+                let back = tip - 1.5 * BAR * along;
+                let side = BAR * along.rot90();
+                vec![back + side, tip, back - side]
+            })
+            .collect();
         let first = points.first().copied();
         lines.push(points);
         self.lines(&lines, GUIDE, selected);

@@ -8,7 +8,6 @@ use eframe::egui::{
     pos2, vec2,
 };
 use paint::document::Medium;
-use pigment::PigmentId;
 use session::volumes::{Grip, Here, Look, STEPS_A_SECOND, SceneState, SceneTool, VolumeCommand};
 use spectra::light_from_text;
 
@@ -134,8 +133,7 @@ pub fn show_time_bar(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let time = cx.state.time;
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let key = |ui: &Ui, name| hint(ui.ctx(), name);
-        let tip = format!("{}{}", tr("Goes to the start"), key(ui, "scene.start"));
+        let tip = format!("{}{}", tr("Goes to the start"), hint(ui.ctx(), "scene.start"));
         if sign_button(ui, Sign::Start, tr("From the start"), &tip) {
             cx.command(VolumeCommand::Seek(0));
         }
@@ -143,11 +141,11 @@ pub fn show_time_bar(ui: &mut Ui, cx: &mut SceneContext<'_>) {
             true => (Sign::Pause, tr("Pause"), tr("Stops time")),
             false => (Sign::Play, tr("Play"), tr("Lets time run")),
         };
-        let tip = format!("{tip}{}", key(ui, "scene.play"));
+        let tip = format!("{tip}{}", hint(ui.ctx(), "scene.play"));
         if sign_button(ui, sign, name, &tip) {
             cx.command(VolumeCommand::Play(!time.playing));
         }
-        let tip = format!("{}{}", tr("Takes one step of 1/120 s"), key(ui, "scene.step"));
+        let tip = format!("{}{}", tr("Takes one step of 1/120 s"), hint(ui.ctx(), "scene.step"));
         if sign_button(ui, Sign::Step, tr("Step"), &tip) {
             cx.command(VolumeCommand::StepOnce);
         }
@@ -311,12 +309,11 @@ impl TubeChooser {
                     choice = Some(TubeChoice::Library);
                 }
             });
-            let held = |pigment: PigmentId| {
+            if let Some(pigment) = self.list.show(ui, &catalogue, scattering, |pigment| {
                 let name = catalogue.name(pigment);
                 let number = state.tubes.iter().position(|tube| tube.name == name)?;
                 Some(tr_format!("it is already in tube {number}", number = number + 1))
-            };
-            if let Some(pigment) = self.list.show(ui, &catalogue, scattering, held) {
+            }) {
                 choice = Some(TubeChoice::Pigment(tube, catalogue.name(pigment).to_owned()));
             }
         });

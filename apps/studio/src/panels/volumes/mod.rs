@@ -120,8 +120,10 @@ fn show_view(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let key = hint(ui.ctx(), "scene.inside");
     let has_tubes = !cx.state.tubes.is_empty();
     for row in Inside::choices(cx.state.by_region).chunks(ROW) {
-        let tip = |one| format!("{}{key}", inside_tip(one));
-        let choices = row.iter().map(|&one| (one, inside_name(one), tip(one))).collect();
+        let choices = row
+            .iter()
+            .map(|&one| (one, inside_name(one), format!("{}{key}", inside_tip(one))))
+            .collect();
         let chosen = ui.add_enabled_ui(has_tubes, |ui| choose(ui, choices, look.inside));
         if let Some(inside) = chosen.inner {
             cx.change_look(|look| look.inside = inside);

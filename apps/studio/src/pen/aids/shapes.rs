@@ -476,7 +476,6 @@ mod tests {
 
     #[test]
     fn strokes_keep_to_the_ellipse_or_to_one_of_their_own() {
-        let out = |place: Place| length(shares([20.0, 10.0], [[6.0, 0.0], [0.0, 3.0]], place));
         for (shape, start, wanted) in [
             (RulerShape::Ellipse, [29.0, 10.0], 1.0),
             (RulerShape::Concentric, [29.0, 10.0], 1.5),
@@ -485,7 +484,11 @@ mod tests {
             let course = ruler(shape).course(start).unwrap();
             for place in [start, [21.0, 17.0], [12.0, 9.0]] {
                 let led = course.led(place);
-                assert!((out(led) - wanted).abs() < 1e-9, "{shape:?} {place:?}: {led:?}");
+                assert!(
+                    (length(shares([20.0, 10.0], [[6.0, 0.0], [0.0, 3.0]], led)) - wanted).abs()
+                        < 1e-9,
+                    "{shape:?} {place:?}: {led:?}"
+                );
             }
         }
     }

@@ -139,8 +139,9 @@ impl Bench {
             Files::new(ui.ctx(), self.home.clone(), self.preferences.clone())
         });
         let holds = self.holds_snapshots;
-        let held = |event: &Event| holds && matches!(event, Event::Snapshot(_));
-        for event in self.events.extract_if(.., |event| !held(event)) {
+        for event in
+            self.events.extract_if(.., |event| !(holds && matches!(event, Event::Snapshot(_))))
+        {
             files.handle_event(&event);
         }
         for request in self.requests.drain(..) {

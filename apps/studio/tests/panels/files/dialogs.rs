@@ -196,14 +196,14 @@ fn enter_in_a_number_field_ends_the_field_and_begins_no_painting() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A"));
     ask(&mut window, FileRequest::New);
-    let width = |window: &mut Window, text: &str| {
+    fn width(window: &mut Window, text: &str) {
         window.get_all_by_role(Role::SpinButton).next().unwrap().click();
         window.run_steps(2);
         window.key_press_modifiers(Modifiers::COMMAND, Key::A);
         window.step();
         window.get_by(|node| node.is_focused()).type_text(text);
         window.step();
-    };
+    }
     width(&mut window, "64");
     enter(&mut window, Modifiers::NONE);
     assert!(window.state_mut().files().has_dialog(), "the dialog stays");

@@ -138,13 +138,12 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     first.state_mut().recorded = Some(script);
     change(&mut first);
     let sessions = folder.path().join("own").join("sessions");
-    let session = |_: &mut Window| {
+    until(&mut first, "an autosave", |_: &mut Window| {
         let mut sessions = std::fs::read_dir(&sessions).unwrap();
         let session = sessions.next().unwrap().unwrap().path();
         let mut inside = std::fs::read_dir(session).unwrap().map(|entry| entry.unwrap());
         inside.any(|entry| entry.file_name().to_string_lossy().starts_with("generation"))
-    };
-    until(&mut first, "an autosave", session);
+    });
     let picture_file = folder.path().join("orchard.png");
     image::RgbImage::new(4, 4).save(&picture_file).unwrap();
     let desk = Desk {
@@ -184,8 +183,9 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     assert_eq!(found, desk);
     assert!(second.state_mut().files().take_desk().is_none(), "once");
     assert!(second.state_mut().files().has_unsaved_changes(), "the recovered painting is unsaved");
-    let sessions = |_: &mut Window| std::fs::read_dir(&sessions).unwrap().count() == 1;
-    until(&mut second, "its own autosave", sessions);
+    until(&mut second, "its own autosave", |_: &mut Window| {
+        std::fs::read_dir(&sessions).unwrap().count() == 1
+    });
     drop(second);
     let mut third = window(folder.path(), painted("Another"));
     assert!(shows(&third, "A study"), "it is offered again after a second crash");

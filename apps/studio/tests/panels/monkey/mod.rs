@@ -159,8 +159,8 @@ impl Monkey {
         // The sample would play for seconds.
         let left_out = [Intent::Quit, Intent::Sample];
         let rare = [Intent::NewScene, Intent::OpenScene, Intent::ShowScene, Intent::ScrapePalette];
-        let fitting = |entry: &&Entry| !left_out.contains(&entry.intent);
-        let entries: Vec<&Entry> = entries().filter(fitting).collect();
+        let entries: Vec<&Entry> =
+            entries().filter(|entry| !left_out.contains(&entry.intent)).collect();
         let mut entry = self.dice.of(&entries);
         if rare.contains(&entry.intent) && self.dice.chance(60) {
             entry = self.dice.of(&entries);
@@ -399,10 +399,10 @@ fn begun(
     let start = opened.map(|bytes| file::read("start", bytes).unwrap());
     let table = opened.filter(|_| script.table).and_then(|b| file::read_table("start", b).unwrap());
     let (canvas, palette, kept) = script.surfaces_with_table(library, start, table).unwrap();
-    let painting = |document: Document| {
+    fn painting(document: Document) -> Painting {
         let engine = PaintEngine::on_cpu(document.ground.height.clone());
         Painting::open(document, engine, 1 << 29).unwrap()
-    };
+    }
     let mut session = PaintingSession::new(painting(canvas), palette.map(painting)).unwrap();
     session.take_up(&kept).unwrap();
     session
@@ -413,7 +413,6 @@ fn check_action(action: &Action, outcome: &Outcome, before: (Quanta, i128), afte
     let kind = action.kind();
     let (wet, dry) = before;
     let (wet_after, dry_after) = after;
-    let sum = |quanta: Quanta| quanta.iter().sum::<i128>();
     match action {
         Action::Stroke(_) | Action::Cut(_) => {
             let taken = match outcome {
@@ -432,7 +431,11 @@ fn check_action(action: &Action, outcome: &Outcome, before: (Quanta, i128), afte
             assert!(wet.iter().zip(&wet_after).all(|(a, b)| a >= b), "{kind}: {action:?}");
             assert_eq!(dry, dry_after, "{kind}");
         }
-        Action::Dry { .. } => assert_eq!(sum(wet) + dry, sum(wet_after) + dry_after, "{kind}"),
+        Action::Dry { .. } => assert_eq!(
+            wet.iter().sum::<i128>() + dry,
+            wet_after.iter().sum::<i128>() + dry_after,
+            "{kind}"
+        ),
         Action::Merge { .. } => assert_eq!(wet, wet_after, "{kind}"),
         Action::Undo {} | Action::Redo {} | Action::Palette(_) | Action::Swap { .. } => {}
         _ => assert_eq!((wet, dry), (wet_after, dry_after), "{kind}: {action:?}"),

@@ -272,13 +272,9 @@ fn poured(name: &'static str, folder: &Path, inside: Inside) -> Window {
 
 /// Types a name in the dialog, and waits for the file or folder that it makes.
 fn save(window: &mut Window, folder: &Path, name: &str) -> PathBuf {
-    let field = |window: &mut Window| {
-        window.harness().run_steps(2);
-        let fields = window.harness().get_all_by_role(Role::TextInput);
-        fields.last().unwrap().focus();
-        window.harness().step();
-    };
-    field(window);
+    window.harness().run_steps(2);
+    window.harness().get_all_by_role(Role::TextInput).last().unwrap().focus();
+    window.harness().step();
     window.harness().key_press_modifiers(Modifiers::COMMAND, Key::A);
     window.harness().step();
     let fields = window.harness().get_all_by_role(Role::TextInput);

@@ -221,15 +221,15 @@ fn a_right_click_tells_what_is_there() {
     pour(&mut window);
     rest(&mut window);
     let pos = in_color(&window);
-    let right = |pressed| Event::PointerButton {
-        pos,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
     window.frame(vec![Event::PointerMoved(pos)]);
-    window.frame(vec![right(true)]);
-    window.frame(vec![right(false)]);
+    for pressed in [true, false] {
+        window.frame(vec![Event::PointerButton {
+            pos,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }]);
+    }
     wait(&mut window, "the answer", |volumes| volumes.here().is_some());
     let here = volumes(&window).here().unwrap().clone();
     assert!(here.place.is_some() && here.volumes > 0, "{here:?}");
@@ -303,9 +303,9 @@ fn the_light_on_pigments_is_chosen_in_the_panel() {
 #[test]
 fn tubes_take_pigments_of_the_library_and_of_another_that_is_dropped() {
     let mut window = scene("volumes-tubes");
-    let names = |volumes: &Volumes| -> Vec<String> {
+    fn names(volumes: &Volumes) -> Vec<String> {
         volumes.state().unwrap().tubes.iter().map(|tube| tube.name.clone()).collect()
-    };
+    }
     window.click("Tube...");
     window.save("volumes-chooser");
     window.click("Viridian");
@@ -347,7 +347,7 @@ fn the_dryer_dries_below_the_pen_and_its_key_dries_all() {
 fn the_pen_pushes_and_lifts_paint_and_the_list_takes_events_back() {
     let mut window = scene("volumes-push");
     pour(&mut window);
-    let drag = |window: &mut Window, label: &'static str, number: usize| {
+    fn drag(window: &mut Window, label: &'static str, number: usize) {
         let from = at(window, 0.5, 0.55);
         let to = at(window, 0.56, 0.58);
         window.frame(vec![Event::PointerMoved(from)]);
@@ -362,7 +362,7 @@ fn the_pen_pushes_and_lifts_paint_and_the_list_takes_events_back() {
             let event = state.events.get(number - 1);
             event.is_some_and(|event| event.label == label && event.to < state.time.step)
         });
-    };
+    }
     let tally = |window: &Window| volumes(window).state().unwrap().tally;
     let before = tally(&window);
     window.key(Modifiers::NONE, Key::W);
