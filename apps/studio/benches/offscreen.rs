@@ -1,10 +1,10 @@
 //! Frames of the whole window drawn on a graphics adapter without a window system.
-//!
-//! `cargo bench -p impasto-studio --bench offscreen [-- WIDTHxHEIGHT] [flat] [cpu] [SECONDS]` paints one
-//! stroke at 95 mm/s, as a hand with a mouse would, and draws frames as fast as they come, each waited
-//! for. The default is 3840 x 2160 pixels at two a point, the round brush that the program opens with, the
-//! paint on the graphics adapter, and 10 seconds. `flat` takes a loaded flat of 25 mm, `cpu` paints on the
-//! processor. A window adds the wait for its display.
+//! | `cargo bench -p impasto-studio --bench offscreen [-- WIDTHxHEIGHT] [flat] [cpu] [SECONDS]`
+//! paints one stroke at 95 mm/s, as a hand with a mouse would. It draws frames as fast as they
+//! come, and waits for each. If you pass nothing, this uses 3840 x 2160 pixels at two a point, the
+//! round brush that the program opens with, the paint on the graphics adapter, and 10 seconds.
+//! `flat` takes a loaded flat of 25 mm, `cpu` paints on the processor. In a window you also wait
+//! for the display.
 
 #![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a bench prints, and may panic")]
 
@@ -32,7 +32,6 @@ use studio::theme;
 
 /// Speed of the hand.
 const MM_PER_SECOND: f64 = 95.0;
-/// Width of the canvas in mm.
 const CANVAS_MM: f64 = 192.0;
 /// Time between two positions of the mouse.
 const INTERVAL: Duration = Duration::from_millis(4);
@@ -74,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The whole window with a worker, which draws itself after each step.
+/// The whole window with a worker. It draws itself after each step.
 fn window(
     home: PathBuf,
     open: Option<PathBuf>,
@@ -104,7 +103,7 @@ fn window(
                     Studio::new(ui.ctx(), Parts { worker, pen, files, open, log })
                 });
                 studio.logic(ui.ctx());
-                // Use the whole window, without the margin of the harness.
+                // This uses the whole window, without the margin of the harness.
                 let whole = ui.ctx().content_rect();
                 let mut ui = ui.new_child(UiBuilder::new().max_rect(whole));
                 ui.set_clip_rect(whole);
@@ -114,7 +113,7 @@ fn window(
         )
 }
 
-/// A texture that stands for the window, drawn and waited for, never read.
+/// A texture in place of the window. We draw it and wait for it, but never read it.
 struct Kept {
     state: RenderState,
     target: Option<wgpu::Texture>,
@@ -180,7 +179,7 @@ impl TestRenderer for Kept {
     }
 }
 
-/// Bounding box of the canvas in pixels, as the log of figures last told it.
+/// Bounding box of the canvas in pixels, from the last line of the log of figures.
 fn last_canvas(log: &std::path::Path) -> Result<[f64; 4], Box<dyn Error>> {
     let text = std::fs::read_to_string(log)?;
     let line = text.lines().last().ok_or("no figures were told")?;
@@ -193,7 +192,7 @@ fn press(harness: &mut Harness<'static, Option<Studio>>, text: &str) {
     harness.step();
 }
 
-/// Seconds of each frame: of the step of the interface, and of drawing it.
+/// Seconds of each frame: for the step of the interface, and for drawing it.
 fn paint(
     harness: &mut Harness<'static, Option<Studio>>,
     [left, top, right, bottom]: [f64; 4],
@@ -208,12 +207,14 @@ fn paint(
         let y = top + 0.15 * (bottom - top) + height * now / seconds;
         Pos2::new(x as f32 / DENSITY, y as f32 / DENSITY)
     };
-    let button = |pos: Pos2, pressed: bool| Event::PointerButton {
-        pos,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    fn button(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }
+    }
     let mut frame = |events: Vec<Event>| {
         harness.input_mut().events.extend(events);
         let began = Instant::now();

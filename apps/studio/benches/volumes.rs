@@ -1,8 +1,7 @@
-//! Speed of a scene of paint volumes under the hand: the worker alone, as the window of 1280 x 800
-//! asks it for pictures.
-//!
-//! `cargo bench -p impasto-studio --bench volumes` pours on the village, turns it, and does both,
-//! and prints pictures a second, the speed of time, and the time from a pour to the first colour.
+//! Speed of a scene of paint volumes while you work in it. This uses the worker alone, and asks for
+//! pictures as a window of 1280 x 800 does.
+//! | `cargo bench -p impasto-studio --bench volumes` pours on the village, turns it, and does both.
+//! It prints pictures a second, the speed of time, and the time from a pour to the first colour.
 
 #![expect(clippy::print_stdout, reason = "a bench prints")]
 
@@ -68,7 +67,7 @@ impl Bench {
         })
     }
 
-    /// Measures while `act` is called with the seconds that passed.
+    /// Measures while it calls `act` with the elapsed seconds.
     fn measure(&mut self, what: &str, mut act: impl FnMut(&Self, f32)) {
         let start = Instant::now();
         let pictures = self.pictures;
@@ -89,7 +88,7 @@ impl Bench {
         );
     }
 
-    /// Turns the scene while volumes show something else inside: prints the longest time without a
+    /// Turns the scene while volumes show something else inside. Prints the longest time without a
     /// picture, and the time until the paint is mixed.
     fn switch_to(&mut self, inside: Inside) {
         let Some(look) = self.state.as_ref().map(|state| state.look) else { return };
@@ -144,7 +143,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             bench.receive(HAND);
         }
         let pressed = Instant::now();
-        // On grass.
+        // This pours on grass.
         bench.worker.ask(VolumeCommand::PenDown(Grip::default(), pen(0.45, 0.8)));
         while bench.colored() == 0 {
             bench.receive(Duration::from_millis(1));
@@ -153,8 +152,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         bench.worker.ask(VolumeCommand::PenUp);
         bench.worker.ask(VolumeCommand::Undo);
         bench.worker.ask(VolumeCommand::Seek(0));
-        let step = |bench: &Bench| bench.state.as_ref().map_or(0, |state| state.time.step);
-        while bench.colored() > 0 || step(&bench) > 0 {
+        while bench.colored() > 0 || bench.state.as_ref().map_or(0, |state| state.time.step) > 0 {
             bench.receive(HAND);
         }
     }

@@ -79,11 +79,11 @@ pub struct Start {
     pub home: Home,
     /// Preferences read from the file, or defaults.
     pub preferences: Preferences,
-    /// Problems found in the preferences file, to be shown in the window.
+    /// Problems found in the preferences file. The window shows them.
     pub problems: Vec<Problem>,
     /// Backend and undo memory of the worker.
     pub worker: WorkerOptions,
-    /// Playback speed of recordings, if given on the command line.
+    /// Playback speed of recordings, if you gave one on the command line.
     pub pace: Option<Pace>,
     /// Performance log, if asked for.
     pub figures: Option<FiguresLog>,
@@ -96,16 +96,15 @@ pub struct Start {
 pub struct Stop {
     /// Text to print, with its final newline.
     pub text: String,
-    /// Exit status: 0 for help that was asked for, 2 if the program cannot start.
+    /// Exit status: 0 if you asked for help, 2 if the program cannot start.
     pub status: u8,
 }
 
 impl Start {
-    /// Parses the command line; the first argument is the program's name.
-    ///
-    /// # Errors
-    /// [`Stop`] for `--help` and `--version`, invalid arguments, a log file that cannot
-    /// be opened, and a system without a home folder.
+    /// Parses the command line. The first argument is the program's name.
+    /// | \# Errors
+    /// [`Stop`] for `--help` and `--version`, invalid arguments, a log file that cannot be opened,
+    /// and a system without a home folder.
     pub fn from_arguments(
         arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     ) -> Result<Self, Stop> {

@@ -1,5 +1,5 @@
-//! Where the panels of the window stand, as data: columns of groups of tabs. Selecting, moving and
-//! folding panels and sharing the height are functions of it.
+//! Arrangement of the panels as data: columns of groups of tabs. Functions of it select, move and
+//! fold panels and share the height.
 
 use std::ops::RangeInclusive;
 
@@ -13,7 +13,7 @@ pub const WIDTHS: RangeInclusive<f32> = 240.0..=720.0;
 /// Range of heights that a file may give, in points.
 const HEIGHTS: RangeInclusive<f32> = 60.0..=4000.0;
 
-/// Side of the window at which a column of panels stands.
+/// Side of the window for a column of panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// Beside the toolbar.
@@ -36,17 +36,17 @@ impl Side {
     }
 }
 
-/// Panels that share a place; one of them is shown.
+/// Panels that share a place. You see one of them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Group {
     /// Keys of the panels in the order of their tabs.
     pub panels: Vec<String>,
-    /// Index of the panel that is shown.
+    /// Index of the panel that you see.
     pub chosen: usize,
-    /// Whether only the tabs are shown.
+    /// Whether you see only the tabs.
     pub folded: bool,
-    /// Height below the tabs that the painter chose, in points; `None` is that of the panel.
+    /// Height below the tabs that you chose, in points; `None` uses the height of the panel.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height: Option<f32>,
 }
@@ -57,7 +57,7 @@ pub struct Group {
 pub struct Column {
     /// Width in points, within [`WIDTHS`].
     pub width: f32,
-    /// The groups; none if the column is not shown.
+    /// The groups. Without any, there is no column.
     pub groups: Vec<Group>,
 }
 
@@ -67,7 +67,7 @@ impl Default for Column {
     }
 }
 
-/// Where all panels stand.
+/// The place of every panel.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Arrangement {
@@ -75,8 +75,7 @@ pub struct Arrangement {
     pub left: Column,
     /// Column at the right edge.
     pub right: Column,
-    /// Height of palette and tubes that the painter chose, in points; `None` is a share of
-    /// the window.
+    /// Height of palette and tubes that you chose, in points; `None` uses a share of the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub palette_height: Option<f32>,
 }
@@ -98,7 +97,7 @@ impl Arrangement {
         Self { right, ..Self::default() }
     }
 
-    /// The column of a side.
+    /// The column at this side.
     #[must_use]
     pub fn column(&self, side: Side) -> &Column {
         match side {
@@ -107,7 +106,7 @@ impl Arrangement {
         }
     }
 
-    /// The column of a side, to be changed.
+    /// The column at this side, so that you can change it.
     pub fn column_mut(&mut self, side: Side) -> &mut Column {
         match side {
             Side::Left => &mut self.left,
@@ -115,7 +114,7 @@ impl Arrangement {
         }
     }
 
-    /// Side and index of the group that holds a panel, and the panel's index in it.
+    /// Side and index of the group with this panel, and the panel's index in it.
     #[must_use]
     pub fn position(&self, key: &str) -> Option<(Side, usize, usize)> {
         Side::ALL.into_iter().find_map(|side| {
@@ -126,8 +125,8 @@ impl Arrangement {
         })
     }
 
-    /// Drops panels that `standard` does not have, and the second of two; adds missing panels
-    /// to the group of their standard neighbours; brings all numbers into range.
+    /// Drops panels that `standard` does not have, and duplicates. Adds missing panels to the group
+    /// of their standard neighbours. Moves all numbers into range.
     pub fn bound(&mut self, standard: &Self) {
         self.bound_numbers();
         let mut seen: Vec<String> = Vec::new();
@@ -154,7 +153,7 @@ impl Arrangement {
         }
     }
 
-    /// Adds a panel to the group that holds another one of `group`, or else to a new one.
+    /// Adds a panel to the group that has another one of `group`, or else to a new group.
     fn append(&mut self, key: &str, group: &Group, side: Side) {
         let neighbour = group.panels.iter().find_map(|other| self.position(other));
         match neighbour {
@@ -184,7 +183,7 @@ impl Arrangement {
         self.palette_height = self.palette_height.filter(in_range);
         for side in Side::ALL {
             let column = self.column_mut(side);
-            // NaN is in no range.
+            // NaN lies in no range.
             if !WIDTHS.contains(&column.width) {
                 column.width = theme::PANEL_WIDTH;
             }
@@ -210,8 +209,7 @@ impl Arrangement {
         }
     }
 
-    /// The place to which a move brings a panel; `None` if it is there already or there is
-    /// no such place.
+    /// The place after a move; `None` if the panel is there already or there is no such place.
     #[must_use]
     pub fn place_after(&self, key: &str, step: Move) -> Option<Place> {
         let (side, group, _) = self.position(key)?;
@@ -233,7 +231,7 @@ impl Arrangement {
         }
     }
 
-    /// Moves a panel and shows it there. Does nothing if there is no such panel or place, or
+    /// Moves a panel and shows it there. This does nothing if there is no such panel or place, or
     /// if it is there already.
     pub fn move_to(&mut self, key: &str, place: Place) {
         let Some((side, group, tab)) = self.position(key) else { return };
@@ -264,7 +262,7 @@ impl Arrangement {
 pub enum Place {
     /// Among the tabs of a group.
     Tab(Side, usize),
-    /// In a group of its own, before the group with this index, or after the last one.
+    /// In its own group, before the group with this index, or after the last one.
     Before(Side, usize),
 }
 
@@ -292,23 +290,23 @@ impl Move {
 /// Height below its tabs that a group needs, in points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeightRequest {
-    /// Whether the painter folded it.
+    /// Whether you folded it.
     pub folded: bool,
-    /// Height at which all of it is seen, or the height that the painter chose.
+    /// Height that shows all of it, or the height that you chose.
     pub wanted: f32,
-    /// Whether all of it should be seen, rather than a part that scrolls.
+    /// Whether you should see all of it, rather than a part that scrolls.
     pub whole: bool,
-    /// Counter of the last use: the group used last stays open longest.
+    /// Counter of the last use. The group used last stays open longest.
     pub last_used: u64,
 }
 
-/// Height to which a longer panel that scrolls may be reduced, in points.
+/// A panel that scrolls may shrink to this height, in points.
 const LEAST: f32 = 192.0;
 
-/// Shares `room` points among groups from the top down. A panel that should be seen whole is
-/// not reduced below the room; others may scroll. Where they do not fit, those that were not
-/// used for longest are folded. Returns the height of each, `None` for a
-/// folded one. The last open group takes what is left.
+/// Shares `room` points among groups from the top down. A panel with `whole` does not shrink below
+/// the room, others may scroll. If they do not fit, this folds the groups that you have not used
+/// for longest. Returns the height of each, `None` for a folded one. The last open group gets the
+/// remaining height.
 #[must_use]
 pub fn heights(requests: &[HeightRequest], room: f32) -> Vec<Option<f32>> {
     let least =
@@ -317,7 +315,7 @@ pub fn heights(requests: &[HeightRequest], room: f32) -> Vec<Option<f32>> {
     loop {
         let opened = || (0..requests.len()).filter(|&index| open[index]);
         let needed: f32 = opened().map(|index| least(&requests[index])).sum();
-        // Of those that were never used, the lowest.
+        // If several were never used, we fold the lowest.
         let oldest = opened().rev().min_by_key(|&index| requests[index].last_used);
         match oldest {
             Some(oldest) if needed > room && opened().count() > 1 => open[oldest] = false,
@@ -492,18 +490,18 @@ mod tests {
         let light = request(560.0, false, 1);
         assert_eq!(heights(&[brush, light], 880.0), [Some(510.0), Some(370.0)]);
         assert_eq!(heights(&[light, brush], 880.0), [Some(370.0), Some(510.0)]);
-        // In a column that is too low for it, it has all of the room while it is in use.
+        // In a column too low for it, it gets all of the room while you use it.
         let brush = request(510.0, true, 2);
         assert_eq!(heights(&[brush, light], 480.0), [Some(480.0), None]);
     }
 
     #[test]
     fn without_room_the_group_used_last_stays_open() {
-        let share = |uses: [u64; 2]| {
+        fn share(uses: [u64; 2]) -> Vec<Option<f32>> {
             let brush = request(510.0, true, uses[0]);
             let light = request(800.0, false, uses[1]);
             heights(&[brush, light], 680.0)
-        };
+        }
         assert_eq!(share([2, 1]), [Some(680.0), None]);
         assert_eq!(share([1, 2]), [None, Some(680.0)]);
         assert_eq!(share([0, 0]), [Some(680.0), None], "the upper one is open at first");

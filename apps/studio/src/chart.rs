@@ -21,7 +21,7 @@ pub struct Curve {
     pub name: String,
     /// Pairs of wavelength in nm (increasing) and value.
     pub points: Vec<(f64, f64)>,
-    /// Line colour; for a pigment its own colour. `None` is the colour of text.
+    /// Line colour, e.g. the own colour of a pigment. `None` uses the colour of text.
     pub color: Option<Color32>,
 }
 
@@ -33,8 +33,8 @@ impl Curve {
         Self { name: name.to_owned(), points, color: None }
     }
 
-    /// Returns the curve with a line colour in sRGB. Dark colours are brightened so
-    /// that they stand out from the background.
+    /// Returns the curve with a line colour in sRGB. This brightens dark colours, so that they
+    /// stand out from the background.
     #[must_use]
     pub fn colored(mut self, [red, green, blue]: [u8; 3]) -> Self {
         let seen = red.max(green).max(blue) >= 96;
@@ -63,9 +63,9 @@ pub struct Chart<'a> {
     pub curves: &'a [Curve],
     /// Wavelengths marked with vertical lines, in nm.
     pub marks: &'a [f64],
-    /// Label of the vertical axis, such as `reflectance` or `relative power`.
+    /// Label of the vertical axis, e.g. `reflectance` or `relative power`.
     pub quantity: &'a str,
-    /// Upper end of the vertical axis, which starts at 0; `None` fits it to the curves.
+    /// Upper end of the vertical axis. It starts at 0. `None` fits it to the curves.
     pub max: Option<f64>,
 }
 
@@ -126,7 +126,7 @@ impl Chart<'_> {
     }
 }
 
-/// A line colour, darkened if it cannot be told from a light background.
+/// A line colour, darker if you could not see it on a light background.
 fn legible(color: Color32, well: Color32) -> Color32 {
     if contrast(color, well) >= 1.5 {
         return color;

@@ -1,7 +1,6 @@
-//! Windows that float over canvas and panels: tables of keys, choosers of pigments.
-//!
-//! Escape closes the topmost one. They appear beside the canvas's upper left corner, never over
-//! the menu bar, and a window that opens closes the menu that is open.
+//! Windows that float over canvas and panels, e.g. tables of keys and choosers of pigments.
+//! | Escape closes the topmost one. They appear beside the canvas's upper left corner, never over
+//! the menu bar. If you open a window, the open menu closes.
 
 use eframe::egui::{Context, Id, Key, LayerId, Modifiers, Order, Popup, Rect, Ui, Window, vec2};
 
@@ -11,11 +10,10 @@ const MARGIN: f32 = 14.0;
 /// Height of a window's title and edges, in points.
 const FRAME: f32 = 56.0;
 
-/// Facts of the frame for all windows.
 #[derive(Debug, Clone, Copy)]
 struct FrameFacts {
-    /// Whether Escape may close a window: no menu or dialog that it closes first was open, and no
-    /// text field takes it.
+    /// Whether Escape may close a window. An open menu or dialog closes first, and a text field may
+    /// take the key.
     escape: bool,
     /// The part of the window that floating windows stay in.
     room: Rect,
@@ -40,13 +38,13 @@ pub(crate) fn room(context: &Context) -> Rect {
     facts(context).room
 }
 
-/// Height that the contents of a floating window may have, in points.
+/// Height that the contents of a floating window can have, in points.
 pub(crate) fn height_of_contents(context: &Context) -> f32 {
     (room(context).height() - FRAME - 2.0 * MARGIN).max(120.0)
 }
 
-/// Draws the window `title` while `open` is true; its close button and Escape clear `open`.
-/// Returns the answer of `contents`.
+/// Draws the window `title` while `open` is true. The close button and Escape clear `open`. Returns
+/// the answer of `contents`.
 pub(crate) fn show<R>(
     context: &Context,
     title: &str,
@@ -61,7 +59,7 @@ pub(crate) fn show<R>(
     let layer = LayerId::new(Order::Middle, id);
     let FrameFacts { escape, room } = facts(context);
     if escape && topmost(context) == Some(layer) {
-        // Consumed, so that no window below closes too.
+        // We consume the key, so that no window below closes too.
         *open &= !context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
         if !*open {
             return None;
@@ -75,13 +73,14 @@ pub(crate) fn show<R>(
     window.show(context, contents).and_then(|shown| shown.inner)
 }
 
-/// Leaves Escape to a text field in a window until the next frame. Call before the window is drawn.
+/// Leaves Escape to a text field in a window until the next frame. Call this before you draw the
+/// window.
 pub(crate) fn leave_escape(context: &Context) {
     let facts = FrameFacts { escape: false, ..facts(context) };
     context.data_mut(|data| data.insert_temp(facts_id(), facts));
 }
 
-/// Whether Escape was pressed and nothing else takes it: no menu, dialog or floating window.
+/// Whether you pressed Escape and nothing else takes it, e.g. a menu, dialog or floating window.
 pub(crate) fn take_escape(context: &Context) -> bool {
     let free = facts(context).escape && topmost(context).is_none();
     free && context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))

@@ -1,8 +1,7 @@
-//! Keys and what they do: standard keys, the painter's changes, and the table in use.
-//!
-//! An action is named by a text, such as `undo` or `tool-paint`. Names of actions in scenes begin
-//! with `scene.`. The window installs the tables in use in egui's context, where menus, tooltips
-//! and panels look keys up by these names.
+//! Keys and their actions: standard keys, your changes, and the table in use.
+//! | A text names an action, for example `undo` or `tool-paint`. Names of actions in scenes begin
+//! with `scene.`. The window installs the tables in use in egui's context. Menus, tooltips and
+//! panels look keys up there by these names.
 
 use std::collections::BTreeMap;
 use std::str::FromStr;
@@ -14,7 +13,7 @@ use serde_json::Value;
 
 use crate::language::{english, tr_format};
 
-/// Keys whose sign is shorter than their name.
+/// Keys with a sign shorter than their name.
 const SIGNS: [(Key, &str); 16] = [
     (Key::OpenBracket, "["),
     (Key::CloseBracket, "]"),
@@ -37,28 +36,27 @@ const SIGNS: [(Key, &str); 16] = [
 /// A keyboard shortcut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shortcut {
-    /// Modifier keys; `COMMAND` is Ctrl, on a Mac the command key.
+    /// Modifier keys. `COMMAND` is Ctrl, or the command key on a Mac.
     pub modifiers: Modifiers,
     /// Key that triggers it.
     pub key: Key,
 }
 
-/// The reason why a key cannot be a shortcut, or a text is none.
+/// Why a key cannot be a shortcut, or a text does not name one.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidShortcut {
-    /// A word of the text is no key and no modifier.
+    /// A word of the text is neither a key nor a modifier.
     #[error("`{0}` is no key")]
     Unknown(String),
-    /// The key has a meaning that cannot be changed.
+    /// The key has a meaning that you cannot change.
     #[error("{0}")]
     Reserved(&'static str),
 }
 
 impl Shortcut {
     /// The shortcut of a pressed key.
-    ///
-    /// # Errors
-    /// `InvalidShortcut` if the key or a modifier has a meaning of its own.
+    /// | \# Errors
+    /// `InvalidShortcut` if the key or a modifier has its own meaning.
     pub fn of_press(key: Key, held: Modifiers) -> Result<Self, InvalidShortcut> {
         let reserved = |why| Err(InvalidShortcut::Reserved(why));
         match key {
@@ -77,13 +75,13 @@ impl Shortcut {
         }
     }
 
-    /// Text of the shortcut as this system names it, such as `Ctrl+Z`.
+    /// Text of the shortcut as this system names it, e.g. `Ctrl+Z`.
     #[must_use]
     pub fn text(&self) -> String {
         self.words(if cfg!(target_os = "macos") { "Cmd" } else { "Ctrl" })
     }
 
-    /// Text of the shortcut in files, where it does not depend on the system.
+    /// Text of the shortcut for files. It does not depend on the system.
     #[must_use]
     pub fn stored(&self) -> String {
         self.words("Ctrl")
@@ -92,7 +90,7 @@ impl Shortcut {
     /// Whether a pressed key with these modifiers triggers the shortcut.
     #[must_use]
     pub fn matches(&self, key: Key, modifiers: Modifiers) -> bool {
-        // Plus may need shift, which is then reported as held.
+        // For plus you may need shift, which we then see as held.
         let shifted = matches!(key, Key::Plus);
         key == self.key
             && modifiers.command == self.modifiers.command
@@ -112,7 +110,7 @@ impl Shortcut {
 impl FromStr for Shortcut {
     type Err = InvalidShortcut;
 
-    /// Reads a text such as `Ctrl+Shift+Z`; `Cmd` is read as `Ctrl`.
+    /// Reads a text, e.g. `Ctrl+Shift+Z`. `Cmd` is read as `Ctrl`.
     fn from_str(text: &str) -> Result<Self, InvalidShortcut> {
         let text = text.trim();
         // The key itself may be a plus.
@@ -134,11 +132,11 @@ impl FromStr for Shortcut {
     }
 }
 
-/// Name of an action that serializes as a text, as a number, or as an object with one key: its
-/// texts and numbers joined by hyphens.
+/// Name of an action that serializes as a text, a number, or an object with one key. This joins its
+/// texts and numbers by hyphens.
 #[must_use]
 pub fn name_of(action: &impl Serialize) -> String {
-    // An action without a JSON form has an empty name, which no preferences hold.
+    // An action without a JSON form has an empty name, which never occurs in preferences.
     serde_json::to_value(action).map(|value| joined(&value)).unwrap_or_default()
 }
 
@@ -158,13 +156,13 @@ fn joined(value: &Value) -> String {
 pub struct KeyRow {
     /// Name in the preferences.
     pub name: String,
-    /// Name shown to the painter.
+    /// Name that you see.
     pub title: String,
-    /// Tells what it does.
+    /// Explains what it does.
     pub description: String,
-    /// Heading under which it stands.
+    /// Heading of the action.
     pub group: &'static str,
-    /// Keys that it has unless the painter changes them.
+    /// Its keys, unless you change them.
     pub standard: Vec<Shortcut>,
     /// Keys in use.
     pub keys: Vec<Shortcut>,
@@ -212,7 +210,7 @@ impl KeyTable {
         self.rows.iter().find(|row| row.name == name)
     }
 
-    /// The row that a pressed key belongs to, if it belongs to one; the first of several.
+    /// The first row that a pressed key belongs to.
     #[must_use]
     pub fn find(&self, key: Key, modifiers: Modifiers) -> Option<&KeyRow> {
         self.rows
@@ -220,13 +218,13 @@ impl KeyTable {
             .find(|row: &&KeyRow| row.keys.iter().any(|own| own.matches(key, modifiers)))
     }
 
-    /// The row that has a shortcut, if one has.
+    /// The row with this shortcut.
     #[must_use]
     pub fn owner(&self, shortcut: &Shortcut) -> Option<&KeyRow> {
         self.find(shortcut.key, shortcut.modifiers)
     }
 
-    /// Replaces the keys of a row. Returns whether it is there.
+    /// Replaces the keys of a row. Returns whether it exists.
     fn set(&mut self, name: &str, keys: Vec<Shortcut>) -> bool {
         match self.rows.iter_mut().find(|row| row.name == name) {
             Some(row) => {
@@ -237,8 +235,8 @@ impl KeyTable {
         }
     }
 
-    /// Gives a shortcut to an action, instead of the one that it replaces or beside its others. It
-    /// is taken from the action that has it now.
+    /// Gives a shortcut to an action. It replaces the given one, or is added. If another action has
+    /// the shortcut, that one loses it.
     pub fn assign(
         &self,
         name: &str,
@@ -261,14 +259,14 @@ impl KeyTable {
         note(row, &keys, changes);
     }
 
-    /// Takes a shortcut from an action.
+    /// Removes a shortcut from an action.
     pub fn remove(&self, name: &str, shortcut: Shortcut, changes: &mut Changes) {
         let Some(row) = self.row(name) else { return };
         let keys: Vec<Shortcut> = row.keys.iter().copied().filter(|own| *own != shortcut).collect();
         note(row, &keys, changes);
     }
 
-    /// Gives an action its standard keys again, which are taken from those that have them now.
+    /// Gives an action its standard keys again. Other actions lose these.
     pub fn restore(&self, name: &str, changes: &mut Changes) {
         let Some(row) = self.row(name) else { return };
         for other in self.rows().iter().filter(|other| other.name != name) {
@@ -289,11 +287,11 @@ impl KeyTable {
     }
 }
 
-/// Texts of the keys of each action that has not its standard keys, by its name. Names that this
-/// version does not know are kept.
+/// Texts of the keys of each action without its standard keys, by its name. We keep names that this
+/// version does not know.
 pub type Changes = BTreeMap<String, Vec<String>>;
 
-/// The workspace in which keys are pressed. Each has a table of its own.
+/// The workspace that a key is pressed in. Each has its own table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Scope {
     /// The easel with canvas and palette.
@@ -313,8 +311,8 @@ pub struct Keymap {
 }
 
 impl Keymap {
-    /// The tables of these rows with the painter's changes, and what is wrong with these: unknown
-    /// names, texts that are no key, and keys that two actions have, of which the first gets them.
+    /// The tables of these rows with your changes, and faults in these: unknown names, texts that
+    /// are not a key, and keys of two actions, which go to the first.
     #[must_use]
     pub fn new(easel: Vec<KeyRow>, scenes: Vec<KeyRow>, changes: &Changes) -> (Self, Vec<String>) {
         let mut tables = [KeyTable::new(easel), KeyTable::new(scenes)];
@@ -370,14 +368,14 @@ pub fn install(context: &Context, keymap: Keymap) {
     context.data_mut(|data| data.insert_temp(id(), keymap));
 }
 
-/// The tables in use; `None` before any were installed.
+/// The tables in use; `None` before you install any.
 #[must_use]
 pub fn installed(context: &Context) -> Option<Keymap> {
     context.data(|data| data.get_temp(id()))
 }
 
-/// Text of the first key of an action of either workspace; `None` before any tables were installed,
-/// and empty if it has no key.
+/// Text of the first key of an action of either workspace. `None` before you install tables, and
+/// empty if it has no key.
 #[must_use]
 pub fn text(context: &Context, name: &str) -> Option<String> {
     let keymap = installed(context)?;
@@ -393,7 +391,7 @@ pub fn keys(context: &Context, name: &str) -> Vec<Key> {
     row.map_or_else(Vec::new, |row| row.keys.iter().map(|shortcut| shortcut.key).collect())
 }
 
-/// End of a tooltip that names the key of an action, such as ` (key X)`; empty if it has none.
+/// End of a tooltip that names the key of an action, e.g. ` (key X)`; empty if it has none.
 #[must_use]
 pub fn hint(context: &Context, name: &str) -> String {
     match text(context, name) {
@@ -441,11 +439,11 @@ mod tests {
     }
 
     fn rows() -> Vec<KeyRow> {
-        let key = |text: &str| text.parse::<Shortcut>().unwrap();
-        let row = |name: &str, keys: &[&str]| {
-            let keys: Vec<Shortcut> = keys.iter().map(|text| key(text)).collect();
+        fn row(name: &str, keys: &[&str]) -> KeyRow {
+            let keys: Vec<Shortcut> =
+                keys.iter().map(|text| text.parse::<Shortcut>().unwrap()).collect();
             KeyRow::new(name.to_owned(), name, "", "Edit", &keys)
-        };
+        }
         vec![row("undo", &["Ctrl+Z"]), row("redo", &["Ctrl+Shift+Z", "Ctrl+Y"]), row("dry", &["D"])]
     }
 

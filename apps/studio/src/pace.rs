@@ -1,35 +1,33 @@
 //! The pace of frames that other threads ask for: at most one for each picture of the display.
-//!
-//! A frame is drawn at once if the last one is older than that; so a pen that begins to paint waits
-//! for nothing. Input of the window system has frames of its own, which wait for the display.
+//! | If the last frame is older than this, we draw the next at once, so a pen that begins to paint
+//! waits for nothing. Input of the window system has its own frames, which wait for the display.
 
 use web_time::{Duration, Instant};
 
 use eframe::egui::{Context, Id};
 
-/// Pictures of a display in a second, if it does not tell.
+/// Pictures of a display in a second, if we do not know better.
 const USUAL_HZ: f64 = 60.0;
 
-/// Rates of displays that are believed, in hertz.
+/// We believe rates of displays in this range, in hertz.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 24.0..=500.0;
 
 #[cfg(not(target_arch = "wasm32"))]
-/// Time from one frame to the next while frames give way to the paint: 20 a second.
+/// Time from one frame to the next while frames make room for the paint: 20 a second.
 const SLOT_BEHIND: Duration = Duration::from_millis(48);
 
-/// Delay of a frame that is wanted at once. Without any delay egui would draw two frames.
+/// Delay of an immediate frame. Without any delay egui would draw two frames.
 const AT_ONCE: Duration = Duration::from_nanos(1);
 
-/// State of the pace in a context.
 #[derive(Debug, Clone, Copy)]
 struct Pace {
     /// Time from one picture of the display to the next.
     slot: Duration,
-    /// Least time from one frame to the next while something else shows what changes.
+    /// Shortest time from one frame to the next while something else shows the changes.
     rare: Option<Duration>,
     /// Start of the last frame.
     last: Option<Instant>,
-    /// Whether another thread asked for a frame since then.
+    /// Whether another thread has asked for a frame since.
     woken: bool,
 }
 
@@ -46,14 +44,15 @@ pub(crate) fn set_display(context: &Context, millihertz: Option<u32>) {
     change(context, |pace| pace.slot = slot_of(millihertz));
 }
 
-/// Sets the least time between two frames that are asked for here, while something else shows what
-/// changes; `None` for each picture of the display. Returns whether frames were rare before.
+/// Sets the shortest time between two frames that are asked for here, while something else shows
+/// the changes. `None` allows one for each picture of the display. Returns whether frames were rare
+/// before.
 pub(crate) fn set_rare(context: &Context, rare: Option<Duration>) -> bool {
     change(context, |pace| std::mem::replace(&mut pace.rare, rare)).is_some()
 }
 
-/// Notes that a frame begins. If another thread asked for it, one more follows in the next slot, so
-/// that what takes two frames to lay out is shown.
+/// Notes that a frame begins. If another thread asked for it, one more follows in the next slot,
+/// because some layouts need two frames.
 pub(crate) fn begin_frame(context: &Context, now: Instant) {
     let (woken, slot) = change(context, |pace| {
         pace.last = Some(now);
@@ -64,14 +63,14 @@ pub(crate) fn begin_frame(context: &Context, now: Instant) {
     }
 }
 
-/// Asks for a frame because there is news. May be called from any thread.
+/// Asks for a frame because there is news. You can call this from any thread.
 pub(crate) fn wake(context: &Context) {
     wake_at(context, Instant::now());
 }
 
 #[cfg(not(target_arch = "wasm32"))]
-/// Time to wait before a frame that would begin `now`, so that a processor which draws and paints
-/// has 20 frames a second to draw. Called where input of the window system asks for frames, too.
+/// Time to wait before a frame that would begin `now`. If the processor both draws and paints, this
+/// leaves 20 frames a second to draw. Call it also if input of the window system asks for frames.
 pub(crate) fn give_way(context: &Context, now: Instant) -> Duration {
     change(context, |pace| delay(pace.last, now, SLOT_BEHIND))
 }
@@ -143,8 +142,8 @@ mod tests {
         }
     }
 
-    /// A context with a display of 50 Hz after its first frames, which egui asks for itself, and the
-    /// delays of the frames that were asked for.
+    /// A context with a display of 50 Hz after its first frames, which egui asks for itself, and a
+    /// function that returns the delays of the requested frames.
     fn paced(start: Instant) -> (Context, impl Fn() -> Vec<Duration>) {
         let context = Context::default();
         let asked = Arc::new(Mutex::new(Vec::new()));

@@ -28,8 +28,8 @@ pub struct SearchResult {
     pub recipes: Result<Vec<RecipeMatch>, MatchError>,
 }
 
-/// Runs one search at a time on its own thread. A new search cancels the previous one,
-/// whose result is discarded.
+/// Runs one search at a time on its own thread. A new search cancels the previous one and discards
+/// its result.
 #[derive(Debug, Default)]
 pub struct RecipeSearch {
     running: Option<Running>,
@@ -69,7 +69,7 @@ impl RecipeSearch {
         }
     }
 
-    /// Stores the result of the running search if it has ended. Call once a frame.
+    /// Stores the result of the running search if it has ended. Call this once a frame.
     pub fn update(&mut self) {
         let Some(running) = &self.running else { return };
         match running.receiver.try_recv() {
@@ -97,7 +97,7 @@ impl RecipeSearch {
         self.result.as_ref()
     }
 
-    /// Whether the last search thread ended without a result, which is a bug (a panic).
+    /// Whether the last search thread ended without a result. This is a bug (a panic).
     #[must_use]
     pub fn crashed(&self) -> bool {
         self.crashed

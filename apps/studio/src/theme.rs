@@ -1,6 +1,6 @@
-//! Colours and sizes of the window, dark and light. All colours are exactly neutral greys, because
-//! colour is judged here; the surround of the canvas has 18 % reflectance in both themes. All text
-//! has a contrast of at least 7:1 (WCAG 2.2, level AAA).
+//! Colours and sizes of the window, dark and light. You judge colour here, so all colours are
+//! exactly neutral greys, and the surround of the canvas has 18 % reflectance in both themes. All
+//! text has a contrast of at least 7:1 (WCAG 2.2, level AAA).
 
 use eframe::egui::style::{ScrollStyle, Selection, WidgetVisuals, Widgets};
 use eframe::egui::{
@@ -9,10 +9,10 @@ use eframe::egui::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Surround of canvas and palette: 18 % reflectance, which is 118 in sRGB.
+/// Surround of canvas and palette. 18 % reflectance is 118 in sRGB.
 pub const SURROUND: Color32 = Color32::from_gray(118);
 
-/// Backing of text that lies over the picture, in both themes.
+/// Backing of text over the picture, in both themes.
 pub const BOARD: Color32 = Color32::from_black_alpha(200);
 
 /// Text on [`BOARD`].
@@ -33,13 +33,13 @@ pub struct Colors {
     pub group: Color32,
     /// Separator lines and edges.
     pub line: Color32,
-    /// Fill of buttons that are neither hovered nor pressed.
+    /// Fill of buttons at rest.
     pub button: Color32,
     /// Fill of buttons and rows under the pointer.
     pub hovered: Color32,
     /// Fill of buttons while they are pressed.
     pub pressed: Color32,
-    /// Fill of selected items. Only `text` and `strong` are legible on it.
+    /// Fill of selected items. Use only `text` and `strong` on it, because others are not legible.
     pub chosen: Color32,
     /// Secondary text and marks.
     pub faint: Color32,
@@ -83,13 +83,12 @@ pub const LIGHT: Colors = Colors {
     strong: Color32::BLACK,
 };
 
-/// Greys of the theme that the window shows.
+/// Greys of the current theme.
 #[must_use]
 pub fn colors(context: &Context) -> Colors {
     of(context.theme())
 }
 
-/// Greys of a theme.
 fn of(theme: Theme) -> Colors {
     match theme {
         Theme::Dark => DARK,
@@ -97,10 +96,9 @@ fn of(theme: Theme) -> Colors {
     }
 }
 
-/// Contrast of two opaque colours, 1 to 21: the ratio of their relative luminances with 5 %
-/// of stray light added to each.
-///
-/// Source: WCAG 2.2, definitions of "contrast ratio" and "relative luminance".
+/// Contrast of two opaque colours, 1 to 21: the ratio of their relative luminances, each with 5 %
+/// of stray light added.
+/// | Source: WCAG 2.2, definitions of "contrast ratio" and "relative luminance".
 #[must_use]
 pub fn contrast(one: Color32, other: Color32) -> f64 {
     let one = luminance(one) + 0.05;
@@ -110,21 +108,19 @@ pub fn contrast(one: Color32, other: Color32) -> f64 {
 
 /// Relative luminance of an opaque colour in sRGB, 0 to 1.
 fn luminance(color: Color32) -> f64 {
-    let linear = |byte: u8| {
+    fn linear(byte: u8) -> f64 {
         let encoded = f64::from(byte) / 255.0;
         if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-    };
+    }
     0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
 }
 
-/// Steps of the scale.
 const STEPS: [f32; 11] = [0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0];
 
-/// Width and height that the interface needs at least, in points: those of the smallest
-/// window.
+/// The interface needs at least this width and height, in points: the smallest window.
 const NEEDED: Vec2 = Vec2::new(900.0, 600.0);
 
-/// The next larger or smaller step of the scale; `scale` itself at the end of the steps.
+/// The next larger or smaller step of the scale. At the end of the steps this returns `scale`.
 #[must_use]
 pub fn stepped_scale(scale: f32, larger: bool) -> f32 {
     const NEAR: f32 = 0.01;
@@ -135,19 +131,18 @@ pub fn stepped_scale(scale: f32, larger: bool) -> f32 {
     found.unwrap_or(scale)
 }
 
-/// The scale at which the interface is drawn in a window of `size` points at scale 1: the
-/// preferred scale, as far as all controls stay in the window.
+/// The scale of the interface in a window of `size` points at scale 1. This is the preferred scale,
+/// unless controls would leave the window.
 #[must_use]
 pub fn scale_in_window(preferred: f32, size: Vec2) -> f32 {
     let most = (size.x / NEEDED.x).min(size.y / NEEDED.y);
-    // A window smaller than that is drawn at scale 1 or smaller, and a part of it is not seen.
+    // In a smaller window we use scale 1 or less, and you do not see all of it.
     preferred.min(most.max(1.0))
 }
 
 /// Corner radius of buttons, in points.
 pub const CORNER_RADIUS: u8 = 4;
 
-/// Visuals of a theme.
 fn visuals(theme: Theme) -> Visuals {
     let colors = of(theme);
     let mut visuals = theme.default_visuals();
@@ -193,18 +188,17 @@ fn widget_visuals(fill: Color32, edge: Color32, text: Color32) -> WidgetVisuals 
 /// Usual width of the column of panels at the right, in points.
 pub const PANEL_WIDTH: f32 = 284.0;
 
-/// Least width of a column of panels for touch, in points: eight buttons side by side.
+/// Smallest width of a column of panels for touch, in points: eight buttons side by side.
 const TOUCH_PANEL_WIDTH: f32 = 384.0;
 
-/// Width of a window in points below which the toolbar and a column of panels would take half of it or
-/// more.
+/// In a narrower window, toolbar and a column of panels would take half of the width or more, in
+/// points.
 const NARROW: f32 = 640.0;
 
-/// Least width and height of everything that is touched, in points: WCAG 2.2, criterion
-/// 2.5.5.
+/// Smallest width and height of everything that you touch, in points: WCAG 2.2, criterion 2.5.5.
 pub const TOUCH_TARGET: f32 = 44.0;
 
-/// The theme that the painter prefers.
+/// The theme that you prefer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeChoice {
@@ -222,7 +216,7 @@ pub enum ThemeChoice {
 pub struct Look {
     /// Dark or light.
     pub theme: ThemeChoice,
-    /// Whether everything is large enough to be touched, [`TOUCH_TARGET`] or more.
+    /// Whether everything is large enough for touch, [`TOUCH_TARGET`] or more.
     pub touch: bool,
 }
 
@@ -243,13 +237,13 @@ pub fn apply_look(context: &Context, look: Look) {
     }
 }
 
-/// Whether everything is large enough to be touched.
+/// Whether everything is large enough for touch.
 #[must_use]
 pub fn is_touch(context: &Context) -> bool {
     context.global_style().spacing.interact_size.y >= TOUCH_TARGET
 }
 
-/// Whether the window has no room for columns of panels beside the canvas, as on a phone.
+/// Whether the window has no room for columns of panels beside the canvas, e.g. on a phone.
 #[must_use]
 pub fn is_narrow(context: &Context) -> bool {
     context.content_rect().width() < NARROW
@@ -261,18 +255,18 @@ pub fn panel_width(context: &Context) -> f32 {
     if is_touch(context) { TOUCH_PANEL_WIDTH } else { PANEL_WIDTH }
 }
 
-/// Least side of a thing that is clicked, in points; 0 unless it is to be touched.
+/// Smallest side of something that you click, in points; 0 without touch.
 #[must_use]
 pub fn target(ui: &Ui) -> f32 {
     if is_touch(ui.ctx()) { TOUCH_TARGET } else { 0.0 }
 }
 
-/// A field of one line, whose text stands in its middle where the field is high.
+/// A field of one line. If the field is high, its text stands in the middle.
 pub(crate) fn text_field(text: &mut String) -> TextEdit<'_> {
     TextEdit::singleline(text).align(Align2::LEFT_CENTER)
 }
 
-/// A size, made large enough to be touched if it is to be.
+/// The size, or a larger one if it must be large enough for touch.
 #[must_use]
 pub fn at_least(ui: &Ui, size: Vec2) -> Vec2 {
     size.max(Vec2::splat(target(ui)))
@@ -280,13 +274,12 @@ pub fn at_least(ui: &Ui, size: Vec2) -> Vec2 {
 
 fn style(theme: Theme, touch: bool) -> Style {
     let mut style = Style { visuals: visuals(theme), animation_time: 0.08, ..Style::default() };
-    let font = |size, family| FontId::new(size, family);
     style.text_styles = [
-        (TextStyle::Small, font(11.0, FontFamily::Proportional)),
-        (TextStyle::Body, font(13.0, FontFamily::Proportional)),
-        (TextStyle::Button, font(13.0, FontFamily::Proportional)),
-        (TextStyle::Heading, font(15.0, FontFamily::Proportional)),
-        (TextStyle::Monospace, font(12.0, FontFamily::Monospace)),
+        (TextStyle::Small, FontId::new(11.0, FontFamily::Proportional)),
+        (TextStyle::Body, FontId::new(13.0, FontFamily::Proportional)),
+        (TextStyle::Button, FontId::new(13.0, FontFamily::Proportional)),
+        (TextStyle::Heading, FontId::new(15.0, FontFamily::Proportional)),
+        (TextStyle::Monospace, FontId::new(12.0, FontFamily::Monospace)),
     ]
     .into();
     style.spacing.item_spacing = vec2(6.0, 5.0);
@@ -305,7 +298,7 @@ fn style(theme: Theme, touch: bool) -> Style {
     style
 }
 
-/// Makes everything large enough to be touched.
+/// Makes everything large enough for touch.
 fn enlarge(style: &mut Style) {
     // The title bar of a window is as high as its text asks for.
     let title = FontId::new(21.0, FontFamily::Proportional);
@@ -351,7 +344,7 @@ mod tests {
 
     #[test]
     fn text_over_the_picture_has_a_contrast_of_seven_whatever_lies_below() {
-        // Over white the board is lightest.
+        // The board is lightest over white.
         let lightest = Color32::from_gray(255 - BOARD.a());
         let found = contrast(BOARD_TEXT, lightest);
         assert!(found >= 7.0, "{found}");
@@ -369,7 +362,7 @@ mod tests {
         let grey = Color32::from_gray;
         assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 1e-9);
         assert!((contrast(grey(90), grey(90)) - 1.0).abs() < 1e-9);
-        // The best known limits on white: #767676 passes 4.5, #777777 does not.
+        // These are the best known limits on white: #767676 passes 4.5, #777777 does not.
         assert!(contrast(grey(0x76), Color32::WHITE) > 4.5);
         assert!(contrast(grey(0x77), Color32::WHITE) < 4.5);
         let red = contrast(Color32::from_rgb(255, 0, 0), Color32::WHITE);
@@ -387,7 +380,7 @@ mod tests {
         assert_eq!(up, [1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.0]);
         assert_eq!(stepped_scale(1.0, false), 0.9);
         assert_eq!(stepped_scale(0.5, false), 0.5);
-        // From a scale between the steps.
+        // This scale lies between two steps.
         assert_eq!((stepped_scale(1.3, true), stepped_scale(1.3, false)), (1.5, 1.25));
     }
 
@@ -406,7 +399,7 @@ mod tests {
     #[test]
     fn all_window_colors_are_neutral() {
         for theme in THEMES {
-            // Find every colour in the debug output of the visuals.
+            // We find every colour in the debug output of the visuals.
             let written = format!("{:?}", visuals(theme));
             let colors: Vec<[u8; 4]> = written
                 .match_indices("#")

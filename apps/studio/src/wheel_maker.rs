@@ -1,4 +1,4 @@
-//! The colour wheel of the tubes on hand, computed on a background thread.
+//! The colour wheel of your tubes, computed on a background thread.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -40,10 +40,10 @@ impl WheelRequest {
     }
 }
 
-/// A wheel that was computed, or why it cannot be.
+/// A computed wheel, or why there is none.
 pub type MadeWheel = Arc<Result<ColorWheel, PaletteError>>;
 
-/// Keeps the wheel of the last request, and computes a new one when the tubes or the light change.
+/// Keeps the wheel of the last request. If tubes or light change, this computes a new one.
 #[derive(Debug, Default)]
 pub struct WheelMaker {
     made: Option<(WheelRequest, MadeWheel)>,
@@ -51,8 +51,8 @@ pub struct WheelMaker {
 }
 
 impl WheelMaker {
-    /// The wheel of `request`, or of the request before it while it is computed; `None` before the
-    /// first is ready. The thread calls `wake` when it ends.
+    /// The wheel of `request`. While it is being computed, this is the wheel of the request before.
+    /// `None` before the first is ready. The thread calls `wake` when it ends.
     pub fn get(
         &mut self,
         request: &WheelRequest,
@@ -84,7 +84,7 @@ impl WheelMaker {
         match receiver.try_recv() {
             Ok(wheel) => self.made = Some((request.clone(), Arc::new(wheel))),
             Err(TryRecvError::Empty) => return,
-            // The thread has ended without a result; it is started again by the next call.
+            // The thread has ended without a result. The next call starts it again.
             Err(TryRecvError::Disconnected) => {}
         }
         self.running = None;
@@ -104,7 +104,7 @@ mod tests {
         WheelRequest { library, tubes, viewing: Viewing::default() }
     }
 
-    /// Asks for a wheel until it is that of `request`; returns how often a thread ended.
+    /// Asks until this returns the wheel of `request`. Returns how often a thread ended.
     fn wait(maker: &mut WheelMaker, request: &WheelRequest) -> (usize, MadeWheel) {
         let (woken, wakes) = channel();
         let mut ended = 0;

@@ -17,14 +17,13 @@ use crate::view::Drawing;
 use crate::{pace, view};
 use session::initial_commands;
 
-/// Minimum window size in points: all controls stay reachable.
+/// Smallest window size in points. You can still reach all controls.
 const SMALLEST: [f32; 2] = [900.0, 600.0];
 
-/// Opens the window and returns when it is closed.
-///
-/// # Errors
-/// [`Problem`] with a hint if there is no display or no graphics adapter that can draw
-/// in the window.
+/// Opens the window and returns when you close it.
+/// | \# Errors
+/// [`Problem`] with a hint if there is no display or no graphics adapter that can draw in the
+/// window.
 pub fn run(start: Start) -> Result<(), Problem> {
     set_system(Language::of_environment());
     // The worker prepares the canvas while the window opens.
@@ -111,7 +110,7 @@ fn options([width, height]: [f32; 2]) -> NativeOptions {
     setup.instance_descriptor.backends = Backends::VULKAN;
     setup.native_adapter_selector = Some(Arc::new(choose));
     let wgpu_options = WgpuConfiguration {
-        // At most one frame in the queue: paint appears one frame earlier. AutoVsync is
+        // With at most one frame in the queue, you see paint one frame earlier. AutoVsync is
         // FifoRelaxed or Fifo: frames wait for the display, as far as its driver lets them.
         surface: SurfaceConfig {
             present_mode: PresentMode::AutoVsync,

@@ -1,16 +1,14 @@
 //! Speed and memory of the built program on a virtual screen.
-//!
-//! `cargo bench -p impasto-studio --bench speed [-- MEASUREMENT ..] [SECONDS]` measures, by names:
-//!
-//! - `round`: the round brush that the program opens with (60 cells) at 95 mm/s;
-//! - `flat`: a loaded flat of 25 mm (250 cells), as fast;
-//! - `idle`: time of the processor while nobody does anything;
-//! - `strokes`: memory at the start and after 200 strokes of the round brush;
-//! - `large`: memory with a canvas of 8000 x 8000 cells.
-//!
-//! Without names it measures all. The window has 1920 x 1080 points. Figures of strokes are those of
-//! the program's option `--figures`, one line a second. Needs Xvfb and a graphics adapter. A software
-//! adapter shares the processor with the paint.
+//! | `cargo bench -p impasto-studio --bench speed [-- MEASUREMENT ..] [SECONDS]` measures, by
+//! names:
+//! | \- `round`: the round brush that the program opens with (60 cells) at 95 mm/s
+//! - `flat`: a loaded flat of 25 mm (250 cells), as fast
+//! - `idle`: time of the processor while nobody does anything
+//! - `strokes`: memory at the start and after 200 strokes of the round brush
+//! - `large`: memory with a canvas of 8000 x 8000 cells
+//! | Without names it measures all. The window has 1920 x 1080 points. Figures of strokes come from
+//! the program's option `--figures`, one line a second. You need Xvfb and a graphics adapter. A
+//! software adapter shares the processor with the paint.
 
 #![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a bench prints, and may panic")]
 
@@ -32,7 +30,6 @@ use process::Usage;
 use program::Program;
 use screen::Screen;
 
-/// Speed of the hand.
 const MM_PER_SECOND: f64 = 95.0;
 
 /// Width of the canvas that the program opens with, in mm.
@@ -41,11 +38,10 @@ const CANVAS_MM: f64 = 192.0;
 /// Time between two positions of the mouse: 250 a second.
 const INTERVAL: Duration = Duration::from_millis(4);
 
-/// Seconds at the start and the end of a stroke that are not counted, as the hand does not paint
+/// We ignore these seconds at the start and the end of a stroke, because the hand does not paint
 /// all the time.
 const MARGIN: f64 = 1.5;
 
-/// All measurements.
 const NAMES: [&str; 5] = ["round", "flat", "idle", "strokes", "large"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -60,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     for name in chosen {
         println!("{name}");
-        // A home of its own: what the program kept when it was killed is not recovered.
+        // Each run has its own home. Otherwise the program would recover paintings of a killed one.
         let folder = &folder.path().join(name);
         std::fs::create_dir(folder)?;
         match name {
@@ -174,7 +170,6 @@ fn median(values: &[f64]) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// A hand with a mouse over the canvas of a program.
 struct Hand<'a> {
     program: &'a Program<'a>,
     pixels_per_second: f64,
@@ -201,10 +196,10 @@ impl<'a> Hand<'a> {
             if now >= seconds {
                 break;
             }
-            // From the left to the right and back.
+            // The pen moves from the left to the right and back.
             let across = (self.pixels_per_second * now + width).rem_euclid(2.0 * width) - width;
             let x = f64::from(left) + across.abs();
-            // A part of the height for each crossing, so that most strokes meet bare canvas.
+            // It moves down a little for each crossing, so that most strokes meet bare canvas.
             let y = f64::from(top) + height * now / seconds;
             screen.point((x as i32, y as i32));
             std::thread::sleep(INTERVAL);
@@ -212,7 +207,7 @@ impl<'a> Hand<'a> {
         screen.button(false);
     }
 
-    /// Paints a straight stroke across a half of the canvas; each number has a place of its own.
+    /// Paints a straight stroke across half of the canvas. Each number has its own place.
     fn stroke(&self, number: i32) {
         let down = 0.1 + 0.8 * f64::from(number % 50) / 50.0;
         let across = if number % 100 < 50 { 0.08 } else { 0.5 };

@@ -1,4 +1,4 @@
-//! Memory and processor time of a running process, as Linux tells them.
+//! Memory and processor time of a running process, as Linux reports them.
 
 use std::path::PathBuf;
 use std::process::Child;
@@ -7,13 +7,13 @@ use std::time::Duration;
 /// Ticks of the processor time in a second, as Linux reports it on all common machines.
 const TICKS: f64 = 100.0;
 
-/// Share of a core below which a program is at rest: its log of figures draws a frame a second.
+/// A program at rest takes a smaller share of a core than this. Its log of figures still draws a
+/// frame a second.
 const REST: f64 = 0.2;
 
-/// Seconds after which the wait for rest ends.
+/// We stop waiting for rest after these seconds.
 const LONGEST: usize = 120;
 
-/// A process.
 pub(crate) struct Usage {
     folder: PathBuf,
 }
@@ -52,7 +52,7 @@ impl Usage {
     /// Time of the processor so far.
     pub(crate) fn processor_seconds(&self) -> f64 {
         let stat = std::fs::read_to_string(self.folder.join("stat")).unwrap_or_default();
-        // The name in brackets may hold spaces; user and system time are fields 14 and 15.
+        // The name in brackets may contain spaces. User and system time are fields 14 and 15.
         let fields = stat.rsplit(')').next().unwrap_or_default();
         let ticks = fields.split_whitespace().skip(11).take(2);
         ticks.filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / TICKS

@@ -1,11 +1,10 @@
-//! Renders the pictures of the window for the README: the real window with a real
-//! worker, without a window system, painting a small study.
-//!
-//! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
+//! Renders the pictures of the window for the README: the real window with a real worker, without a
+//! window system, while it paints a small study.
+//! | `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
 //! `studio-lights.png`, `studio-colour.png`, `studio-marks.png`, `studio-guides.png`,
-//! `studio-layers.png` and `studio-volumes.png` there (a name after the folder makes that of the
-//! scene alone: `studio-volumes`); `docs/images/studio.sh` converts them to the JPEGs in
-//! `docs/images/`. It needs a graphics adapter; a software one will do.
+//! `studio-layers.png` and `studio-volumes.png` there. If you add the name `studio-volumes`, it
+//! makes only the picture of the scene. `docs/images/studio.sh` converts them to the JPEGs in
+//! `docs/images/`. You need a graphics adapter, but a software one is enough.
 
 mod window;
 mod study;
@@ -87,12 +86,17 @@ fn at_work(window: &mut Window) {
         decimals: SampleDecimals::RECORDING,
     });
     let mut led = samples(&study::AT_WORK, 0.55);
-    // Before the pen is lifted.
+    // We stop before the pen is lifted.
     led.truncate(led.len() * 4 / 5);
     let arrived = Instant::now();
-    // Held in the right hand.
-    let held = |sample| Sample { tilt_x_deg: 38.0, tilt_y_deg: 26.0, ..sample };
-    let led = led.into_iter().map(|sample| PenSample { sample: held(sample), arrived }).collect();
+    // The pen is held in the right hand.
+    let led = led
+        .into_iter()
+        .map(|sample| PenSample {
+            sample: Sample { tilt_x_deg: 38.0, tilt_y_deg: 26.0, ..sample },
+            arrived,
+        })
+        .collect();
     window.studio_mut().ask(Command::PenMove(led));
     window.settle();
 }

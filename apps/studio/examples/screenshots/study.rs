@@ -1,5 +1,5 @@
-//! A study of two pears and a plum, after the photograph `docs/images/still-life.png`, painted by
-//! a simulated hand that records its actions as a script.
+//! A study of two pears and a plum, after the photograph `docs/images/still-life.png`. A simulated
+//! hand paints it and records its actions as a script.
 
 use std::f64::consts::TAU;
 
@@ -66,7 +66,7 @@ pub(crate) fn palette(hand: &mut Hand) {
         hand.squeeze(one, (x - 2.5, y), 14.0);
         hand.squeeze(other, (x + 2.5, y), 14.0);
         hand.wash("filbert");
-        // In circles that grow, as a brush mixes.
+        // The circles grow, because this is how you mix with a brush.
         let steps = (turns * 12.0) as usize;
         let spiral: Vec<Place> = (0..=steps)
             .map(|step| {
@@ -155,9 +155,9 @@ struct Fruit {
     tall: f64,
     half_width: f64,
     outline: &'static [(f64, f64)],
-    /// Point of the outline at which every other stroke begins.
+    /// Point of the outline where every other stroke begins.
     below: usize,
-    /// Mixtures from the lit side to the shaded side.
+    /// Mixtures from the lit to the shaded side.
     mixtures: [&'static str; 7],
 }
 
@@ -224,11 +224,11 @@ pub(crate) fn fruits(hand: &mut Hand) {
     }
 }
 
-/// Strokes from the top down, following the form, dark ones first.
+/// Strokes from the top down follow the form, dark ones first.
 fn modelled(hand: &mut Hand, fruit: &Fruit) {
     let last = fruit.mixtures.len() - 1;
     for index in (0..=last).rev() {
-        // Inside the outline by half a brush.
+        // This lies inside the outline by half a brush.
         let side = (2.0 * index as f64 / last as f64 - 1.0) * (1.0 - 2.8 / fruit.half_width);
         let along: Vec<Place> = fruit
             .outline
@@ -243,7 +243,7 @@ fn modelled(hand: &mut Hand, fruit: &Fruit) {
     }
 }
 
-/// Lights, thick, over the dry fruits: the last of them is left to the pen that is seen at work.
+/// Paints thick lights over the dry fruits. We leave the last one to the pen that you see at work.
 pub(crate) fn lights(hand: &mut Hand) {
     hand.load("round", "L2 W12", 0.02, 0.8);
     hand.stroke("round", &[(31.0, 36.0), (30.3, 33.0), (31.5, 29.5)], 0.4);
@@ -260,10 +260,10 @@ pub(crate) fn lights(hand: &mut Hand) {
     }
 }
 
-/// The light on the second pear, as far as the pen has come.
+/// The light on the second pear, up to the present place of the pen.
 pub(crate) const AT_WORK: [Place; 4] = [(56.0, 16.5), (55.3, 22.0), (54.4, 27.5), (53.0, 32.5)];
 
-/// Over the dry study: cool glazes in the shadows, a warm one on the second pear.
+/// Glazes the dry study: cool in the shadows, warm on the second pear.
 pub(crate) fn glazes(hand: &mut Hand) {
     hand.load("mop", "U1 C0.1", 0.997, 0.12);
     hand.stroke("mop", &[(40.0, 49.0), (54.0, 47.5), (67.0, 45.5)], 0.35);
@@ -275,27 +275,25 @@ pub(crate) fn glazes(hand: &mut Hand) {
 /// Speed of the pen in mm per second.
 const SPEED: f64 = 60.0;
 
-/// Distance of the samples of a stroke, in mm.
 const STEP: f64 = 0.8;
 
 /// Position on a surface, in mm.
 pub(crate) type Place = (f64, f64);
 
-/// A hand and its recorded actions.
 pub(crate) struct Hand {
     pub(crate) actions: Vec<Action>,
     seed: u64,
 }
 
 impl Hand {
-    /// Creates a hand whose unsteadiness is seeded.
+    /// Creates a hand with seeded unsteadiness.
     pub(crate) fn new(seed: u64) -> Self {
         Self { actions: Vec::new(), seed }
     }
 
     /// Random number between `-most` and `most`.
     pub(crate) fn about(&mut self, most: f64) -> f64 {
-        // Knuth's linear congruential generator, of which the upper bits are used.
+        // This is Knuth's linear congruential generator. We use its upper bits.
         self.seed = self
             .seed
             .wrapping_mul(6_364_136_223_846_793_005)
@@ -304,19 +302,17 @@ impl Hand {
         most * (2.0 * share - 1.0)
     }
 
-    /// Washes a brush and loads it with parts of pigments by letter, such as `W6 U1`.
+    /// Washes a brush and loads it with parts of pigments by letter, e.g. `W6 U1`.
     pub(crate) fn load(&mut self, brush: &str, parts: &str, vehicle: f64, amount_mm: f64) {
         self.wash(brush);
         let brush = brush.to_owned();
         self.actions.push(Action::Load(Load { brush, recipe: recipe(parts), vehicle, amount_mm }));
     }
 
-    /// Washes a brush.
     pub(crate) fn wash(&mut self, brush: &str) {
         self.actions.push(Action::Wash { brush: brush.to_owned() });
     }
 
-    /// Squeezes a heap onto the palette.
     pub(crate) fn squeeze(&mut self, parts: &str, (x_mm, y_mm): Place, volume_mm3: f64) {
         let on = SurfaceId::Palette;
         let recipe = recipe(parts);
@@ -324,7 +320,6 @@ impl Hand {
         self.actions.push(Action::Squeeze(Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 }));
     }
 
-    /// Paints a stroke on the canvas.
     pub(crate) fn stroke(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
         let on = SurfaceId::Canvas;
@@ -333,7 +328,6 @@ impl Hand {
         self.actions.push(Action::Stroke(stroke));
     }
 
-    /// Paints a stroke on the palette.
     pub(crate) fn mix(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
         let on = SurfaceId::Palette;
@@ -343,8 +337,8 @@ impl Hand {
     }
 }
 
-/// Samples along a polyline: light pressure at both ends, the pen tilted along the
-/// direction of movement, the broad side of the head across it.
+/// Samples along a polyline. The pressure is light at both ends, the pen leans in the direction of
+/// movement, and the broad side of the head lies across it.
 pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
     let legs: Vec<f64> = along.windows(2).map(|leg| length(leg[0], leg[1])).collect();
     let whole: f64 = legs.iter().sum();
@@ -361,26 +355,27 @@ pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
         }
         *along.last().expect("a stroke leads somewhere")
     };
-    let sample = |index: usize| {
-        let share = index as f64 / count as f64;
-        let way = share * whole;
-        let (x_mm, y_mm) = place(way);
-        // Averaged over a few mm, so that the head does not jump at corners.
-        let behind = place(way - 2.0);
-        let ahead = place(way + 2.0);
-        let course = (ahead.1 - behind.1).atan2(ahead.0 - behind.0);
-        let soft = (share.min(1.0 - share) * 6.0).min(1.0);
-        Sample {
-            seconds: way / SPEED,
-            x_mm,
-            y_mm,
-            pressure: pressure * (0.1 + 0.9 * soft),
-            tilt_x_deg: 25.0 * course.cos(),
-            tilt_y_deg: 25.0 * course.sin(),
-            twist_deg: course.to_degrees() - 90.0,
-        }
-    };
-    (0..=count).map(sample).collect()
+    (0..=count)
+        .map(|index| {
+            let share = index as f64 / count as f64;
+            let way = share * whole;
+            let (x_mm, y_mm) = place(way);
+            // We average over a few mm, so that the head does not jump at corners.
+            let behind = place(way - 2.0);
+            let ahead = place(way + 2.0);
+            let course = (ahead.1 - behind.1).atan2(ahead.0 - behind.0);
+            let soft = (share.min(1.0 - share) * 6.0).min(1.0);
+            Sample {
+                seconds: way / SPEED,
+                x_mm,
+                y_mm,
+                pressure: pressure * (0.1 + 0.9 * soft),
+                tilt_x_deg: 25.0 * course.cos(),
+                tilt_y_deg: 25.0 * course.sin(),
+                twist_deg: course.to_degrees() - 90.0,
+            }
+        })
+        .collect()
 }
 
 fn length(from: Place, to: Place) -> f64 {
@@ -389,20 +384,22 @@ fn length(from: Place, to: Place) -> f64 {
 
 /// Parses parts by letter.
 fn recipe(parts: &str) -> Recipe {
-    let part = |part: &str| {
-        let (letter, amount) = part.split_at(1);
-        let name = match letter {
-            "W" => "Zinc White",
-            "L" => "Chrome Yellow (Otero)",
-            "Y" => "Chrome Yellow",
-            "R" => "Vermilion",
-            "C" => "Cochineal Lake",
-            "U" => "Ultramarine",
-            "P" => "Prussian Blue",
-            "K" => "Bone Black",
-            _ => panic!("{letter} of \"{parts}\" is no paint"),
-        };
-        (name.to_owned(), amount.parse().expect("parts are a number"))
-    };
-    parts.split_whitespace().map(part).collect()
+    parts
+        .split_whitespace()
+        .map(|part| {
+            let (letter, amount) = part.split_at(1);
+            let name = match letter {
+                "W" => "Zinc White",
+                "L" => "Chrome Yellow (Otero)",
+                "Y" => "Chrome Yellow",
+                "R" => "Vermilion",
+                "C" => "Cochineal Lake",
+                "U" => "Ultramarine",
+                "P" => "Prussian Blue",
+                "K" => "Bone Black",
+                _ => panic!("{letter} of \"{parts}\" is no paint"),
+            };
+            (name.to_owned(), amount.parse().expect("parts are a number"))
+        })
+        .collect()
 }

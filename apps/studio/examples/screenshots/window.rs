@@ -1,5 +1,4 @@
-//! The window of the tests, and what is painted in it: a scene of paint volumes, marks of samples,
-//! and guides of strokes.
+//! The window of the tests, with a scene of paint volumes, marks of samples, and guides of strokes.
 
 use std::error::Error;
 use std::path::Path;
@@ -21,7 +20,6 @@ mod harness;
 
 pub(crate) use harness::{Window, button, has_adapter};
 
-/// Draws frames until a control with this label exists.
 pub(crate) fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn Error>> {
     for _ in 0..6000 {
         if window.harness().query_by_label(label).is_some() {
@@ -36,7 +34,7 @@ pub(crate) fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn E
 /// Paint poured a second, in mm3.
 const RATE: f64 = 130.0;
 
-/// Steps that the pen is held at the start of a drag, and at its end.
+/// The pen stays for these steps at the start of a drag, and at its end.
 const STEPS: u64 = 60;
 
 /// Drags over the village: shares of the picture's width and height.
@@ -89,7 +87,6 @@ fn wait_steps(window: &mut Window, steps: u64) -> Result<(), Box<dyn Error>> {
     wait(window, |volumes| step(volumes) >= until)
 }
 
-/// Draws frames until `done`.
 fn wait(window: &mut Window, done: impl Fn(&Volumes) -> bool) -> Result<(), Box<dyn Error>> {
     for _ in 0..20_000 {
         if window.studio().volumes.as_ref().is_some_and(&done) {
@@ -107,7 +104,6 @@ const WIDTH: f32 = 620.0;
 /// Width and height of the picture of the model.
 const VIEW: (usize, usize) = (900, 600);
 
-/// Control points of a curve.
 type Places = &'static [[f32; 2]];
 
 /// Lines over passages of the painted coffee, and two neighbouring strokes of each, in its pixels.
@@ -148,7 +144,7 @@ pub(crate) fn marks(window: &mut Window) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Combs guides over a picture of a knot, which is written into `folder`.
+/// Combs guides over a picture of a knot. This writes the picture into `folder`.
 pub(crate) fn guides(window: &mut Window, folder: &Path) -> Result<(), Box<dyn Error>> {
     let mesh = SampleModel::TorusKnot.mesh(20_000);
     let camera = Framing { aspect: 1.5, ..Framing::default() }.fit(&mesh.positions);
@@ -183,8 +179,8 @@ fn draw(window: &mut Window, places: &[[f32; 2]]) {
     let panel = window.harness().get_by_label("Reference picture").rect();
     let zoom = (panel.width() / VIEW.0 as f32).min(panel.height() / VIEW.1 as f32);
     let middle = 0.5 * vec2(VIEW.0 as f32, VIEW.1 as f32);
-    let point = |place: eframe::egui::Vec2| panel.center() + zoom * (place - middle);
-    let along = (0..=40).map(|step| point(curve(places, step as f32 / 40.0)));
+    let along =
+        (0..=40).map(|step| panel.center() + zoom * (curve(places, step as f32 / 40.0) - middle));
     window.pen_stroke(&along.collect::<Vec<Pos2>>());
     window.harness().run_steps(3);
 }

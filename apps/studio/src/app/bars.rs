@@ -38,11 +38,8 @@ const GROUPS: [&[Intent]; 4] = [
 /// Program state shown by the buttons.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State {
-    /// Tool in use.
     pub(super) mode: Mode,
-    /// Whether the view is mirrored.
     pub(super) mirror: bool,
-    /// Whether undo and redo are possible.
     pub(super) history: (bool, bool),
 }
 
@@ -51,11 +48,11 @@ pub(super) fn width(context: &Context) -> f32 {
     if theme::is_touch(context) { theme::TOUCH_TARGET + 8.0 } else { 42.0 }
 }
 
-/// Draws the toolbar. Returns the intent of the button that was clicked.
+/// Draws the toolbar. Returns the intent of the clicked button.
 pub(super) fn show_toolbar(ui: &mut Ui, state: State) -> Option<Intent> {
     let mut clicked = None;
     ui.spacing_mut().item_spacing = vec2(0.0, 2.0);
-    // In a low window, large buttons are scrolled.
+    // In a low window, large buttons scroll.
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for (at, group) in GROUPS.into_iter().enumerate() {
             if at > 0 {
@@ -127,7 +124,6 @@ pub(super) fn tip(ui: &mut Ui, entry: &Entry) {
 /// Side of the square of icon coordinates, in points.
 const SQUARE: f32 = 18.0;
 
-/// One element of an icon.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Mark {
     /// Polyline through points.
@@ -139,14 +135,13 @@ pub(super) enum Mark {
     Arc((f32, f32), f32, f32, f32),
 }
 
-/// Draws the icon of an intent at the centre of a button. Returns whether it has one.
+/// Draws the icon of an intent at the centre of a button. Returns whether there is an icon.
 pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, color: Color32) -> bool {
     let marks = marks(intent);
     draw_marks(painter, button, marks, color);
     !marks.is_empty()
 }
 
-/// Draws marks at the centre of a button.
 pub(super) fn draw_marks(painter: &Painter, button: Rect, marks: &[Mark], color: Color32) {
     let corner = button.center() - eframe::egui::Vec2::splat(0.5 * SQUARE);
     let place = |&(x, y): &(f32, f32)| corner + vec2(x, y);
@@ -177,7 +172,7 @@ pub(super) fn draw_marks(painter: &Painter, button: Rect, marks: &[Mark], color:
     }
 }
 
-/// The marks of an intent's icon; none without one.
+/// The marks of an intent's icon, or none.
 pub(super) fn marks(intent: Intent) -> &'static [Mark] {
     match intent {
         Intent::Tool(Mode::Paint) => &[
@@ -289,23 +284,16 @@ pub(super) fn marks(intent: Intent) -> &'static [Mark] {
 /// Program state that enables and checks menu entries.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MenuState {
-    /// Whether a painting is open.
     pub(super) open: bool,
-    /// Whether a scene is open.
     pub(super) scene: bool,
-    /// Whether undo and redo are possible.
     pub(super) history: (bool, bool),
-    /// Whether panels, palette and performance figures are shown.
     pub(super) shown: (bool, bool, bool),
-    /// Whether the view is mirrored.
     pub(super) mirror: bool,
-    /// Ruler, perspective and symmetry.
     pub(super) aids: DrawingAids,
-    /// Theme, and size of what is touched.
     pub(super) look: Look,
 }
 
-/// Shows the bar with `title` at its right. Returns the entry that was clicked.
+/// Shows the bar with `title` at its right. Returns the clicked entry.
 pub(super) fn show_menus(ui: &mut Ui, state: MenuState, title: &str) -> Option<Intent> {
     let mut clicked = None;
     MenuBar::new().ui(ui, |ui| {
@@ -351,7 +339,7 @@ pub(super) fn show_menus(ui: &mut Ui, state: MenuState, title: &str) -> Option<I
     clicked
 }
 
-/// Adds a button that opens a menu. A menu that is higher than the window is scrolled.
+/// Adds a button that opens a menu. If a menu is higher than the window, it scrolls.
 pub(super) fn menu_button(
     ui: &mut Ui,
     name: &str,
@@ -434,8 +422,8 @@ fn checked(intent: Intent, state: MenuState) -> Option<bool> {
 /// Room for the tick before a name, in spaces of the font.
 const INDENT: &str = "      ";
 
-/// Adds an entry with its shortcut. `checked` draws a tick or leaves its room free, as `indented`
-/// does for an entry beside others that have a tick.
+/// Adds an entry with its shortcut. `checked` draws a tick or leaves room for one. `indented`
+/// leaves this room too, for an entry beside others with a tick.
 pub(super) fn show_item(
     ui: &mut Ui,
     name: &str,
@@ -447,7 +435,7 @@ pub(super) fn show_item(
     let indent = if indented || checked.is_some() { INDENT } else { "" };
     let button = Button::new(format!("{indent}{name}")).shortcut_text(shortcut);
     let response = ui.add_enabled(enabled, button);
-    // The name alone, without indent and shortcut.
+    // Screen readers get the name without indent and shortcut.
     response.widget_info(|| match checked {
         Some(checked) => WidgetInfo::selected(Role::CheckBox, enabled, checked, name),
         None => WidgetInfo::labeled(Role::Button, enabled, name),
@@ -471,21 +459,21 @@ pub struct Message {
     pub text: String,
     /// Suggestion how to solve the problem, if any.
     pub hint: Option<String>,
-    /// Whether it is an error, which stays until it is dismissed.
+    /// Whether this is an error. An error stays until you dismiss it.
     pub failed: bool,
-    /// Time at which it was shown first.
+    /// Time at which we showed it first.
     pub shown_at: Instant,
 }
 
 impl Message {
-    /// Whether the message is still displayed at `now`.
+    /// Whether you still see the message at `now`.
     #[must_use]
     pub fn is_displayed(&self, now: Instant) -> bool {
         self.failed || self.rest(now).is_some()
     }
 
-    /// Time after `now` for which the message is still displayed; `None` if it is not, or if it
-    /// stays until it is dismissed.
+    /// Time after `now` for which you still see the message. `None` if it is gone, or if it stays
+    /// until you dismiss it.
     #[must_use]
     pub fn rest(&self, now: Instant) -> Option<Duration> {
         let rest = DISPLAY_TIME.saturating_sub(now.saturating_duration_since(self.shown_at));
@@ -496,25 +484,22 @@ impl Message {
 /// Contents of the status line.
 #[derive(Debug, Clone)]
 pub(super) struct StatusState<'a> {
-    /// Last message, if still displayed.
     pub(super) message: Option<&'a Message>,
-    /// Zoom and rotation, such as `42 %, 15 degrees`.
+    /// Zoom and rotation, for example `42 %, 15 degrees`.
     pub(super) view: String,
     /// Canvas size in cells and mm.
     pub(super) size: String,
-    /// Name of the illuminant, or of both.
     pub(super) light: String,
-    /// Name of the compute backend.
     pub(super) backend: &'a str,
 }
 
-/// Height of the status line: an error has a button that may be touched.
+/// Height of the status line. An error has a button, which needs more room for touch.
 pub(super) fn height(context: &Context, message: Option<&Message>) -> f32 {
     let has_button = message.is_some_and(|message| message.failed);
     if has_button && theme::is_touch(context) { theme::TOUCH_TARGET + 4.0 } else { 24.0 }
 }
 
-/// Draws the status line. Returns whether the message was dismissed.
+/// Draws the status line. Returns whether you dismissed the message.
 pub(super) fn show_status(ui: &mut Ui, state: &StatusState) -> bool {
     let mut dismissed = false;
     let faint = theme::colors(ui.ctx()).faint;
@@ -551,7 +536,7 @@ pub(super) fn show_status(ui: &mut Ui, state: &StatusState) -> bool {
             if message.failed {
                 text = text.strong();
             }
-            // A text that is cut tells all of itself under the pointer.
+            // If the text is cut, its tooltip has all of it.
             ui.add(eframe::egui::Label::new(text).truncate());
         });
     });

@@ -1,5 +1,5 @@
-//! Cropping: the rectangle of cells that stays, as data, and the tool that draws and drags it over
-//! the canvas.
+//! Cropping: the rectangle of cells that stays, as data, and the tool that draws it over the canvas
+//! and lets you drag it.
 
 use eframe::egui::{
     Button, Color32, ComboBox, Context, CursorIcon, Id, Key, Modifiers, PointerButton, Pos2,
@@ -12,14 +12,11 @@ use crate::language::{tr, tr_format};
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
 
-/// Fewest cells of a side.
 const LEAST: f64 = 8.0;
 
-/// One of the eight handles: -1, 0 or 1 for left, middle and right, and for top, middle and
-/// bottom.
+/// One of the eight handles: -1, 0 or 1 for left, middle and right, and for top, middle and bottom.
 type Handle = [i8; 2];
 
-/// The handles, clockwise from the upper left.
 const HANDLES: [(Handle, &str); 8] = [
     ([-1, -1], "Crop upper left"),
     ([0, -1], "Crop top"),
@@ -44,32 +41,32 @@ impl CropFrame {
         Self { x: [0.0, width as f64], y: [0.0, height as f64] }
     }
 
-    /// Width and height in cells.
     fn size(&self) -> [f64; 2] {
         [self.x[1] - self.x[0], self.y[1] - self.y[0]]
     }
 
-    /// Place of a handle.
     fn place(&self, [across, down]: Handle) -> [f64; 2] {
-        let at = |[low, high]: [f64; 2], side: i8| match side {
-            ..0 => low,
-            0 => 0.5 * (low + high),
-            1.. => high,
-        };
+        fn at([low, high]: [f64; 2], side: i8) -> f64 {
+            match side {
+                ..0 => low,
+                0 => 0.5 * (low + high),
+                1.. => high,
+            }
+        }
         [at(self.x, across), at(self.y, down)]
     }
 
-    /// Moved by `by` cells, as far as the canvas allows.
+    /// The frame moved by `by` cells, as far as the canvas allows.
     fn moved(self, by: [f64; 2], (width, height): (usize, usize)) -> Self {
-        let shift = |[low, high]: [f64; 2], by: f64, most: usize| {
+        fn shift([low, high]: [f64; 2], by: f64, most: usize) -> [f64; 2] {
             let by = by.clamp(-low, most as f64 - high);
             [low + by, high + by]
-        };
+        }
         Self { x: shift(self.x, by[0], width), y: shift(self.y, by[1], height) }
     }
 
-    /// The frame with a handle dragged to `to`, on a canvas of `cells`. With `shape`, width over
-    /// height stays that: the opposite corner holds still.
+    /// The frame after you drag a handle to `to`, on a canvas of `cells`. `shape` fixes width over
+    /// height. The opposite corner stays.
     fn dragged(
         self,
         [across, down]: Handle,
@@ -80,14 +77,14 @@ impl CropFrame {
         if let Some(shape) = shape {
             return self.dragged_in_shape([across, down], to, shape, (width, height));
         }
-        let edge = |[low, high]: [f64; 2], side: i8, to: f64, most: usize| {
+        fn edge([low, high]: [f64; 2], side: i8, to: f64, most: usize) -> [f64; 2] {
             let most = most as f64;
             match side {
                 ..0 => [to.clamp(0.0, (high - LEAST).max(0.0)), high],
                 0 => [low, high],
                 1.. => [low, to.clamp((low + LEAST).min(most), most)],
             }
-        };
+        }
         Self { x: edge(self.x, across, to[0], width), y: edge(self.y, down, to[1], height) }
     }
 
@@ -101,9 +98,9 @@ impl CropFrame {
         // A handle in the middle of an edge grows the frame to the right and downwards.
         let [right, lower] = [across >= 0, down >= 0];
         let fixed = [self.x[usize::from(!right)], self.y[usize::from(!lower)]];
-        let room = |forward: bool, fixed: f64, most: usize| {
+        fn room(forward: bool, fixed: f64, most: usize) -> f64 {
             if forward { most as f64 - fixed } else { fixed }
-        };
+        }
         let room = [room(right, fixed[0], width), room(lower, fixed[1], height)];
         let reach = [0, 1].map(|axis: usize| (to[axis] - fixed[axis]).abs());
         let wanted = match (across, down) {
@@ -114,33 +111,33 @@ impl CropFrame {
         let most = room[0].min(room[1] * shape);
         let least = LEAST.max(LEAST * shape).min(most);
         let width = wanted.clamp(least, most);
-        let side = |forward: bool, fixed: f64, length: f64| {
+        fn side(forward: bool, fixed: f64, length: f64) -> [f64; 2] {
             if forward { [fixed, fixed + length] } else { [fixed - length, fixed] }
-        };
+        }
         Self { x: side(right, fixed[0], width), y: side(lower, fixed[1], width / shape) }
     }
 
     /// Whole cells of the frame on a canvas of `cells`.
     fn cells(&self, (width, height): (usize, usize)) -> Rect {
-        let whole = |[low, high]: [f64; 2], most: usize| {
+        fn whole([low, high]: [f64; 2], most: usize) -> (usize, usize) {
             let low = (low.round().max(0.0) as usize).min(most.saturating_sub(1));
             let high = (high.round().max(0.0) as usize).clamp(low + 1, most);
             (low, high - low)
-        };
+        }
         let (x, width) = whole(self.x, width);
         let (y, height) = whole(self.y, height);
         Rect { x, y, width, height }
     }
 }
 
-/// Side of a handle as it is drawn, in points. In touch mode it is pressed in a larger square.
+/// Side of a drawn handle, in points. In touch mode you press in a larger square.
 const HANDLE: f32 = 14.0;
 
-/// Shapes that are offered: name, and width over height of the longer side over the shorter.
+/// Shapes to choose from: name, and the ratio of the longer to the shorter side.
 const SHAPES: [(&str, f64); 5] =
     [("1 : 1", 1.0), ("5 : 4", 1.25), ("4 : 3", 4.0 / 3.0), ("3 : 2", 1.5), ("16 : 9", 16.0 / 9.0)];
 
-/// Decision of the painter about a crop.
+/// Your decision about a crop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CropAnswer {
     /// Crops to these cells.
@@ -149,12 +146,12 @@ pub enum CropAnswer {
     Leave,
 }
 
-/// A crop that is being framed.
+/// A crop that you are framing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CropTool {
     frame: CropFrame,
     cells: (usize, usize),
-    /// Width over height, if it is kept.
+    /// Width over height, if fixed.
     shape: Option<f64>,
 }
 
@@ -171,7 +168,7 @@ impl CropTool {
         self.frame.cells(self.cells)
     }
 
-    /// Draws the frame over `canvas`, whose `response` moves it. Enter and Escape decide.
+    /// Draws the frame over `canvas`. `response` moves it. Enter and Escape decide.
     pub fn show(
         &mut self,
         ui: &Ui,
@@ -196,7 +193,6 @@ impl CropTool {
         (pressed(Key::Enter) && self.changes()).then(|| CropAnswer::Crop(self.rect()))
     }
 
-    /// Whether anything is cut off.
     fn changes(&self) -> bool {
         let rect = self.rect();
         (rect.width, rect.height) != self.cells
@@ -215,7 +211,7 @@ impl CropTool {
             let rect = ScreenRect::from_center_size(at, theme::at_least(ui, vec2(HANDLE, HANDLE)));
             let response = ui.interact(rect, Id::unique(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-            // Movements just before the release may come in its frame.
+            // The last movements may come in the frame of the release.
             let held = response.dragged() || response.drag_stopped();
             if let Some(point) = response.interact_pointer_pos().filter(|_| held) {
                 let to = placement.cell(point);
@@ -256,7 +252,7 @@ impl CropTool {
         }
     }
 
-    /// Draws the size that stays, its shape, and the buttons. Cells are `cell_mm` wide.
+    /// Draws the remaining size, its shape, and the buttons. Cells are `cell_mm` wide.
     pub fn bar(&mut self, ui: &mut Ui, cell_mm: f64) -> Option<CropAnswer> {
         let mut answer = None;
         let rect = self.rect();
@@ -286,7 +282,6 @@ impl CropTool {
         answer
     }
 
-    /// Free or kept shape.
     fn shapes(&mut self, ui: &mut Ui) {
         let [width, height] = self.frame.size();
         let near = |shape: f64| self.shape.is_some_and(|own| (own - shape).abs() < 1e-6);

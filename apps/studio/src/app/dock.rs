@@ -17,32 +17,29 @@ use crate::panels::PanelContext;
 use crate::theme;
 use crate::view::fill_rect;
 
-/// Space between two groups, in points.
 const GAP: f32 = 8.0;
 
-/// Space around the groups of a column, in points.
 const MARGIN: f32 = 6.0;
 
-/// Space between the tabs and their panel, in points.
 const BELOW_TABS: f32 = 4.0;
 
-/// Height from which a panel scrolls beside others, in points. The panel of a clean brush is higher,
-/// so that a wash does not fold the panels below it in a low window.
+/// A panel of this height or more scrolls beside others, in points. The panel of a clean brush is
+/// higher, so that a wash does not fold the panels below it in a low window.
 const LONG: f32 = 540.0;
 
-/// Height from which a panel with large targets scrolls beside others, in points.
+/// Like [`LONG`], for a panel with large targets.
 const LONG_TOUCH: f32 = 930.0;
 
-/// Height of a panel before it was drawn, in points.
+/// Height that we assume before a panel was drawn, in points.
 const UNKNOWN: f32 = 300.0;
 
-/// Least height of a panel that is resized, in points.
+/// You can resize a panel down to this height, in points.
 const LEAST: f32 = 80.0;
 
 /// Largest share of the window's width for one column.
 const WIDEST: f32 = 0.42;
 
-/// Width of the strip at an edge without a column that takes a panel, in points.
+/// Width of the strip at an edge without a column, in points. You can drop a panel there.
 const STRIP: f32 = 56.0;
 
 /// Rectangles of the columns and their groups in the window.
@@ -61,7 +58,7 @@ impl Panels {
         }
     }
 
-    /// Where the panels stand, for the preferences; empty for the standard layout.
+    /// The arrangement of the panels for the preferences; empty for the standard layout.
     #[must_use]
     pub fn arrangement(&self) -> Arrangement {
         if self.arrangement == standard() {
@@ -77,13 +74,13 @@ impl Panels {
         self.arrangement.bound(&standard());
     }
 
-    /// Puts all panels back to their usual places.
+    /// Moves all panels back to their usual places.
     pub fn arrange_as_usual(&mut self) {
         self.arrangement = standard();
         self.last_used.clear();
     }
 
-    /// Notes that a panel was used, so that it stays open where there is little room.
+    /// Notes that you used a panel, so that it stays open when there is little room.
     fn note_use(&mut self, key: &str) {
         if let Some(panel) = SidePanel::with_key(key) {
             self.uses += 1;
@@ -91,12 +88,11 @@ impl Panels {
         }
     }
 
-    /// Whether a column has panels.
     pub(super) fn has_column(&self, side: Side) -> bool {
         !self.arrangement.column(side).groups.is_empty()
     }
 
-    /// Width of a column in a window of a width; 0 without panels.
+    /// Width of a column in this window; 0 without panels.
     pub(super) fn column_width(&self, context: &Context, side: Side) -> f32 {
         if !self.has_column(side) {
             return 0.0;
@@ -108,7 +104,6 @@ impl Panels {
         width.min(most).max(least)
     }
 
-    /// Draws a column into the whole of `ui`.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -218,7 +213,7 @@ impl Panels {
             ui.min_rect().height()
         });
         let before = self.content_heights.insert(panel.tab, shown.inner);
-        // The groups share the height anew, at first before anything is seen.
+        // The groups share the height anew. At first we do this before you see anything.
         if before.is_none() {
             ui.ctx().request_discard("a panel is drawn first");
         } else if before.is_some_and(|before| (before - shown.inner).abs() > 0.5) {
@@ -240,7 +235,7 @@ impl Panels {
         }
     }
 
-    /// Adds the edge of a column that is dragged to make it wider.
+    /// Adds the edge of a column, which you drag to make it wider.
     fn width_divider(&mut self, ui: &Ui, side: Side, whole: Rect) {
         let (x, sign, name) = match side {
             Side::Left => (whole.right() - GAP, 1.0, tr("Width of the left panels")),
@@ -255,8 +250,8 @@ impl Panels {
         }
     }
 
-    /// Moves a dragged panel to the place at which it is released. `center` is the part of
-    /// the window between the columns.
+    /// If you release a dragged panel, this moves it there. `center` is the part of the window
+    /// between the columns.
     pub(super) fn drop_dragged(&mut self, context: &Context, mut drawn: Drawn, center: Rect) {
         for side in Side::ALL {
             if drawn.columns.iter().all(|(drawn, _)| *drawn != side) {
@@ -274,10 +269,8 @@ impl Panels {
     }
 }
 
-/// Height of a row of tabs, in points.
 const ROW: f32 = 24.0;
 
-/// Width of the buttons beside the tabs, in points.
 const BUTTON: f32 = 20.0;
 
 /// Space between the edge of a tab and its name, in points.
@@ -286,20 +279,16 @@ const PADDING: f32 = 5.0;
 /// A request of a header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum HeaderRequest {
-    /// Shows a panel.
     Select(&'static str),
-    /// Folds or unfolds the group of a panel.
     Fold(&'static str, bool),
-    /// Moves a panel.
     Move(&'static str, Place),
 }
 
-/// A group as its header shows it.
 pub(super) struct Header<'a> {
     pub(super) panels: &'a [&'static SidePanel],
-    /// The panel that is shown.
+    /// Height of the header in a column of this width.
     pub(super) chosen: &'static SidePanel,
-    /// Whether it is shown, rather than folded.
+    /// Whether you see the panel, because the group is not folded.
     pub(super) open: bool,
 }
 
@@ -310,7 +299,7 @@ impl Header<'_> {
         rows * row_height(ui) + rows - 1.0
     }
 
-    /// Tabs of each row, with their least widths.
+    /// Tabs of each row, with their smallest widths.
     fn rows(&self, ui: &Ui, width: f32) -> Vec<Vec<(&'static SidePanel, f32)>> {
         let room = width - 2.0 * (button_width(ui) + 1.0);
         let font = TextStyle::Body.resolve(ui.style());
@@ -333,7 +322,6 @@ impl Header<'_> {
         rows
     }
 
-    /// Draws the header into `rect`.
     pub(super) fn show(
         &self,
         ui: &mut Ui,
@@ -431,7 +419,6 @@ impl Header<'_> {
     }
 }
 
-/// Adds a button with a sign.
 fn sign(ui: &Ui, rect: Rect, name: &str, shapes: impl FnOnce(Rect) -> Vec<Shape>) -> Response {
     let response = ui.interact(rect, Id::unique(("header", name)), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
@@ -443,7 +430,6 @@ fn sign(ui: &Ui, rect: Rect, name: &str, shapes: impl FnOnce(Rect) -> Vec<Shape>
     response
 }
 
-/// Draws the menu of a panel.
 fn menu(
     ui: &mut Ui,
     panel: &'static SidePanel,

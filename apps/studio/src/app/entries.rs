@@ -1,5 +1,5 @@
 //! All menu entries, one table per menu (name, description and shortcuts), and the rows of the
-//! table of keys that follow from them.
+//! table of keys made from them.
 
 use eframe::egui::{Context, Key, Modifiers};
 
@@ -22,8 +22,8 @@ impl Entry {
         entries().find(|entry| entry.intent == intent)
     }
 
-    /// Text of the first key in use, such as `Ctrl+Shift+S`, or of the first standard one before any
-    /// are in use; empty without one.
+    /// Text of the first key in use, e.g. `Ctrl+Shift+S`. Before you install any keys, this is the
+    /// first standard one. It is empty without a key.
     #[must_use]
     pub fn shortcut_text(&self, context: &Context) -> String {
         keymap::text(context, &self.intent.name())
@@ -518,7 +518,7 @@ const HELP_ENTRIES: &[Entry] = &[
     ),
 ];
 
-/// Keys of the brushes of the list.
+/// Keys that select a brush of the list.
 const NUMBERS: [Key; 9] = [
     Key::Num1,
     Key::Num2,
@@ -578,7 +578,7 @@ mod tests {
             assert_eq!(intent.name(), row.name);
             assert!(!rows[..at].iter().any(|other| other.name == row.name), "{}", row.name);
         }
-        // Preferences of painters hold these: they must stay.
+        // You find these names in preferences, so they must stay.
         for (intent, name) in [
             (Intent::SaveAs, "save-as"),
             (Intent::OtherLight, "other-light"),

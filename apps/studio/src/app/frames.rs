@@ -80,8 +80,7 @@ mod tests {
         frames.begin(start + 30 * MS, None);
         frames.shows(start + 10 * MS);
         frames.shows(start + 5 * MS);
-        // That frame took 12 ms; the next starts later because it waited for the
-        // screen.
+        // This frame took 12 ms. The next starts later because it waited for the screen.
         frames.begin(start + 60 * MS, Some(12 * MS));
         frames.shows(start + 50 * MS);
         frames.begin(start + 90 * MS, Some(18 * MS));

@@ -1,6 +1,5 @@
-//! The guided tour as data: its steps, the facts about a painting that show whether a step was
-//! done, and the current step. [`callout`] outlines a part of the window beside a few lines of
-//! text.
+//! The guided tour as data: its steps, the facts about a painting that show whether you did a step,
+//! and the current step. [`callout`] outlines a part of the window beside a few lines of text.
 
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
@@ -12,22 +11,19 @@ use crate::language::{tr, tr_format};
 use crate::panels::Mode;
 use crate::theme;
 
-/// Share of medium in the paint of a brush from which its film is a glaze.
+/// From this share of medium in the paint of a brush, its film is a glaze.
 const GLAZE: f64 = 0.9;
 
-/// Paint on a brush, in mm, above which more of it is a load.
+/// If the paint on a brush grows by more than this, in mm, you have loaded it.
 const LOAD_MM: f64 = 0.01;
 
-/// Actions done to a painting, as far as the tour looks at them.
+/// Your actions in a painting, as far as the tour needs them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facts {
     /// Name of each brush, and height of its paint in mm.
     loads: Vec<(String, f64)>,
-    /// Number of strokes on the canvas.
     strokes: usize,
-    /// Number of strokes on the palette.
     mixing_strokes: usize,
-    /// Number of dryings.
     dryings: usize,
     /// Whether the last stroke on the canvas laid a glaze over dry paint.
     glazed: bool,
@@ -35,16 +31,12 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// The facts of a painting, from its brushes, light and the actions that are not undone.
+    /// The facts of a painting, from its brushes, its light and the actions that you did not undo.
     #[must_use]
     pub fn of(painting: &PaintingState) -> Self {
         let done = &painting.history[..painting.history_done.min(painting.history.len())];
         let count = |start: &str| done.iter().filter(|label| label.starts_with(start)).count();
         let last = done.iter().rev().find_map(|label| label.strip_prefix("stroke, "));
-        let is_glaze = |brush: &str| {
-            let mut brushes = painting.brushes.iter();
-            brushes.any(|state| state.name == brush && state.vehicle >= GLAZE)
-        };
         Self {
             loads: painting
                 .brushes
@@ -54,12 +46,15 @@ impl Facts {
             strokes: count("stroke, "),
             mixing_strokes: count("stroke on the palette"),
             dryings: count("dry "),
-            glazed: !painting.layers.is_empty() && last.is_some_and(is_glaze),
+            glazed: !painting.layers.is_empty()
+                && last.is_some_and(|brush| {
+                    let mut brushes = painting.brushes.iter();
+                    brushes.any(|state| state.name == brush && state.vehicle >= GLAZE)
+                }),
             lighting: painting.lighting.clone(),
         }
     }
 
-    /// Whether a brush holds more paint than `before`.
     fn loaded_since(&self, before: &Self) -> bool {
         self.loads.iter().any(|(name, mm)| {
             let held = before.loads.iter().find(|(known, _)| known == name);
@@ -67,33 +62,28 @@ impl Facts {
         })
     }
 
-    /// Whether there was a stroke on the canvas since `before`.
     fn painted_since(&self, before: &Self) -> bool {
         self.strokes > before.strokes
     }
 
-    /// Whether there was a stroke on the palette since `before`.
     fn mixed_since(&self, before: &Self) -> bool {
         self.mixing_strokes > before.mixing_strokes
     }
 
-    /// Whether paint was dried since `before`.
     fn dried_since(&self, before: &Self) -> bool {
         self.dryings > before.dryings
     }
 
-    /// Whether there was a stroke of a glaze over dry paint since `before`.
     fn glazed_since(&self, before: &Self) -> bool {
         self.painted_since(before) && self.glazed
     }
 
-    /// Whether the light changed since `before`.
     fn relit_since(&self, before: &Self) -> bool {
         self.lighting != before.lighting
     }
 
-    /// Lowers the counts to those of `now`: undo takes actions away, and the oldest leave the
-    /// history when its memory is full. A brush that was washed can be loaded again.
+    /// Lowers the counts to those of `now`. Undo removes actions, and the oldest leave the history
+    /// when its memory is full. If you washed a brush, you can load it again.
     fn lower_to(&mut self, now: &Self) {
         self.strokes = self.strokes.min(now.strokes);
         self.mixing_strokes = self.mixing_strokes.min(now.mixing_strokes);
@@ -108,17 +98,17 @@ impl Facts {
 /// A step of the guided tour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TourStep {
-    /// Paint from a tube on the brush.
+    /// Load paint from a tube on the brush.
     Load,
-    /// A stroke on the canvas.
+    /// Paint a stroke on the canvas.
     Paint,
-    /// A stroke through paint on the palette.
+    /// Paint a stroke through paint on the palette.
     Mix,
-    /// The wet paint dries.
+    /// Dry the wet paint.
     Dry,
-    /// A film of much medium over dry paint.
+    /// Lay a film of much medium over dry paint.
     Glaze,
-    /// Another light over the painting.
+    /// Put the painting under another light.
     Relight,
 }
 
@@ -140,8 +130,8 @@ impl TourStep {
         }
     }
 
-    /// Two lines that say how it is done. `key` is the text of the key of an intent; empty if it has
-    /// none.
+    /// Two lines that explain the step. `key` returns the text of the key of an intent, or an empty
+    /// text.
     #[must_use]
     pub fn lines(self, key: impl Fn(Intent) -> String) -> [String; 2] {
         let beside = |intent| match key(intent) {
@@ -193,7 +183,7 @@ impl TourStep {
         }
     }
 
-    /// Whether the step was done between the facts `before` and `now`.
+    /// Whether you did the step between the facts `before` and `now`.
     #[must_use]
     pub fn is_done(self, before: &Facts, now: &Facts) -> bool {
         match self {
@@ -207,19 +197,18 @@ impl TourStep {
     }
 }
 
-/// The guided tour. It can be left and goes on with the same step.
+/// The guided tour. You can leave it and continue with the same step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tour {
     running: bool,
-    /// Index of the step; the number of steps at the end.
     at: usize,
-    /// The painting when the step began; `None` before the painting was seen.
+    /// The painting at the start of the step; `None` before we have seen it.
     begun: Option<Facts>,
     done: [bool; TourStep::ALL.len()],
 }
 
 impl Tour {
-    /// Starts the tour, or goes on where it was left; from the start if it had ended.
+    /// Starts the tour, or continues where you left it. If it had ended, it starts again.
     pub fn start(&mut self) {
         if self.at == TourStep::ALL.len() {
             *self = Self::default();
@@ -232,31 +221,31 @@ impl Tour {
         self.running = false;
     }
 
-    /// Whether the tour is shown.
+    /// Whether you see the tour.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.running
     }
 
-    /// The step that is shown; `None` while the tour is not running, and after the last step.
+    /// The current step; `None` while the tour is not running, and after the last step.
     #[must_use]
     pub fn step(&self) -> Option<TourStep> {
         TourStep::ALL.get(self.at).copied().filter(|_| self.running)
     }
 
-    /// Index of the step from 0; the number of steps at the end.
+    /// Index of the step from 0. At the end this is the number of steps.
     #[must_use]
     pub fn number(&self) -> usize {
         self.at
     }
 
-    /// Which steps were done.
+    /// Which steps you have done.
     #[must_use]
     pub fn done(&self) -> [bool; TourStep::ALL.len()] {
         self.done
     }
 
-    /// Looks at the painting, and goes on if the step was done. Returns whether it was.
+    /// Looks at the painting, and continues if you did the step. Returns whether you did.
     pub fn observe(&mut self, now: Facts) -> bool {
         let Some(step) = self.step() else { return false };
         let Some(begun) = &mut self.begun else {
@@ -272,12 +261,12 @@ impl Tour {
         false
     }
 
-    /// Another painting was opened: what it holds is not done by the painter.
+    /// Call this when another painting was opened, because you did not do its actions.
     pub fn forget(&mut self) {
         self.begun = None;
     }
 
-    /// Goes on without doing the step.
+    /// Continues without doing the step.
     pub fn next(&mut self) {
         (self.at, self.begun) = ((self.at + 1).min(TourStep::ALL.len()), None);
     }
@@ -288,18 +277,14 @@ impl Tour {
     }
 }
 
-/// Room around the text, in points.
 const MARGIN: f32 = 9.0;
 
-/// Half width and height of the arrow, in points.
 const ARROW: f32 = 8.0;
 
-/// Side of a plate at which it points to its place.
+/// Side of a plate that has the arrow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Arrow {
-    /// It points nowhere.
     None,
-    /// Down, from the middle of the lower edge.
     Down,
 }
 
@@ -327,7 +312,7 @@ pub(super) fn plate(
         Arrow::Down => at.y - ARROW - size.y,
     };
     let plate = Rect::from_min_size(Pos2::new(at.x - 0.5 * size.x, top).round(), size);
-    // Nearly opaque, so that it is read over any picture.
+    // The plate is nearly opaque, so that you can read it over any picture.
     let fill = colors.panel.gamma_multiply(0.94);
     painter.rect(plate, 6, fill, Stroke::new(1.0, colors.line), StrokeKind::Inside);
     if arrow == Arrow::Down {
@@ -338,7 +323,7 @@ pub(super) fn plate(
     plate
 }
 
-/// Draws an outline around a part of the window, seen on light and on dark.
+/// Draws an outline around a part of the window. You see it on light and on dark.
 pub(super) fn outline(painter: &Painter, part: Rect) {
     for (width, color) in [(5.0, Color32::from_black_alpha(150)), (2.0, Color32::WHITE)] {
         painter.rect_stroke(part, 6, Stroke::new(width, color), StrokeKind::Middle);

@@ -10,18 +10,15 @@ use session::{Command, HeadOnCanvas, PenSample};
 use crate::pen::Twin;
 use crate::view::Placement;
 
-/// A brush that hovers over a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hover {
-    /// Surface below the brush.
     pub(super) surface: SurfaceId,
     /// Position, tilt and twist of the brush.
     pub(super) sample: Sample,
-    /// Name of the brush.
     pub(super) brush: String,
 }
 
-/// Cached mesh of a brush head that hovers, undeformed, over a level surface.
+/// Cached mesh of a hovering brush head, undeformed, over a level surface.
 #[derive(Debug)]
 pub(super) struct HoveringHead {
     spec: BrushSpec,
@@ -36,7 +33,7 @@ impl HoveringHead {
         Some(Self { spec: spec.clone(), head, level: Relief::flat(1, 1, cell_mm) })
     }
 
-    /// Whether this head was built for the same brush head and cell size.
+    /// Whether we built this head for the same brush head and cell size.
     pub(super) fn is_of(&self, spec: &BrushSpec, cell_mm: f64) -> bool {
         self.spec == *spec && self.level.cell_mm() == cell_mm
     }
@@ -55,13 +52,13 @@ impl HoveringHead {
     }
 }
 
-/// Twins of the open stroke. They are painted when it ends, because one stroke is open at a time.
+/// Twins of the open stroke. We paint them when it ends, because only one stroke can be open at a
+/// time.
 #[derive(Debug)]
 pub(super) struct TwinStrokes {
     twins: Vec<Twin>,
     tool: StrokeTool,
     brush: String,
-    /// Samples of the open stroke.
     samples: Vec<PenSample>,
 }
 
@@ -71,17 +68,15 @@ impl TwinStrokes {
         Self { twins, tool, brush: brush.to_owned(), samples: Vec::new() }
     }
 
-    /// The tool and the brush of the stroke.
     pub(super) fn tool(&self) -> (StrokeTool, &str) {
         (self.tool, &self.brush)
     }
 
-    /// Adds samples of the open stroke.
     pub(super) fn extend(&mut self, samples: &[PenSample]) {
         self.samples.extend_from_slice(samples);
     }
 
-    /// Commands that paint the twins, each set down by `down`; none for a stroke without samples.
+    /// Commands that paint the twins. `down` sets each down. A stroke without samples has none.
     pub(super) fn commands(&self, down: impl Fn() -> Command) -> Vec<Command> {
         if self.samples.is_empty() {
             return Vec::new();
@@ -129,22 +124,22 @@ impl TwinStrokes {
 /// Length of a dash of the outline, in points.
 pub(super) const DASH: f32 = 5.0;
 
-/// Dashes by which the outline moves in a second.
+/// The outline moves by this many dashes in a second.
 const DASHES_A_SECOND: f64 = 2.0;
 
-/// Time for which the dashes move after the last input, in seconds.
+/// The dashes move for this time after the last input, in seconds.
 const MOVES: f64 = 3.0;
 
 /// Dashes that move for a while after each input.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Dashes {
-    /// Time of the last input, in seconds; `None` before the first.
+    /// Time of the last input, in seconds.
     last: Option<f64>,
 }
 
 impl Dashes {
-    /// Way of the dashes at `now`, in points, and whether they still move; times are in seconds.
-    /// `happens` tells that there was input in this frame.
+    /// Movement of the dashes at `now`, in points, and whether they still move. Times are in
+    /// seconds. `happens` says whether there was input in this frame.
     pub(super) fn phase(&mut self, now: f64, happens: bool) -> (f32, bool) {
         if happens {
             self.last = Some(now);

@@ -1,5 +1,5 @@
-//! Intents: everything that keys, menus and toolbar can request. Also notes the rectangles of the
-//! window's parts, so that the tour can point at them.
+//! Intents: everything that you can request by keys, menus and toolbar. This also notes the
+//! rectangles of the window's parts, so that the tour can point at them.
 
 use eframe::egui::{Context, Id, Rect};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use crate::keymap::{Shortcut, name_of};
 use crate::panels::Mode;
 use crate::theme::ThemeChoice;
 
-/// One user action. Its name in the preferences follows from its name here.
+/// One user action. Preferences name it as this enum does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Intent {
@@ -30,7 +30,7 @@ pub enum Intent {
     ExportTimelapse,
     /// Opens a reference picture beside the canvas.
     OpenReference,
-    /// Lays the reference picture over the canvas, or takes it away.
+    /// Lays the reference picture over the canvas, or removes it.
     ReferenceOver,
     /// Lights the painting with a measured lamp.
     OpenLamp,
@@ -62,7 +62,7 @@ pub enum Intent {
     Wipe,
     /// Removes all paint from the palette.
     ScrapePalette,
-    /// Frames the part of the canvas that stays.
+    /// Lets you choose the part of the canvas that stays.
     Crop,
     /// Switches to the previous light.
     OtherLight,
@@ -86,7 +86,7 @@ pub enum Intent {
     Ruler,
     /// Shows the perspective guide, or takes it away.
     Perspective,
-    /// Lets strokes follow the guide that is shown, or not.
+    /// Switches whether strokes follow the guide.
     Snapping,
     /// Turns symmetry on or off.
     Symmetry,
@@ -114,21 +114,21 @@ pub enum Intent {
     Figures,
     /// Toggles full screen.
     FullScreen,
-    /// Selects the dark or the light theme, or that of the system.
+    /// Selects the dark or the light theme, or the theme of the system.
     Theme(ThemeChoice),
-    /// Makes everything large enough to be touched, or as small as usual.
+    /// Switches touch mode, which makes everything large enough for a finger.
     TouchTargets,
     /// Enlarges text and controls by one step.
     LargerInterface,
     /// Reduces text and controls by one step.
     SmallerInterface,
-    /// Puts all panels back to their usual places.
+    /// Moves all panels back to their usual places.
     StandardLayout,
     /// Shows or hides the table of keys.
     Keys,
     /// Shows or hides the first steps over the painting.
     FirstSteps,
-    /// Starts or goes on with the guided tour.
+    /// Starts or continues the guided tour.
     Tour,
 }
 
@@ -172,19 +172,19 @@ pub struct Entry {
     pub name: &'static str,
     /// Description shown in the tooltip and the table of keys.
     pub description: &'static str,
-    /// Shortcuts; the first is shown beside the name.
+    /// Shortcuts. The first stands beside the name.
     pub shortcuts: &'static [Shortcut],
 }
 
 impl Intent {
-    /// Name by which preferences keep its keys, such as `save-as`, `tool-paint` or `brush-3`.
+    /// Name of its keys in preferences, e.g. `save-as`, `tool-paint` or `brush-3`.
     #[must_use]
     pub fn name(self) -> String {
         name_of(&self)
     }
 }
 
-/// A part of the window that is pointed at.
+/// A part of the window that the tour points at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     /// Tubes beside the palette.
@@ -201,7 +201,7 @@ pub(super) fn note(context: &Context, part: Part, rect: Rect) {
     context.data_mut(|data| data.insert_temp(id(part), (rect, pass)));
 }
 
-/// Where a part was drawn in this frame or the one before; `None` if it is not shown.
+/// Where a part was drawn in this frame or the one before; `None` if you do not see it.
 pub(super) fn rect(context: &Context, part: Part) -> Option<Rect> {
     let pass = context.cumulative_pass_nr();
     let (rect, drawn): (Rect, u64) = context.data(|data| data.get_temp(id(part)))?;

@@ -1,8 +1,7 @@
 //! Translates key presses to intents while no text field has the focus, and shows the window in
-//! which keys are changed.
-//!
-//! A tool key selects its tool. If it is held while the pointer works, releasing it restores the
-//! previous tool, as in other painting programs.
+//! which you change keys.
+//! | A tool key selects its tool. If you hold it while you use the pointer, releasing it restores
+//! the previous tool, as in other painting programs.
 
 use std::sync::Arc;
 
@@ -19,7 +18,7 @@ use crate::language::{english, tr, tr_format};
 use crate::panels::{Mode, small_button};
 use crate::{floating, theme};
 
-/// Time after which a tool key counts as held, in seconds.
+/// A tool key counts as held after this time, in seconds.
 const HOLD_SECONDS: f64 = 0.35;
 
 /// State of the keyboard: held keys and temporary tools.
@@ -30,7 +29,6 @@ pub struct Keys {
     barrel: Option<Mode>,
 }
 
-/// A tool chosen by a held key, and the tool to restore on release.
 #[derive(Debug, Clone, Copy)]
 struct TemporaryTool {
     key: Key,
@@ -39,7 +37,6 @@ struct TemporaryTool {
     used: bool,
 }
 
-/// Keys held down.
 #[derive(Debug, Clone, Copy, Default)]
 struct Held {
     space: bool,
@@ -47,8 +44,7 @@ struct Held {
 }
 
 impl Keys {
-    /// Returns the intents of this frame's key events in order and removes those
-    /// events.
+    /// Returns the intents of this frame's key events in order and removes those events.
     pub fn read(&mut self, context: &Context, mode: Mode) -> Vec<Intent> {
         let mut intents = Vec::new();
         if context.text_edit_focused() {
@@ -124,7 +120,7 @@ impl Keys {
         intents
     }
 
-    /// Tool in use: the chosen one unless held keys or a pen button select another.
+    /// The chosen tool, unless held keys or a pen button select another one.
     #[must_use]
     pub fn mode(&self, chosen: Mode) -> Mode {
         let Held { space, modifiers } = self.held;
@@ -137,35 +133,30 @@ impl Keys {
         }
     }
 
-    /// Sets the tool of the pen's barrel button, `None` when it is released.
+    /// Sets the tool of the pen's barrel button. Pass `None` when you release it.
     pub fn barrel(&mut self, mode: Option<Mode>) {
         self.barrel = mode;
     }
 }
 
-/// The keys of the easel in use.
 fn table(context: &Context) -> Arc<KeyTable> {
     installed(context)
         .map_or_else(|| Arc::new(KeyTable::new(key_rows())), |keymap| keymap.easel.clone())
 }
 
-/// A key that another action has.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Conflict {
-    /// Action for which the key was pressed.
+    /// Action that you pressed the key for.
     name: String,
-    /// Key that it replaces.
+    /// Key of the action that the new one replaces.
     replaced: Option<Shortcut>,
-    /// The key that was pressed.
     pressed: Shortcut,
 }
 
-/// State of the window of keys.
 #[derive(Debug, Default)]
 pub(super) struct KeyEditor {
-    /// Table that is shown.
     pub(super) scope: Scope,
-    /// Word by which actions are searched.
+    /// Search word.
     pub(super) find: String,
     state: State,
 }
@@ -174,26 +165,25 @@ pub(super) struct KeyEditor {
 enum State {
     #[default]
     Idle,
-    /// The next key press is for this action, instead of this key.
+    /// The next key press is for this action. It replaces this key, if any.
     Waits { name: String, replaced: Option<Shortcut> },
-    /// Waits for the painter's decision.
+    /// Waits for your decision.
     Conflicts(Conflict),
     /// A sentence about the last press.
     Told(String),
 }
 
 impl KeyEditor {
-    /// Whether a row is waited for with this key.
+    /// Whether this row and key wait for a key press.
     pub(super) fn waits_for(&self, name: &str, key: Option<Shortcut>) -> bool {
         matches!(&self.state, State::Waits { name: own, replaced } if own == name && *replaced == key)
     }
 
-    /// Waits for a key for an action, instead of one of its keys or beside them.
+    /// Waits for a key for an action. It replaces one of its keys or is added.
     pub(super) fn record(&mut self, name: &str, replaced: Option<Shortcut>) {
         self.state = State::Waits { name: name.to_owned(), replaced };
     }
 
-    /// Waits for nothing.
     pub(super) fn stop(&mut self) {
         self.state = State::Idle;
     }
@@ -206,7 +196,7 @@ impl KeyEditor {
         word.is_empty() || texts.any(|text| text.to_lowercase().contains(&word))
     }
 
-    /// A sentence about the last key press, or what is waited for.
+    /// A sentence about the last key press, or about the press that we wait for.
     pub(super) fn message(&self) -> Option<&str> {
         match &self.state {
             State::Told(text) => Some(text),
@@ -215,7 +205,7 @@ impl KeyEditor {
         }
     }
 
-    /// The key that another action has, with a sentence that names both.
+    /// The key of another action, with a sentence that names both.
     pub(super) fn conflict(&self, table: &KeyTable) -> Option<(String, Conflict)> {
         let State::Conflicts(conflict) = &self.state else { return None };
         let owner = table.owner(&conflict.pressed)?;
@@ -227,15 +217,13 @@ impl KeyEditor {
         Some((text, conflict.clone()))
     }
 
-    /// Gives the key to the action for which it was pressed.
     pub(super) fn take(&mut self, conflict: &Conflict, table: &KeyTable, changes: &mut Changes) {
         let Conflict { name, replaced, pressed } = conflict;
         table.assign(name, *replaced, *pressed, changes);
         self.stop();
     }
 
-    /// Reads the key that is waited for, and removes this frame's key events. Does nothing while no
-    /// key is waited for.
+    /// If we wait for a key, this reads it and removes this frame's key events.
     pub(super) fn read(&mut self, context: &Context, keymap: &Keymap, changes: &mut Changes) {
         let State::Waits { name, replaced } = &self.state else { return };
         let name = name.clone();
@@ -275,19 +263,15 @@ impl KeyEditor {
     }
 }
 
-/// Width of the window, in points.
 const WIDTH: f32 = 760.0;
 
-/// Width of the column of names, in points.
 const TITLE: f32 = 124.0;
 
-/// Width of the column of keys, in points.
 const KEYS: f32 = 250.0;
 
-/// Width of the column of keys with large targets, in points.
 const KEYS_TOUCH: f32 = 344.0;
 
-/// Gestures and held keys, which cannot be changed, with descriptions.
+/// Gestures and held keys with descriptions. You cannot change these.
 const POINTER: &[(&str, &str)] = &[
     (english("Space + drag"), english("Moves the view; so does the middle button")),
     (english("Shift+Space + drag"), english("Rotates the view about its centre")),
@@ -310,7 +294,7 @@ const POINTER: &[(&str, &str)] = &[
     (english("Held tool key"), english("Restores the previous tool on release")),
 ];
 
-/// Shows the window while `open` is true; its close button and Escape clear `open`. Changes of keys
+/// Shows the window while `open` is true. The close button and Escape clear `open`. Changes of keys
 /// go to `changes`.
 pub(super) fn show(
     context: &Context,
@@ -350,7 +334,7 @@ pub(super) fn show(
     }
 }
 
-/// Workspace, search, and the way back to the standard.
+/// Shows workspace, search, and the way back to the standard.
 fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Changes) {
     ui.horizontal(|ui| {
         for (scope, name, tip) in [
@@ -378,7 +362,7 @@ fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Cha
     });
 }
 
-/// Tells about a pressed key that another action has, or that cannot be used.
+/// Explains that a pressed key belongs to another action, or cannot be used.
 fn notice(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Changes) {
     ui.horizontal(|ui| {
         ui.set_min_height(24.0);
@@ -414,7 +398,7 @@ fn key_row(
     });
 }
 
-/// Draws a description in the room that is left: its first line beside the keys, others below.
+/// Draws a description in the remaining room: its first line beside the keys, others below.
 fn description(ui: &mut Ui, text: &str) {
     let above = 0.5 * (ui.spacing().interact_size.y - ui.text_style_height(&TextStyle::Body));
     ui.vertical(|ui| {
@@ -423,7 +407,7 @@ fn description(ui: &mut Ui, text: &str) {
     });
 }
 
-/// The keys of a row, each with a button that removes it.
+/// Shows the keys of a row. Each has a button that removes it.
 fn keys_of_row(
     ui: &mut Ui,
     row: &KeyRow,
@@ -456,7 +440,6 @@ fn keys_of_row(
     }
 }
 
-/// Draws content in a column of this width.
 fn column<T>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> T) {
     let size = vec2(width, ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
@@ -465,7 +448,8 @@ fn column<T>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> T) {
     });
 }
 
-/// Button of a key, or without one the button that adds a key. A click waits for a key press.
+/// Button of a key, or without one the button that adds a key. If you click it, it waits for a key
+/// press.
 fn chip(ui: &mut Ui, row: &KeyRow, key: Option<Shortcut>, editor: &mut KeyEditor) {
     let waits = editor.waits_for(&row.name, key);
     let shown = match (waits, key) {
@@ -492,7 +476,7 @@ fn chip(ui: &mut Ui, row: &KeyRow, key: Option<Shortcut>, editor: &mut KeyEditor
     }
 }
 
-/// Gestures and keys that are held, which cannot be changed.
+/// Shows gestures and held keys.
 fn pointer(ui: &mut Ui, scope: Scope) {
     ui.add_space(6.0);
     ui.weak(tr("Pointer and held keys"));

@@ -1,11 +1,9 @@
-//! Performs the intents of menus, toolbar and keyboard, and connects the window to the system
-//! (title, dropped files, performance log, closing).
-//!
-//! Also draws what lies over the whole window: the windows of pen and own brushes, the sheet of
-//! panels in a narrow window, the quick palette, the first steps and the guided tour.
-//!
-//! [`Between`] holds what a stroke changes between two frames. A page in a browser shows that part
-//! by itself, because its frames take long without a graphics card.
+//! Performs the intents of menus, toolbar and keyboard, and connects the window to the system:
+//! title, dropped files, performance log, closing.
+//! | This also draws what lies over the whole window, e.g. the windows of pen and own brushes, the
+//! quick palette and the guided tour.
+//! | [`Between`] holds the changes by a stroke between two frames. A page in a browser shows only
+//! this part, because a whole frame takes long without a graphics card.
 
 use std::path::{Path, PathBuf};
 
@@ -43,13 +41,11 @@ use crate::theme::is_narrow;
 use crate::view::{HeadLines, Patch};
 use crate::{floating, keymap, pace, theme};
 
-/// Rotation of view or brush by one key press, in degrees.
+/// One key press rotates view or brush by this angle, in degrees.
 const TURN_DEG: f64 = 15.0;
 
-/// Factor of the brush size for one key press.
 const STEP: f64 = 1.15;
 
-/// Factor of the zoom for one key press.
 const ZOOM: f64 = std::f64::consts::SQRT_2;
 
 impl Studio {
@@ -57,9 +53,6 @@ impl Studio {
     pub(super) fn perform(&mut self, intent: Intent, context: &Context) {
         let area = self.canvas.rect();
         let density = context.pixels_per_point();
-        let zoom = |studio: &mut Self, factor: f64| {
-            studio.canvas.view.zoom_by(factor, area.center(), area, density);
-        };
         match intent {
             Intent::New => self.file(FileRequest::New),
             Intent::Open => self.file(FileRequest::Open(None)),
@@ -80,7 +73,7 @@ impl Studio {
             Intent::BrushSets => self.visible.brush_sets ^= true,
             Intent::Preferences => self.file(FileRequest::Preferences),
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
-            // Over a picture that is drawn on, its last line.
+            // Over a picture that you draw on, undo takes its last line back.
             Intent::Undo if self.panels.reference.undo_under_pointer() => {}
             Intent::Undo => self.action(Action::Undo {}),
             Intent::Redo => self.action(Action::Redo {}),
@@ -109,8 +102,10 @@ impl Studio {
             Intent::Perspective => self.toggle_guide(GuideKind::Perspective),
             Intent::Snapping => self.toggle_snapping(),
             Intent::Symmetry => self.toggle_symmetry(),
-            Intent::ZoomIn => zoom(self, ZOOM),
-            Intent::ZoomOut => zoom(self, 1.0 / ZOOM),
+            Intent::ZoomIn => self.canvas.view.zoom_by(ZOOM, area.center(), area, density),
+            Intent::ZoomOut => {
+                self.canvas.view.zoom_by(1.0 / ZOOM, area.center(), area, density);
+            }
             Intent::Fit => {
                 self.canvas.fit();
                 self.palette.fit();
@@ -183,8 +178,8 @@ impl Studio {
         saved.dry_share = self.tools.dry_share;
     }
 
-    /// Opens a file according to its kind, where it belongs: colours in the panel of colours, scenes in
-    /// their workspace, paintings, recordings and pictures at the easel.
+    /// Opens a file where its kind belongs. For example, a scene opens in the workspace of scenes,
+    /// and a painting at the easel.
     pub fn open_path(&mut self, context: &Context, path: PathBuf) {
         if Eyedropper::takes(&path) {
             self.panels.eyedropper.open_swatches(&path);
@@ -223,12 +218,13 @@ impl Studio {
         }
     }
 
-    /// The scene that a dropped file is opened as, if it is: while a scene is shown, a picture is
-    /// one too.
+    /// The subject if the dropped file opens as a scene. A picture does so only while a scene is
+    /// shown.
     fn scene_subject(&self, path: &Path) -> Option<Subject> {
         let subject = Subject::from_text(path.to_str()?);
-        let picture = || self.shows_volumes && has_picture_ending(path);
-        subject.or_else(|| picture().then(|| Subject::of_file(path)))
+        subject.or_else(|| {
+            (self.shows_volumes && has_picture_ending(path)).then(|| Subject::of_file(path))
+        })
     }
 
     pub(super) fn update_title(&mut self, context: &Context) {
@@ -264,7 +260,6 @@ impl Studio {
         context.request_repaint_after(Duration::from_secs(1));
     }
 
-    /// Draws the windows of the pen and of own brushes, if they are open.
     pub(super) fn draw_pen_windows(&mut self, context: &Context) {
         let brush = self.tools.brush.clone();
         let label = self.panels.brushes.label(&brush).to_owned();
@@ -320,12 +315,12 @@ impl Studio {
         self.visible.sheet && self.visible.panels && is_narrow(context)
     }
 
-    /// Whether the panels are seen: in their columns, or on the sheet of a narrow window.
+    /// Whether you can see the panels, in their columns or on the sheet of a narrow window.
     pub(super) fn shows_panels(&self, context: &Context) -> bool {
         if is_narrow(context) { self.shows_sheet(context) } else { self.visible.panels }
     }
 
-    /// Shows the panels, or hides them: in a narrow window those of the sheet alone.
+    /// Shows or hides the panels. In a narrow window this concerns only the sheet.
     pub(super) fn toggle_panels(&mut self, context: &Context) {
         if is_narrow(context) && self.visible.panels {
             self.visible.sheet ^= true;
@@ -334,7 +329,7 @@ impl Studio {
         }
     }
 
-    /// Draws the panels of both columns into the whole of `ui`, one column below the other.
+    /// Draws the panels of both columns below each other.
     pub(super) fn draw_sheet(&mut self, ui: &mut Ui) {
         let Some(painting) = self.painting.clone() else { return };
         let sides = Side::ALL.into_iter().filter(|side| self.panels.has_column(*side));
@@ -354,21 +349,24 @@ impl Studio {
         self.panels.drop_dragged(ui.ctx(), drawn, Rect::NOTHING);
     }
 
-    /// Opens the quick palette at the pointer, or in the middle of the canvas if the pointer is over
-    /// no surface; closes it if it is open. Never opens over a dialog or during a stroke.
+    /// Opens the quick palette at the pointer, or in the middle of the canvas if the pointer is
+    /// elsewhere. Closes it if it is open. It never opens over a dialog or during a stroke.
     pub(super) fn toggle_quick_palette(&mut self, context: &Context) {
         if self.quick.take().is_some() {
             return;
         }
         let pointer = context.input(|input| input.pointer.hover_pos());
-        let over = |point: &Pos2| {
-            self.visible_surfaces().into_iter().any(|one| self.view(one).rect().contains(*point))
-        };
-        let point = pointer.filter(over).unwrap_or_else(|| self.canvas.rect().center());
+        let point = pointer
+            .filter(|point| {
+                self.visible_surfaces()
+                    .into_iter()
+                    .any(|one| self.view(one).rect().contains(*point))
+            })
+            .unwrap_or_else(|| self.canvas.rect().center());
         self.open_quick_palette(context, point, false);
     }
 
-    /// Opens the quick palette around a point, unless something else has the painter's attention.
+    /// Opens the quick palette around a point, unless e.g. a dialog is open.
     pub(super) fn open_quick_palette(&mut self, context: &Context, point: Pos2, by_button: bool) {
         let Some(painting) = self.painting.clone() else { return };
         let busy = self.files.has_dialog()
@@ -387,7 +385,7 @@ impl Studio {
         context.request_repaint();
     }
 
-    /// Draws the quick palette if it is open, and carries out the answer.
+    /// Draws the quick palette if it is open, and does what you chose in it.
     pub(super) fn show_quick_palette(&mut self, context: &Context) {
         let Some(quick) = &self.quick else { return };
         let Some(answer) =
@@ -411,8 +409,9 @@ impl Studio {
         }
     }
 
-    /// Passes on what the stylus reported, without waiting for a frame. Returns whether its stroke is
-    /// one that [`Studio::between`] shows; if not, nothing is done, and a frame is needed.
+    /// Passes on the reports of the stylus without waiting for a frame. Returns whether
+    /// [`Studio::between`] can show this stroke. If it cannot, this call does nothing, and you must
+    /// draw a frame.
     pub fn take_stylus(&mut self, context: &Context) -> bool {
         let shown = self.is_shown_between(context);
         if shown {
@@ -424,9 +423,9 @@ impl Studio {
         shown
     }
 
-    /// Changes by the open stroke since the last call or frame. `None` if a frame of the whole window
-    /// must show them; such a frame is asked for if there was none for a while. Must not be called
-    /// during a frame.
+    /// Changes by the open stroke since the last call or frame. `None` if you must draw a frame of
+    /// the whole window instead. This asks for such a frame if there was none for a while. Do not
+    /// call this during a frame.
     pub fn between(&mut self, context: &Context) -> Option<Between> {
         if !self.take_stylus(context) {
             self.end_between(context);
@@ -454,7 +453,7 @@ impl Studio {
         Some(Between { patch: self.canvas.patch(region), head })
     }
 
-    /// Whether the open stroke changes nothing but paint and head on the canvas.
+    /// Whether the open stroke changes only paint and brush head on the canvas.
     fn is_shown_between(&self, context: &Context) -> bool {
         let one_light = self
             .painting
@@ -474,14 +473,14 @@ impl Studio {
             && !self.shows_sheet(context)
     }
 
-    /// Lets frames be as frequent as ever.
+    /// Allows frequent frames again.
     fn end_between(&self, context: &Context) {
         if pace::set_rare(context, None) {
             context.request_repaint();
         }
     }
 
-    /// Draws the lines over canvas, palette and tubes. They take no clicks.
+    /// Draws hints over canvas, palette and tubes. You can click through them.
     pub(super) fn draw_first_steps(&self, ui: &Ui) {
         let busy = self.tour.is_running() || self.crop.is_some();
         if !self.visible.first_steps || self.painting.is_none() || busy {
@@ -490,7 +489,7 @@ impl Studio {
         let painter = ui.painter();
         let canvas = self.canvas.rect();
         let width = WIDTH.min(canvas.width() - 16.0);
-        // Messages stand at the top of the window, and would cover the lines.
+        // Messages at the top of the window would cover the hints.
         let covered = bottom_of_notices(ui.ctx()).unwrap_or(f32::MIN);
         let top = canvas.top().max(covered) + 14.0;
         let lines = canvas_lines(ui.ctx());
@@ -498,34 +497,33 @@ impl Studio {
         if !self.visible.palette || !self.visible.panels {
             return;
         }
-        let above = |part: Rect| pos2(part.center().x, part.top());
         let palette = self.palette.rect();
         let mixing = palette_lines(ui.ctx());
         let mut arrows: Vec<(Pos2, f32, &[String])> =
-            vec![(above(palette), palette.width(), &mixing)];
+            vec![(pos2(palette.center().x, palette.top()), palette.width(), &mixing)];
         let filling = TUBES.map(|line| tr(line).to_owned());
         if let Some(tubes) = intent::rect(ui.ctx(), Part::Tubes) {
-            arrows.push((above(tubes), tubes.width(), &filling));
+            arrows.push((pos2(tubes.center().x, tubes.top()), tubes.width(), &filling));
         }
         for (tip, width, lines) in arrows {
             plate(painter, tip, Arrow::Down, width.min(WIDTH), lines);
         }
     }
 
-    /// Starts the tour, or goes on where it was left.
+    /// Starts the tour, or continues where you left it.
     pub(super) fn start_tour(&mut self) {
         self.tour.start();
         self.visible.panels = true;
         self.visible.palette = true;
     }
 
-    /// Shows the tour and carries out its buttons. Escape leaves it.
+    /// Shows the tour and handles its buttons. Escape leaves it.
     pub(super) fn show_tour(&mut self, context: &Context) {
         if !self.tour.is_running() {
             return;
         }
         match &self.painting {
-            // What a recording paints is not done by the painter.
+            // While a recording plays, it paints, not you. The tour does not count this.
             _ if self.files.is_playing() => self.tour.forget(),
             Some(painting) => {
                 self.tour.observe(Facts::of(painting));
@@ -541,7 +539,8 @@ impl Studio {
         let canvas = self.canvas.rect();
         let at_canvas = (canvas.right_top() + vec2(-GAP, GAP), Align2::RIGHT_TOP);
         let (at, pivot) = place.map_or(at_canvas, |(_, at, pivot)| (at, pivot));
-        // Beside the toolbar, whose buttons it would hide, and above the status line.
+        // The card stands beside the toolbar, so that you can use its buttons, and above the status
+        // line.
         let room = floating::room(context);
         let left = self.canvas.rect().left().clamp(room.left(), room.right());
         let area = Area::new(Id::unique("tour"))
@@ -565,8 +564,8 @@ impl Studio {
         }
     }
 
-    /// Place that a step points at, and where its card is: a corner or side of the card, and the
-    /// point that it lies at.
+    /// The place that a step points at and how its card is aligned there: a corner or side of the
+    /// card, and the point that it touches.
     fn place_of(&self, step: TourStep, context: &Context) -> Option<(Rect, Pos2, Align2)> {
         let above =
             |place: Rect| (place, place.center_top() - vec2(0.0, GAP), Align2::CENTER_BOTTOM);
@@ -574,7 +573,7 @@ impl Studio {
             let place = intent::rect(context, Part::Tab(tab.name()))?;
             let canvas = self.canvas.rect();
             let left = canvas.right() - GAP;
-            // Beside a tab low in the window the card would hide the tubes.
+            // Beside a tab low in the window, the card would hide the tubes.
             if place.top() > canvas.center().y {
                 return Some((place, Pos2::new(left, canvas.bottom() - GAP), Align2::RIGHT_BOTTOM));
             }
@@ -596,7 +595,6 @@ impl Studio {
         }
     }
 
-    /// Draws the card. Returns the button that was pressed.
     fn tour_card(&self, ui: &mut Ui) -> Option<Pressed> {
         ui.set_width(TOUR_CARD_WIDTH);
         let number = self.tour.number();
@@ -643,7 +641,7 @@ impl Studio {
         pressed
     }
 
-    /// Draws a dot for each step, full if it was done.
+    /// One dot for each step; full if it is done.
     fn dots(&self, ui: &mut Ui) {
         let colors = theme::colors(ui.ctx());
         ui.spacing_mut().item_spacing.x = 3.0;
@@ -659,19 +657,19 @@ impl Studio {
     }
 }
 
-/// Least time between two frames of the whole window during such a stroke; the panels' figures change
-/// as often.
+/// Shortest time between two frames of the whole window during such a stroke. The figures in the
+/// panels change as often.
 const RARE: Duration = Duration::from_millis(500);
 
-/// The time instead of [`RARE`] while the paint is behind the pen.
+/// Used instead of [`RARE`] while the paint is behind the pen.
 const RARE_BEHIND: Duration = Duration::from_millis(1500);
 
-/// The part of the window that a stroke has changed.
+/// The part of the window that a stroke has changed. You get it from [`Studio::between`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Between {
-    /// Its pixels without the head; without extent if nothing changed.
+    /// The changed pixels without the head; empty if nothing changed.
     pub patch: Patch,
-    /// The head over them, which lies within them.
+    /// The head. It lies within the patch, over its pixels.
     pub head: HeadLines,
 }
 
@@ -685,7 +683,6 @@ fn is_covered(context: &Context, region: Rect) -> bool {
     })
 }
 
-/// Lines over the canvas, with the keys in use.
 fn canvas_lines(context: &Context) -> [String; 3] {
     let dry = by_key(context, Intent::Dry, tr("Edit, Dry"));
     [
@@ -695,31 +692,27 @@ fn canvas_lines(context: &Context) -> [String; 3] {
     ]
 }
 
-/// Lines over the palette, with the keys in use.
 fn palette_lines(context: &Context) -> [String; 2] {
     let wash = by_key(context, Intent::Wash, tr("Edit, Wash the brush"));
     [tr("Mix here with the brush.").to_owned(), tr_format!("{wash} washes it.", wash)]
 }
 
-/// The key of an intent, or its place in the menus if it has none.
+/// The key of an intent, or its place in the menus if it has no key.
 fn by_key(context: &Context, intent: Intent, menu: &str) -> String {
     text(context, &intent.name()).filter(|key| !key.is_empty()).unwrap_or_else(|| menu.to_owned())
 }
 
-/// Lines over the tubes.
 const TUBES: [&str; 2] =
     ["Double click a tube: its paint is on the brush.", "Click, then click the palette: a heap."];
 
-/// Largest width of the lines over the canvas, in points.
+/// Largest width of the hints over the canvas, in points.
 const WIDTH: f32 = 440.0;
 
-/// Width of the card's contents, in points.
 const TOUR_CARD_WIDTH: f32 = 392.0;
 
-/// Distance of the card from the place that it speaks of, in points.
+/// Distance from the card to the place that it points at, in points.
 const GAP: f32 = 12.0;
 
-/// A button of the card.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Pressed {
     Back,

@@ -15,7 +15,7 @@ use crate::language::tr_format;
 use crate::panels::Tools;
 use crate::theme;
 
-/// Most mixtures in their ring: more would be too narrow for a finger.
+/// Most mixtures in their ring. If there were more, they would be too narrow for a finger.
 const MIXTURES: usize = 14;
 
 /// Sizes of a brush, in mm.
@@ -26,24 +26,18 @@ const SIZES_MM: [f64; 10] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 18.0, 28.0, 40.
 pub(super) enum QuickChoice {
     /// Loads the brush from the tube of a slot.
     Tube {
-        /// Slot of the palette.
         slot: usize,
-        /// Name of its pigment.
         name: String,
-        /// Colour of the tube.
         color: [u8; 3],
         /// Colour of its tint with white.
         tint: Option<[u8; 3]>,
     },
     /// Loads the brush with a mixture.
     Mixture {
-        /// Name, or what it consists of.
+        /// Name, or its recipe as text.
         name: String,
-        /// Parts by pigment.
         recipe: Recipe,
-        /// Share of medium.
         vehicle: f64,
-        /// Colour of the mixture.
         color: [u8; 3],
     },
     /// Makes the brush as wide as this, in mm.
@@ -51,7 +45,7 @@ pub(super) enum QuickChoice {
 }
 
 impl QuickChoice {
-    /// Name for accessibility and for the label below the menu.
+    /// Name for screen readers, also shown below the menu.
     pub(super) fn name(&self) -> String {
         match self {
             Self::Tube { name, .. } => tr_format!("quick {name}", name),
@@ -60,7 +54,6 @@ impl QuickChoice {
         }
     }
 
-    /// Words for the painter.
     pub(super) fn label(&self) -> String {
         match self {
             Self::Tube { name, .. } | Self::Mixture { name, .. } => name.clone(),
@@ -69,8 +62,8 @@ impl QuickChoice {
     }
 }
 
-/// Choices from the inner to the outer ring: tubes, mixtures that can be loaded now, sizes.
-/// Mixtures are the ones loaded last, then those of the list.
+/// Choices from the inner to the outer ring: tubes, mixtures that you can load now, sizes. Mixtures
+/// are those loaded last, then those of the list.
 pub(super) fn quick_choices(
     painting: &PaintingState,
     tools: &Tools,
@@ -106,17 +99,14 @@ fn mixtures(painting: &PaintingState, tools: &Tools, book: &SwatchBook) -> Vec<Q
     found
 }
 
-/// Largest angle that one piece of a wedge's edge spans, in radians.
+/// Largest angle of one piece of a wedge's edge, in radians.
 const PIECE: f32 = 0.08;
 
 /// A ring of equal wedges around a centre, clockwise from the top.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Ring {
-    /// Radius of the inner edge, in points.
     inner: f32,
-    /// Radius of the outer edge, in points.
     outer: f32,
-    /// Number of wedges.
     count: usize,
 }
 
@@ -165,7 +155,7 @@ impl Ring {
         let to = self.angle(index as f32 + 0.5);
         let pieces = ((to - from) / PIECE).ceil().max(1.0) as usize;
         let point = |radius: f32, share: f32| {
-            // A gap of one point on either side, at any radius.
+            // The gap is one point on either side, at any radius.
             let gap = 1.0 / radius;
             let angle = from + gap + (to - from - 2.0 * gap) * share;
             center + radius * direction(angle)
@@ -176,7 +166,7 @@ impl Ring {
             .collect()
     }
 
-    /// Angle clockwise from the top at a number of wedges.
+    /// Angle clockwise from the top after this number of wedges.
     fn angle(&self, wedges: f32) -> f32 {
         TAU * wedges / self.count as f32
     }
@@ -186,22 +176,21 @@ fn direction(angle: f32) -> Vec2 {
     vec2(angle.sin(), -angle.cos())
 }
 
-/// Radius of the middle, in points.
 const MIDDLE: f32 = 46.0;
 
-/// Widths of the rings of tubes, mixtures and sizes, in points: each is wider than a finger.
+/// Widths of the rings of tubes, mixtures and sizes, in points. Each is wider than a finger.
 const WIDTHS: [f32; 3] = [58.0, 52.0, 48.0];
 
-/// Share of the width of a tube's wedge that shows its masstone; the rest shows its tint.
+/// A tube's wedge shows the masstone over this share of the width, and its tint over the rest.
 const MASSTONE: f32 = 0.68;
 
-/// Side of the target of a wedge for accessibility, in points.
+/// Side of a wedge's target for screen readers, in points.
 const TARGET: f32 = 44.0;
 
-/// Time after which an opening key counts as held, in seconds.
+/// An opening key counts as held after this time, in seconds.
 const HOLD_SECONDS: f64 = 0.35;
 
-/// Largest dot that stands for a brush size, as a radius in points.
+/// Largest dot for a brush size, as a radius in points.
 const LARGEST_DOT: f32 = 19.0;
 
 /// The open menu.
@@ -209,19 +198,18 @@ const LARGEST_DOT: f32 = 19.0;
 pub(super) struct QuickPalette {
     center: Pos2,
     opened: f64,
-    /// Whether it was opened by the secondary button, whose release over a wedge chooses.
+    /// Whether you opened it with the secondary button. You then choose by releasing this over a
+    /// wedge.
     by_button: bool,
     choices: [Vec<QuickChoice>; 3],
-    /// Colour in the middle: what the brush holds.
+    /// Colour in the middle: the paint on the brush.
     held: Option<[u8; 3]>,
 }
 
-/// The painter's answer.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum QuickAnswer {
-    /// One of the choices.
     Chosen(QuickChoice),
-    /// Nothing; the menu closes.
+    /// You chose nothing, and the menu closes.
     Closed,
 }
 
@@ -235,9 +223,9 @@ impl QuickPalette {
         held: Option<[u8; 3]>,
     ) -> Self {
         let room = context.content_rect().shrink(radius(&choices) + 4.0);
-        let within = |at: f32, low: f32, high: f32| {
+        fn within(at: f32, low: f32, high: f32) -> f32 {
             if low < high { at.clamp(low, high) } else { 0.5 * (low + high) }
-        };
+        }
         let center = pos2(
             within(point.x, room.left(), room.right()),
             within(point.y, room.top(), room.bottom()),
@@ -246,8 +234,8 @@ impl QuickPalette {
         Self { center, opened, by_button, choices, held }
     }
 
-    /// Draws the menu over the whole window, which takes no other input meanwhile. `opening` are the
-    /// keys that open it; one that was held chooses when it is let go.
+    /// Draws the menu over the whole window, which takes no other input meanwhile. `opening` are
+    /// the keys that open it. If you held one, you choose by releasing it.
     pub(super) fn show(&self, context: &Context, opening: &[Key]) -> Option<QuickAnswer> {
         let whole = context.content_rect();
         let area = Area::new(Id::unique("quick palette")).order(Order::Foreground);
@@ -260,7 +248,7 @@ impl QuickPalette {
         by_name.or_else(|| self.answer(context, opening))
     }
 
-    /// The answer by pointer and keys.
+    /// Your choice by pointer or keys.
     fn answer(&self, context: &Context, opening: &[Key]) -> Option<QuickAnswer> {
         let (escape, let_go, released, secondary, pointer, now) = context.input(|input| {
             let pointer = &input.pointer;
@@ -273,7 +261,7 @@ impl QuickPalette {
                 input.time,
             )
         });
-        // The click on a menu entry that opened it is still being let go.
+        // You are still releasing the click on the menu entry that opened this.
         if now <= self.opened {
             return None;
         }
@@ -286,7 +274,7 @@ impl QuickPalette {
         if !(released || dragged || (let_go && held && chosen.is_some())) {
             return None;
         }
-        // A short click of the secondary button leaves the menu open.
+        // If you click the secondary button shortly, the menu stays open.
         let inside = pointer.is_some_and(|point| point.distance(self.center) < MIDDLE);
         if inside && dragged && !released {
             return None;
@@ -294,7 +282,7 @@ impl QuickPalette {
         Some(chosen.map_or(QuickAnswer::Closed, QuickAnswer::Chosen))
     }
 
-    /// Rings with their choices from the inside; empty ones are left out.
+    /// Rings with their choices from the inside, without empty ones.
     fn rings(&self) -> impl Iterator<Item = (Ring, &Vec<QuickChoice>)> {
         let mut inner = MIDDLE;
         let filled = WIDTHS.iter().zip(&self.choices).filter(|(_, choices)| !choices.is_empty());
@@ -309,7 +297,7 @@ impl QuickPalette {
         self.rings().find_map(|(ring, choices)| choices.get(ring.wedge_at(point - self.center)?))
     }
 
-    /// Draws all wedges. Returns the choice that was activated by its name.
+    /// Draws all wedges. Returns the choice that a screen reader activated.
     fn draw(&self, ui: &mut Ui) -> Option<QuickChoice> {
         let colors = theme::colors(ui.ctx());
         let painter = ui.painter().clone();
@@ -369,7 +357,8 @@ impl QuickPalette {
         ui.painter().text(at, Align2::CENTER_CENTER, format!("{mm}"), font, colors.text);
     }
 
-    /// Draws the name of the choice below the pointer under the menu, or over it at the lower edge.
+    /// Draws the name of the choice below the pointer. It stands under the menu, or over it at the
+    /// lower edge.
     fn label(&self, ui: &Ui, words: &str) {
         let colors = theme::colors(ui.ctx());
         let whole = ui.ctx().content_rect();

@@ -1,5 +1,5 @@
-//! The panels in the columns at both sides of the window. A new panel is one line in the table
-//! here, and its [`Tab`].
+//! The panels in the columns at both sides of the window. To add a panel, write one line in the
+//! table here, and its [`Tab`].
 
 use std::collections::BTreeMap;
 
@@ -23,15 +23,12 @@ use crate::panels::wheel::Wheel;
 use crate::panels::{PanelContext, history};
 use crate::theme;
 
-/// Draws a panel.
 type Show = fn(&mut Panels, &mut Ui, &mut PanelContext<'_>, &Files);
 
-/// A panel of the columns.
 pub(super) struct SidePanel {
     pub(super) tab: Tab,
-    /// Name in the preferences, which never changes.
+    /// Name in the preferences. It never changes.
     pub(super) key: &'static str,
-    /// Name on the tab.
     pub(super) name: &'static str,
     pub(super) description: &'static str,
     /// Index of its group in the standard layout.
@@ -48,8 +45,7 @@ const fn panel(
     SidePanel { tab, key, name, description, group, show }
 }
 
-/// All panels. Those of the first group are needed while painting, those of the second are
-/// looked at occasionally.
+/// All panels. You need those of the first group while you paint, and the others from time to time.
 #[rustfmt::skip]
 const PANELS: [SidePanel; 8] = [
     panel((Tab::Brush, 0), "brush", ("Brush", "List of brushes, head and paint of the selected brush"), |panels, ui, cx, _| panels.brushes.show(ui, cx)),
@@ -63,17 +59,15 @@ const PANELS: [SidePanel; 8] = [
 ];
 
 impl SidePanel {
-    /// Whether all of it should be seen, because it is needed while painting.
+    /// Whether you should see all of it, because you need it while you paint.
     pub(super) fn is_whole(&self) -> bool {
         self.group == 0
     }
 
-    /// The panel of a tab.
     pub(super) fn of(tab: Tab) -> Option<&'static Self> {
         PANELS.iter().find(|panel| panel.tab == tab)
     }
 
-    /// The panel with a key.
     pub(super) fn with_key(key: &str) -> Option<&'static Self> {
         PANELS.iter().find(|panel| panel.key == key)
     }
@@ -89,9 +83,9 @@ impl Tab {
 
 /// The standard layout: two groups at the right.
 pub(super) fn standard() -> Arrangement {
-    let keys = |group: usize| -> Vec<&str> {
+    fn keys(group: usize) -> Vec<&'static str> {
         PANELS.iter().filter(|panel| panel.group == group).map(|panel| panel.key).collect()
-    };
+    }
     let groups: Vec<Vec<&str>> = (0..).map(keys).take_while(|keys| !keys.is_empty()).collect();
     let groups: Vec<&[&str]> = groups.iter().map(Vec::as_slice).collect();
     Arrangement::in_right_column(&groups)
@@ -110,7 +104,7 @@ pub enum Tab {
     Color,
     /// Colours that the tubes can mix.
     Wheel,
-    /// Mixtures that the painter keeps.
+    /// Mixtures that you keep.
     Swatches,
     /// List of actions.
     History,
@@ -118,7 +112,7 @@ pub enum Tab {
     Files,
 }
 
-/// State of all panels, and where they stand.
+/// State of all panels, and their arrangement.
 #[derive(Debug, Default)]
 pub struct Panels {
     /// State of the brush panel.
@@ -134,29 +128,26 @@ pub struct Panels {
     layers: Layers,
     pub(super) light: LightPanel,
     history: History,
-    /// Columns, groups and tabs.
     pub(super) arrangement: Arrangement,
     /// Heights of the panels' contents in the last frame, in points.
     pub(super) content_heights: BTreeMap<Tab, f32>,
-    /// Counter of selections, and its value when each panel was selected last.
+    /// Counter of selections, and its value when you last selected each panel.
     pub(super) uses: u64,
     pub(super) last_used: BTreeMap<Tab, u64>,
 }
 
-/// Share of a group's height at its upper and at its lower edge that takes a panel as a new
-/// group.
+/// If you drop a panel on this share of a group's height at its upper or lower edge, it becomes a
+/// new group.
 const EDGE: f32 = 0.25;
 
-/// Longest such edge, in points.
+/// Largest height of this edge, in points.
 const LONGEST_EDGE: f32 = 48.0;
 
-/// Drag payload of a tab.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DraggedPanel {
     pub(super) key: &'static str,
 }
 
-/// A group on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DrawnGroup {
     pub(super) side: Side,
@@ -166,9 +157,9 @@ pub(super) struct DrawnGroup {
 
 /// The place at a point of the window, and the rectangle that marks it.
 fn place_at(point: Pos2, groups: &[DrawnGroup], columns: &[(Side, Rect)]) -> Option<(Place, Rect)> {
-    let line = |rect: Rect, y: f32| {
+    fn line(rect: Rect, y: f32) -> Rect {
         Rect::from_min_max(pos2(rect.left(), y - 2.0), pos2(rect.right(), y + 2.0))
-    };
+    }
     if let Some(&DrawnGroup { side, index, rect }) =
         groups.iter().find(|group| group.rect.contains(point))
     {
@@ -183,7 +174,7 @@ fn place_at(point: Pos2, groups: &[DrawnGroup], columns: &[(Side, Rect)]) -> Opt
     }
     let &(side, rect) = columns.iter().find(|(_, rect)| rect.contains(point))?;
     let of_side: Vec<&DrawnGroup> = groups.iter().filter(|group| group.side == side).collect();
-    // Between two groups, or below the last one.
+    // The place lies between two groups, or below the last one.
     let index = of_side.iter().take_while(|group| group.rect.bottom() <= point.y).count();
     let marker = match of_side.get(index) {
         Some(group) => line(rect, group.rect.top()),
@@ -193,8 +184,8 @@ fn place_at(point: Pos2, groups: &[DrawnGroup], columns: &[(Side, Rect)]) -> Opt
     Some((Place::Before(side, index), marker))
 }
 
-/// Marks the place below the pointer while a panel is dragged. Returns the panel's key and its
-/// new place when it is released.
+/// Marks the place below the pointer while you drag a panel. When you release it, this returns the
+/// panel's key and its new place.
 pub(super) fn dropped(
     context: &Context,
     groups: &[DrawnGroup],
@@ -221,10 +212,10 @@ pub(super) fn dropped(
     None
 }
 
-/// Change of an arrow key, in points.
+/// An arrow key changes the place by this, in points.
 const STEP: f32 = 8.0;
 
-/// A line along which two parts of the window meet.
+/// A line between two parts of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Line {
     /// Between parts side by side.
@@ -233,8 +224,8 @@ pub(super) enum Line {
     Level,
 }
 
-/// Adds an edge in `rect` that is dragged, or moved by the arrow keys. Returns how far it
-/// moves in this frame, in points to the right or downwards.
+/// Adds an edge in `rect` that you can drag, or move with the arrow keys. Returns how far it moves
+/// in this frame, in points to the right or downwards.
 pub(super) fn divider(ui: &Ui, rect: Rect, name: &str, line: Line) -> f32 {
     let response = ui.interact(rect, Id::unique(("divider", name)), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, name));

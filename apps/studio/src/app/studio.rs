@@ -37,7 +37,7 @@ use crate::pen::{Device, DrawingAids, Pen};
 use crate::view::{Outline, SurfaceView, ViewState, fill_rect};
 use crate::{floating, pace, theme, view};
 
-/// The studio window, independent of the window system.
+/// The studio window. It does not depend on the window system, so you can test it without one.
 #[derive(Debug)]
 pub struct Studio {
     /// Selected tool, brush and tool settings.
@@ -56,20 +56,19 @@ pub struct Studio {
     pub panels: Panels,
     /// File dialogs, tasks and preferences.
     pub files: Files,
-    /// The crop that is being framed.
+    /// The crop that you are framing.
     pub crop: Option<CropTool>,
-    /// The workspace of scenes, from the first scene on.
+    /// The workspace of scenes, once the first scene was opened.
     pub volumes: Option<Volumes>,
     /// Whether the workspace of scenes is shown instead of the easel.
     pub shows_volumes: bool,
     pub(super) worker: Worker,
     pub(super) painting: Option<Arc<PaintingState>>,
     pub(super) keys: Keys,
-    /// Tables of keys in use.
     pub(super) keymap: Keymap,
-    /// Language and changes with which the tables were made; `None` before the first frame.
+    /// Language and changes that the tables were made with; `None` before the first frame.
     pub(super) keymap_changes: Option<(Language, Changes)>,
-    /// Faults of the changes that the painter was told.
+    /// Faults in the key changes that we have already reported.
     pub(super) key_faults: Vec<String>,
     pub(super) key_editor: KeyEditor,
     pub(super) pen_window: PenWindow,
@@ -77,7 +76,6 @@ pub struct Studio {
     pub(super) frames: Frames,
     pub(super) figures: Performance,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
-    /// Rectangle that the head covered when it was drawn last, in points.
     pub(super) head_rect: Option<Rect>,
     pub(super) hover: Option<Hover>,
     pub(super) hovering: Option<HoveringHead>,
@@ -86,25 +84,19 @@ pub struct Studio {
     pub(super) requests: Vec<Request>,
     pub(super) event_count: u64,
     pub(super) last_recording: Option<(u64, Arc<StrokeScript>)>,
-    /// Surface of the last pick request, and its x and y in mm as the bits of an `f64`. A
-    /// request for the same place is not sent again.
+    /// The last pick request: surface, and x and y in mm as the bits of an `f64`. We do not send a
+    /// request for the same place again.
     pub(super) last_pick: Option<(SurfaceId, u64, u64)>,
-    /// Points of the mask that is being drawn, in cells of the canvas.
     pub(super) mask_points: Vec<[f64; 2]>,
-    /// Movement of the dashes around the mask.
     pub(super) mask_dashes: Dashes,
-    /// Where the handles of the drawing aids were drawn, in the window.
+    /// Where the handles of the drawing aids were drawn.
     pub(super) aid_handles: Vec<Rect>,
-    /// Way in mm from the pointer to the handle of a drawing aid that is dragged.
     pub(super) aid_grabbed: [f64; 2],
-    /// Twins of the open stroke.
     pub(super) twins: Option<TwinStrokes>,
-    /// Whether another command ended the open stroke.
     pub(super) stroke_cut: bool,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,
     pub(super) tour: Tour,
-    /// The look that was applied last.
     pub(super) look: theme::Look,
 }
 
@@ -142,7 +134,7 @@ impl Studio {
         });
         context.set_zoom_factor(files.preferences.interface_scale);
         let StartedWorker { worker, window } = worker;
-        // The slot is empty: a worker has only one window.
+        // The slot is empty, because a worker has only one window.
         let _ = window.set(context.clone());
         let saved = &files.preferences.tools;
         let tools = Tools {
@@ -254,7 +246,7 @@ impl Studio {
         self.last_recording.as_ref().map(|(_, script)| &**script)
     }
 
-    /// Shows the workspace of scenes; it starts when it is shown first.
+    /// Shows the workspace of scenes. This starts it the first time.
     pub fn show_volumes(&mut self, context: &Context) -> &mut Volumes {
         self.shows_volumes = true;
         self.volumes.get_or_insert_with(|| Volumes::new(context))
@@ -276,7 +268,6 @@ impl Studio {
         self.requests.push(Request::Worker(command));
     }
 
-    /// View of a surface.
     pub(super) fn view(&self, surface: SurfaceId) -> &SurfaceView {
         match surface {
             SurfaceId::Canvas => &self.canvas,
@@ -290,8 +281,8 @@ impl Studio {
         if palette { vec![SurfaceId::Palette, SurfaceId::Canvas] } else { vec![SurfaceId::Canvas] }
     }
 
-    /// Lets the workers of a page, which have no threads, work until `deadline`. Returns how long they may
-    /// wait for the next turn.
+    /// Lets the workers work until `deadline`. Use this in a page, which has no threads. Returns
+    /// how long they can wait for the next turn.
     pub fn turn(&self, deadline: Instant) -> Wait {
         let wait = self.worker.turn(deadline);
         match self.volumes.as_ref().map(|volumes| volumes.turn(deadline)) {
@@ -330,7 +321,7 @@ impl Studio {
             }
         }
         while let Some(answer) = self.files.take_scene_answer() {
-            // Exports are answered where they were asked for.
+            // Only the workspace that asked for an export gets its answer.
             self.show_volumes(context);
             if let Some(volumes) = &mut self.volumes {
                 volumes.answer(answer, &mut self.files);
@@ -350,13 +341,13 @@ impl Studio {
         self.pen.eraser_options = self.files.preferences.options_of(&eraser);
         self.update_keys(context);
         self.apply_look(context);
-        // Once it is settled, not at every step of a drag.
+        // We wait until you release the pointer, because a drag changes the scale at every step.
         if !context.input(|input| input.pointer.any_down()) {
             self.files.preferences.arrangement = self.panels.arrangement();
         }
     }
 
-    /// Applies theme, touch targets and scale when they were changed, or the window's size.
+    /// Applies theme, touch targets and scale if these or the size of the window changed.
     fn apply_look(&mut self, context: &Context) {
         let look = self.files.preferences.look();
         if self.look != look {
@@ -409,7 +400,8 @@ impl Studio {
         view::quicken(&context);
     }
 
-    /// Uses the keys of the preferences if they or the language changed. New faults in them are told.
+    /// Uses the keys of the preferences if they or the language changed. Reports new faults in
+    /// them.
     fn update_keys(&mut self, context: &Context) {
         let changes = &self.files.preferences.keys;
         let made = (spoken(), changes);
@@ -432,7 +424,6 @@ impl Studio {
         self.key_editor.scope = scope;
     }
 
-    /// Draws the workspace of scenes.
     fn draw_volumes(&mut self, ui: &mut Ui) {
         let Some(volumes) = &mut self.volumes else { return };
         match volumes.show(ui, self.visible.panels, &mut self.pen, &mut self.files) {
@@ -446,8 +437,7 @@ impl Studio {
         }
     }
 
-    /// Passes the queued requests on in order. File requests wait until a painting is
-    /// open.
+    /// Passes the queued requests on in order. File requests wait until a painting is open.
     pub(super) fn send_requests(&mut self) {
         for request in std::mem::take(&mut self.requests) {
             match (request, &self.painting) {
@@ -462,7 +452,6 @@ impl Studio {
         }
     }
 
-    /// Draws all parts of the window, from its edges inwards.
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
@@ -521,7 +510,6 @@ impl Studio {
         }
     }
 
-    /// Draws the columns of panels at both sides.
     fn draw_columns(&mut self, ui: &mut Ui) {
         let Some(painting) = self.painting.clone() else { return };
         let context = ui.ctx().clone();
@@ -545,7 +533,6 @@ impl Studio {
         self.panels.drop_dragged(&context, drawn, ui.available_rect_before_wrap());
     }
 
-    /// Draws the status line.
     fn status_line(&mut self, ui: &mut Ui) {
         let now = Instant::now();
         let Some(painting) = self.painting.clone() else {
@@ -608,17 +595,15 @@ impl Studio {
                 self.panels.select(Tab::Color);
             }
             Event::Recording { number, script } => self.last_recording = Some((number, script)),
-            // Handled by the files above.
+            // The files have handled these above.
             Event::Snapshot(_) | Event::Kept(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::DirtyBrush(brush) => {
                 let text = tr_format!("the brush \u{201c}{brush}\u{201d} is dirty", brush);
-                let key = |name| {
+                let [wash, wipe] = ["wash", "wipe"].map(|name| {
                     let row = self.keymap.easel.row(name);
                     let key = row.and_then(|row| row.keys.first());
                     key.map_or_else(String::new, |key| format!(" ({})", key.text()))
-                };
-                let wash = key("wash");
-                let wipe = key("wipe");
+                });
                 let hint =
                     tr_format!("wash{wash} or wipe{wipe} it before another colour", wash, wipe);
                 self.show_message(text, Some(hint), false);
@@ -653,7 +638,6 @@ impl Studio {
         self.painting = Some(state);
     }
 
-    /// Shows a message in the status line.
     pub(super) fn show_message(&mut self, text: String, hint: Option<String>, failed: bool) {
         self.message = Some(Message { text, hint, failed, shown_at: Instant::now() });
     }
@@ -672,7 +656,7 @@ impl Studio {
         }
     }
 
-    /// Sets the window up as `desk` says. What the painting does not have is left as it is.
+    /// Sets the window up as `desk` says. This skips what the painting does not have.
     pub fn set_up(&mut self, desk: &Desk, context: &Context) {
         let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
         let brush = brushes.map(|brush| &brush.name).find(|name| desk.brush.as_ref() == Some(name));

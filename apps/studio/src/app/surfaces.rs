@@ -1,5 +1,5 @@
-//! Canvas, palette and reference picture: draws them with cursor, mask and drawing aids, and
-//! passes the input of pen, mouse and touch to the worker.
+//! Draws canvas, palette and reference picture with cursor, mask and drawing aids, and passes the
+//! input of pen, mouse and touch to the worker.
 
 use std::time::Duration;
 
@@ -27,23 +27,21 @@ use crate::pen::{
 use crate::view::{DragMode, Placement, Split, fill_rect};
 use crate::{floating, pace, theme};
 
-/// Least height of palette and tubes, in points.
+/// Smallest height of palette and tubes, in points.
 const LOWEST_PALETTE: f32 = 150.0;
 
-/// Least height for touch: all tubes and the controls below them.
+/// Smallest height for touch: all tubes and the controls below them fit in.
 const TOUCH_PALETTE: f32 = 288.0;
 
-/// Largest height of palette and tubes that the painter did not choose, in points.
+/// Largest height in points, unless you drag the edge yourself.
 const HIGHEST_PALETTE: f32 = 420.0;
 
-/// Margins around the tubes, in points.
 const SHELF: f32 = 32.0;
 
-/// Height of the edge that is dragged to resize palette and tubes, in points.
+/// Height of the edge that you drag to resize palette and tubes, in points.
 const EDGE: f32 = 7.0;
 
 impl Studio {
-    /// Draws both surfaces in the remaining part of the window.
     pub(super) fn draw_surfaces(&mut self, ui: &mut Ui) {
         let mode = self.keys.mode(self.tools.mode);
         let drag = match mode {
@@ -106,8 +104,7 @@ impl Studio {
         }
     }
 
-    /// Height of palette and tubes: that which the painter chose, or else a share of the
-    /// window.
+    /// The height that the painter chose, or else a share of the window.
     fn palette_height(&self, ui: &Ui) -> f32 {
         let room = ui.available_height();
         let large = theme::is_touch(ui.ctx()) && !theme::is_narrow(ui.ctx());
@@ -121,12 +118,11 @@ impl Studio {
             .clamp(least, (0.6 * room).max(least))
     }
 
-    /// Whether the pointer frames a crop or moves the reference picture instead of painting.
+    /// True while the pointer frames a crop or moves the reference picture. You cannot paint then.
     pub(super) fn is_framing(&self) -> bool {
         self.crop.is_some() || self.panels.reference.takes_pointer()
     }
 
-    /// Draws what lies over the canvas: the reference picture and the frame of a crop.
     fn draw_over(&mut self, ui: &Ui, response: &Response) {
         let Some(cell_mm) = self.painting.as_ref().map(|painting| painting.cell_mm) else { return };
         self.panels.reference.show_over(ui, &self.canvas, response, cell_mm);
@@ -134,7 +130,7 @@ impl Studio {
         self.carry_out(answer);
     }
 
-    /// Draws the bar of a crop above the canvas, which yields to it.
+    /// Draws the bar of a crop above the canvas, which becomes smaller.
     fn draw_crop_bar(&mut self, ui: &mut Ui) {
         let Some(cell_mm) = self.painting.as_ref().map(|painting| painting.cell_mm) else { return };
         let Some(crop) = &mut self.crop else { return };
@@ -155,13 +151,12 @@ impl Studio {
         }
     }
 
-    /// Draws the palette with the tubes beside it.
     fn draw_palette(&mut self, ui: &mut Ui, drag: DragMode, mode: Mode) {
         let whole = ui.available_rect_before_wrap();
         // The panel keeps its height, whatever its contents.
         ui.expand_to_include_rect(whole);
         let cells = self.palette.cells();
-        // The tubes have room in their rows; the palette yields, up to a third of the width.
+        // The tubes need room in their rows. The palette gives up to a third of the width to them.
         let tubes = least_width(ui, whole.height() - SHELF) + SHELF;
         let [least, most] = [0.34, 0.6].map(|share| share * whole.width().max(0.0));
         let most = (whole.width() - tubes).clamp(least, most);
@@ -182,7 +177,7 @@ impl Studio {
         let tubes_rect = tubes_rect.shrink2(vec2(6.0, 8.0));
         intent::note(ui.ctx(), Part::Tubes, tubes_rect);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(tubes_rect));
-        // A plain rectangle, which is cheap, and a thick outline for the rounded
+        // We draw a plain rectangle, because this is cheap, and a thick outline for the rounded
         // corners.
         fill_rect(ui.painter(), tubes_rect.shrink(1.0), theme::colors(ui.ctx()).panel);
         let edge = Stroke::new(3.0, theme::colors(ui.ctx()).panel);
@@ -216,7 +211,7 @@ impl Studio {
         }
         let primary = ui.input(|input| input.pointer.button_down(PointerButton::Primary));
         let held = primary && response.is_pointer_button_down_on();
-        // Pressed and released within a frame, the pen is never held.
+        // If you press and release within one frame, we never see the pen held.
         if mode == Mode::Pick && (held || response.clicked()) {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.last_pick != Some(place) {
@@ -236,8 +231,8 @@ impl Studio {
         self.pen.read_systems(context, input);
     }
 
-    /// Processes egui's pointer events and what the pens reported since the last call, with the
-    /// current placement of the surfaces.
+    /// Processes egui's pointer events and the reports of the pens since the last call. The
+    /// surfaces lie where they are now.
     pub(super) fn update_pen(&mut self, context: &Context, events: &[Event], mode: Mode) {
         let now = Instant::now();
         let Some(painting) = self.painting.clone() else { return };
@@ -271,7 +266,7 @@ impl Studio {
                     && self.palette.position(point).is_none()
         };
         let view = PenTargets { surfaces: &transforms, covered: &covered };
-        // Copied, because `covered` queries the context while the events are processed.
+        // We copy this, because `covered` queries the context while the events are processed.
         let modifiers = context.input(|input| input.modifiers);
         self.pen.guide = self.aids.leading();
         let events = self.pen.process_frame(events, modifiers, now, &view);
@@ -332,12 +327,12 @@ impl Studio {
         }
     }
 
-    /// Notes a command that goes to the worker.
     pub(super) fn note_command(&mut self, command: &Command) {
         self.stroke_cut = cut_after(self.stroke_cut, command);
     }
 
-    /// Whether a command ended the open stroke before its pen was lifted: then it has no twins.
+    /// Whether a command ended the open stroke before you lifted the pen. Such a stroke has no
+    /// twins.
     fn is_stroke_cut(&self) -> bool {
         let queued = self.requests.iter().filter_map(|request| match request {
             Request::Worker(command) => Some(command),
@@ -346,7 +341,7 @@ impl Studio {
         queued.fold(self.stroke_cut, cut_after)
     }
 
-    /// Name of the brush that a device moves.
+    /// Name of the brush that this device moves.
     pub(super) fn brush_for(&self, device: Device) -> String {
         let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
         let eraser =
@@ -354,7 +349,6 @@ impl Studio {
         if eraser { ERASER.to_owned() } else { self.tools.brush.clone() }
     }
 
-    /// Draws the cursor for the tool in use.
     pub(super) fn draw_cursor(&mut self, ui: &Ui, mode: Mode) {
         let Some(painting) = self.painting.clone() else { return };
         match mode {
@@ -373,8 +367,6 @@ impl Studio {
         }
     }
 
-    /// Draws the brush head: deformed as the worker reported it, or hovering above the
-    /// surface. It has its colour where it `paints`.
     fn draw_head(&mut self, ui: &Ui, painting: &PaintingState, paints: bool) {
         if let Some(head) = &self.head {
             let shown = self.view(head.surface).show_head(ui, head, self.head_paint());
@@ -401,15 +393,15 @@ impl Studio {
         }
     }
 
-    /// Colour of the paint on the brush that paints; `None` if it does not, or is bare.
+    /// Colour of the paint on the brush. `None` if the tool does not paint, or the brush is bare.
     pub(super) fn head_paint(&self) -> Option<[u8; 3]> {
         let painting = self.painting.as_ref()?;
         let brush = painting.brushes.iter().find(|brush| brush.name == self.tools.brush)?;
         brush.color.filter(|_| self.keys.mode(self.tools.mode) == Mode::Paint)
     }
 
-    /// Draws a line from a stabilised brush to its pen, dark with a light core, so that it shows on
-    /// every paint.
+    /// Draws the line from a stabilised brush to its pen. It is dark with a light core, so that you
+    /// see it on every paint.
     fn draw_string(&self, ui: &Ui) {
         let Some(line) = self.pen.string_line() else { return };
         let painter = ui.painter_at(ui.max_rect());
@@ -423,8 +415,13 @@ impl Studio {
     /// Draws a ring of the colour under the pointer inside a neutral ring.
     fn draw_ring(&self, ui: &Ui) {
         let Some(point) = ui.input(|input| input.pointer.hover_pos()) else { return };
-        let over = |surface: &SurfaceId| self.view(*surface).position(point).is_some();
-        let Some(surface) = self.visible_surfaces().into_iter().find(over) else { return };
+        let Some(surface) = self
+            .visible_surfaces()
+            .into_iter()
+            .find(|surface| self.view(*surface).position(point).is_some())
+        else {
+            return;
+        };
         let Some(color) = self.color_at(surface, point) else { return };
         let painter = ui.painter_at(self.view(surface).rect());
         painter.circle_stroke(point, RING + 6.0, Stroke::new(6.0, theme::SURROUND));
@@ -447,8 +444,8 @@ impl Studio {
         cell.pixels.first().copied()
     }
 
-    /// Draws the outline of the mask, and takes the points of the polygon that the pen draws in the
-    /// mode of masks.
+    /// Draws the outline of the mask. In the mask mode, this also takes the points of the polygon
+    /// that you draw.
     pub(super) fn draw_mask(&mut self, ui: &Ui, response: &Response, mode: Mode) {
         let Some(painting) = self.painting.clone() else { return };
         let painter = ui.painter_at(self.canvas.rect());
@@ -481,7 +478,7 @@ impl Studio {
         }
     }
 
-    /// Takes the point under the pointer; with shift, the points are the corners of a rectangle.
+    /// Takes the point under the pointer. With shift, the points are corners of a rectangle.
     fn take_points(&mut self, ui: &Ui, response: &Response, placement: &Placement) {
         if response.drag_started_by(PointerButton::Primary) {
             let start = ui.input(|input| input.pointer.press_origin());
@@ -512,13 +509,12 @@ impl Studio {
         }
     }
 
-    /// Width and height of the canvas in mm.
     fn canvas_mm(painting: &PaintingState) -> [f64; 2] {
         let (columns, rows) = painting.canvas_cells;
         [columns, rows].map(|cells| cells as f64 * painting.cell_mm)
     }
 
-    /// Shows or takes away a guide, and says so.
+    /// Shows or hides a guide, with a message.
     pub(super) fn toggle_guide(&mut self, kind: GuideKind) {
         self.aids.toggle(kind);
         let text = match (kind, self.aids.guide.is_some(), self.aids.snaps) {
@@ -532,7 +528,7 @@ impl Studio {
         self.say_of_aids(text.to_owned());
     }
 
-    /// Lets strokes follow the guide or not, and says so.
+    /// Switches whether strokes follow the guide, with a message.
     pub(super) fn toggle_snapping(&mut self) {
         self.aids.snaps ^= true;
         let text = match (self.aids.snaps, self.aids.guide) {
@@ -543,7 +539,6 @@ impl Studio {
         self.say_of_aids(text.to_owned());
     }
 
-    /// Turns symmetry on or off, and says so.
     pub(super) fn toggle_symmetry(&mut self) {
         self.aids.symmetry.on ^= true;
         let text = match self.aids.symmetry.on {
@@ -558,12 +553,12 @@ impl Studio {
         self.show_message(text, Some(hint), false);
     }
 
-    /// Draws the window of the drawing aids, if it is open.
     pub(super) fn draw_aids_window(&mut self, context: &Context) {
         aids::show(context, &mut self.visible.aids, &mut self.aids);
     }
 
-    /// Draws the aids over the canvas, and their handles while their window is open.
+    /// Draws the aids over the canvas. Their handles appear only while the window of the aids is
+    /// open.
     pub(super) fn draw_aids(&mut self, ui: &Ui) {
         self.aid_handles.clear();
         let Some(painting) = self.painting.clone() else { return };
@@ -607,7 +602,6 @@ impl Studio {
     }
 }
 
-/// Names of the first and the second light, if there are two.
 fn lights_of(painting: &PaintingState) -> Option<[&str; 2]> {
     let second = painting.second_lighting.as_ref()?;
     Some([painting.lighting.illuminant.as_str(), second.illuminant.as_str()])
@@ -616,7 +610,7 @@ fn lights_of(painting: &PaintingState) -> Option<[&str; 2]> {
 /// Brush used for the eraser end of a pen, if the painting has it.
 const ERASER: &str = "knife";
 
-/// Whether a stroke that began with its group is cut after a command, if it was `cut` before.
+/// Whether a command cuts the stroke that its group began.
 fn cut_after(cut: bool, command: &Command) -> bool {
     match command {
         Command::BeginGroup => false,
@@ -629,7 +623,6 @@ fn cut_after(cut: bool, command: &Command) -> bool {
     }
 }
 
-/// The command that sets a brush down as a tool.
 fn down(tool: StrokeTool, surface: SurfaceId, brush: String) -> Command {
     if tool.is_paint() {
         Command::PenDown { surface, brush, decimals: SampleDecimals::PEN }
@@ -638,16 +631,14 @@ fn down(tool: StrokeTool, surface: SurfaceId, brush: String) -> Command {
     }
 }
 
-/// Radius of the eyedropper's ring, in points.
 const RING: f32 = 24.0;
 
-/// Distance in points by which the pen moves for another point of a polygon.
+/// The pen adds another point to a polygon when it has moved this far, in points.
 const STEP: f32 = 3.0;
 
-/// Width of the outline, in points.
 const WIDTH: f32 = 1.2;
 
-/// Most points of a polygon, within the limit of a script.
+/// Most points of a polygon. A script allows no more.
 const MOST_POINTS: usize = 4000;
 
 /// Draws the outline of a mask as dashes that have moved by `phase` points.
@@ -661,15 +652,14 @@ fn draw_outline(painter: &Painter, placement: &Placement, mask: &MaskState, phas
     }
 }
 
-/// Draws a line in dashes of black and white. Their place depends on the place in the window, so
-/// that the dashes of joined lines follow each other.
+/// Draws a line in black and white dashes. The dashes depend on the place in the window, so that
+/// they continue from one line to the next.
 fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
     let way = to - from;
-    // The stairs of an outline are shorter than the line is wide: longer ends close their corners.
+    // The steps of the outline are shorter than the line is wide. Longer ends close the corners.
     let cap = 0.5 * WIDTH * way.normalized();
-    let along = |point: Pos2| point.x + point.y + phase;
-    let start = along(from);
-    let end = along(to);
+    let start = from.x + from.y + phase;
+    let end = to.x + to.y + phase;
     let run = end - start;
     if run.abs() < 0.01 {
         painter.line_segment([from, to], Stroke::new(WIDTH, Color32::WHITE));
@@ -682,24 +672,23 @@ fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
         let dash = (at / DASH).floor();
         let next = ((dash + 1.0) * DASH).min(high).max(at + 0.01);
         let color = if dash.rem_euclid(2.0) < 0.5 { Color32::BLACK } else { Color32::WHITE };
-        let place = |value: f32| from + way * ((value - start) / run);
-        painter.line_segment([place(at) - cap, place(next) + cap], Stroke::new(WIDTH, color));
+        painter.line_segment(
+            [from + way * ((at - start) / run) - cap, from + way * ((next - start) / run) + cap],
+            Stroke::new(WIDTH, color),
+        );
         at = next;
     }
 }
 
-/// Diameter of a handle, in points.
 const HANDLE: f32 = 14.0;
 
-/// Distance of a handle from the edge of the view beyond which its place is, in points.
+/// A handle beyond the view is moved inside, to this distance from the edge in points.
 const AIDS_EDGE: f32 = 12.0;
 
-/// The canvas on the screen.
 #[derive(Debug, Clone, Copy)]
 struct OnCanvas {
     placement: Placement,
     cell_mm: f64,
-    /// The part of the window that shows it.
     view: Rect,
 }
 
@@ -712,7 +701,8 @@ impl OnCanvas {
         self.placement.cell(point).map(|cells| cells * self.cell_mm)
     }
 
-    /// Rectangle in which a handle is touched: at the edge of the view if its place is beyond.
+    /// Rectangle in which you can touch a handle. If the place lies beyond the view, this is at the
+    /// edge.
     fn handle(&self, place: [f64; 2], size: Vec2) -> Rect {
         let room = self.view.shrink(AIDS_EDGE);
         let point = self.point(place);
@@ -720,12 +710,10 @@ impl OnCanvas {
     }
 }
 
-/// Size in which a handle is touched.
 fn handle_size(ui: &Ui) -> Vec2 {
     theme::at_least(ui, Vec2::splat(HANDLE + 4.0))
 }
 
-/// Draws lines that show on every paint: dark with a light core.
 fn draw_lines(painter: &Painter, on_canvas: &OnCanvas, lines: &AidLines) {
     for (lines, dark, light) in [(&lines.faint, 28, 60), (&lines.main, 90, 170)] {
         for line in lines {

@@ -1,11 +1,9 @@
-//! Opens and shows the dialogs, and carries out the painter's answers. Also crops the painting,
+//! Opens and shows the dialogs, and does what the painter answers. This also crops the painting,
 //! saves lines drawn on the reference picture, and handles the files of scenes.
-//!
-//! The history of a painting keeps pieces of a canvas of one size. A crop ends it and begins a new
-//! recording with the part that stays.
-//!
-//! A scene is small on the disk: its script. A scene that was not saved when another is opened or
-//! the window closes keeps its autosave, which the next start offers to recover.
+//! | The history of a painting keeps pieces of a canvas of one size. If you crop, this history
+//! ends, and a new recording begins with the part that stays.
+//! | The script of a scene is small. If you open another scene or close the window without saving,
+//! the autosave of the scene stays, and the next start offers to recover it.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -185,8 +183,8 @@ impl Files {
         }
     }
 
-    /// Endings, without points, of the files that a dialog asks for since the last call; empty if it
-    /// takes all. For a page, which asks with the browser's own dialog.
+    /// Extensions of the files that a dialog asks for since the last call; empty if it takes all
+    /// files. A page uses this to ask with the browser's own dialog.
     pub fn take_wanted(&mut self) -> Option<Vec<&'static str>> {
         self.wanted.take()
     }
@@ -351,41 +349,46 @@ impl Files {
             filters: &[Filter::ALL],
             ending: Some(ending),
             others: &[],
-            // A picture may have the plain name already.
+            // The plain name may belong to a picture already.
             name: format!("{}-timelapse.{ending}", self.title()),
         };
         self.browse(options, FilePurpose::Timelapse(export));
     }
 
-    /// Takes note of the drawings on the reference picture that are in no file. To be called every
-    /// frame before [`Files::update`].
+    /// Notes the drawings on the reference picture that are in no file. Call this every frame
+    /// before [`Files::update`].
     pub fn note_drawings(&mut self, unsaved: Vec<DrawnFile>) {
         self.unsaved_drawings = unsaved;
     }
 
-    /// The unsaved drawings that an action would lose.
+    /// The unsaved drawings that this action would lose.
     pub(super) fn drawings_lost_by(&self, action: &PendingAction) -> Vec<DrawnFile> {
-        let lost = |drawn: &&DrawnFile| match action {
-            PendingAction::Close { drawings_given_up } => !drawings_given_up,
-            PendingAction::Replace(_) | PendingAction::Reference(ReferenceChange::Saved(_)) => {
-                false
-            }
-            PendingAction::Reference(ReferenceChange::Draw(new)) => {
-                new.drawing.kind() == drawn.drawing.kind()
-            }
-            PendingAction::Reference(
-                ReferenceChange::Open(_) | ReferenceChange::Restore { .. } | ReferenceChange::Close,
-            ) => true,
-        };
-        self.unsaved_drawings.iter().filter(lost).cloned().collect()
+        self.unsaved_drawings
+            .iter()
+            .filter(|drawn| match action {
+                PendingAction::Close { drawings_given_up } => !drawings_given_up,
+                PendingAction::Replace(_) | PendingAction::Reference(ReferenceChange::Saved(_)) => {
+                    false
+                }
+                PendingAction::Reference(ReferenceChange::Draw(new)) => {
+                    new.drawing.kind() == drawn.drawing.kind()
+                }
+                PendingAction::Reference(
+                    ReferenceChange::Open(_)
+                    | ReferenceChange::Restore { .. }
+                    | ReferenceChange::Close,
+                ) => true,
+            })
+            .cloned()
+            .collect()
     }
 
-    /// Changes the picture beside the canvas, after asking about drawings that this loses.
+    /// Changes the picture beside the canvas. If this loses drawings, it asks first.
     pub(super) fn change_reference(&mut self, change: ReferenceChange) {
         self.carry_out_safely(PendingAction::Reference(change));
     }
 
-    /// Goes on with an action without the drawings that it loses.
+    /// Continues an action, although it loses the drawings.
     pub(super) fn carry_out_without_drawings(&mut self, action: PendingAction) {
         match action {
             PendingAction::Close { .. } => {
@@ -395,7 +398,6 @@ impl Files {
         }
     }
 
-    /// Starts writing a drawing, then carries out `next`.
     pub(super) fn save_drawing(
         &mut self,
         drawing: Drawing,
@@ -409,7 +411,6 @@ impl Files {
         });
     }
 
-    /// Starts reading a drawing.
     pub(super) fn read_drawing(&mut self, kind: DrawingKind, path: PathBuf) {
         let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
@@ -418,7 +419,6 @@ impl Files {
         });
     }
 
-    /// A drawing was saved.
     pub(super) fn drawing_saved(&mut self, drawn: DrawnFile, next: Option<PendingAction>) {
         self.notices.push(Notice::done(&tr_format!("saved {path}", path = drawn.path.display())));
         self.unsaved_drawings.retain(|unsaved| unsaved.drawing != drawn.drawing);
@@ -428,7 +428,6 @@ impl Files {
         }
     }
 
-    /// Starts to crop the painting of `snapshot`.
     pub(super) fn start_crop(&mut self, rect: Rect, snapshot: &Snapshot) {
         let canvas = Arc::clone(&snapshot.canvas);
         let palette = Arc::clone(&snapshot.palette);
@@ -445,7 +444,7 @@ impl Files {
         });
     }
 
-    /// Opens the part that stays, unless something was painted meanwhile.
+    /// Opens the part that stays, unless you painted something meanwhile.
     pub(super) fn continue_cropped(
         &mut self,
         canvas: Box<Document>,
@@ -464,7 +463,7 @@ impl Files {
         let size = tr_format!("cropped to {width:.1} x {height:.1} mm", width, height);
         let mixed = palette.wet.totals().iter().any(|total| *total > 0);
         let (origin, start, text) = if mixed {
-            // A recording begins with a clean palette, so that there is none here.
+            // A recording begins with a clean palette, so we drop the palette here.
             let palette = Box::new(Arc::unwrap_or_clone(palette));
             let text =
                 tr_format!("{size}; without a recording, as the palette keeps its paint", size);
@@ -476,7 +475,7 @@ impl Files {
         let files =
             FileOrigin { path: self.path.clone(), start, changed: true, ..FileOrigin::default() };
         self.notices.push(Notice::done(&text));
-        // Nothing is lost, so nothing is asked.
+        // We lose nothing, so we do not ask.
         self.carry_out(PendingAction::Replace(Replacement { commands, origin: files }));
     }
 
@@ -528,12 +527,10 @@ impl Files {
         self.dialogs.push(OpenDialog::ExportOfScene(export));
     }
 
-    /// The name of the scene's files, without an ending.
     fn scene_stem(&self) -> String {
         file_stem(self.scenes.open.as_ref().map_or("scene", |(title, _)| title))
     }
 
-    /// Notes the painter's choice of a file.
     pub(super) fn choose_for_scene(&mut self, purpose: ScenePurpose, path: PathBuf) {
         self.scenes.answers.push_back(match purpose {
             ScenePurpose::Open => {
@@ -545,18 +542,17 @@ impl Files {
         });
     }
 
-    /// Recovers a lost scene, by its place in the list.
     pub(super) fn recover_scene(&mut self, index: usize) {
         let lost = self.scenes.lost.remove(index);
         self.scenes.answers.push_back(SceneAnswer::Recover(lost));
     }
 
-    /// Keeps the lost scene that is being opened until it is autosaved again.
+    /// Keeps the lost scene that we are opening until it is autosaved again.
     pub fn recovering_scene(&mut self, lost: LostSession) {
         self.scenes.opening = Some(lost);
     }
 
-    /// The worker has opened a scene.
+    /// Call this when the worker has opened a scene.
     pub fn scene_opened(&mut self, state: &SceneState) {
         self.scenes.end();
         let begun = Autosave::begin(&self.home.scenes());
@@ -564,22 +560,22 @@ impl Files {
         self.scenes.autosave = Arc::new(Mutex::new(autosave));
         self.scenes.open = Some((state.title.clone(), state.revision));
         self.scenes.recovered = self.scenes.opening.take();
-        // A recovered scene is in no file.
+        // A recovered scene is in no file yet.
         let in_file = self.scenes.recovered.is_none();
         self.scenes.saved = if in_file { state.revision } else { u64::MAX };
         self.scenes.autosaved = self.scenes.saved;
         (self.scenes.awaited, self.scenes.last_autosave) = (false, Instant::now());
     }
 
-    /// The state of the scene changed.
+    /// Call this when the state of the scene has changed.
     pub fn scene_changed(&mut self, state: &SceneState) {
         if let Some((_, revision)) = &mut self.scenes.open {
             *revision = state.revision;
         }
     }
 
-    /// Whether the recording is wanted now, for an autosave; otherwise the window is drawn again
-    /// when it will be.
+    /// Whether you should ask for the recording now, for an autosave. If not, this asks for a frame
+    /// at the time when it is due.
     pub fn wants_scene_recording(&mut self) -> bool {
         let Some((_, revision)) = &self.scenes.open else { return false };
         let changed = self.scenes.is_changed() && self.scenes.autosaved != *revision;
@@ -617,7 +613,7 @@ impl Files {
         });
     }
 
-    /// An autosave of the scene was written: it holds what the scene was recovered from.
+    /// The autosave of a scene was written. It holds everything that the scene was recovered from.
     pub(super) fn scene_autosaved(&mut self) {
         if let Some(lost) = self.scenes.recovered.take() {
             lost.discard();
@@ -634,14 +630,13 @@ impl Files {
         });
     }
 
-    /// The script of the scene was saved.
     pub(super) fn scene_saved(&mut self, path: &Path, revision: u64) {
         self.scenes.saved = revision;
         self.preferences.remember(path);
         self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
     }
 
-    /// Writes a file of the scene on a thread of its own.
+    /// Writes a file of the scene on its own thread.
     pub(crate) fn export_scene(
         &mut self,
         path: PathBuf,
@@ -655,7 +650,7 @@ impl Files {
     }
 }
 
-/// The browser that asks where to write an export of a painting with this title.
+/// The browser for an export of a painting with this title.
 pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
     let ending = kind.ending();
     let filters: &[Filter] = match kind {
@@ -685,10 +680,10 @@ const SCENES_PAINTINGS: Filter = Filter { label: english("Paintings"), endings: 
 const ANIMATIONS: Filter =
     Filter { label: english("Animations"), endings: &["gif", "png", "apng"] };
 
-/// Longest time between a change and its autosave: a script is written in no time.
+/// Longest time between a change and its autosave. A script is small, so this can be short.
 const INTERVAL: Duration = Duration::from_secs(2);
 
-/// The name of a file without what cannot be in one.
+/// The title without characters that a file name cannot contain.
 fn file_stem(title: &str) -> String {
     title.chars().map(|letter: char| if letter.is_alphanumeric() { letter } else { '-' }).collect()
 }

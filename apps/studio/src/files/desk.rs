@@ -1,5 +1,5 @@
-//! How the window was set up: kept with autosaves, so that a recovered painting is found in the
-//! window as it was.
+//! The set-up of the window. We keep it with autosaves, so that you find a recovered painting as
+//! you left it.
 
 use std::path::{Path, PathBuf};
 
@@ -49,7 +49,7 @@ pub struct DeskView {
 pub struct DeskReference {
     /// File of the picture.
     pub picture: PathBuf,
-    /// SHA-256 digest of this file, in hexadecimal digits; `None` if it could not be read.
+    /// SHA-256 digest of this file, in hexadecimal digits; `None` if we could not read it.
     #[serde(default)]
     pub sha256: Option<String>,
     /// Lines drawn on it.
@@ -60,16 +60,16 @@ pub struct DeskReference {
 /// Lines drawn on the reference picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DeskDrawing {
-    /// Whether they are marks of samples; else they are guides of strokes.
+    /// Whether these are marks of samples. If not, they are guides of strokes.
     pub marks: bool,
-    /// The file that holds them, or that is suggested for them.
+    /// The file of these lines, or the file that we suggest for them.
     pub path: PathBuf,
-    /// The lines as the text of such a file.
+    /// The lines as the text of this file.
     pub toml: String,
 }
 
 impl DeskReference {
-    /// The reference picture in a file, and what is drawn on it; its digest is not known yet.
+    /// The reference picture in a file, and its drawings. We do not know its digest yet.
     #[must_use]
     pub fn new(picture: &Path, drawings: &[DrawnFile]) -> Self {
         let drawings = drawings
@@ -86,22 +86,24 @@ impl DeskReference {
         Self { picture: picture.to_owned(), sha256: None, drawings }
     }
 
-    /// The lines drawn on the picture. Those that cannot be read are left out.
+    /// The lines drawn on the picture. This leaves out lines that cannot be read.
     #[must_use]
     pub fn drawn(&self) -> Vec<DrawnFile> {
-        let read = |DeskDrawing { marks, path, toml }: &DeskDrawing| {
-            let name = path.display().to_string();
-            let drawing = if *marks {
-                Drawing::Marks(Marks::from_toml(&name, toml).ok()?)
-            } else {
-                Drawing::Guides(Guides::from_toml(&name, toml).ok()?)
-            };
-            Some(DrawnFile { drawing, path: path.clone() })
-        };
-        self.drawings.iter().filter_map(read).collect()
+        self.drawings
+            .iter()
+            .filter_map(|DeskDrawing { marks, path, toml }| {
+                let name = path.display().to_string();
+                let drawing = if *marks {
+                    Drawing::Marks(Marks::from_toml(&name, toml).ok()?)
+                } else {
+                    Drawing::Guides(Guides::from_toml(&name, toml).ok()?)
+                };
+                Some(DrawnFile { drawing, path: path.clone() })
+            })
+            .collect()
     }
 
-    /// Message to the painter if the picture is gone or was replaced by another one.
+    /// Message if the picture is gone or was replaced by another one.
     pub(super) fn remark(&self) -> Option<Problem> {
         let wanted = self.sha256.as_ref()?;
         let name = self.picture.display();
@@ -116,7 +118,7 @@ impl DeskReference {
     }
 }
 
-/// SHA-256 digest of a file, in hexadecimal digits; `None` if it cannot be read.
+/// SHA-256 digest of a file, in hexadecimal digits; `None` if we cannot read it.
 pub(super) fn digest_of(path: &Path) -> Option<String> {
     let bytes = documents::file::read(path).ok()?;
     Some(Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect())

@@ -1,7 +1,6 @@
 //! Small dialogs: questions, export, new painting, preferences.
-//!
-//! Enter presses the default button of a dialog. Enter in a field only leaves the field.
-//! A second Enter, or Ctrl+Enter at any time, presses the button.
+//! | Enter presses the default button of a dialog. In a field, Enter just leaves the field. You
+//! press it again, or Ctrl+Enter at any time, for the button.
 
 use std::path::Path;
 
@@ -17,18 +16,17 @@ use crate::language::{Language, english, tr, tr_format};
 use crate::pen::PenSettings;
 use crate::theme::ThemeChoice;
 
-/// The button of a dialog that was chosen in this frame.
+/// The button of a dialog that you chose in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Choice {
     /// The main button, Enter outside of fields, or Ctrl+Enter.
     Yes,
     /// The second button.
     No,
-    /// Esc, Cancel, or a click outside the dialog.
+    /// Escape, Cancel, or a click outside the dialog.
     Cancelled,
 }
 
-/// Label and tooltip of a button.
 type ButtonText = (&'static str, &'static str);
 
 /// Shows a dialog with `content` above a row of buttons.
@@ -67,13 +65,13 @@ pub(super) fn dialog(
     choice.or_else(|| modal.should_close().then_some(Choice::Cancelled))
 }
 
-/// A row of buttons at the right edge; the first one stands outermost.
+/// A row of buttons at the right edge. The first one stands outermost.
 fn buttons_at_right(ui: &mut Ui, buttons: impl FnOnce(&mut Ui)) {
-    // The row gives the height in which high buttons centre their words.
+    // The row gives the height in which high buttons centre their text.
     ui.horizontal(|ui| ui.with_layout(Layout::right_to_left(Align::Center), buttons));
 }
 
-/// Asks if changes should be saved before they are lost.
+/// Asks whether to save changes before they are lost.
 pub(super) fn unsaved(ctx: &Context, title: &str) -> Option<Choice> {
     let save = (tr("Save"), tr("Saves it, then continues (Enter)"));
     let discard = (tr("Discard"), tr("Continues; unsaved changes are lost"));
@@ -82,7 +80,7 @@ pub(super) fn unsaved(ctx: &Context, title: &str) -> Option<Choice> {
     })
 }
 
-/// Asks if drawings should be saved before they are lost.
+/// Asks whether to save drawings before they are lost.
 pub(super) fn unsaved_drawings(ctx: &Context, lost: &[DrawnFile]) -> Option<Choice> {
     let save = (tr("Save"), tr("Asks where to save them, then continues (Enter)"));
     let discard = (tr("Discard"), tr("Continues; unsaved lines are lost"));
@@ -93,7 +91,7 @@ pub(super) fn unsaved_drawings(ctx: &Context, lost: &[DrawnFile]) -> Option<Choi
     })
 }
 
-/// Asks if a revision should be deleted.
+/// Asks whether to delete a revision.
 pub(super) fn delete(ctx: &Context, path: &Path) -> Option<Choice> {
     let number = path.file_stem().unwrap_or_default().to_string_lossy();
     let delete = (tr("Delete"), tr("Deletes the file permanently (Enter)"));
@@ -179,8 +177,8 @@ pub(super) fn timelapse(ctx: &Context, chosen: &mut TimelapseExport) -> Option<C
     dialog(ctx, tr("Export a timelapse"), next, None, |ui| chosen.controls(ui))
 }
 
-/// Shows the preferences, which take effect while they are changed. Returns whether the
-/// dialog stays open.
+/// Shows the preferences. They take effect while you change them. Returns whether the dialog stays
+/// open.
 pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool {
     let mut open = true;
     let modal = Modal::new(Id::unique("preferences")).show(ctx, |ui| {
@@ -250,7 +248,6 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
     open && !modal.should_close()
 }
 
-/// Adds the rows for pens and mice.
 fn pen(ui: &mut Ui, pen: &mut PenSettings) {
     grid_row(ui, tr("Pen"), |ui| {
         let tip =
@@ -279,14 +276,14 @@ pub(super) fn grid_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.end_row();
 }
 
-/// Whether a field or button has the keyboard. Ask before the dialog is drawn: a field gives
-/// the keyboard back in the frame of its Enter.
+/// Whether a field or button has the keyboard. Ask this before you draw the dialog, because a field
+/// gives the keyboard back in the frame of its Enter.
 pub(crate) fn keyboard_taken(ctx: &Context) -> bool {
     ctx.egui_wants_keyboard_input()
 }
 
-/// Whether the default button was pressed with the keyboard in this frame. A held key counts
-/// once. `taken` is the answer of [`keyboard_taken`] before the dialog was drawn.
+/// Whether you pressed the default button by key in this frame. A held key counts once. `taken` is
+/// the answer of [`keyboard_taken`] before the dialog was drawn.
 pub(crate) fn pressed(ctx: &Context, taken: bool) -> bool {
     ctx.input(|input| {
         input.events.iter().any(|event| match event {

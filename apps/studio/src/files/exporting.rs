@@ -8,7 +8,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use documents::Task;
 use documents::file::{disk, write_whole};
-use documents::hint::Explain;
 use eframe::egui::{DragValue, Grid, Ui};
 use graphics::export::{AnimationFormat, FrameRate, OutsideGamut, PictureFormat, picture_file};
 use paint::document::Document;
@@ -28,12 +27,12 @@ use super::job::JobError;
 use super::problem::Problem;
 use crate::language::tr;
 
-/// An export of a painting that the painter chose.
+/// An export of a painting, as you chose it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Export {
-    /// Kind of the file that is made.
+    /// Kind of file.
     pub kind: ExportKind,
-    /// Resolution of a picture; layers, spectra and maps have one value a cell.
+    /// Resolution of a picture. Layers, spectra and maps have one value a cell.
     pub pixels: PixelsPerCell,
 }
 
@@ -51,7 +50,6 @@ pub enum ExportKind {
 }
 
 impl ExportKind {
-    /// Extension of the file's or folder's name.
     #[must_use]
     pub(crate) fn ending(self) -> &'static str {
         match self {
@@ -65,12 +63,11 @@ impl ExportKind {
     }
 }
 
-/// Writes `export` of `document` under `light` to `path`. Returns a remark if colours were
-/// outside the gamut.
-///
-/// # Errors
-/// [`JobError`] if the export failed or was cancelled. No incomplete file is left; pigment
-/// maps that were already written stay.
+/// Writes `export` of `document` under `light` to `path`. Returns a remark if colours were outside
+/// the gamut.
+/// | \# Errors
+/// [`JobError`] if the export failed or was cancelled. This leaves no incomplete file, but pigment
+/// maps written before stay.
 pub(crate) fn export(
     Export { kind, pixels }: Export,
     document: &Document,
@@ -135,7 +132,6 @@ fn gamut_remark(path: &Path, outside: OutsideGamut) -> Problem {
     Problem::new(text, tr("export linear OpenEXR to keep them"))
 }
 
-/// Form in which a timelapse is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TimelapseForm {
     /// One file that plays.
@@ -144,7 +140,6 @@ pub(crate) enum TimelapseForm {
     Frames,
 }
 
-/// Choice between the ways to take frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Every {
     Frames,
@@ -152,7 +147,7 @@ enum Every {
     Actions,
 }
 
-/// Settings of a timelapse, as the dialog holds them.
+/// Settings of a timelapse, as you make them in the dialog.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TimelapseExport {
     pub(crate) form: TimelapseForm,
@@ -183,7 +178,6 @@ impl Default for TimelapseExport {
 }
 
 impl TimelapseExport {
-    /// Extension of the file's or folder's name.
     pub(crate) fn ending(self) -> &'static str {
         match self.form {
             TimelapseForm::Animation(AnimationFormat::Gif) => "gif",
@@ -285,29 +279,28 @@ impl TimelapseExport {
     }
 }
 
-/// Folder for frames that are needed only until `path` is written, hidden beside it.
+/// Hidden folder beside `path` for frames. We need it only until `path` is written.
 fn hidden_beside(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.frames"))
 }
 
-/// A recording that a timelapse is made of.
 #[derive(Debug)]
 pub(super) struct Recorded {
     pub(super) script: Arc<StrokeScript>,
     pub(super) library: Arc<PigmentLibrary>,
-    /// Content of the painting's file that it continues; `None` if the script names the file.
+    /// Content of the file of the painting that this continues; `None` if the script names the
+    /// file.
     pub(super) start: Option<Arc<Vec<u8>>>,
-    /// Memory for undo in bytes, which the recording had.
+    /// Memory for undo in bytes, as in the recorded session.
     pub(super) undo_bytes: u64,
 }
 
 impl Recorded {
     /// Plays the recording on the processor and writes the timelapse to `path`.
-    ///
-    /// # Errors
-    /// [`JobError`] if it cannot be played or written, or was cancelled; no incomplete animation
-    /// is left then.
+    /// | \# Errors
+    /// [`JobError`] if it cannot be played or written, or was cancelled. This leaves no incomplete
+    /// animation.
     pub(super) fn write_timelapse(
         &self,
         export: &TimelapseExport,
@@ -315,39 +308,36 @@ impl Recorded {
         task: &Task,
     ) -> Result<(), JobError> {
         task.reach(0.0)?;
-        let problem = |error: &dyn Explain| Problem::from_error(error);
         let files = export.files(path)?;
-        let timelapse =
-            Timelapse::new(&self.script, export.settings()).map_err(|error| problem(&error))?;
+        let timelapse = Timelapse::new(&self.script, export.settings())
+            .map_err(|error| Problem::from_error(&error))?;
         let mut session = self.session()?;
         let written = timelapse
             .write(&mut session, &files, |done| match task.reach(done) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             })
-            .map_err(|error| problem(&error))?;
+            .map_err(|error| Problem::from_error(&error))?;
         written.map(drop).ok_or(JobError::Cancelled)
     }
 
-    /// A session on the surfaces that the recording begins on.
     fn session(&self) -> Result<PaintingSession, Problem> {
-        let problem = |error: &dyn Explain| Problem::from_error(error);
         let start = self.start_document()?;
-        let (canvas, palette) =
-            self.script.surfaces(&self.library, start).map_err(|error| problem(&error))?;
-        let open = |document: Document| {
-            let engine = PaintEngine::on_cpu(document.ground.height.clone());
-            Painting::open(document, engine, self.undo_bytes).map_err(|error| problem(&error))
-        };
-        let canvas = open(canvas)?;
+        let (canvas, palette) = self
+            .script
+            .surfaces(&self.library, start)
+            .map_err(|error| Problem::from_error(&error))?;
+        let engine = PaintEngine::on_cpu(canvas.ground.height.clone());
+        let canvas = Painting::open(canvas, engine, self.undo_bytes)
+            .map_err(|error| Problem::from_error(&error))?;
         let light = Arc::clone(canvas.light());
         let palette = palette.map(|palette| {
             let engine = PaintEngine::on_cpu(palette.ground.height.clone());
             Painting::open_under(palette, light, engine, self.undo_bytes)
-                .map_err(|error| problem(&error))
+                .map_err(|error| Problem::from_error(&error))
         });
-        let mut session =
-            PaintingSession::new(canvas, palette.transpose()?).map_err(|error| problem(&error))?;
+        let mut session = PaintingSession::new(canvas, palette.transpose()?)
+            .map_err(|error| Problem::from_error(&error))?;
         session.set_undo_bytes(self.undo_bytes);
         Ok(session)
     }
@@ -364,14 +354,14 @@ impl Recorded {
     }
 }
 
-/// A file that a scene makes.
+/// A file made from a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SceneExport {
-    /// The picture as it is seen.
+    /// The picture as you see it.
     Picture,
-    /// The painting: an OpenEXR file with its pigments.
+    /// The painting as an OpenEXR file with its pigments.
     Painting,
-    /// An export of the painting: layers, spectra, maps of its pigments, a picture.
+    /// An export of the painting, e.g. layers, spectra or maps of its pigments.
     OfPainting(Export),
     /// The script of all events.
     Script,
@@ -379,7 +369,7 @@ pub enum SceneExport {
     Animation,
 }
 
-/// A choice of the painter for a scene.
+/// Your choice for a scene.
 #[derive(Debug)]
 pub enum SceneAnswer {
     /// Opens this file.
@@ -388,46 +378,40 @@ pub enum SceneAnswer {
     Library(PathBuf),
     /// Writes this file.
     Export(SceneExport, PathBuf),
-    /// Opens the scene that a killed program kept.
+    /// Opens the scene kept by a killed program.
     Recover(LostSession),
 }
 
-/// The purpose of a file of a scene that the painter is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ScenePurpose {
-    /// To open it.
     Open,
-    /// To fill the tubes from it.
     Library,
-    /// To write it.
     Export(SceneExport),
 }
 
-/// Files of scenes.
 #[derive(Debug)]
 pub(super) struct SceneFiles {
     /// Scenes of programs that ended without saving.
     pub(super) lost: Vec<LostSession>,
-    /// Choices of the painter, the oldest first.
     pub(super) answers: VecDeque<SceneAnswer>,
     pub(super) autosave: Arc<Mutex<Option<Autosave>>>,
-    /// Title and counter of changes of the open scene; `None` without one.
+    /// Title and counter of changes of the open scene.
     pub(super) open: Option<(String, u64)>,
-    /// Counter of changes that is in a file.
+    /// The counter of changes at the last save in a file.
     pub(super) saved: u64,
-    /// Counter of changes that the autosave has, or that it is being written with.
+    /// The counter of changes in the autosave, or in the one being written.
     pub(super) autosaved: u64,
     pub(super) last_autosave: Instant,
-    /// Whether a recording was asked for and has not arrived.
+    /// Whether we wait for a recording.
     pub(super) awaited: bool,
     /// The scene that the open one was recovered from, until it is autosaved again.
     pub(super) recovered: Option<LostSession>,
-    /// That scene, until the worker has opened it.
+    /// This scene, until the worker has opened it.
     pub(super) opening: Option<LostSession>,
 }
 
 impl SceneFiles {
-    /// Without an open scene; `lost` are those of other programs.
+    /// There is no open scene. `lost` are the scenes of other programs.
     pub(super) fn new(lost: Vec<LostSession>) -> Self {
         Self {
             lost,
@@ -443,12 +427,12 @@ impl SceneFiles {
         }
     }
 
-    /// Whether the open scene has changes that are in no file.
+    /// Whether changes of the open scene are in no file.
     pub(super) fn is_changed(&self) -> bool {
         self.open.as_ref().is_some_and(|(_, revision)| *revision != self.saved)
     }
 
-    /// Ends the autosave, which stays on the disk if the scene has changes that are in no file.
+    /// Ends the autosave. It stays on the disk if changes of the scene are in no file.
     pub(super) fn end(&mut self) {
         let changed = self.is_changed();
         let mut autosave = self.autosave.lock().unwrap_or_else(PoisonError::into_inner);

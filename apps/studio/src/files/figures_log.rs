@@ -10,19 +10,15 @@ use serde::Serialize;
 use super::problem::Problem;
 use session::Performance;
 
-/// One line of the log.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct FigureLine {
-    /// Time since the log began, in seconds.
     seconds: f64,
-    /// Frames drawn in the last second.
     frames_a_second: f64,
-    /// Mean time in the last second from the arrival of a pen sample to the frame that
-    /// shows it, in ms.
+    /// Mean time in the last second from the arrival of a pen sample to the frame that shows it, in
+    /// ms.
     latency_ms: f64,
     /// Longest such time in the last second, in ms.
     worst_latency_ms: f64,
-    /// Sub-steps of paint simulation in the last second.
     substeps_a_second: f64,
     /// Number of sub-steps waiting to be simulated.
     behind: usize,
@@ -31,7 +27,7 @@ struct FigureLine {
     canvas_px: [f32; 4],
 }
 
-/// Figures of the window; the worker's figures complete a line.
+/// Figures of the window. The worker's figures complete a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameFigures {
     /// Frames drawn in the last second.
@@ -54,9 +50,8 @@ pub struct FiguresLog {
 }
 
 impl FiguresLog {
-    /// Opens `path` for appending; creates it if it does not exist.
-    ///
-    /// # Errors
+    /// Opens `path` for appending. If it does not exist, this creates it.
+    /// | \# Errors
     /// [`Problem`] if the file cannot be written.
     pub fn open(path: &Path) -> Result<Self, Problem> {
         let file = File::options().create(true).append(true).open(path);
@@ -64,8 +59,8 @@ impl FiguresLog {
         Ok(Self { file, began: Instant::now(), last: None })
     }
 
-    /// Appends a line if a second has passed since the last one. A line that cannot be
-    /// written is dropped.
+    /// Appends a line if a second has passed since the last one. If this fails, the line is
+    /// dropped.
     pub fn append_when_due(&mut self, now: Instant, frames: &FrameFigures, figures: &Performance) {
         if self.last.is_some_and(|last| now.duration_since(last) < Duration::from_secs(1)) {
             return;

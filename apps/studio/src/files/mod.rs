@@ -1,5 +1,5 @@
-//! Files: opening, saving, exports, autosaves and preferences. All but the shortest work
-//! runs on threads of its own.
+//! Files: opening, saving, exports, autosaves and preferences. All but the shortest work runs on
+//! its own threads.
 
 mod problem;
 mod request;

@@ -1,10 +1,9 @@
-//! The canvas of a new painting as data: its format, its ground, and the canvases kept for the
-//! next painting.
-//!
-//! Paper: ISO 216 and US Letter (ANSI/ASME Y14.1). French canvases by number, figure, paysage and
-//! marine: B. Haaf, "Industriell vorgrundierte Malleinen", Zeitschrift fuer Kunsttechnologie und
-//! Konservierung 1 (1987), 7-71, as tabulated in Wikipedia, "French standard sizes for oil
-//! paintings".
+//! The canvas of a new painting as data: its format, its ground, and the canvases kept for the next
+//! painting.
+//! | Paper has the sizes of ISO 216 and US Letter (ANSI/ASME Y14.1). For French canvases by number
+//! (figure, paysage, marine) see B. Haaf, "Industriell vorgrundierte Malleinen", Zeitschrift fuer
+//! Kunsttechnologie und Konservierung 1 (1987), 7-71, as tabulated in Wikipedia, "French standard
+//! sizes for oil paintings".
 
 use std::path::PathBuf;
 
@@ -31,10 +30,8 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// Every unit, the smallest first.
     pub(crate) const ALL: [Self; 3] = [Self::Mm, Self::Cm, Self::Inch];
 
-    /// The sign after a number.
     #[must_use]
     pub(crate) fn sign(self) -> &'static str {
         match self {
@@ -44,7 +41,7 @@ impl LengthUnit {
         }
     }
 
-    /// Length of one of them in mm.
+    /// Length of one unit in mm.
     #[must_use]
     pub(crate) fn in_mm(self) -> f64 {
         match self {
@@ -55,27 +52,24 @@ impl LengthUnit {
     }
 }
 
-/// A format with a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Format {
-    /// Heading under which it is listed.
+    /// Heading in the list.
     pub(crate) group: &'static str,
-    /// Name, without the group.
     pub(crate) name: &'static str,
-    /// Longer side in mm.
     pub(crate) long_mm: f64,
-    /// Shorter side in mm.
     pub(crate) short_mm: f64,
 }
 
 impl Format {
-    /// The format of a canvas, upright or across; `None` for an own size.
+    /// The format of a canvas, upright or across; `None` for any other size.
     #[must_use]
     pub(crate) fn of(width_mm: f64, height_mm: f64) -> Option<&'static Self> {
         let long = width_mm.max(height_mm);
         let short = width_mm.min(height_mm);
-        let near = |a: f64, b: f64| (a - b).abs() < 0.05;
-        FORMATS.iter().find(|own| near(own.long_mm, long) && near(own.short_mm, short))
+        FORMATS
+            .iter()
+            .find(|own| (own.long_mm - long).abs() < 0.05 && (own.short_mm - short).abs() < 0.05)
     }
 }
 
@@ -83,7 +77,7 @@ const fn format(group: &'static str, name: &'static str, long_mm: f64, short_mm:
     Format { group, name, long_mm, short_mm }
 }
 
-/// Every format; those of one group follow each other.
+/// All formats, group by group.
 pub(crate) const FORMATS: [Format; 74] = [
     format("Screen", "192 x 108 mm", 192.0, 108.0),
     format("Paper", "A6", 148.0, 105.0),
@@ -161,7 +155,7 @@ pub(crate) const FORMATS: [Format; 74] = [
     format("French, marine", "120 M", 1950.0, 970.0),
 ];
 
-/// Maximum number of cells of a canvas: 64 million.
+/// Most cells of a canvas: 64 million.
 pub(crate) const MAX_CELLS: usize = 64 << 20;
 
 /// Shortest and longest side of a canvas, in mm.
@@ -170,10 +164,10 @@ pub(crate) const SIDE_MM: [f64; 2] = [5.0, 2000.0];
 /// Smallest and largest cell, in mm.
 const CELL_MM: [f64; 2] = [0.02, 2.0];
 
-/// Memory that a cell of a canvas takes while it is painted on, in bytes.
+/// A cell takes this memory in bytes while you paint.
 const CELL_BYTES: u64 = 90;
 
-/// Memory that a cell of a dry layer takes, in bytes.
+/// A cell of a dry layer takes this memory in bytes.
 const LAYER_BYTES: u64 = 36;
 
 /// The canvas of a new painting.
@@ -182,11 +176,11 @@ const LAYER_BYTES: u64 = 36;
 pub struct NewCanvas {
     /// Size, cells and ground.
     pub canvas: Canvas,
-    /// Unit in which the size is shown.
+    /// Unit that you see the size in.
     pub unit: LengthUnit,
     /// Whether the painting uses the library and palette of the current one.
     pub same_pigments: bool,
-    /// A picture whose colours become the first dry layer, in paint of the palette.
+    /// A picture for the first dry layer. We paint its colours with the palette.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_layer: Option<PathBuf>,
 }
@@ -203,18 +197,18 @@ impl Default for NewCanvas {
 }
 
 impl NewCanvas {
-    /// Moves numbers that are out of range to the nearest that are allowed.
+    /// Moves numbers out of range to the nearest allowed ones.
     pub(crate) fn bound(&mut self) {
-        let within = |value: f64, [least, most]: [f64; 2], usual: f64| {
+        fn within(value: f64, [least, most]: [f64; 2], usual: f64) -> f64 {
             if value.is_finite() { value.clamp(least, most) } else { usual }
-        };
+        }
         let canvas = &mut self.canvas;
         canvas.width_mm = within(canvas.width_mm, SIDE_MM, 192.0);
         canvas.height_mm = within(canvas.height_mm, SIDE_MM, 108.0);
         canvas.cell_mm = within(canvas.cell_mm, CELL_MM, 0.1);
     }
 
-    /// Gives the canvas the size of a format, upright or across as it is now.
+    /// Gives the canvas the size of a format. It stays upright or across.
     pub(crate) fn set_format(&mut self, format: &Format) {
         let upright = self.is_upright();
         let Canvas { width_mm, height_mm, .. } = &mut self.canvas;
@@ -222,13 +216,11 @@ impl NewCanvas {
         self.set_upright(upright);
     }
 
-    /// Whether the canvas is higher than it is wide.
     #[must_use]
     pub(crate) fn is_upright(&self) -> bool {
         self.canvas.height_mm > self.canvas.width_mm
     }
 
-    /// Turns the canvas upright or across.
     pub(crate) fn set_upright(&mut self, upright: bool) {
         let Canvas { width_mm, height_mm, .. } = &mut self.canvas;
         if upright != (*height_mm > *width_mm) {
@@ -236,7 +228,6 @@ impl NewCanvas {
         }
     }
 
-    /// Number of cells of the canvas.
     #[must_use]
     pub(crate) fn cell_count(&self) -> usize {
         let (width, height) = self.canvas.cells();
@@ -249,7 +240,7 @@ impl NewCanvas {
         self.cell_count() <= MAX_CELLS
     }
 
-    /// Memory of the canvas while it is painted on, and of each dry layer, in bytes.
+    /// Memory of the canvas while you paint, and of each dry layer, in bytes.
     #[must_use]
     pub(crate) fn memory(&self) -> [u64; 2] {
         [CELL_BYTES, LAYER_BYTES].map(|bytes| bytes.saturating_mul(self.cell_count() as u64))
@@ -278,13 +269,14 @@ impl NewCanvas {
         }
     }
 
-    /// Changes the kind of the ground. Its seed and its colour stay.
+    /// Changes the kind of the ground. Seed and colour stay.
     pub(crate) fn set_kind(&mut self, kind: GroundKind) {
         let seed = self.seed().map_or(1, |seed| *seed);
         self.canvas.ground.relief = kind.spec(seed).relief;
     }
 
-    /// Height of the ground's relief in mm: of a picture that of white.
+    /// Height of the ground's relief in mm. If the relief is a picture, this is the height of
+    /// white.
     pub(crate) fn relief_mm(&mut self) -> &mut f64 {
         match &mut self.canvas.ground.relief {
             GroundRelief::Linen(linen) => &mut linen.relief_mm,
@@ -296,20 +288,20 @@ impl NewCanvas {
     }
 }
 
-/// A colour of a ground by name, made of the pigments of a library.
+/// A named colour of a ground, made with the pigments of a library.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tone {
     /// Name in the list.
     pub(crate) name: &'static str,
-    /// Its pigments and its use, for a tooltip.
+    /// Pigments and use, for a tooltip.
     pub(crate) description: &'static str,
-    /// Pigments and their parts; none leaves the priming bare.
+    /// Pigments and their parts. Without any, the priming stays bare.
     parts: &'static [(&'static str, f64)],
     /// Height of the film in mm.
     height_mm: f64,
 }
 
-/// The tones that are offered. The library of the house has no earths, so that browns are mixed.
+/// The tones that we offer. The program's library has no earths, so the browns are mixed.
 pub(crate) const TONES: [Tone; 6] = [
     Tone {
         name: english("White"),
@@ -359,13 +351,13 @@ pub(crate) const TONES: [Tone; 6] = [
 ];
 
 impl Tone {
-    /// The tone that `primer` is; `None` for one of the painter's own.
+    /// The tone of `primer`; `None` if it is your own.
     #[must_use]
     pub(crate) fn of(primer: Option<&Primer>) -> Option<&'static Self> {
         TONES.iter().find(|tone| tone.primer().as_ref() == primer)
     }
 
-    /// The reflectance that makes this tone; `None` for bare priming.
+    /// The film or colour of this tone; `None` for bare priming.
     #[must_use]
     pub(crate) fn primer(&self) -> Option<Primer> {
         if self.parts.is_empty() {
@@ -376,7 +368,8 @@ impl Tone {
         Some(Primer::Toned(TonedPrimer { film }))
     }
 
-    /// Its sRGB colour as paint of `library` under `viewing`; `None` without its pigments.
+    /// Colour of this tone in sRGB, as paint of `library` under `viewing`. `None` if a pigment is
+    /// missing.
     #[must_use]
     pub(crate) fn color(&self, library: &PigmentLibrary, viewing: &Viewing) -> Option<[u8; 3]> {
         let reflectance = match self.primer() {
@@ -391,14 +384,12 @@ impl Tone {
         Some(rgb.to_bytes())
     }
 
-    /// Whether `library` has all its pigments.
     #[must_use]
     pub(crate) fn is_in(&self, library: &PigmentLibrary) -> bool {
         self.parts.iter().all(|(name, _)| library.pigments.iter().any(|own| own.name == *name))
     }
 }
 
-/// Most presets that are kept.
 const MOST_PRESETS: usize = 100;
 
 /// A canvas under a name.
@@ -406,29 +397,29 @@ const MOST_PRESETS: usize = 100;
 pub struct CanvasPreset {
     /// Name that the painter gave it.
     pub name: String,
-    /// Canvas kept under the name.
+    /// Canvas kept under this name.
     pub canvas: NewCanvas,
 }
 
-/// The canvas that was used last, and presets.
+/// The canvas that you used last, and presets.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct KeptCanvases {
-    /// The canvas that was begun last: the start of the next.
+    /// The canvas that you began last. The next dialog starts with it.
     pub last: NewCanvas,
-    /// Canvases under names, in the order of the names.
+    /// Named canvases, sorted by name.
     pub presets: Vec<CanvasPreset>,
 }
 
 impl KeptCanvases {
-    /// Moves numbers that are out of range to the nearest that are allowed.
+    /// Moves numbers out of range to the nearest allowed ones.
     pub(crate) fn bound(&mut self) {
         self.last.bound();
         self.presets.truncate(MOST_PRESETS);
         self.presets.iter_mut().for_each(|preset| preset.canvas.bound());
     }
 
-    /// Keeps `canvas` as `name`, in place of one of the same name.
+    /// Keeps `canvas` as `name`. This replaces a preset of the same name.
     pub(crate) fn keep(&mut self, name: &str, canvas: NewCanvas) {
         self.remove(name);
         self.presets.push(CanvasPreset { name: name.to_owned(), canvas });
@@ -436,12 +427,10 @@ impl KeptCanvases {
         self.presets.truncate(MOST_PRESETS);
     }
 
-    /// Removes the preset of this name.
     pub(crate) fn remove(&mut self, name: &str) {
         self.presets.retain(|preset| preset.name != name);
     }
 
-    /// The preset of this name.
     #[must_use]
     pub(crate) fn preset(&self, name: &str) -> Option<&NewCanvas> {
         self.presets.iter().find(|preset| preset.name == name).map(|preset| &preset.canvas)
@@ -474,7 +463,7 @@ mod tests {
                 own.name
             );
         }
-        // The sides of A formats are in the ratio of the square root of 2, rounded to mm.
+        // The sides of A formats have the ratio of the square root of 2, rounded to mm.
         for own in FORMATS.iter().filter(|own| own.name.starts_with('A')) {
             assert!((own.long_mm - own.short_mm * 2.0_f64.sqrt()).abs() < 1.0, "{own:?}");
         }
@@ -532,17 +521,15 @@ mod tests {
     fn each_tone_can_be_mixed_and_is_found_again() {
         let library = PigmentLibrary::van_gogh_oils();
         let weights = Viewing::default().weights(library.grid).unwrap();
-        let lab = |tone: &Tone| {
-            let primer = tone.primer().unwrap_or(Primer::Grey(0.87));
-            let found = primer.reflectance(&library).unwrap();
-            Lab::from_xyz(weights.xyz(&found), weights.white())
-        };
         for tone in &TONES {
             assert!(tone.is_in(&library), "{}", tone.name);
             assert_eq!(Tone::of(tone.primer().as_ref()), Some(tone));
         }
-        let [warm, cool, brown, golden, red] =
-            [1, 2, 3, 4, 5].map(|index: usize| lab(&TONES[index]));
+        let [warm, cool, brown, golden, red] = [1, 2, 3, 4, 5].map(|index: usize| {
+            let primer = TONES[index].primer().unwrap_or(Primer::Grey(0.87));
+            let found = primer.reflectance(&library).unwrap();
+            Lab::from_xyz(weights.xyz(&found), weights.white())
+        });
         assert!(warm.b > cool.b + 3.0, "{warm:?} {cool:?}");
         assert!(warm.a.hypot(warm.b) < 15.0 && cool.a.hypot(cool.b) < 15.0, "greys");
         assert!((45.0..75.0).contains(&brown.lightness) && brown.b > 15.0, "{brown:?}");

@@ -1,9 +1,8 @@
-//! Reads files of any kind, which it detects from the content and not from the name, and the
-//! numbered revisions of a painting.
-//!
-//! Revisions lie beside `study.exr` in a folder `study.revisions` as `0001.exr` with the thumbnail
-//! `0001.png`. A revision is kept only on request, not at every save: undo and autosave cover the
-//! time between two saves.
+//! Reads files of any kind, and the numbered revisions of a painting. The content decides on the
+//! kind, the name does not.
+//! | Revisions lie beside `study.exr` in a folder `study.revisions`, for example as `0001.exr` with
+//! the thumbnail `0001.png`. We keep a revision only on request, because undo and autosave cover
+//! the time between two saves.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -31,16 +30,13 @@ use super::job::JobError;
 use super::problem::Problem;
 use crate::language::{tr, tr_format};
 
-/// The content of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Opened {
-    /// A painting.
     Painting {
-        /// The painting itself.
         document: Box<Document>,
-        /// Palette and brushes that were saved with it; the problem if they cannot be read.
+        /// Palette and brushes saved with it, or the problem if they cannot be read.
         table: Result<Option<Box<SideTable>>, Problem>,
-        /// Content of its file, which a recording of further work on it needs.
+        /// Content of the file. If you paint on, the recording needs it.
         bytes: Arc<Vec<u8>>,
     },
     /// A pigment library to begin a painting with.
@@ -49,18 +45,17 @@ pub(crate) enum Opened {
     Recording {
         /// The script, with absolute paths of the files that it names.
         script: Box<StrokeScript>,
-        /// The pigments that it names.
+        /// The pigments of the script.
         library: Box<PigmentLibrary>,
         /// Remarks for the painter.
         remarks: Vec<Problem>,
     },
-    /// A picture to be shown beside the canvas. It is decoded where it is shown.
+    /// A picture to show beside the canvas. We decode it there.
     Picture,
-    /// The spectrum of a lamp. A light can be named after this file.
+    /// The spectrum of a lamp. You can name a light after this file.
     Lamp,
 }
 
-/// Kinds of files, distinguished by their first bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     OpenExr,
@@ -82,7 +77,7 @@ const MAX_PAINTING_BYTES: u64 = 16 << 30;
 pub(crate) fn read(path: &Path, task: &Task) -> Result<Opened, JobError> {
     let (kind, mut file, length) = kind(path)?;
     let name = path.display().to_string();
-    // A picture is decoded where it is shown.
+    // We decode a picture where it is shown.
     if kind == Kind::Picture {
         return Ok(Opened::Picture);
     }
@@ -103,7 +98,7 @@ pub(crate) fn read(path: &Path, task: &Task) -> Result<Opened, JobError> {
                     let bytes = Arc::new(bytes);
                     Opened::Painting { document, table, bytes }
                 }
-                // A linear picture of another program.
+                // This is a linear picture of another program.
                 Err(PaintingFileError::Format { .. }) if linear_picture(&name, &bytes).is_ok() => {
                     Opened::Picture
                 }
@@ -126,7 +121,7 @@ const OPENABLE: &str = "open a painting (.exr), a pigment library or a recording
 
 fn kind(path: &Path) -> Result<(Kind, File, u64), Problem> {
     let unreadable = |error: std::io::Error| Problem::io(path, "read", &error);
-    // Checked before opening it, because opening a pipe would wait for its other end.
+    // We check this before opening. If we opened a pipe, we would wait for its other end.
     let found = disk::metadata(path).map_err(unreadable)?;
     if !found.is_file() {
         let text = format!("{}: is not an ordinary file", path.display());
@@ -209,7 +204,7 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
     }
     let library = named.library;
     if let Some(start) = &mut script.start {
-        // The script is not resolved here: its pigments are those of the painting that it
+        // We do not resolve the script here, because its pigments come from the painting that it
         // starts from.
         *start = folder.join(&start).display().to_string();
     } else {
@@ -231,13 +226,12 @@ pub struct Revision {
     pub path: PathBuf,
     /// Size of its file in bytes.
     pub bytes: u64,
-    /// Time at which it was kept, if the system knows it.
+    /// Time at which it was kept, if known.
     pub kept: Option<SystemTime>,
     /// The thumbnail, if its file exists.
     pub thumbnail: Option<RgbaImage>,
 }
 
-/// Folder of the revisions of the painting in `path`.
 #[must_use]
 pub(super) fn folder(path: &Path) -> PathBuf {
     path.with_extension("revisions")
@@ -266,8 +260,7 @@ pub(super) fn keep(
         .write_to(&mut png, image::ImageFormat::Png)
         .map_err(|error| Problem::without_hint(&error))?;
     let kept = folder.join(format!("{number:04}.exr"));
-    // The thumbnail is written first, because a revision counts as complete once its
-    // painting exists.
+    // We write the thumbnail first, because a revision counts as complete once its painting exists.
     write_whole(&kept.with_extension("png"), png.get_ref()).map_err(Problem::from)?;
     write_whole(&kept, &bytes).map_err(Problem::from)?;
     Ok(kept)
@@ -292,9 +285,8 @@ pub(super) fn list(path: &Path, task: &Task) -> Result<Vec<Revision>, JobError> 
     Ok(revisions)
 }
 
-/// Deletes the revision in `path` with its thumbnail, and the folder if it is empty then.
-///
-/// # Errors
+/// Deletes the revision in `path` with its thumbnail, and the folder if this empties it.
+/// | \# Errors
 /// [`Problem`] if `path` is not a revision or cannot be removed.
 pub(super) fn delete(path: &Path) -> Result<(), Problem> {
     let beside = path.parent().and_then(Path::extension).is_some_and(|end| end == "revisions");
@@ -304,7 +296,7 @@ pub(super) fn delete(path: &Path) -> Result<(), Problem> {
     }
     disk::remove_file(path).map_err(|error| Problem::io(path, "deleted", &error))?;
     let _ = disk::remove_file(path.with_extension("png"));
-    // Removes the folder if it is empty now.
+    // This fails if the folder is not empty.
     let _ = path.parent().map(disk::remove_dir);
     Ok(())
 }
@@ -325,8 +317,8 @@ fn numbers(folder: &Path) -> Result<Vec<(u32, PathBuf)>, Problem> {
     Ok(paths.filter_map(|path| Some((number(&path)?, path))).collect())
 }
 
-/// Renders a thumbnail of at most [`MAX_SIDE`] pixels per side, in sRGB; it is averaged in
-/// linear light.
+/// Renders a thumbnail of at most [`MAX_SIDE`] pixels per side, in sRGB. We average in linear
+/// light.
 fn thumbnail(document: &Document, light: &Light) -> RgbImage {
     let picture = picture(document, &scene(document, light));
     let width = picture.width() as u32;
@@ -372,7 +364,7 @@ impl std::fmt::Debug for ListedRevision {
 /// Revisions of the painting, the newest first.
 #[derive(Debug, Clone, Default)]
 pub struct RevisionList {
-    /// The painting's file. A painting without one has no revisions.
+    /// The painting's file. Without one, there are no revisions.
     pub path: Option<PathBuf>,
     /// The revisions, the newest first.
     pub revisions: Vec<ListedRevision>,

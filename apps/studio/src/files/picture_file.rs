@@ -18,22 +18,20 @@ use super::problem::Problem;
 /// Steps of the table from linear light to sRGB.
 const SHADES: usize = 4096;
 
-/// A picture that was read from a file, reduced if it was large.
+/// A picture read from a file, reduced if it was large.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ReadPicture {
     /// Linear sRGB, white at 1.
     pub(crate) linear: Picture,
     /// Width and height of the file in pixels or cells.
     pub(crate) file_size: [usize; 2],
-    /// Whether the values are those of a scene, without a white of their own.
+    /// Whether the values are scene-referred, without a white.
     pub(crate) scene_linear: bool,
 }
 
-/// Reads a photograph, a linear OpenEXR, or a painting, which is shown under its own light.
-/// Reduces it in linear light so that no side is above `longest`. A painting may take
-/// `most_bytes` of memory.
-///
-/// # Errors
+/// Reads a photograph, a linear OpenEXR, or a painting under its own light. Reduces it in linear
+/// light so that no side is above `longest`. A painting may take `most_bytes` of memory.
+/// | \# Errors
 /// [`Problem`] if the file cannot be read as a picture.
 pub(crate) fn read_picture(
     path: &Path,
@@ -66,8 +64,8 @@ pub(crate) fn read_picture(
     Ok(ReadPicture { linear, file_size: [own.0, own.1], scene_linear })
 }
 
-/// The picture of a painting under its own light; of a light that is not known, under the
-/// default one.
+/// The picture of a painting under its own light. If we do not know this light, we use the default
+/// one.
 fn lit(document: &Document) -> Result<Picture, Problem> {
     let lighting = &document.lighting;
     let named = Light::named(&document.library, &lighting.illuminant, &lighting.observer);
@@ -84,11 +82,10 @@ fn lit(document: &Document) -> Result<Picture, Problem> {
 /// Size after reduction, so that no side is above `longest`.
 pub(crate) fn reduced_size((width, height): (usize, usize), longest: usize) -> (usize, usize) {
     let scale = (longest as f64 / width.max(height).max(1) as f64).min(1.0);
-    let side = |pixels: usize| ((pixels as f64 * scale).round() as usize).max(1);
-    (side(width), side(height))
+    [width, height].map(|side| ((side as f64 * scale).round() as usize).max(1)).into()
 }
 
-/// Converts linear light to an sRGB picture; each colour passes through `change` before.
+/// Converts linear light to an sRGB picture. Each colour first passes through `change`.
 pub(crate) fn on_screen(
     linear: &Picture,
     change: impl Fn([f32; 3]) -> [f32; 3] + Sync,

@@ -1,8 +1,7 @@
 //! The painter's preferences, a JSON file in the program's own folder.
-//!
-//! Keys that this version does not know are kept, so that older and newer versions can share the
-//! file. A value that it does not understand is reported and replaced by the default. A file that
-//! is not JSON is renamed.
+//! | We keep keys that this version does not know, so that older and newer versions can share the
+//! file. If a value makes no sense, we report it and use the default. A file that is not JSON is
+//! renamed.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -37,7 +36,7 @@ pub enum Backend {
     Gpu,
 }
 
-/// The brush and amounts that the painter starts with.
+/// The brush and amounts that you start with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ToolPreferences {
@@ -49,7 +48,7 @@ pub struct ToolPreferences {
     pub load_mm: f64,
     /// Volume of one squeeze, in cubic millimetres.
     pub squeeze_mm3: f64,
-    /// Fraction of the wet paint that drying dries, 0 to 1.
+    /// Share of the wet paint that drying dries, 0 to 1.
     pub dry_share: f64,
 }
 
@@ -66,42 +65,41 @@ impl Default for ToolPreferences {
 pub struct Preferences {
     /// Seconds between autosaves while the painting changes, 2 to 3600.
     pub autosave_seconds: u64,
-    /// Memory for undo in MiB, up to 1048576. Takes effect at the next start.
+    /// Memory for undo in MiB, up to 1048576. You must restart to use a change.
     pub undo_mib: u64,
-    /// The processor or graphics device that simulates the paint. Takes effect at the next
-    /// start.
+    /// The processor or graphics device that simulates the paint. You must restart to use a change.
     pub backend: Backend,
     /// Scale of the interface relative to the system's, 0.5 to 3.
     pub interface_scale: f32,
     /// Dark or light, or as the system prefers.
     pub theme: ThemeChoice,
-    /// Language of the window; `None` is that of the system.
+    /// Language of the window; `None` uses the language of the system.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub language: Option<Language>,
-    /// Whether everything is large enough to be touched: 44 points or more.
+    /// Whether everything is large enough for touch: 44 points or more.
     pub touch_targets: bool,
     /// Whether recordings play at the speed of painting, rather than as fast as possible.
     pub replay_as_painted: bool,
-    /// The brush and amounts that the painter starts with.
+    /// The brush and amounts that you start with.
     pub tools: ToolPreferences,
     /// Pen, mouse and touch settings.
     pub pen: PenSettings,
-    /// Whether the first steps were shown and are not to be shown again by themselves.
+    /// Whether you have seen the first steps. They do not appear by themselves again.
     pub first_steps_seen: bool,
-    /// How a pen leads single brushes, by their names.
+    /// How a pen leads single brushes, by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub brush_options: BTreeMap<String, BrushOptions>,
-    /// Changed keys: texts such as `Ctrl+Shift+Z` by the name of what they do.
+    /// Changed keys, e.g. `Ctrl+Shift+Z`, by the name of their action.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub keys: BTreeMap<String, Vec<String>>,
-    /// Folder in which a file was last chosen.
+    /// Folder in which you last chose a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_folder: Option<PathBuf>,
-    /// The canvas that was begun last, and presets of canvases.
+    /// The canvas that you began last, and presets of canvases.
     pub new_painting: KeptCanvases,
     /// Form and order of the files in the file browser.
     pub browser: BrowserLook,
-    /// Files that were opened or saved, the latest first.
+    /// Files that you opened or saved, the latest first.
     pub recent: Vec<PathBuf>,
     /// Where the panels stand.
     pub arrangement: Arrangement,
@@ -141,8 +139,8 @@ impl Default for Preferences {
 }
 
 impl Preferences {
-    /// Reads the preferences in `path`, and returns them with the problems found in the
-    /// file. If there is no file, they are the defaults without a problem.
+    /// Reads the preferences in `path`. Returns them with the problems found in the file. Without a
+    /// file, you get the defaults and no problem.
     #[must_use]
     pub fn read(path: &Path) -> (Self, Vec<Problem>) {
         let bytes = match disk::read(path) {
@@ -182,7 +180,7 @@ impl Preferences {
         (preferences, failures)
     }
 
-    /// Replaces numbers that are out of range by the nearest limit or the default.
+    /// Replaces numbers out of range by the nearest limit or the default.
     pub fn bound(&mut self) {
         self.autosave_seconds = self.autosave_seconds.clamp(2, 3600);
         self.undo_mib = self.undo_mib.min(1 << 20);
@@ -214,7 +212,7 @@ impl Preferences {
         if let Some(folder) = path.parent() {
             disk::create_dir_all(folder).map_err(|error| Problem::io(folder, "created", &error))?;
         }
-        // JSON cannot hold a path that is not valid Unicode; such paths are left out.
+        // JSON cannot store a path that is not valid Unicode. We leave such paths out.
         let mut written = self.clone();
         written.recent.retain(|path| path.to_str().is_some());
         written.last_folder = written.last_folder.filter(|path| path.to_str().is_some());
@@ -229,7 +227,8 @@ impl Preferences {
         self.brush_options.get(brush).cloned().unwrap_or_default()
     }
 
-    /// Keeps options of the brush of this name; those of the general settings need no entry.
+    /// Keeps options of the brush with this name. If they equal the general settings, this removes
+    /// the entry.
     pub fn set_options(&mut self, brush: &str, options: BrushOptions) {
         if options == BrushOptions::default() {
             self.brush_options.remove(brush);
@@ -248,7 +247,7 @@ impl Preferences {
 }
 
 fn within<T: PartialOrd>(value: T, least: T, most: T, default: T) -> T {
-    // NaN is in no range.
+    // NaN lies in no range.
     if value >= least && value <= most { value } else { default }
 }
 
@@ -262,7 +261,7 @@ fn set_aside(path: &Path, error: &serde_json::Error) -> Problem {
     Problem::new(format!("{}: {error}", path.display()), hint)
 }
 
-/// Order of the files of a folder. Folders come first in each.
+/// Order of the files of a folder. Folders always come first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BrowserOrder {
@@ -293,8 +292,8 @@ pub struct Home {
 }
 
 impl Home {
-    /// The usual folders of the platform, such as `~/.config/impasto` and
-    /// `~/.local/share/impasto`; `None` if the system does not name the user's home folder.
+    /// The usual folders of the platform, e.g. `~/.config/impasto` and `~/.local/share/impasto`.
+    /// `None` if the system does not name the user's home folder.
     #[must_use]
     #[cfg(not(target_arch = "wasm32"))]
     pub fn for_platform() -> Option<Self> {
@@ -335,13 +334,13 @@ impl Home {
         self.settings.join("swatches.json")
     }
 
-    /// Folder that holds one folder for each scene that is not saved.
+    /// Folder with one folder for each unsaved scene.
     #[must_use]
     pub fn scenes(&self) -> PathBuf {
         self.data.join("scenes")
     }
 
-    /// Folder that holds one folder for each session.
+    /// Folder with one folder for each session.
     #[must_use]
     pub fn sessions(&self) -> PathBuf {
         self.data.join("sessions")

@@ -1,5 +1,4 @@
-//! Problems with files, in words for the painter: a message, its cause, and ages and sizes of
-//! files.
+//! Problems with files, as messages with their causes, and ages and sizes of files as text.
 
 use std::error::Error;
 use std::path::Path;
@@ -11,24 +10,24 @@ use web_time::{Duration, SystemTime};
 
 use crate::language::{tr, tr_format};
 
-/// A message about something that failed, and a suggestion what to do, if there is one.
+/// A message about a failure, and a suggestion if there is one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Names the file or the thing that failed, and the reason.
     pub text: String,
-    /// Suggests what to do.
+    /// Suggests how to solve it.
     pub hint: Option<String>,
 }
 
 impl Problem {
-    /// A problem with a suggestion what to do.
+    /// A problem with a suggestion.
     #[must_use]
     pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { text: text.into(), hint: Some(hint.into()) }
     }
 
-    /// The message of a library's error with all its causes, and its hint, in which
-    /// settings have the names that the window shows.
+    /// The message of a library's error with all its causes, and its hint. In this, settings have
+    /// the names that you see in the window.
     pub fn from_error(error: &dyn Explain) -> Self {
         let hint = error.hint().as_ref().map(with_panel_names);
         Self { hint, ..Self::without_hint(error) }
@@ -45,8 +44,7 @@ impl Problem {
         Self { text, hint: None }
     }
 
-    /// The problem that `path` cannot be read, written and so on; `participle` is that
-    /// word.
+    /// The problem that `path` cannot be read, written and so on. `participle` is this word.
     pub(crate) fn io(path: &Path, participle: &str, error: &std::io::Error) -> Self {
         let text = format!("{}: cannot be {participle}: {error}", path.display());
         Self { text, hint: error.hint().as_ref().map(with_panel_names) }
@@ -65,7 +63,7 @@ impl From<FileFailure> for Problem {
     }
 }
 
-/// Text of a hint in which each setting has the name that the window shows.
+/// Text of a hint. Each setting has the name that you see in the window.
 pub(crate) fn with_panel_names(hint: &Hint) -> String {
     hint.with_settings(|name, value| match (name, value) {
         ("backend", Some("cpu")) => "Edit, Preferences, Computes: Processor".to_owned(),
@@ -75,7 +73,7 @@ pub(crate) fn with_panel_names(hint: &Hint) -> String {
     })
 }
 
-/// The age of `then` at the time `now`, such as `3 minutes ago`.
+/// The age of `then` at the time `now`, for example `3 minutes ago`.
 #[must_use]
 pub fn ago(then: SystemTime, now: SystemTime) -> String {
     let seconds = now.duration_since(then).unwrap_or(Duration::ZERO).as_secs();
@@ -91,7 +89,7 @@ pub fn ago(then: SystemTime, now: SystemTime) -> String {
     tr_format!("{count} {unit} ago", count, unit)
 }
 
-/// A file size in decimal units, such as `12.3 MB`.
+/// A file size in decimal units, for example `12.3 MB`.
 #[must_use]
 pub fn size(bytes: u64) -> String {
     match bytes {
@@ -102,42 +100,41 @@ pub fn size(bytes: u64) -> String {
     }
 }
 
-/// A problem of a page, whose autosaves lie in the browser's storage.
+/// A problem of a page, which keeps its autosaves in the browser's storage.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PageProblem {
     /// The browser gives this page no storage.
     StorageDenied,
     /// The storage has no room for an autosave.
     StorageFull,
-    /// The storage was emptied while the page was open; the page has written its files again.
+    /// The storage was emptied while the page was open. The page has written its files again.
     StorageCleared,
     /// A write failed for another reason, in the browser's words.
     StorageFailed(String),
-    /// The file of this name has more bytes than a page takes.
+    /// This file is larger than a page allows.
     TooLarge {
         /// Name of the file.
         name: String,
         /// Bytes of the file.
         bytes: u64,
-        /// Most bytes that a page takes.
+        /// Most bytes that a page allows.
         most: u64,
     },
-    /// The browser cannot read the file of this name, for a reason in its words.
+    /// The browser cannot read this file.
     Unreadable {
         /// Name of the file.
         name: String,
-        /// The reason.
+        /// The reason, in the browser's words.
         reason: String,
     },
 }
 
 impl From<PageProblem> for Problem {
     fn from(problem: PageProblem) -> Self {
-        let save = || tr("save the painting often: it is downloaded");
         match problem {
             PageProblem::StorageDenied => {
                 let text = tr("no autosaves: this browser denies its storage to the page");
-                Self::new(text, save())
+                Self::new(text, tr("save the painting often: it is downloaded"))
             }
             PageProblem::StorageFull => {
                 let text = tr("no autosaves: the browser's storage is full");
@@ -149,14 +146,14 @@ impl From<PageProblem> for Problem {
             }
             PageProblem::StorageCleared => {
                 let text = tr("the browser's storage was emptied: the autosave is written anew");
-                Self::new(text, save())
+                Self::new(text, tr("save the painting often: it is downloaded"))
             }
             PageProblem::StorageFailed(reason) => {
                 let text = tr_format!(
                     "no autosaves: the browser's storage cannot be written: {reason}",
                     reason
                 );
-                Self::new(text, save())
+                Self::new(text, tr("save the painting often: it is downloaded"))
             }
             PageProblem::TooLarge { name, bytes, most } => {
                 let bytes = size(bytes);

@@ -1,11 +1,10 @@
-//! File actions that menus and panels can request, and the formats of drawings on the reference
-//! picture and of kept mixtures.
+//! File actions that you can request in menus and panels, and the formats of drawings on the
+//! reference picture and of kept mixtures.
 
 use std::path::{Path, PathBuf};
 
 use artmap::passages::Marks;
 use documents::file::write_whole;
-use documents::hint::Explain;
 use graphics::tile::Rect;
 use painterly::guides::Guides;
 use pigment::library::PigmentLibrary;
@@ -19,12 +18,12 @@ use crate::language::english;
 /// A file action. Long work runs in the background.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FileRequest {
-    /// Opens a painting, a library or a recording; asks for the file if none is given. A
+    /// Opens a painting, a library or a recording. Without a path, this asks for the file. A
     /// picture is pinned beside the canvas, a lamp lights the painting.
     Open(Option<PathBuf>),
     /// Saves to the painting's file, or asks for one.
     Save,
-    /// Saves to a file that the painter is asked for.
+    /// Asks for a file and saves to it.
     SaveAs,
     /// Keeps a numbered revision beside the painting's file.
     KeepRevision,
@@ -32,37 +31,37 @@ pub enum FileRequest {
     OpenRevision(PathBuf),
     /// Deletes a revision after asking.
     DeleteRevision(PathBuf),
-    /// Exports; asks in which form and to which file.
+    /// Asks what to export and where, and exports it.
     Export,
-    /// Exports a timelapse of the recording; asks in which form and to which file.
+    /// Exports a timelapse of the recording, after asking for its form and file.
     ExportTimelapse,
-    /// Saves the recording of all strokes to a file that the painter is asked for.
+    /// Asks for a file and saves the recording of all strokes to it.
     SaveRecording,
-    /// Pins a picture beside the canvas; asks for the file if none is given.
+    /// Pins a picture beside the canvas. Without a path, this asks for the file.
     OpenReference(Option<PathBuf>),
     /// Removes the picture beside the canvas.
     CloseReference,
-    /// Saves lines drawn on that picture to a file that the painter is asked for.
+    /// Asks for a file and saves lines drawn on this picture to it.
     SaveDrawing(DrawnFile),
-    /// Opens lines for the picture in this file; asks for theirs.
+    /// Asks for a file with lines for the picture in this file, and opens them.
     OpenDrawing(DrawingKind, PathBuf),
-    /// Lights the painting with a lamp measured in a file that the painter is asked for.
+    /// Asks for the file of a measured lamp, and lights the painting with it.
     OpenLamp,
     /// Changes the list of kept mixtures.
     Swatches(SwatchChange),
-    /// Adds mixtures or colours from a file that the painter is asked for.
+    /// Asks for a file and adds its mixtures or colours.
     ImportSwatches,
-    /// Writes the kept mixtures to a file that the painter is asked for.
+    /// Asks for a file and writes the kept mixtures to it.
     ExportSwatches(SwatchFormat),
     /// Crops the painting to these cells.
     Crop(Rect),
-    /// Begins a new painting; asks for its canvas.
+    /// Asks for a canvas and begins a new painting.
     New,
     /// Opens the sample painting.
     Sample,
-    /// Takes brushes of a file over that the painter is asked for.
+    /// Asks for a file and takes over its brushes.
     ImportBrushes,
-    /// Exports the set of brushes that is shown to a file that the painter is asked for.
+    /// Asks for a file and exports the shown set of brushes to it.
     ExportBrushes,
     /// Shows the preferences.
     Preferences,
@@ -91,7 +90,7 @@ pub enum Drawing {
 pub struct DrawnFile {
     /// The lines.
     pub drawing: Drawing,
-    /// The file that holds them, or that is suggested for them.
+    /// The file of these lines, or the file that we suggest for them.
     pub path: PathBuf,
 }
 
@@ -105,7 +104,7 @@ impl DrawingKind {
         }
     }
 
-    /// File beside a picture that is suggested for its drawing: `orchard.marks.toml` for
+    /// File beside a picture that we suggest for its drawing, e.g. `orchard.marks.toml` for
     /// `orchard.png`.
     #[must_use]
     pub fn beside(self, picture: &Path) -> PathBuf {
@@ -155,7 +154,7 @@ impl Drawing {
 pub enum ReferenceChange {
     /// Pins the picture in this file.
     Open(PathBuf),
-    /// Pins the picture in a file again, with lines that were drawn on it and may be in no file.
+    /// Pins the picture in a file again, with lines that may be in no file.
     Restore {
         /// File of the picture.
         picture: PathBuf,
@@ -173,7 +172,7 @@ pub enum ReferenceChange {
 /// A format of kept mixtures or of their colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SwatchFormat {
-    /// Recipes with their colours: JSON that the studio reads again.
+    /// Recipes with their colours. This is JSON that the studio reads again.
     Json,
     /// Colours alone, for GIMP, Inkscape and Krita.
     Gpl,
@@ -201,10 +200,9 @@ impl SwatchFormat {
         }
     }
 
-    /// Writes mixtures to a file; colours are those under the light of `weights`.
-    ///
-    /// # Errors
-    /// [`Problem`] if the format cannot hold a name, or the file cannot be written.
+    /// Writes mixtures to a file, with their colours under the light of `weights`.
+    /// | \# Errors
+    /// [`Problem`] if the format does not allow a name, or the file cannot be written.
     pub fn write(
         self,
         path: &Path,
@@ -212,20 +210,20 @@ impl SwatchFormat {
         (library, weights): (&PigmentLibrary, &TristimulusWeights),
     ) -> Result<(), Problem> {
         let colors = || book.colors(library, weights);
-        let refused = |error: &dyn Explain| Problem::from_error(error);
         let bytes = match self {
             Self::Json => book.to_json().into_bytes(),
-            Self::Gpl => write_gpl(&colors()).map_err(|error| refused(&error))?.into_bytes(),
-            Self::Ase => write_ase(&colors()).map_err(|error| refused(&error))?,
+            Self::Gpl => {
+                write_gpl(&colors()).map_err(|error| Problem::from_error(&error))?.into_bytes()
+            }
+            Self::Ase => write_ase(&colors()).map_err(|error| Problem::from_error(&error))?,
         };
         Ok(write_whole(path, &bytes)?)
     }
 }
 
 /// Reads mixtures or colours, by the extension of the file.
-///
-/// # Errors
-/// [`Problem`] naming the file and what is wrong in it.
+/// | \# Errors
+/// [`Problem`] that names the file and its fault.
 pub(super) fn read_swatches(path: &Path) -> Result<ReadSwatches, Problem> {
     let name = path.display().to_string();
     let bytes = documents::file::read(path)?;

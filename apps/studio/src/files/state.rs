@@ -1,5 +1,5 @@
-//! State of the painting's files, and the entry points for the window: worker events, the
-//! update and drawing of each frame, requests of menus and panels, and the end of the session.
+//! State of the painting's files, and the entry points for the window: worker events, the update
+//! and drawing of each frame, requests of menus and panels, and the end of the session.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -41,49 +41,45 @@ pub struct Files {
     pub pace: Option<Pace>,
     pub(super) painting: Option<Arc<PaintingState>>,
     pub(super) path: Option<PathBuf>,
-    /// Content of the painting's file when it was opened.
+    /// Content of the painting's file when you opened it.
     pub(super) start: Option<Arc<Vec<u8>>>,
-    /// The worker's counter of changes when the painting was last saved or opened; `None`
-    /// before that, and once a recovered painting was autosaved.
+    /// The worker's counter of changes when the painting was last saved or opened. `None` before
+    /// this, and after a recovered painting was autosaved.
     pub(super) saved_revision: Option<u64>,
-    /// Counts opened paintings, so that the result of a job is not applied to another
-    /// painting.
+    /// Counts opened paintings, so that we do not apply the result of a job to another painting.
     pub(super) epoch: u64,
-    /// Files of the painting that the worker is opening; `None` while it opens none.
+    /// Files of the painting that the worker is opening.
     pub(super) opening: Option<FileOrigin>,
     pub(super) last_request: u64,
-    /// Requests to the worker that it has not answered yet.
+    /// Requests that the worker has not answered yet.
     pub(super) awaited: Vec<(u64, Purpose)>,
     pub(super) jobs: Vec<RunningJob>,
-    /// Open dialogs, the topmost last.
     pub(super) dialogs: Vec<OpenDialog>,
-    /// Small pictures of files, for the file browser.
+    /// Thumbnails for the file browser.
     pub(super) thumbnails: Thumbnails,
     pub(super) notices: Vec<Notice>,
     pub(super) lost_sessions: Vec<LostSession>,
-    /// The session that the painting was recovered from, until it is saved again.
     pub(super) recovered: Option<LostSession>,
     pub(super) autosave: Arc<Mutex<Option<Autosave>>>,
     pub(super) last_autosave: Option<Instant>,
-    /// Endings of the files that an open dialog asked for, until they are taken.
+    /// Extensions of the files that an open dialog asks for, until the page takes them.
     pub(super) wanted: Option<Vec<&'static str>>,
     pub(super) autosaved_revision: Option<u64>,
-    /// Number of actions of the recording that the autosaves hold.
+    /// Number of recorded actions that the autosaves hold.
     pub(super) recorded: usize,
-    /// How the window is set up, and how it was at the last autosave.
+    /// The set-up of the window, now and at the last autosave.
     pub(super) desk: Desk,
     pub(super) autosaved_desk: Option<Desk>,
     /// The set-up of a recovered painting, until the window takes it.
     pub(super) recovered_desk: Option<Desk>,
     /// A reference picture and the digest of its file.
     pub(super) reference_digest: Option<(PathBuf, Option<String>)>,
-    /// Whether the last autosave failed, which is reported only once.
+    /// We report only the first of several failures.
     pub(super) autosave_failed: bool,
-    /// Actions played and total number of actions of a recording that is playing.
     pub(super) replay: Option<(usize, usize)>,
     /// Whether the sample painting is being played.
     pub(super) sample: bool,
-    /// Whether the next state is that of the sample painting as it was played.
+    /// Whether the next state is the sample painting, played to its end.
     pub(super) sample_settles: bool,
     /// Own brushes of the painter.
     pub brush_sets: BrushSets,
@@ -95,21 +91,18 @@ pub struct Files {
     pub(super) unsaved_drawings: Vec<DrawnFile>,
     /// Mixtures that the painter keeps.
     pub(super) swatches: SwatchList,
-    /// Files of scenes.
     pub(super) scenes: SceneFiles,
-    /// Commands for the worker.
     pub(super) commands: Vec<Command>,
-    /// Whether the window closes although changes may be lost.
+    /// The window closes, although changes may be lost.
     pub(super) closing: bool,
-    /// Whether the window closes once the painting is saved.
+    /// The window closes as soon as the painting is saved.
     pub(super) closes_when_saved: bool,
-    /// Sentence for the status line that the window has not shown yet.
+    /// Sentence for the status line that we have not shown yet.
     pub(super) status: Option<StatusNote>,
 }
 
 impl Files {
-    /// Begins a session in `home` and looks for lost ones. `ctx` is repainted when a job
-    /// ends.
+    /// Begins a session in `home` and looks for lost ones. The end of a job repaints `ctx`.
     #[must_use]
     pub fn new(ctx: &Context, home: Home, preferences: Preferences) -> Self {
         let mut notices = Vec::new();
@@ -181,13 +174,13 @@ impl Files {
         self.notices.iter().filter(|notice| notice.until.is_none()).map(|it| it.text.as_str())
     }
 
-    /// Hints of these messages, for those that have one.
+    /// Hints of these messages.
     pub fn hints(&self) -> impl Iterator<Item = &str> {
         let staying = self.notices.iter().filter(|notice| notice.until.is_none());
         staying.filter_map(|notice| notice.hint.as_deref())
     }
 
-    /// Content of the file that the painting was opened from; `None` for one begun bare.
+    /// Content of the file that you opened the painting from; `None` if it began bare.
     #[must_use]
     pub fn opened_content(&self) -> Option<&[u8]> {
         self.start.as_deref().map(Vec::as_slice)
@@ -229,7 +222,7 @@ impl Files {
         })
     }
 
-    /// Number of autosaves of programs that were killed, which are offered.
+    /// Number of autosaves that we offer, because their programs were killed.
     #[must_use]
     pub fn lost(&self) -> usize {
         self.lost_sessions.len()
@@ -254,7 +247,6 @@ impl Files {
             || self.jobs.iter().any(|job| job.kind == JobKind::Saving)
     }
 
-    /// Starts a job on a thread of its own.
     pub(super) fn start_job(
         &mut self,
         kind: JobKind,
@@ -269,7 +261,7 @@ impl Files {
     /// Asks the worker for a snapshot of the painting.
     pub(super) fn request_snapshot(&mut self, purpose: Purpose) {
         if self.opening.is_some() {
-            // The worker still has the painting before the one that the painter sees.
+            // You see the next painting already, but the worker still has the one before.
             self.report(Problem::new(
                 tr("a painting is being opened"),
                 tr("try again in a moment"),
@@ -280,23 +272,22 @@ impl Files {
         self.commands.push(Command::Snapshot(number));
     }
 
-    /// Asks the worker for all that an autosave holds.
+    /// Asks the worker for everything that an autosave holds.
     pub(super) fn request_autosave(&mut self) {
         let number = self.next_request(Purpose::Autosave);
         self.commands.push(Command::Keep { number, recorded: self.recorded });
     }
 
-    /// Takes note of how the window is set up. To be called every frame before [`Files::update`].
+    /// Notes the set-up of the window. Call this every frame before [`Files::update`].
     pub fn note_desk(&mut self, desk: Desk) {
         self.desk = desk;
     }
 
-    /// Removes and returns the set-up of a painting that was recovered, once.
+    /// Removes and returns the set-up of a recovered painting.
     pub fn take_desk(&mut self) -> Option<Desk> {
         self.recovered_desk.take()
     }
 
-    /// Asks the worker for the recording.
     pub(super) fn request_recording(&mut self, purpose: Purpose) {
         let number = self.next_request(purpose);
         self.commands.push(Command::Recording(number));
@@ -314,7 +305,7 @@ impl Files {
         Some(self.awaited.remove(at).1)
     }
 
-    /// Carries out an action, after asking about unsaved changes if there are any.
+    /// Carries out an action. If there are unsaved changes, it asks first.
     pub(super) fn carry_out_safely(&mut self, action: PendingAction) {
         let loses_painting = !matches!(action, PendingAction::Reference(_));
         if !self.drawings_lost_by(&action).is_empty() {
@@ -326,7 +317,7 @@ impl Files {
         }
     }
 
-    /// Carries out an action, even if unsaved changes are lost by it.
+    /// Carries out an action, although this may lose unsaved changes.
     pub(super) fn carry_out(&mut self, action: PendingAction) {
         match action {
             PendingAction::Close { .. } => {
@@ -378,7 +369,7 @@ impl Files {
         }
     }
 
-    /// The worker has opened a painting.
+    /// Call this when the worker has opened a painting.
     fn opened(&mut self, state: &Arc<PaintingState>) {
         let FileOrigin { path, lost, start, sample, changed } =
             self.opening.take().unwrap_or_default();
@@ -400,12 +391,12 @@ impl Files {
             self.recovered_desk = desk.and_then(|desk| serde_json::from_value(desk).ok());
         }
         if lost.is_some() {
-            // The painting is not saved yet. This makes an autosave due now; the lost
-            // session is deleted once that is written.
+            // The painting is not saved yet. This makes an autosave due now. We delete the lost
+            // session after it.
             self.last_autosave = None;
             self.recovered = lost;
         } else if changed {
-            // The autosaves of before stay until one holds the change.
+            // The earlier autosaves stay until one holds the change.
             self.last_autosave = None;
         } else {
             self.clear_autosaves();
@@ -413,9 +404,9 @@ impl Files {
         self.list_revisions();
     }
 
-    /// Applies results of jobs, starts autosaves, and keeps the window open while changes
-    /// would be lost. Returns commands for the worker. To be called every frame, also
-    /// while the window is hidden.
+    /// Applies results of jobs, starts autosaves, and keeps the window open while you would lose
+    /// changes. Returns commands for the worker. Call this every frame, also while the window is
+    /// hidden.
     pub fn update(&mut self, ctx: &Context) -> Vec<Command> {
         self.collect_results();
         self.close_when_saved();
@@ -430,14 +421,14 @@ impl Files {
         std::mem::take(&mut self.commands)
     }
 
-    /// Whether the window may close now. If changes would be lost, the painter is asked,
-    /// unless they are already being saved.
+    /// Whether the window may close now. If changes would be lost, we ask, unless they are already
+    /// being saved.
     fn may_close(&mut self) -> bool {
         if self.closing {
             return true;
         }
         let writes = self.jobs.iter().any(|job| job.kind == JobKind::Saving);
-        // Asked for again while the worker has not even answered, the painter is asked instead.
+        // You ask again, and the worker has not even answered. We ask you instead of waiting.
         let asked_again = std::mem::take(&mut self.closes_when_saved) && !writes;
         if self.is_saving() && !asked_again {
             self.closes_when_saved = true;
@@ -460,7 +451,6 @@ impl Files {
         false
     }
 
-    /// Closes the window if that was asked for while the painting was being saved.
     fn close_when_saved(&mut self) {
         if self.closes_when_saved && !self.is_saving() && !self.closing {
             self.closes_when_saved = false;
@@ -516,9 +506,8 @@ impl Files {
         }
     }
 
-    /// Ends the session when the window closes: waits for running jobs and writes the
-    /// preferences. Autosaves of unsaved changes stay for the next start, unless the
-    /// painter discarded them.
+    /// Ends the session when the window closes: waits for running jobs and writes the preferences.
+    /// Autosaves of unsaved changes stay for the next start, unless you discarded them.
     pub fn finish(&mut self) {
         for job in std::mem::take(&mut self.jobs) {
             let saves = job.kind == JobKind::Saving;
@@ -545,55 +534,50 @@ impl Files {
     }
 }
 
-/// The kept mixtures, and what of them is in their file.
+/// The kept mixtures, and how many of them are in their file.
 #[derive(Debug, Default)]
 pub(super) struct SwatchList {
-    /// Mixtures as the painter sees them.
+    /// Mixtures as you see them.
     pub(super) book: SwatchBook,
-    /// Mixtures in the file; `None` until it was read.
+    /// Mixtures in the file; `None` until we have read it.
     pub(super) written: Option<SwatchBook>,
-    /// Whether reading has begun.
+    /// Whether we have begun to read the file.
     pub(super) asked: bool,
-    /// Colours that were imported and not taken yet.
+    /// Imported colours that the panel has not taken yet.
     pub(super) colors: Option<SwatchFile>,
 }
 
-/// A dialog that asks the user.
 #[derive(Debug)]
 pub(super) enum OpenDialog {
     /// Asks for a file.
     Browser(Box<Browser>, FilePurpose),
-    /// Asks if unsaved changes should be saved before the action is carried out.
+    /// Asks whether to save changes before the action.
     Unsaved(PendingAction),
-    /// Asks if drawings should be saved before the action is carried out.
+    /// Asks whether to save drawings before the action.
     UnsavedDrawings(PendingAction),
-    /// Asks if the revision in this file should be deleted.
+    /// Asks whether to delete the revision in this file.
     DeleteRevision(PathBuf),
     /// Asks what to export.
     Export(Export),
-    /// Asks what to export of the painting that a scene makes.
+    /// Asks what to export of the painting made from a scene.
     ExportOfScene(Export),
     /// Asks for the settings of a timelapse.
     Timelapse(TimelapseExport),
-    /// Asks for the canvas of a new painting.
     New(Box<NewDialog>),
-    /// Shows the preferences.
     Preferences,
 }
 
-/// The purpose of a file that the painter is asked for.
 #[derive(Debug)]
 pub(super) enum FilePurpose {
-    /// Opens the dialog.
+    /// Opens the file.
     Open,
-    /// Saves the painting in it, keeps a revision if `keep_revision` is set, then carries
-    /// out `next`.
+    /// Saves the painting, keeps a revision if `keep_revision` is set, then carries out `next`.
     Save { next: Option<PendingAction>, keep_revision: bool },
-    /// Exports to it.
+    /// Exports to the file.
     Export(Export),
-    /// Writes a timelapse of the recording to it.
+    /// Writes a timelapse.
     Timelapse(TimelapseExport),
-    /// Saves the recording in it.
+    /// Saves the recording.
     Recording,
     /// Pins the picture in it beside the canvas.
     Reference,

@@ -1,6 +1,6 @@
-//! Collections in the home folder: kept mixtures and sets of own brushes, read at the start,
-//! written when they change, imported and exported. Also begins new paintings, among them the
-//! sample painting, a script that the worker plays.
+//! Collections in the home folder: kept mixtures and sets of own brushes. We read them at the
+//! start, write them when they change, and import and export them. This also begins new paintings,
+//! e.g. the sample painting, a script that the worker plays.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,12 +36,12 @@ impl Files {
         &self.swatches.book
     }
 
-    /// Removes and returns colours that were imported without recipes, if there are any.
+    /// Removes and returns colours that you imported without recipes, if there are any.
     pub fn take_colors(&mut self) -> Option<SwatchFile> {
         self.swatches.colors.take()
     }
 
-    /// Changes the list; its file follows by itself.
+    /// Changes the list. Its file is written later by itself.
     pub(super) fn change_swatches(&mut self, change: SwatchChange) {
         if let SwatchChange::Keep(kept) = &change {
             let text = tr_format!("kept {name}", name = kept.name);
@@ -50,7 +50,7 @@ impl Files {
         self.swatches.book.apply(change);
     }
 
-    /// Reads the list once, and starts writing it if it changed and no background job runs.
+    /// Reads the list once. Starts writing it if it changed and no background job runs.
     pub(super) fn keep_swatches(&mut self) {
         if !std::mem::replace(&mut self.swatches.asked, true) {
             let path = self.home.swatches();
@@ -64,7 +64,7 @@ impl Files {
             );
         }
         let idle = self.jobs.iter().all(|job| job.kind != JobKind::Background);
-        // Before the file was read, it must not be replaced.
+        // We must not replace the file before we have read it.
         let changed = self.swatches.written.as_ref().is_some_and(|w| *w != self.swatches.book);
         if !changed || !idle {
             return;
@@ -78,7 +78,7 @@ impl Files {
         });
     }
 
-    /// The list was read; mixtures kept in the meantime follow.
+    /// Call this with the list as read. Mixtures that you kept meanwhile are added at the end.
     pub(super) fn swatches_read(&mut self, book: SwatchBook, problem: Option<Problem>) {
         self.swatches.written = Some(book.clone());
         let kept = std::mem::replace(&mut self.swatches.book, book);
@@ -88,7 +88,6 @@ impl Files {
         }
     }
 
-    /// Starts reading mixtures or colours from a file.
     pub(super) fn import_swatches(&mut self, path: PathBuf) {
         let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
@@ -96,7 +95,7 @@ impl Files {
         });
     }
 
-    /// A file of mixtures or colours was read.
+    /// Uses the mixtures or colours of a file.
     pub(super) fn swatches_imported(&mut self, read: ReadSwatches) {
         match read {
             ReadSwatches::Mixtures(book) => {
@@ -139,12 +138,11 @@ impl Files {
         }
     }
 
-    /// Adds a set and shows it. A name that another set has is numbered.
+    /// Adds a set and shows it. If another set has this name, it gets a number.
     pub fn add_brush_set(&mut self, set: BrushSet) {
-        let taken = |name: &str| self.brush_sets.sets.iter().any(|own| own.set.name() == name);
         let mut name = set.name().to_owned();
         let mut number = 2;
-        while taken(&name) {
+        while self.brush_sets.sets.iter().any(|own| own.set.name() == name) {
             name = format!("{} {number}", set.name());
             number += 1;
         }
@@ -154,7 +152,7 @@ impl Files {
         self.brush_sets.shown = self.brush_sets.sets.len() - 1;
     }
 
-    /// The set that is shown, to change it; a new one if there is none.
+    /// The shown set, so that you can change it. If there is none, this adds one.
     pub fn brush_set(&mut self) -> &mut BrushSet {
         if self.brush_sets.sets.is_empty() {
             self.add_brush_set(BrushSet::new(tr("My brushes")));
@@ -163,7 +161,7 @@ impl Files {
         &mut self.brush_sets.sets[shown].set
     }
 
-    /// Starts reading the sets of the home folder, if that was not done.
+    /// Starts reading the sets of the home folder, unless this was done.
     pub(super) fn read_brush_sets_once(&mut self) {
         if std::mem::replace(&mut self.brush_sets.is_asked, true) {
             return;
@@ -182,7 +180,7 @@ impl Files {
         problems.into_iter().for_each(|problem| self.report(problem));
     }
 
-    /// Starts writing the sets that changed, if no background job runs.
+    /// Starts writing the changed sets, if no background job runs.
     pub(super) fn write_changed_brush_sets(&mut self) {
         let idle = self.jobs.iter().all(|job| job.kind != JobKind::Background);
         let own = &mut self.brush_sets;
@@ -197,7 +195,7 @@ impl Files {
         });
     }
 
-    /// Writes the sets that changed, when the session ends.
+    /// Writes the changed sets when the session ends.
     pub(super) fn finish_brush_sets(&mut self) {
         let own = &self.brush_sets;
         if own.is_read && own.sets != own.written {
@@ -205,13 +203,11 @@ impl Files {
         }
     }
 
-    /// Asks for a file of brushes.
     pub(super) fn ask_for_brushes(&mut self) {
         const KINDS: [Filter; 3] = [IMPORTED, SETS, Filter::ALL];
         self.browse(BrowserOptions::open(tr("Import brushes"), &KINDS), FilePurpose::ImportBrushes);
     }
 
-    /// Asks where to export the set that is shown.
     pub(super) fn ask_where_to_export_brushes(&mut self) {
         let Some(set) = self.brush_sets.set().cloned() else { return };
         let options = BrowserOptions {
@@ -225,7 +221,6 @@ impl Files {
         self.browse(options, FilePurpose::ExportBrushes(Box::new(set)));
     }
 
-    /// Starts reading a file of brushes.
     pub(super) fn import_brushes(&mut self, path: PathBuf) {
         let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
@@ -234,7 +229,8 @@ impl Files {
         });
     }
 
-    /// Takes the brushes of a file over: a set beside the others, a single one into the set shown.
+    /// Takes over the brushes of a file. A set is added beside the others, a single brush to the
+    /// shown set.
     pub(super) fn brushes_read(&mut self, path: &Path, brushes: ReadBrushes) {
         self.preferences.last_folder = path.parent().map(Path::to_owned);
         let told = match brushes {
@@ -261,7 +257,6 @@ impl Files {
         self.notices.push(Notice::done(&told));
     }
 
-    /// Starts writing a set to a file beside the home folder.
     pub(super) fn export_brushes(&mut self, set: BrushSet, path: PathBuf) {
         let label = tr_format!("exporting {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
@@ -270,7 +265,8 @@ impl Files {
         });
     }
 
-    /// Opens the sample painting in place of the open one, after asking about unsaved changes.
+    /// Opens the sample painting in place of the open one. If there are unsaved changes, this asks
+    /// first.
     pub(super) fn open_sample(&mut self) {
         match script() {
             Ok(script) => {
@@ -284,12 +280,12 @@ impl Files {
         }
     }
 
-    /// The replay has ended: the sample painting has no changes of the painter's own.
+    /// The replay has ended. You have not changed the sample painting.
     pub(super) fn sample_played(&mut self) {
         self.sample_settles = std::mem::take(&mut self.sample);
     }
 
-    /// The first state after the sample painting was played.
+    /// Handles the first state after the sample painting was played.
     pub(super) fn settle_sample(&mut self) {
         if std::mem::take(&mut self.sample_settles)
             && let Some(state) = self.painting.as_ref().filter(|state| !state.stroke_open)
@@ -298,14 +294,14 @@ impl Files {
         }
     }
 
-    /// Opens the dialog of a new painting, which begins with the canvas of the last.
+    /// Opens the dialog of a new painting. It starts with the last canvas.
     pub(super) fn ask_for_new(&mut self, state: &PaintingState) {
         let last = self.preferences.new_painting.last.clone();
         let dialog = NewDialog::new(state, last, &self.ctx);
         self.dialogs.push(OpenDialog::New(Box::new(dialog)));
     }
 
-    /// Asks for a picture of the canvas; the dialog stays open below.
+    /// Asks for a picture of the canvas. The dialog below stays open.
     pub(super) fn ask_for_canvas_picture(&mut self, picture: CanvasPicture) {
         const KINDS: [Filter; 2] = [PICTURES, Filter::ALL];
         let title = match picture {
@@ -322,8 +318,8 @@ impl Files {
         }
     }
 
-    /// Opens the painting that the dialog describes, with the current palette and library
-    /// if the painter chose so.
+    /// Opens the painting that the dialog describes. If you chose so, it has the current palette
+    /// and library.
     pub(super) fn begin_new(&mut self, dialog: &NewDialog) {
         let new = dialog.new.clone();
         self.preferences.new_painting.last = new.clone();
@@ -368,8 +364,8 @@ fn write_own(path: &Path, book: &SwatchBook) -> Result<(), Problem> {
     Ok(write_whole(path, book.to_json().as_bytes())?)
 }
 
-/// Reads the list of the home folder. No file is an empty list; a file that cannot be read is put
-/// aside, so that it is not overwritten.
+/// Reads the list of the home folder. Without a file the list is empty. We put a file that cannot
+/// be read aside, so that it is not overwritten.
 fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
     if !disk::exists(path) {
         return (SwatchBook::default(), None);
@@ -399,7 +395,7 @@ const SETS: Filter = Filter { label: english("Own brushes"), endings: &["json"] 
 const IMPORTED: Filter =
     Filter { label: english("Own brushes and MyPaint's"), endings: &["json", "myb"] };
 
-/// Writes the sets that differ, and deletes the files of those that are gone.
+/// Writes the sets that differ, and deletes the files of removed ones.
 fn write_sets(before: &[StoredSet], now: &[StoredSet]) -> Result<(), JobError> {
     for stored in now.iter().filter(|stored| !before.contains(stored)) {
         write_set(stored).map_err(Problem::from)?;
@@ -424,7 +420,6 @@ fn read_brushes(path: &Path) -> Result<ReadBrushes, Problem> {
 /// Two oranges and a lemon, in the Van Gogh oils.
 const ORANGES: &[u8] = include_bytes!("sample/oranges.json");
 
-/// The script of the sample painting.
 fn script() -> Result<StrokeScript, Problem> {
     let read = StrokeScript::from_json(tr("the sample painting"), ORANGES);
     read.map_err(|error| Problem::from_error(&error))
@@ -471,18 +466,22 @@ mod tests {
     fn the_sample_painting_has_dry_layers_glazes_and_wet_paint() {
         let script = script().unwrap();
         script.resolve(&PigmentLibrary::van_gogh_oils()).unwrap();
-        let dries = |action: &Action| matches!(action, Action::Dry { .. });
-        let layers: Vec<&[Action]> = script.actions.split(dries).collect();
+        let layers: Vec<&[Action]> =
+            script.actions.split(|action| matches!(action, Action::Dry { .. })).collect();
         assert!(layers.len() >= 4, "{} layers", layers.len());
-        let strokes = |actions: &[Action]| {
-            actions.iter().filter(|action| matches!(action, Action::Stroke(_))).count()
-        };
-        assert!(layers.iter().all(|layer| strokes(layer) > 2), "a layer has no strokes");
+        assert!(
+            layers.iter().all(|layer| layer
+                .iter()
+                .filter(|action| matches!(action, Action::Stroke(_)))
+                .count()
+                > 2),
+            "a layer has no strokes"
+        );
         assert!(
             script
                 .actions
                 .iter()
-                .any(|action: &Action| matches!(action, Action::Load(load) if load.vehicle > 0.9)),
+                .any(|action| matches!(action, Action::Load(load) if load.vehicle > 0.9)),
             "there is no glaze"
         );
         assert!(ORANGES.len() < 60_000, "{} bytes", ORANGES.len());

@@ -1,5 +1,5 @@
-//! Jobs on files (saving, exporting, reading, preferences, autosaves and their recovery):
-//! starts each, applies its result, and shows running jobs and messages over the window.
+//! Starts jobs on files (saving, exporting, reading, preferences, autosaves and their recovery) and
+//! applies the results. Shows running jobs and messages over the window.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError};
@@ -41,7 +41,6 @@ impl Files {
         self.request_snapshot(Purpose::Save { path, next, keep_revision: false });
     }
 
-    /// Starts the job that a snapshot was requested for.
     pub(super) fn start_with_snapshot(&mut self, purpose: Purpose, snapshot: &Snapshot) {
         let canvas = snapshot.canvas.clone();
         let revision = snapshot.revision;
@@ -79,7 +78,6 @@ impl Files {
         }
     }
 
-    /// Starts the job that the recording was requested for.
     pub(super) fn start_with_recording(&mut self, purpose: Purpose, script: Arc<StrokeScript>) {
         match purpose {
             Purpose::Recording { path } => self.start_recording(path, script),
@@ -88,7 +86,6 @@ impl Files {
         }
     }
 
-    /// Starts playing a recording for its timelapse.
     fn start_timelapse(
         &mut self,
         export: TimelapseExport,
@@ -107,7 +104,6 @@ impl Files {
         });
     }
 
-    /// Starts writing a recording.
     fn start_recording(&mut self, path: PathBuf, script: Arc<StrokeScript>) {
         let label = tr_format!("saving {path}", path = file_name(&path));
         let start = self.start.clone();
@@ -119,9 +115,8 @@ impl Files {
         });
     }
 
-    /// Returns a function that finds the light of `document`. If the worker's light has the
-    /// same name, observer and library, it is used, because a lamp's file may no longer
-    /// exist.
+    /// Returns a function that finds the light of `document`. We use the worker's light if it has
+    /// the same name, observer and library, because the file of a lamp may no longer exist.
     fn light_of(
         &self,
         document: &Arc<Document>,
@@ -145,9 +140,8 @@ impl Files {
         }
     }
 
-    /// Starts reading a file of any kind.
     pub(super) fn read(&mut self, path: PathBuf) {
-        // Absolute, so that a later change of the working folder has no effect.
+        // An absolute path stays right if the working folder changes later.
         let path = disk::absolute(&path).unwrap_or(path);
         let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |task| {
@@ -156,7 +150,6 @@ impl Files {
         });
     }
 
-    /// Starts reading a revision.
     pub(super) fn read_revision(&mut self, path: PathBuf) {
         let label = tr_format!("reading revision {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |task| {
@@ -165,7 +158,6 @@ impl Files {
         });
     }
 
-    /// Starts listing the revisions of the painting.
     pub(super) fn list_revisions(&mut self) {
         let epoch = self.epoch;
         let Some(path) = self.path.clone() else {
@@ -194,7 +186,6 @@ impl Files {
         });
     }
 
-    /// Opens a new painting on the canvas of `script`.
     pub(super) fn begin_painting(&mut self, script: StrokeScript, library: PigmentLibrary) {
         let origin = Origin::Blank { script: Box::new(script), library: Box::new(library) };
         let commands = vec![Command::Open(origin)];
@@ -228,7 +219,7 @@ impl Files {
         self.closes_when_saved &= kind != JobKind::Saving;
         // Autosaves fail again every few seconds; the first report is enough.
         if kind == JobKind::Autosave {
-            // What was kept of the recording is not known.
+            // We do not know how much of the recording was kept.
             self.recorded = 0;
             if std::mem::replace(&mut self.autosave_failed, true) {
                 return;
@@ -305,9 +296,8 @@ impl Files {
                     (self.recorded, self.autosaved_desk) = (recorded, Some(*desk));
                 }
                 if let Some(lost) = self.recovered.take() {
-                    // The autosaves of this session contain the recovered painting now, so
-                    // the lost session is not needed. The painting is still not saved in a
-                    // file.
+                    // The autosaves of this session contain the recovered painting now, so we do
+                    // not need the lost session. You have still not saved the painting in a file.
                     self.saved_revision = None;
                     lost.discard();
                 }
@@ -325,7 +315,6 @@ impl Files {
         }
     }
 
-    /// The current painting was saved in `path`.
     fn saved(&mut self, path: PathBuf, revision: u64, keep_revision: bool) {
         self.saved_revision = Some(revision);
         self.path = Some(path.clone());
@@ -341,7 +330,6 @@ impl Files {
         }
     }
 
-    /// Uses the content of a file, according to its kind.
     fn use_opened(&mut self, path: PathBuf, opened: Opened) {
         match opened {
             Opened::Painting { document: canvas, table, bytes } => {
@@ -426,8 +414,7 @@ impl Files {
         });
     }
 
-    /// Requests an autosave if it is due; otherwise requests a repaint at the time when it
-    /// will be.
+    /// Requests an autosave if it is due. Otherwise asks for a repaint at the time when it will be.
     pub(super) fn autosave_when_due(&mut self) {
         let Some(state) = self.painting.clone() else { return };
         let busy = self.jobs.iter().any(|job| job.kind == JobKind::Autosave)
@@ -451,7 +438,6 @@ impl Files {
         }
     }
 
-    /// Starts writing an autosave.
     pub(super) fn start_autosave(&mut self, kept: &Arc<KeptPainting>) {
         let kept = kept.clone();
         let start = self.start.clone();
@@ -485,8 +471,7 @@ impl Files {
         });
     }
 
-    /// Starts deleting the autosaves. They are not needed once the painting is saved in a
-    /// file or discarded.
+    /// Starts deleting the autosaves, e.g. because the painting is saved in a file or discarded.
     pub(super) fn clear_autosaves(&mut self) {
         (self.last_autosave, self.autosaved_revision) = (Some(Instant::now()), None);
         (self.recorded, self.autosaved_desk) = (0, None);
@@ -608,9 +593,8 @@ impl Files {
     }
 }
 
-/// Returns the script as it will be saved in `path`. If it continues a painting, the file
-/// of that painting as it was at the start (`start`) is written beside it as
-/// `NAME.start.exr`.
+/// Returns the script as it will be saved in `path`. If it continues a painting, this also writes
+/// the painting as it was at the start (`start`) beside it, as `NAME.start.exr`.
 fn with_start_file(
     path: &Path,
     script: &StrokeScript,
@@ -620,8 +604,7 @@ fn with_start_file(
     let Some(named) = &script.start else { return Ok(script) };
     let bytes = match start {
         Some(bytes) => bytes,
-        // The painting comes from a recording, whose script names the file that it started
-        // from.
+        // The painting comes from a recording. Its script names the file that it started from.
         None => Arc::new(documents::file::read(Path::new(named))?),
     };
     let beside = path.with_extension("start.exr");
@@ -630,7 +613,6 @@ fn with_start_file(
     Ok(script)
 }
 
-/// Writes a painting, with the palette and the brushes beside it.
 fn write_painting(
     path: &Path,
     canvas: &Document,
@@ -644,7 +626,7 @@ fn write_painting(
     Ok(())
 }
 
-/// Reads a painting, and returns the content of its file too.
+/// Reads a painting and returns the content of its file too.
 pub(super) fn read_painting(
     path: &Path,
     task: &Task,
@@ -672,13 +654,11 @@ fn read_autosaved(path: &Path, title: &str, task: &Task) -> Result<Box<Document>
     }
 }
 
-/// A job is shown after it has run for this time; a shorter one would only flicker.
+/// We show a job only after this time. A shorter one would just flicker.
 const JOB_SHOWN_AFTER: Duration = Duration::from_millis(300);
 
-/// Width of a message, in points.
 const WIDTH: f32 = 480.0;
 
-/// Width of the buttons of a message, in points.
 const BUTTONS_WIDTH: f32 = 140.0;
 
 /// Maximum number of messages shown at a time.
@@ -705,7 +685,7 @@ enum Clicked {
     CancelReplay,
 }
 
-/// Offers to recover a lost `kind` of work. Returns whether it is to be recovered or discarded.
+/// Offers to recover lost work of this `kind`. Returns whether you want it recovered or discarded.
 fn lost_card(ui: &mut Ui, lost: &LostSession, kind: &str) -> Option<bool> {
     let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
     let when = ago(then, SystemTime::now());
@@ -727,7 +707,7 @@ fn lost_card(ui: &mut Ui, lost: &LostSession, kind: &str) -> Option<bool> {
     answer
 }
 
-/// A label over a progress bar, or over a spinner if the progress is not known.
+/// A label over a progress bar, or over a spinner if we do not know the progress.
 fn bar(ui: &mut Ui, label: &str, fraction: Option<f32>) {
     ui.label(label);
     match fraction {

@@ -19,27 +19,26 @@ use super::opened::{Opened, Revision};
 use super::problem::Problem;
 use super::request::{DrawnFile, ReadSwatches, ReferenceChange};
 
-/// The reason for which the worker was asked for a snapshot or a recording.
+/// Why we asked the worker for a snapshot or a recording.
 #[derive(Debug)]
 pub(super) enum Purpose {
-    /// Saves the painting in `path`, keeps a revision if `keep_revision` is set, then
-    /// carries out `next`.
+    /// Saves the painting in `path`, keeps a revision if `keep_revision` is set, then carries out
+    /// `next`.
     Save { path: PathBuf, next: Option<PendingAction>, keep_revision: bool },
-    /// Keeps a revision of the painting in `path`.
+    /// Keeps a revision of this painting.
     Revision { path: PathBuf },
     /// Exports to `path`.
     Export { export: Export, path: PathBuf },
-    /// Crops the painting to these cells.
+    /// Crops to these cells.
     Crop(Rect),
     /// Writes an autosave.
     Autosave,
-    /// Saves the recording in `path`.
+    /// Saves the recording.
     Recording { path: PathBuf },
-    /// Writes a timelapse of the recording to `path`.
+    /// Writes a timelapse of the recording.
     Timelapse { export: TimelapseExport, path: PathBuf },
 }
 
-/// The result of a job.
 #[derive(Debug)]
 pub(super) enum Finished {
     /// A file was read.
@@ -48,7 +47,7 @@ pub(super) enum Finished {
     RevisionRead(Box<Document>, Arc<Vec<u8>>),
     /// A painting on a picture was begun: the painting, and the content of its file.
     Begun(Box<Document>, Arc<Vec<u8>>),
-    /// The painting was cropped; `start` is the content of its file. `revision` is the painting's
+    /// The painting was cropped. `start` is the content of its file, and `revision` the painting's
     /// counter of changes before.
     Cropped {
         canvas: Box<Document>,
@@ -61,12 +60,12 @@ pub(super) enum Finished {
     Recovered {
         canvas: Box<Document>,
         palette: Box<Document>,
-        /// Brushes and recording, which older autosaves do not have.
+        /// Brushes and recording. Older autosaves do not have these.
         work: Option<Box<RecoveredWork>>,
         lost: LostSession,
         remarks: Vec<Problem>,
     },
-    /// The painting was saved. `path`, `next` and `keep_revision` are those of
+    /// The painting was saved. The fields `path`, `next` and `keep_revision` come from
     /// [`Purpose::Save`].
     Saved {
         path: PathBuf,
@@ -75,20 +74,20 @@ pub(super) enum Finished {
         next: Option<PendingAction>,
         keep_revision: bool,
     },
-    /// A revision was written to this file.
+    /// A revision was written.
     RevisionKept(PathBuf),
-    /// An export was written. `remark` tells what the painter should know of it.
+    /// An export was written. `remark` is a message for the painter, if any.
     Exported { path: PathBuf, remark: Option<Problem> },
     /// A recording of this many actions was written.
     Recorded { path: PathBuf, actions: usize },
-    /// A drawing was saved; `next` is to be carried out.
+    /// A drawing was saved. Then carry out `next`.
     DrawingSaved { drawn: DrawnFile, next: Option<PendingAction> },
     /// A drawing was read.
     DrawingRead(DrawnFile),
-    /// The revisions of the painting were listed.
+    /// The revisions were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
-    /// An autosave was written. `revision` is the painting's counter of changes at that
-    /// time, `recorded` the number of actions of its recording that are kept.
+    /// An autosave was written. `revision` is the painting's counter of changes at this time,
+    /// `recorded` the number of kept actions of its recording.
     Autosaved {
         revision: u64,
         epoch: u64,
@@ -96,15 +95,15 @@ pub(super) enum Finished {
         desk: Box<Desk>,
         digest: Option<(PathBuf, Option<String>)>,
     },
-    /// The sets of own brushes were read, except files with these problems.
+    /// The sets of own brushes were read. Some files may have these problems.
     BrushSetsRead(Vec<StoredSet>, Vec<Problem>),
     /// A file of brushes was read.
     BrushesRead { path: PathBuf, brushes: ReadBrushes },
-    /// The list of kept mixtures was read; `problem` tells what was wrong with it.
+    /// The list of kept mixtures was read. `problem` describes a fault in it.
     SwatchesRead { book: SwatchBook, problem: Option<Problem> },
-    /// A file of mixtures or colours was read.
+    /// Mixtures or colours were read.
     SwatchesImported(ReadSwatches),
-    /// The script of the scene was saved in a file.
+    /// The script of a scene was saved.
     SceneSaved { path: PathBuf, revision: u64 },
     /// An autosave of the scene was written.
     SceneAutosaved,
@@ -112,7 +111,6 @@ pub(super) enum Finished {
     Quietly,
 }
 
-/// A job that is running.
 #[derive(Debug)]
 pub(super) struct RunningJob {
     pub(super) job: Job<Finished>,
@@ -120,22 +118,22 @@ pub(super) struct RunningJob {
     pub(super) kind: JobKind,
 }
 
-/// How visible a job is, and what waits for it.
+/// How visible a job is, and whether the window waits for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum JobKind {
-    /// The painter waits for the job: its progress is shown, and it can be cancelled.
+    /// You wait for this job. You see its progress and can cancel it.
     Shown,
-    /// The job saves a painting: its progress is shown, and the window does not close
-    /// before it ends.
+    /// The job saves a painting. You see its progress, and the window does not close before its
+    /// end.
     Saving,
-    /// It runs in the background without being shown.
+    /// It runs in the background, and you do not see it.
     Background,
     /// An autosave, in the background.
     Autosave,
 }
 
 impl RunningJob {
-    /// Waits for the job, and returns its result unless it failed. A job of the kind
+    /// Waits for the job and returns its result, unless it failed. A job of the kind
     /// [`JobKind::Shown`] is cancelled first.
     pub(super) fn finish(self) -> Option<Finished> {
         if self.kind == JobKind::Shown {
@@ -145,43 +143,40 @@ impl RunningJob {
     }
 }
 
-/// The name of a file without its folder.
 pub(super) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// An action that would lose unsaved changes, kept until they are saved or given up.
+/// An action that would lose unsaved changes. We keep it until you save or discard them.
 #[derive(Debug)]
 pub(super) enum PendingAction {
     /// Closes the window.
     Close {
-        /// Whether the painter gave up drawings that are in no file.
+        /// Whether you discarded drawings that are in no file.
         drawings_given_up: bool,
     },
     /// Opens another painting in place of the current one.
     Replace(Replacement),
-    /// Changes the picture beside the canvas or the lines on it.
     Reference(ReferenceChange),
 }
 
-/// Another painting, to be opened in place of the current one.
+/// Another painting, to open in place of the current one.
 #[derive(Debug)]
 pub(super) struct Replacement {
-    /// Commands that make the worker open it.
     pub(super) commands: Vec<Command>,
-    /// The files that belong to it.
+    /// The files of this painting.
     pub(super) origin: FileOrigin,
 }
 
-/// The files that belong to a painting that the worker is opening.
+/// The files of a painting that the worker is opening.
 #[derive(Debug, Default)]
 pub(super) struct FileOrigin {
-    /// The file in which it can be saved again, if it was read from one.
+    /// The file that you can save it in again, if it was read from one.
     pub(super) path: Option<PathBuf>,
-    /// The lost session that it was recovered from, if it was.
+    /// The lost session that it was recovered from, if any.
     pub(super) lost: Option<LostSession>,
-    /// Content of the file that it was read from. A recording of what is painted on it
-    /// needs this as its start.
+    /// Content of the file that it was read from. If you paint on, the recording needs this as its
+    /// start.
     pub(super) start: Option<Arc<Vec<u8>>>,
     /// Whether it is the sample painting.
     pub(super) sample: bool,
@@ -189,7 +184,7 @@ pub(super) struct FileOrigin {
     pub(super) changed: bool,
 }
 
-/// Time for which a message that needs no answer is shown.
+/// Messages that need no answer disappear after this time.
 const SHOWN: Duration = Duration::from_secs(5);
 
 /// A sentence for the status line.
@@ -201,24 +196,23 @@ pub struct StatusNote {
     pub hint: Option<String>,
 }
 
-/// A message over the window.
 #[derive(Debug, Clone)]
 pub(super) struct Notice {
     /// The message, beginning with a capital letter.
     pub(super) text: String,
     /// Suggests what to do.
     pub(super) hint: Option<String>,
-    /// When the message disappears; `None` if it stays until it is closed.
+    /// When the message disappears; `None` if it stays until you close it.
     pub(super) until: Option<Instant>,
 }
 
 impl Notice {
-    /// A message about something that was done. It disappears after [`SHOWN`].
+    /// A message about something done. It disappears after [`SHOWN`].
     pub(super) fn done(text: &str) -> Self {
         Self { text: capitalized(text), hint: None, until: Some(Instant::now() + SHOWN) }
     }
 
-    /// A message about something that failed. It stays until the painter closes it.
+    /// A message about a failure. It stays until you close it.
     pub(super) fn problem(problem: Problem) -> Self {
         Self { text: capitalized(&problem.text), hint: problem.hint, until: None }
     }
@@ -231,23 +225,22 @@ fn capitalized(text: &str) -> String {
     first.into_iter().chain(letters).collect()
 }
 
-/// Own brushes, in sets that are written to the home folder when they change.
+/// Own brushes, in sets. We write changed sets to the home folder.
 #[derive(Debug, Default)]
 pub struct BrushSets {
     /// The sets, each with its file.
     pub sets: Vec<StoredSet>,
-    /// Number of the set that is shown.
+    /// Number of the shown set.
     pub shown: usize,
-    /// The brush that was taken over last, with what became of its settings.
+    /// The brush that we took over last, with a note on each of its settings.
     pub imported: Option<ImportedBrush>,
-    /// The sets as their files have them.
+    /// The sets as they are in their files.
     pub(super) written: Vec<StoredSet>,
     pub(super) is_read: bool,
-    /// Whether reading them has begun.
+    /// Whether we have begun to read them.
     pub(super) is_asked: bool,
 }
 
-/// Brushes that a file held.
 #[derive(Debug)]
 pub(super) enum ReadBrushes {
     /// A set of this program.
@@ -257,24 +250,24 @@ pub(super) enum ReadBrushes {
 }
 
 impl BrushSets {
-    /// Whether the sets were read from the home folder, so that they can be changed.
+    /// Whether the sets were read from the home folder. You can change them only then.
     #[must_use]
     pub fn is_read(&self) -> bool {
         self.is_read
     }
 
-    /// The set that is shown, if there is one.
+    /// The shown set, if there is one.
     #[must_use]
     pub fn set(&self) -> Option<&BrushSet> {
         self.sets.get(self.shown).map(|stored| &stored.set)
     }
 
-    /// The set that is shown, to change it.
+    /// The shown set, so that you can change it.
     pub fn set_mut(&mut self) -> Option<&mut BrushSet> {
         self.sets.get_mut(self.shown).map(|stored| &mut stored.set)
     }
 
-    /// Removes the set that is shown, with its file.
+    /// Removes the shown set, with its file.
     pub fn remove_set(&mut self) {
         if self.shown < self.sets.len() {
             self.sets.remove(self.shown);

@@ -1,12 +1,10 @@
-//! The languages of the window: English texts in the sources, and for each other language a table
+//! The languages of the window. The sources hold English texts, and each other language has a table
 //! with their translations.
-//!
-//! A text is shown through [`tr`], one with values through `tr_format`. Both look it up in the
-//! table of the language that [`speak`] chose for this thread, and show the English text where the
-//! table has none. Tables of data hold English texts, which are translated where they are shown.
-//!
-//! Only the thread of the window chooses a language; all others speak English, as the tests do.
-//! The session writes labels of actions in English: they are recognised by their pattern.
+//! | You show a text through [`tr`], one with values through `tr_format`. Both look it up in the
+//! table of the language that [`speak`] chose for this thread. If the table lacks a text, you see
+//! the English one. Tables of data hold English texts, which we translate where we show them.
+//! | Only the thread of the window chooses a language. All others speak English, as the tests do.
+//! The session writes labels of actions in English, so we recognise these by their pattern.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,10 +13,10 @@ use std::sync::{LazyLock, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
-/// Formats a text with values in the language that this thread speaks, as
-/// `tr_format!("{count} layers", count = layers.len())`. Every placeholder has a name, and every
-/// name is listed after the text; a value of the same name needs no more. In English it is
-/// `format!`, which checks the names while it is compiled.
+/// Formats a text with values in the language of this thread, e.g. `tr_format!("{count} layers",
+/// count = layers.len())`. Every placeholder has a name, and you list every name after the text. If
+/// a variable has this name, the name alone is enough. In English this is `format!`, which checks
+/// the names when it is compiled.
 macro_rules! tr_format {
     (@value $name:ident) => { $name };
     (@value $name:ident $value:expr) => { $value };
@@ -42,7 +40,7 @@ pub(crate) use tr_format;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
-    /// The texts as they stand in the sources.
+    /// The texts in the sources.
     #[default]
     English,
     /// The texts of `german.json`.
@@ -50,7 +48,7 @@ pub enum Language {
 }
 
 impl Language {
-    /// Every language, in the order in which the preferences list them.
+    /// Every language, as listed in the preferences.
     pub const ALL: [Self; 2] = [Self::English, Self::German];
 
     /// Name of the language in itself.
@@ -62,20 +60,20 @@ impl Language {
         }
     }
 
-    /// The language that the environment variables `LC_ALL`, `LC_MESSAGES` and `LANG` name: the
-    /// first that is not empty decides. English if none names a language of the window.
+    /// The language in the environment variables `LC_ALL`, `LC_MESSAGES` and `LANG`. The first that
+    /// is not empty decides. English if it names none of our languages.
     #[must_use]
     pub fn of_environment() -> Self {
         Self::of_locales(["LC_ALL", "LC_MESSAGES", "LANG"].map(|name| std::env::var(name).ok()))
     }
 
-    /// The language of a name such as `de-AT`.
+    /// The language of a name, e.g. `de-AT`.
     #[must_use]
     pub fn of_name(name: &str) -> Self {
         Self::of_locales([Some(name.to_owned()), None, None])
     }
 
-    /// The language of the first name that is not empty, such as `de_AT.UTF-8`.
+    /// The language of the first name that is not empty, e.g. `de_AT.UTF-8`.
     fn of_locales(names: [Option<String>; 3]) -> Self {
         let name = names.into_iter().flatten().find(|name| !name.is_empty());
         let word = name.as_deref().and_then(|name| name.split(['_', '.', '@', '-']).next());
@@ -86,11 +84,11 @@ impl Language {
 /// Translations by the English texts.
 pub type Table = BTreeMap<String, String>;
 
-/// The German texts. A test checks that the file can be read; without it the window is English.
+/// The German texts. A test checks this file. Without it the window would be English.
 static GERMAN: LazyLock<Table> =
     LazyLock::new(|| serde_json::from_str(include_str!("german.json")).unwrap_or_default());
 
-/// The table of a language; `None` for English, whose texts stand in the sources.
+/// The table of a language; `None` for English, because the sources hold its texts.
 #[must_use]
 pub fn table(language: Language) -> Option<&'static Table> {
     match language {
@@ -99,7 +97,7 @@ pub fn table(language: Language) -> Option<&'static Table> {
     }
 }
 
-/// Names of the placeholders of a text, such as `count` in `{count} layers`.
+/// Names of the placeholders of a text, e.g. `count` in `{count} layers`.
 #[must_use]
 pub fn placeholders(text: &str) -> BTreeSet<&str> {
     let parts = text.split('{').skip(1);
@@ -111,45 +109,44 @@ thread_local! {
     static SPOKEN: Cell<Language> = const { Cell::new(Language::English) };
 }
 
-/// The language of the system, once the program has told it.
+/// The language of the system, once the program has set it.
 static SYSTEM: OnceLock<Language> = OnceLock::new();
 
-/// Tells the language of the system, once, when the program starts. Libraries and tests, which
-/// do not tell it, speak English whatever the environment.
+/// Sets the language of the system. Call this once when the program starts. Libraries and tests do
+/// not, so they speak English in any environment.
 pub fn set_system(language: Language) {
     // Only the first call counts.
     let _ = SYSTEM.set(language);
 }
 
-/// Makes this thread speak the chosen language, or that of the system where none was chosen.
+/// Makes this thread speak the chosen language, or else the language of the system.
 pub fn speak(chosen: Option<Language>) {
     let system = SYSTEM.get().copied().unwrap_or_default();
     SPOKEN.set(chosen.unwrap_or(system));
 }
 
-/// The language that this thread speaks.
+/// The language of this thread.
 #[must_use]
 pub fn spoken() -> Language {
     SPOKEN.get()
 }
 
-/// The text in the language that this thread speaks, or the English text itself where the table
-/// of the language has none. A word of several meanings has its use before it, as in
-/// `theme|Light`, which is shown as `Light` in English.
+/// The text in the language of this thread, or the English text if the table lacks it. If a word
+/// has several meanings, write its use before it. For example, `theme|Light` is `Light` in English.
 #[must_use]
 pub fn tr(english: &str) -> &str {
     translation(english)
         .unwrap_or_else(|| english.split_once('|').map_or(english, |(_, text)| text))
 }
 
-/// An English text of a table, which is translated where it is shown: the same text, so that all
-/// texts to translate can be found in the sources.
+/// Marks an English text of a table, so that you can find all texts to translate in the sources.
+/// This returns the same text. We translate it where we show it.
 #[must_use]
 pub const fn english(text: &'static str) -> &'static str {
     text
 }
 
-/// The translation of a text; `None` in English, and where the table of the language has none.
+/// The translation of a text; `None` in English, and if the table lacks it.
 #[must_use]
 pub fn translation(english: &str) -> Option<&'static str> {
     table(spoken())?.get(english).map(String::as_str)
@@ -230,8 +227,8 @@ pub const PATTERNS: [&str; 34] = [
 /// Patterns of the paint in a label.
 pub const PAINTS: [&str; 2] = ["{first} and {second}", "{count} pigments"];
 
-/// Words of the libraries that the window shows: heads of brushes, tools of scenes, and what the
-/// labels of the history name.
+/// Words of the libraries that you see in the window: heads of brushes, tools of scenes, and names
+/// in the labels of the history.
 pub const WORDS: [&str; 17] = [
     "round",
     "flat",
@@ -252,8 +249,8 @@ pub const WORDS: [&str; 17] = [
     "Layer {number}",
 ];
 
-/// The label of a layer that has no name, such as `Layer 3`, in the language that this thread
-/// speaks. A name that the painter gave stays as it is.
+/// The label of a layer without a name, e.g. `Layer 3`, in the language of this thread. If you have
+/// named the layer, your name stays.
 #[must_use]
 pub fn layer_label(english: &str) -> String {
     const UNNAMED: &str = "Layer {number}";
@@ -265,13 +262,13 @@ pub fn layer_label(english: &str) -> String {
     }
 }
 
-/// A word of the libraries in the language that this thread speaks; another text stays as it is.
+/// A word of the libraries in the language of this thread. Any other text stays as it is.
 fn word(english: &str) -> &str {
     translation(english).filter(|_| WORDS.contains(&english)).unwrap_or(english)
 }
 
-/// The label of a brush in the list: that of its shape, also with a number, in the language that
-/// this thread speaks. Another name that the painter gave stays as it is.
+/// The label of a brush in the list, in the language of this thread. This translates shapes, also
+/// with a number. If you have named the brush, your name stays.
 #[must_use]
 pub fn brush_label(english: &str) -> String {
     match english.rsplit_once(' ') {
@@ -282,8 +279,7 @@ pub fn brush_label(english: &str) -> String {
     }
 }
 
-/// A label of the history in the language that this thread speaks. One that fits no pattern
-/// stays as it is.
+/// A label of the history in the language of this thread. If no pattern fits, it stays as it is.
 #[must_use]
 pub fn action_label(english: &str) -> String {
     for pattern in PATTERNS {
@@ -300,7 +296,7 @@ pub fn action_label(english: &str) -> String {
     english.to_owned()
 }
 
-/// A value of a label: a layer by its number, paint of several pigments, or a word that has a
+/// A value of a label: a layer by its number, paint of several pigments, or a word with a
 /// translation.
 fn value_text(name: &str, value: &str) -> String {
     for pattern in PAINTS.iter().filter(|_| name == "paint") {
@@ -316,7 +312,7 @@ fn value_text(name: &str, value: &str) -> String {
     }
 }
 
-/// Values of the placeholders of a pattern that a text fits, each as short as possible.
+/// Values of the placeholders of a pattern that fits a text. Each is as short as possible.
 fn matched<'a>(pattern: &'a str, text: &'a str) -> Option<Vec<(&'a str, &'a str)>> {
     let (before, rest) = pattern.split_once('{').unwrap_or((pattern, ""));
     let mut rest = rest;
@@ -339,9 +335,9 @@ mod tests {
 
     #[test]
     fn the_first_name_that_is_not_empty_decides() {
-        let language = |names: [&str; 3]| {
+        fn language(names: [&str; 3]) -> Language {
             Language::of_locales(names.map(|name| Some(name.to_owned()).filter(|_| name != "-")))
-        };
+        }
         assert_eq!(language(["-", "-", "-"]), Language::English);
         assert_eq!(language(["-", "-", "de_AT.UTF-8"]), Language::German);
         assert_eq!(language(["", "de", "en_GB.UTF-8"]), Language::German);

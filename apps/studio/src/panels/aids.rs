@@ -8,10 +8,9 @@ use crate::keymap::hint;
 use crate::language::{english, tr, tr_format};
 use crate::pen::{DrawingAids, GuideKind, RulerShape, SymmetryKind};
 
-/// Width of the window, in points.
 const WIDTH: f32 = 330.0;
 
-/// Shapes of the ruler with their names and what strokes do.
+/// Shapes of the ruler with their names, and what strokes do.
 const SHAPES: [(RulerShape, &str, &str); 4] = [
     (RulerShape::Line, english("Line"), english("Strokes keep to the ruler")),
     (
@@ -27,7 +26,7 @@ const SHAPES: [(RulerShape, &str, &str); 4] = [
     ),
 ];
 
-/// Kinds of symmetry with their names and what is painted besides a stroke.
+/// Kinds of symmetry with their names, and what is painted besides a stroke.
 const KINDS: [(SymmetryKind, &str, &str); 4] = [
     (
         SymmetryKind::Vertical,
@@ -43,7 +42,7 @@ const KINDS: [(SymmetryKind, &str, &str); 4] = [
     (SymmetryKind::Radial, english("Radial"), english("Each stroke is turned about the centre")),
 ];
 
-/// Draws the window while `open` is true; its close button and Escape clear `open`.
+/// Draws the window while `open` is true. The close button and Escape clear `open`.
 pub fn show(context: &Context, open: &mut bool, aids: &mut DrawingAids) {
     let _ = floating::show(context, tr("Drawing aids"), "drawing aids", open, |ui| {
         ui.set_width(WIDTH);
@@ -102,7 +101,7 @@ fn guide_rows(ui: &mut Ui, aids: &mut DrawingAids) {
     ui.checkbox(&mut aids.snaps, tr("Strokes follow it")).on_hover_text(format!("{tip}{key}"));
 }
 
-/// Places of the vanishing points in numbers: they may lie far outside.
+/// Edits the vanishing points as numbers, because they may lie far outside.
 fn vanishing_rows(ui: &mut Ui, aids: &mut DrawingAids) {
     let count = aids.perspective.in_use().len();
     for (number, point) in (1..).zip(&mut aids.perspective.points[..count]) {

@@ -1,4 +1,4 @@
-//! Context in which a panel is drawn: the painting, the tools with their settings, and a queue of
+//! Context in which you draw a panel: the painting, the tools with their settings, and a queue of
 //! requests.
 
 use std::f64::consts::TAU;
@@ -13,10 +13,11 @@ use session::{Command, PaintingState, Picked};
 use crate::files::FileRequest;
 use crate::view::Outline;
 
-/// Height of paint, in mm, below which a brush is full: the smallest load that the panel offers.
+/// A brush is full if it can take less than this height, in mm. This is the smallest load that the
+/// panel offers.
 const LEAST_LOAD_MM: f64 = 0.02;
 
-/// Number of mixtures that are remembered as loaded last.
+/// Number of mixtures that we remember as loaded last.
 const MOST_RECENT: usize = 6;
 
 /// Request of a panel.
@@ -35,7 +36,7 @@ pub struct PanelContext<'a> {
     pub painting: &'a PaintingState,
     /// Selected tool, brush and tool settings.
     pub tools: &'a mut Tools,
-    /// Requests in order; the window carries them out after the frame.
+    /// Requests in order. The window carries them out after the frame.
     pub requests: &'a mut Vec<Request>,
 }
 
@@ -45,14 +46,14 @@ impl PanelContext<'_> {
         self.requests.push(Request::Worker(command));
     }
 
-    /// Queues an action, which becomes one entry of the history.
+    /// Queues an action. It becomes one entry of the history.
     pub fn act(&mut self, action: Action) {
         self.command(Command::Apply(action));
     }
 
-    /// Adds paint of a recipe with this share of medium to the selected brush, as high as set in
-    /// the tools or as the brush can still take, and selects the paint tool. What the brush holds
-    /// stays on it until it is washed.
+    /// Adds paint of a recipe with this share of medium to the selected brush, and selects the
+    /// paint tool. The height comes from the tools, or from the room left on the brush. The paint
+    /// on the brush stays until you wash it.
     pub fn load(&mut self, recipe: Recipe, vehicle: f64) {
         if recipe.len() > 1 {
             let recent = &mut self.tools.recent;
@@ -63,7 +64,7 @@ impl PanelContext<'_> {
         let brush = self.tools.brush.clone();
         let mut amount_mm = self.tools.load_mm;
         let state = self.painting.brushes.iter().find(|state| state.name == brush);
-        // A full brush is sent the whole load, whose refusal names the way out.
+        // If the brush is full, we send the whole load. The refusal explains what to do.
         if let Some(most_mm) = state.map(|state| state.most_load_mm)
             && most_mm >= LEAST_LOAD_MM
         {
@@ -102,7 +103,7 @@ pub enum Mode {
     Scrape,
     /// Rubs wet paint off with the head of the brush.
     Erase,
-    /// Draws the polygon or the rectangle that a mask leaves open.
+    /// Draws the polygon or rectangle that a mask leaves open.
     Mask,
 }
 
@@ -113,7 +114,6 @@ impl Mode {
         matches!(self, Self::Paint | Self::Blend | Self::Scrape | Self::Erase)
     }
 
-    /// All tools.
     const ALL: [Self; 10] = [
         Self::Paint,
         Self::Blend,
@@ -178,17 +178,17 @@ pub struct Tools {
     pub erase_strength: f64,
     /// Radius of the disc that the eyedropper averages, in mm; 0 is one cell.
     pub pick_radius_mm: f64,
-    /// Mixtures of two pigments and more that brushes were loaded with, with their share of medium,
-    /// the latest first.
+    /// Mixtures of two or more pigments that you loaded last, with their share of medium, the
+    /// latest first.
     pub recent: Vec<(Recipe, f64)>,
     /// Last result of the eyedropper.
     pub picked: Option<Arc<Picked>>,
     /// Colour picked from the reference picture, linear sRGB.
     pub reference_color: Option<[f64; 3]>,
-    /// Position of the boundary between the two lights of the split view, as a share of the
-    /// canvas width, 0 (left) to 1 (right).
+    /// Position of the boundary between the two lights of the split view, as a share of the canvas
+    /// width, 0 (left) to 1 (right).
     pub split: f32,
-    /// Whether the performance figures are shown over the canvas.
+    /// Whether you see the performance figures over the canvas.
     pub figures: bool,
 }
 
@@ -217,7 +217,7 @@ impl Default for Tools {
 }
 
 impl Tools {
-    /// The tool that the head of a brush is used as in a mode; it paints in modes without a head.
+    /// The tool of the brush head in this mode. Modes without a head give the paint tool.
     #[must_use]
     pub fn stroke_tool(&self, mode: Mode) -> StrokeTool {
         match mode {
@@ -229,8 +229,8 @@ impl Tools {
     }
 }
 
-/// Clearance around a new heap of paint, divided by the cube root of its volume. The
-/// heap's own radius is 0.94 of that root (`Painting::squeeze`).
+/// Clearance around a new heap of paint, divided by the cube root of its volume. The heap itself
+/// has a radius of 0.94 of this root (`Painting::squeeze`).
 const REACH: f64 = 1.2;
 
 /// Squeezes a heap of a mixture, with the volume set in the tools, on a free place of the palette.
@@ -241,8 +241,8 @@ pub(super) fn lay_on_palette(cx: &mut PanelContext<'_>, recipe: Recipe, vehicle:
     cx.command(Command::SqueezeInFreeSpace { recipe, vehicle, volume_mm3, places, reach_mm });
 }
 
-/// Keeps a mixture in the painter's list, with its colour under the light of the painting. Does
-/// nothing for a recipe without pigment.
+/// Keeps a mixture in your list, with its colour under the light of the painting. This does nothing
+/// for a recipe without pigment.
 pub(super) fn keep(cx: &mut PanelContext<'_>, recipe: Recipe, vehicle: f64) {
     let painting = cx.painting;
     let Ok(weights) = painting.light.viewing.weights(painting.library.grid) else { return };
@@ -252,8 +252,8 @@ pub(super) fn keep(cx: &mut PanelContext<'_>, recipe: Recipe, vehicle: f64) {
     }
 }
 
-/// Positions on the palette, in mm, whose surroundings up to `reach_mm` are on its
-/// wood; row by row from the upper left.
+/// Positions on the palette, in mm, with wood all around up to `reach_mm`, row by row from the
+/// upper left.
 fn candidates(painting: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
     let cells = painting.palette_cells;
     let reach = reach_mm / painting.cell_mm;
@@ -270,20 +270,18 @@ fn candidates(painting: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
     on_wood.map(|place| place.map(|cells| cells * painting.cell_mm)).collect()
 }
 
-/// Time after which an unconfirmed value is dropped, in seconds.
+/// We drop an unconfirmed value after this time, in seconds.
 const TIMEOUT_SECONDS: f64 = 3.0;
 
-/// Change of a control's value in one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Edit {
-    /// The value did not change.
     #[default]
     None,
-    /// The control is being dragged and its value changed.
+    /// You drag the control and its value changed.
     Dragged,
     /// A drag ended.
     Released,
-    /// The value was set by a key or by typing.
+    /// You set the value by a key or by typing.
     Set,
 }
 
@@ -301,8 +299,8 @@ impl Edit {
         }
     }
 
-    /// Combines the changes made by two controls of one value: returns `other` if `self` is
-    /// `None`.
+    /// Combines the changes by two controls of one value. If `self` is `None`, this returns
+    /// `other`.
     pub(super) fn or(self, other: Self) -> Self {
         if self == Self::None { other } else { self }
     }
@@ -322,8 +320,8 @@ impl<T> Default for PendingValue<T> {
 }
 
 impl<T: Clone> PendingValue<T> {
-    /// Value to show at time `now` in seconds: the requested one until the worker
-    /// reports a value `near` it, at most three seconds after the release.
+    /// Value to show at time `now` in seconds. This is the requested one until the worker reports a
+    /// value `near` it, but at most three seconds after the release.
     pub(super) fn shown(&mut self, reported: &T, near: impl Fn(&T, &T) -> bool, now: f64) -> T {
         let (Some(value), Some(released_at)) = (&self.value, self.released_at) else {
             return self.value.as_ref().unwrap_or(reported).clone();
@@ -335,18 +333,17 @@ impl<T: Clone> PendingValue<T> {
         value.clone()
     }
 
-    /// Stores a value during a drag.
     pub(super) fn drag(&mut self, value: T) {
         *self = Self { value: Some(value), released_at: None };
     }
 
-    /// Stores a value set or released at time `now` in seconds.
+    /// Stores a value that you set or released at time `now` in seconds.
     pub(super) fn set(&mut self, value: T, now: f64) {
         *self = Self { value: Some(value), released_at: Some(now) };
     }
 
-    /// Queues `action` for a change of the control to `value`, and stores `value`. All actions
-    /// of one drag become one action of the history.
+    /// Queues `action` for a change of the control to `value`, and stores `value`. One drag becomes
+    /// one action of the history.
     pub(super) fn request(
         &mut self,
         ui: &Ui,

@@ -1,5 +1,5 @@
-//! Shared controls of the panels, each with an accessible name and a tooltip; folding sections,
-//! fitted text, and the order of search results.
+//! Shared controls of the panels. Each has an accessible name and a tooltip. This also has folding
+//! sections, fitted text, and the order of search results.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -20,10 +20,9 @@ pub(super) const NAME_WIDTH: f32 = 58.0;
 /// Width of the number at the right of a slider, in points.
 const NUMBER_WIDTH: f32 = 82.0;
 
-/// Least width of the track of a slider, in points.
 const TRACK: f32 = 44.0;
 
-/// Extra width of a number that is to be touched, in points.
+/// Extra width of a number in touch mode, in points.
 pub(super) fn touch_padding(ui: &Ui) -> f32 {
     if theme::is_touch(ui.ctx()) { 18.0 } else { 0.0 }
 }
@@ -62,14 +61,14 @@ pub(super) fn percent(
     slider(ui, name, tip, shown.suffix(" %"))
 }
 
-/// Adds a button. `disabled_reason` disables it and gives the reason for the tooltip. Returns
-/// whether it was clicked.
+/// Adds a button. If you pass a `disabled_reason`, it is disabled and its tooltip gives the reason.
+/// Returns whether you clicked it.
 pub(super) fn button(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option<&str>) -> bool {
     named_button(ui, name, name, tip, disabled_reason)
 }
 
-/// Adds a button whose accessible name differs from its text, because several buttons have
-/// the same text. Returns whether it was clicked.
+/// Like [`button`], with an accessible name that differs from the text. Use this if several buttons
+/// have the same text.
 pub(super) fn named_button(
     ui: &mut Ui,
     shown: &str,
@@ -85,7 +84,7 @@ pub(super) fn named_button(
         .clicked()
 }
 
-/// Whether buttons of these names fit side by side into the width that is left.
+/// Whether buttons of these names fit side by side into the remaining width.
 pub(super) fn buttons_fit(ui: &Ui, names: &[&str]) -> bool {
     let font = TextStyle::Button.resolve(ui.style());
     let gaps = names.len().saturating_sub(1) as f32 * ui.spacing().item_spacing.x;
@@ -101,7 +100,7 @@ pub(super) fn buttons_fit(ui: &Ui, names: &[&str]) -> bool {
         <= ui.available_width()
 }
 
-/// A button as high as a line of text, or high enough to be touched.
+/// A button as high as a line of text, or high enough for touch.
 pub(crate) fn small_button<'a>(ui: &Ui, shown: &'a str) -> Button<'a> {
     match theme::is_touch(ui.ctx()) {
         true => Button::new(shown),
@@ -118,13 +117,12 @@ pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option<&
     clicked
 }
 
-/// Height of a row that is usually `height` points high.
+/// Height of a row that is `height` points high without touch.
 pub(super) fn row_height(ui: &Ui, height: f32) -> f32 {
     height.max(theme::target(ui))
 }
 
-/// Adds an empty, clickable row of a list. The caller draws into the rectangle of the
-/// response.
+/// Adds an empty, clickable row of a list. Draw into the rectangle of the response.
 pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Response {
     let size = vec2(ui.available_width(), row_height(ui, height));
     let (_, response) = ui.allocate_exact_size(size, Sense::click());
@@ -132,7 +130,7 @@ pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Respons
     response
 }
 
-/// Outlines the line of a list that Enter takes, and scrolls to it if it moved.
+/// Outlines the line of a list that Enter takes. If it moved, this scrolls to it.
 pub(super) fn mark(ui: &Ui, line: &Response, moved: bool) {
     let edge = Stroke::new(1.0, theme::colors(ui.ctx()).faint);
     ui.painter().rect_stroke(line.rect, theme::CORNER_RADIUS, edge, StrokeKind::Inside);
@@ -157,7 +155,12 @@ pub(super) fn button_background(ui: &Ui, response: &Response, name: &str, chosen
     ui.painter().rect(response.rect, theme::CORNER_RADIUS, fill, edge, StrokeKind::Inside);
 }
 
-/// Draws a patch of colour in sRGB; `None` is crossed out.
+/// The part of a row between these places, in points from the left edge of the window.
+pub(super) fn between(row: Rect, left: f32, right: f32) -> Rect {
+    Rect::from_min_max(pos2(left, row.top()), pos2(right, row.bottom()))
+}
+
+/// Draws a patch of colour in sRGB. `None` is crossed out.
 pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
     let line = Stroke::new(1.0, theme::colors(painter.ctx()).well);
     let corners = CornerRadius::same(2);
@@ -191,11 +194,10 @@ pub(super) fn millimetres(mm: f64) -> String {
     }
 }
 
-/// Height of a heading, in points.
 const HEADING: f32 = 22.0;
 
-/// Draws a heading and, unless it is folded, `content` below it. A click on the heading folds
-/// and unfolds it.
+/// Draws a heading and, unless it is folded, `content` below it. Click the heading to fold or
+/// unfold it.
 pub(super) fn section(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     let id = Id::unique(("folded section", name));
     let mut folded = ui.data(|data| data.get_temp::<bool>(id).unwrap_or(false));
@@ -225,14 +227,13 @@ fn triangle(rect: Rect, folded: bool, color: Color32) -> Shape {
     Shape::convex_polygon(points, color, Stroke::NONE)
 }
 
-/// Smallest font, in points.
 const SMALLEST: f32 = 9.0;
 
 /// Space that a line of text may take above and below its rectangle, in points.
 const OVER: f32 = 2.0;
 
-/// Draws text within a rectangle, centred vertically: on one line, or on as many lines as
-/// there is room for, or in a smaller font. Only what does not fit even so is truncated.
+/// Draws text within a rectangle, centred vertically. This uses one line, or as many lines as fit,
+/// or a smaller font. It truncates only text that does not fit even so.
 pub(super) fn text(
     ui: &Ui,
     rect: Rect,
@@ -246,7 +247,7 @@ pub(super) fn text(
     draw(ui, rect, align, top, laid, color);
 }
 
-/// Draws text as [`text`] does, from the top of the rectangle.
+/// Like [`text`], from the top of the rectangle.
 pub(super) fn text_from_top(
     ui: &Ui,
     rect: Rect,
@@ -309,24 +310,26 @@ fn fitted(
 
 /// Whether nothing is truncated, and no word is broken.
 fn is_whole(laid: &Galley) -> bool {
-    let broken = |row: &str| !row.ends_with(|last: char| !last.is_alphanumeric());
     let rows = laid.rows.len();
     let all_but_last = laid.rows.iter().take(rows.saturating_sub(1));
-    !laid.elided && all_but_last.map(|row| row.text()).all(|row| !broken(&row))
+    !laid.elided
+        && all_but_last
+            .map(|row| row.text())
+            .all(|row| row.ends_with(|last: char| !last.is_alphanumeric()))
 }
 
-/// How well a name matches what was typed, the best first.
+/// How well a name matches the typed text, the best first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Match {
-    /// It is the whole name.
+    /// The text is the whole name.
     Exact,
-    /// The name begins with it.
+    /// The name begins with the text.
     Start,
-    /// Another word of the name begins with it.
+    /// Another word of the name begins with the text.
     Word,
-    /// The name contains it.
+    /// The name contains the text.
     Inside,
-    /// Something else that is searched contains it.
+    /// Another searched field contains the text.
     Elsewhere,
 }
 
@@ -351,14 +354,14 @@ impl Match {
     }
 }
 
-/// Sorts what was found: the best matches first, equal ones in the order that they had.
+/// Sorts search results, the best matches first. Equal ones keep their order.
 pub(super) fn sort<'a, T>(found: &mut [T], wanted: &str, name: impl Fn(&T) -> &'a str) {
     if !wanted.trim().is_empty() {
         found.sort_by_key(|one| Match::of(name(one), wanted));
     }
 }
 
-/// The line of a list that Enter takes; the arrow keys move it.
+/// The line of a list that Enter takes. You move it with the arrow keys.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Highlight {
     line: usize,
@@ -368,20 +371,20 @@ pub(super) struct Highlight {
 }
 
 impl Highlight {
-    /// Takes the arrow keys while the field of the search has the keyboard. Call before the field
-    /// is drawn, which would move its cursor with them.
+    /// Takes the arrow keys while the search field has the keyboard. Call this before you draw the
+    /// field, because the field would move its cursor with them.
     pub(super) fn read_arrows(&mut self, ui: &Ui, focused: bool) {
         if !focused {
             return;
         }
-        let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
-        let down = pressed(Key::ArrowDown);
-        let up = pressed(Key::ArrowUp);
+        let [down, up] = [Key::ArrowDown, Key::ArrowUp]
+            .map(|key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)));
         self.line = (self.line + down).saturating_sub(up);
         self.moved |= down + up > 0;
     }
 
-    /// The highlighted one of `count` lines found by `search`; the first after the search changed.
+    /// The highlighted one of `count` lines found by `search`. If you change the search, this is
+    /// the first.
     pub(super) fn among(&mut self, search: &str, count: usize) -> usize {
         if self.search != search {
             (self.line, self.moved) = (0, true);

@@ -11,8 +11,8 @@ use session::Performance;
 pub struct FrameRate {
     /// Frames drawn per second.
     pub frames_a_second: f64,
-    /// Mean time from the arrival of a pen sample to the end of the frame that shows
-    /// it, in ms; 0 if no sample was shown.
+    /// Mean time from the arrival of a pen sample to the end of the frame that shows it, in ms; 0
+    /// without a sample.
     pub latency_ms: f64,
     /// Longest such time, in ms.
     pub worst_ms: f64,
@@ -21,10 +21,12 @@ pub struct FrameRate {
 /// Figures of window and worker as pairs of label and value.
 #[must_use]
 pub fn lines(rate: FrameRate, worker: Performance, backend: &str) -> Vec<(&'static str, String)> {
-    let ms = |mean: f64, worst: f64| match worst {
-        0.0 => "-".to_owned(),
-        _ => tr_format!("{mean:.1} ms, worst {worst:.1}", mean, worst),
-    };
+    fn ms(mean: f64, worst: f64) -> String {
+        match worst {
+            0.0 => "-".to_owned(),
+            _ => tr_format!("{mean:.1} ms, worst {worst:.1}", mean, worst),
+        }
+    }
     vec![
         (tr("frames a second"), format!("{:.0}", rate.frames_a_second)),
         (tr("pen to screen"), ms(rate.latency_ms, rate.worst_ms)),

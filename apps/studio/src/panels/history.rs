@@ -21,22 +21,19 @@ use crate::theme;
 
 const MIB: f64 = 1024.0 * 1024.0;
 
-/// Height of a row, in points.
 const ROW: f32 = 36.0;
 
-/// Width of the picture in a row, in points.
 const PICTURE: f32 = 54.0;
 
-/// Size that the picture of a row below the pointer is enlarged to, in points.
+/// If you point at a row, its picture is enlarged to this size, in points.
 const ENLARGED: Vec2 = vec2(300.0, 240.0);
 
-/// Least height of the list, in points.
 const LEAST: f32 = 160.0;
 
 /// State of the history panel.
 #[derive(Debug, Clone, Default)]
 pub struct History {
-    /// Number of done actions that the list last scrolled to, and its height then in points.
+    /// Number of done actions at the last scroll, and the height of the list then in points.
     shown: Option<(usize, f32)>,
     pictures: Pictures,
 }
@@ -54,18 +51,17 @@ impl History {
         let count = cx.painting.history.len();
         let mut clicked = None;
         ui.spacing_mut().item_spacing.y = 1.0;
-        // A list that just grew would spring back to where it ended before.
+        // A list that just grew would spring back to its former end.
         ui.spacing_mut().scroll.kinetic.rubber_band = false;
         // The lines above and below the list stay in the panel.
         let high = row_height(ui, ROW);
         let others = 3.0 * ui.spacing().interact_size.y + 12.0;
         let most = (ui.clip_rect().height() - others).max(LEAST);
-        // In a lower list the current row would be out of sight.
+        // In a lower list you would not see the current row.
         let moved = self.shown.replace((done, most)) != Some((done, most));
         let mut list = ScrollArea::vertical().max_height(most).auto_shrink([false, true]);
         if moved {
-            // Invisible rows are not laid out, so the offset is computed from the row
-            // number.
+            // We do not lay out invisible rows, so we compute the offset from the row number.
             let before = done as f32 * (high + 1.0) - 0.5 * (most - high);
             list = list.vertical_scroll_offset(before.max(0.0));
         }
@@ -126,7 +122,7 @@ impl History {
     }
 }
 
-/// Words on the outline of the picture after the first `index` actions.
+/// Text on the outline of the picture after the first `index` actions.
 fn note(index: usize, painting: &PaintingState) -> Option<&'static str> {
     let shots = &painting.history_shots.shots;
     let before = shots.get(index.checked_sub(1)?)?.is_some();
@@ -201,7 +197,7 @@ fn memory(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     });
 }
 
-/// Textures that are kept; the ones that were drawn least recently make room.
+/// Most textures that we keep. The least recently drawn ones go first.
 const MOST: usize = 96;
 
 /// Textures of the pictures drawn last, the latest at the end.
@@ -215,8 +211,8 @@ impl std::fmt::Debug for Pictures {
 }
 
 impl Pictures {
-    /// Draws a picture as large as fits into `area`, with an outline around what was changed. A
-    /// missing one leaves an empty frame.
+    /// Draws a picture as large as fits into `area`, with an outline around the change. A missing
+    /// picture leaves an empty frame.
     fn draw(&mut self, painter: &Painter, area: Rect, shot: Option<&HistoryShot>) {
         let Some(HistoryShot { picture, changed }) = shot else {
             let line = Stroke::new(1.0, theme::colors(painter.ctx()).line);
@@ -230,7 +226,7 @@ impl Pictures {
             let scale = place.width() / picture.width as f32;
             let corner = place.min + vec2(left, top) * scale;
             let outline = Rect::from_min_size(corner, vec2(width, height) * scale);
-            // Dark beside light, so that it is seen on any paint.
+            // Dark beside light, you see it on any paint.
             let outline = outline.expand(1.0).intersect(place.expand(1.0));
             let dark = Stroke::new(1.0, Color32::from_black_alpha(200));
             painter.rect_stroke(outline, 0.0, dark, StrokeKind::Outside);
@@ -258,7 +254,7 @@ impl Pictures {
     }
 }
 
-/// Size of a picture that is as large as fits into `room`.
+/// The largest size of a picture that fits into `room`.
 fn fitted_size(picture: &Thumbnail, room: Vec2) -> Vec2 {
     let size = vec2(picture.width.max(1) as f32, picture.height.max(1) as f32);
     size * (room.x / size.x).min(room.y / size.y)

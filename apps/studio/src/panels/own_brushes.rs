@@ -1,36 +1,34 @@
-//! The window of own brushes: sets of kept brushes, and what became of the settings of an imported
-//! MyPaint brush.
+//! The window of own brushes: sets of kept brushes, and a list of which settings of an imported
+//! MyPaint brush we could take over.
 
 use eframe::egui::{
-    Align, CollapsingHeader, ComboBox, Context, Key, Rect, Response, ScrollArea, TextStyle, Ui,
-    pos2, vec2,
+    Align, CollapsingHeader, ComboBox, Context, Key, Response, ScrollArea, TextStyle, Ui, vec2,
 };
 use session::brushes::{BrushOptions, BrushPreset, ImportedBrush};
 
 use crate::files::BrushSets;
 use crate::language::{tr, tr_format};
 use crate::panels::brushes::row;
-use crate::panels::controls::{button, millimetres, row, text};
+use crate::panels::controls::{between, button, millimetres, row, text};
 use crate::{floating, theme};
 
-/// Width of the window, in points.
 const WIDTH: f32 = 400.0;
 
-/// A request of the window, which needs more than the sets.
+/// A request of the window. It needs more than the sets.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OwnBrushRequest {
     /// Takes this brush in hand.
     Use(Box<BrushPreset>),
     /// Keeps the brush in hand.
     Keep {
-        /// Whether its paint is kept with it.
+        /// Whether to keep its paint too.
         with_paint: bool,
     },
     /// Adds an empty set of this name.
     AddSet(String),
     /// Takes over the brushes of a file.
     Import,
-    /// Exports the set that is shown.
+    /// Exports the shown set.
     Export,
 }
 
@@ -39,17 +37,17 @@ pub enum OwnBrushRequest {
 pub struct OwnBrushes {
     chosen: usize,
     with_paint: bool,
-    /// Text typed as the name of the chosen brush, while it is renamed.
+    /// Name of the chosen brush while you type it.
     renamed: Option<String>,
-    /// Text typed as the name of a new set.
+    /// Name of a new set while you type it.
     new_set: Option<String>,
-    /// Whether the painter is asked if the set goes.
+    /// Whether we ask before removing the set.
     asks_to_remove: bool,
 }
 
 impl OwnBrushes {
-    /// Draws the window while `open` is true; its close button and Escape clear `open`. Returns
-    /// what is asked for.
+    /// Draws the window while `open` is true. The close button and Escape clear `open`. Returns
+    /// your request, if any.
     pub fn show(
         &mut self,
         context: &Context,
@@ -81,7 +79,7 @@ impl OwnBrushes {
         .flatten()
     }
 
-    /// The set that is shown, and buttons for whole sets.
+    /// Draws the shown set, and buttons for whole sets.
     fn set_row(&mut self, ui: &mut Ui, sets: &mut BrushSets) -> Option<OwnBrushRequest> {
         let mut request = None;
         ui.horizontal(|ui| {
@@ -193,7 +191,6 @@ impl OwnBrushes {
         request
     }
 
-    /// Buttons that change the list itself.
     fn change_list(&mut self, ui: &mut Ui, sets: &mut BrushSets, none: Option<&str>) {
         let chosen = self.chosen;
         if let Some(set) = sets.set_mut() {
@@ -227,14 +224,13 @@ impl OwnBrushes {
     }
 }
 
-/// State of a field for a name.
 enum Typed {
     Open,
     Done(String),
     Cancelled,
 }
 
-/// A field for a name: Enter accepts it, Escape cancels.
+/// A field for a name. Enter accepts it, Escape cancels.
 fn name_field(ui: &mut Ui, typed: &mut String, name: &str) -> Typed {
     let field = theme::text_field(typed).desired_width(f32::INFINITY).char_limit(80);
     let response = ui.add(field.hint_text(name)).accessible_name(name);
@@ -249,20 +245,20 @@ fn name_field(ui: &mut Ui, typed: &mut String, name: &str) -> Typed {
     Typed::Open
 }
 
-/// Height of a row, in points.
 const HEIGHT: f32 = 34.0;
 
-/// Draws a kept brush, which can be clicked.
 fn preset_row(ui: &mut Ui, preset: &BrushPreset, chosen: bool) -> Response {
     let response = row(ui, HEIGHT, &tr_format!("own brush {name}", name = preset.name), chosen);
     let inner = response.rect.shrink2(vec2(6.0, 3.0));
-    let between = |left: f32, right: f32| {
-        Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
-    };
-    row::draw(ui.painter(), between(inner.left(), inner.left() + 24.0), preset.brush.shape, None);
+    row::draw(
+        ui.painter(),
+        between(inner, inner.left(), inner.left() + 24.0),
+        preset.brush.shape,
+        None,
+    );
     let colors = theme::colors(ui.ctx());
     let (name, below) =
-        between(inner.left() + 32.0, inner.right()).split_top_bottom_at_fraction(0.55);
+        between(inner, inner.left() + 32.0, inner.right()).split_top_bottom_at_fraction(0.55);
     text(ui, name, Align::Min, TextStyle::Body, colors.strong, &preset.name);
     let faint = if chosen { colors.text } else { colors.faint };
     text(ui, below, Align::Min, TextStyle::Small, faint, &summary(preset));
@@ -294,7 +290,7 @@ fn summary(preset: &BrushPreset) -> String {
     words.join(", ")
 }
 
-/// Lists the settings that were taken over, and those without a meaning here.
+/// Lists the settings that we took over, and those without a meaning here.
 fn show(ui: &mut Ui, imported: &ImportedBrush) {
     let title = tr_format!("Taken over from MyPaint: {name}", name = imported.preset.name);
     CollapsingHeader::new(title).id_salt("imported").default_open(true).show(ui, |ui| {

@@ -1,8 +1,7 @@
 //! The window of the pen: pressure curve with a test field, stabiliser, and options of single
 //! brushes.
-//!
-//! Points of the curve are dragged, added by a click, and removed by dragging them out or by the
-//! right button. The present pressure is marked.
+//! | You drag points of the curve, click to add one, and remove one with the right button or by
+//! dragging it out. A line marks the present pressure.
 
 use eframe::egui::{
     Align2, Context, DragValue, EventFilter, Grid, Id, Key, Painter, Pos2, Rect, Response, Role,
@@ -19,7 +18,6 @@ use crate::panels::controls::button;
 use crate::pen::{Pen, PenSettings, ReportKind, TestField, TestPoint};
 use crate::{floating, theme};
 
-/// Width of the window, in points.
 const WIDTH: f32 = 452.0;
 
 /// Settings that the window shows and changes.
@@ -39,16 +37,16 @@ pub struct PenContext<'a> {
 #[derive(Debug, Default)]
 pub struct PenWindow {
     field: TestField,
-    /// Whether the options of the brush in hand are shown, instead of the settings for all.
+    /// Shows the options of the brush in hand instead of the settings for all.
     only_brush: bool,
-    /// Pressure that the pen measures now.
+    /// Pressure now.
     live: Option<f64>,
-    /// Whether the device that pressed last measures pressure.
+    /// Whether the last pressed device measures pressure.
     measures: Option<bool>,
 }
 
 impl PenWindow {
-    /// Draws the window while `open` is true; its close button and Escape clear `open`.
+    /// Draws the window while `open` is true. The close button and Escape clear `open`.
     pub fn show(&mut self, context: &Context, open: &mut bool, mut cx: PenContext<'_>) {
         if !*open {
             self.live = None;
@@ -81,7 +79,6 @@ impl PenWindow {
         });
     }
 
-    /// Notes the pressure of the device.
     fn read(&mut self, pen: &Pen) {
         for report in pen.reports() {
             match report.kind {
@@ -105,7 +102,7 @@ impl PenWindow {
         }
     }
 
-    /// Presets of the curve, the present pressure, and the button that clears the field.
+    /// Draws presets of the curve, the present pressure, and the button that clears the field.
     fn below_curve(&mut self, ui: &mut Ui, cx: &mut PenContext<'_>) {
         ui.horizontal(|ui| {
             if self.only_brush {
@@ -139,7 +136,7 @@ impl PenWindow {
     }
 }
 
-/// Whether the brush has a curve of its own.
+/// Lets you give the brush its own curve.
 fn own_curve(ui: &mut Ui, cx: &mut PenContext<'_>) {
     let mut own = cx.options.curve.is_some();
     let tip = tr("This brush has a pressure curve of its own");
@@ -200,10 +197,9 @@ fn grid(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
         .show(ui, content);
 }
 
-/// Angle of a brush that is fixed first, in degrees.
+/// If you fix the angle of a brush, it starts with this one, in degrees.
 const FIRST_TILT_DEG: f64 = 30.0;
 
-/// Buttons that set the whole curve.
 fn curve_presets(ui: &mut Ui, curve: &mut PressureCurve) {
     ui.horizontal(|ui| {
         for (preset, name, tip) in [
@@ -218,7 +214,6 @@ fn curve_presets(ui: &mut Ui, curve: &mut PressureCurve) {
     });
 }
 
-/// Method, length and unit of a stabiliser.
 fn stabiliser(ui: &mut Ui, settings: &mut StabiliserSettings) {
     ui.horizontal(|ui| {
         for (method, name, tip) in [
@@ -247,7 +242,6 @@ fn stabiliser(ui: &mut Ui, settings: &mut StabiliserSettings) {
     });
 }
 
-/// The tilt of one brush.
 fn tilt(ui: &mut Ui, tilt: &mut TiltUse) {
     ui.horizontal(|ui| {
         for (choice, name, tip) in [
@@ -270,7 +264,6 @@ fn tilt(ui: &mut Ui, tilt: &mut TiltUse) {
     });
 }
 
-/// The rotation of one brush about its handle.
 fn twist(ui: &mut Ui, twist: &mut TwistUse) {
     ui.horizontal(|ui| {
         for (choice, name, tip) in [
@@ -293,7 +286,7 @@ fn twist(ui: &mut Ui, twist: &mut TwistUse) {
     });
 }
 
-/// Pressures of one brush at the lightest and the heaviest touch, in percent.
+/// Edits the pressures of one brush at the lightest and the heaviest touch, in percent.
 fn range(ui: &mut Ui, options: &mut BrushOptions) {
     ui.horizontal(|ui| {
         let [least, most] = options.range;
@@ -315,12 +308,11 @@ fn range(ui: &mut Ui, options: &mut BrushOptions) {
     });
 }
 
-/// Width of a line at full pressure, in points.
 const WIDEST: f32 = 26.0;
 
-/// Draws the field, and on it what the pen draws there.
+/// Draws the field with your strokes on it.
 fn test_field(ui: &mut Ui, field: &mut TestField, pen: &Pen) {
-    // Sensing drags keeps the window in its place while the pen draws.
+    // If this senses drags, the window stays in its place while you draw.
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, tr("Test field")));
     let layer = ui.layer_id();
@@ -366,22 +358,21 @@ fn draw_stroke(painter: &Painter, rect: Rect, stroke: &[TestPoint]) {
     }
 }
 
-/// Side of the plot, in points.
 const SIDE: f32 = 220.0;
 
-/// Side of the square in which a point is grabbed, in points; larger in touch mode.
+/// Side of the square in which you can grab a point, in points. Touch mode needs a larger one.
 const GRABBED: f32 = 26.0;
 
-/// Distance beyond the plot from which a dragged point is removed, in points.
+/// If you drag a point this far beyond the plot, it is removed, in points.
 const REMOVED: f32 = 28.0;
 
 /// Straight pieces in which the curve is drawn.
 const PIECES: usize = 96;
 
-/// Step of an arrow key.
 const STEP: f64 = 0.02;
 
-/// Draws the curve; `live` is the present pressure of the pen. While `enabled`, it is edited.
+/// Draws the curve and, while `enabled`, lets you edit it. `live` is the present pressure of the
+/// pen.
 fn edit_curve(ui: &mut Ui, curve: &mut PressureCurve, live: Option<f64>, enabled: bool) {
     let sense = if enabled { Sense::click_and_drag() } else { Sense::hover() };
     let (rect, plot) = ui.allocate_exact_size(vec2(SIDE, SIDE), sense);
@@ -436,7 +427,7 @@ fn edit_curve(ui: &mut Ui, curve: &mut PressureCurve, live: Option<f64>, enabled
     }
 }
 
-/// Adds a point where the plot itself is clicked, or dragged from, and drags that point on.
+/// If you press on the plot itself, this adds a point and drags it on.
 fn press_plot(ui: &Ui, plot: &Response, inner: Rect, points: &mut CurvePoints) {
     let id = Id::unique("dragged new point");
     let pressed = ui.input(|input| input.pointer.press_origin());
@@ -489,7 +480,7 @@ fn move_point(
     points.list()[index] != [x, y]
 }
 
-/// Whether the key that removes a focused point was pressed.
+/// Whether you pressed a key that removes the focused point.
 fn deletes(ui: &Ui, response: &Response) -> bool {
     response.has_focus()
         && ui.input(|input| input.key_pressed(Key::Delete) || input.key_pressed(Key::Backspace))
@@ -538,7 +529,7 @@ fn draw(painter: &Painter, rect: Rect, inner: Rect, curve: &PressureCurve, live:
     }
 }
 
-/// Draws a point of the curve; one that goes when it is dropped is only an outline.
+/// Draws a point of the curve. If you are about to remove it, it is only an outline.
 fn draw_point(painter: &Painter, at: Pos2, active: bool, goes: bool) {
     let colors = theme::colors(painter.ctx());
     let radius = if active { 6.0 } else { 4.5 };

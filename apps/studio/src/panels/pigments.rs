@@ -1,10 +1,10 @@
 //! Pigment lists and cards that several panels share, and the window that replaces a pigment in
-//! existing paint.
+//! paint.
 
 use std::sync::{Arc, OnceLock};
 
 use eframe::egui::{
-    Align, ComboBox, Context, Key, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2,
+    Align, ComboBox, Context, Key, Rect, RichText, ScrollArea, TextStyle, Ui, vec2,
 };
 use paint::document::Slots;
 use paint::light::Light;
@@ -19,40 +19,35 @@ use session::{LayerState, PaintingState};
 use crate::chart::{Chart, Curve};
 use crate::language::{layer_label, tr, tr_format};
 use crate::panels::PanelContext;
-use crate::panels::controls::{self, Highlight, mark, millimetres, patch, row, text};
+use crate::panels::controls::{self, Highlight, between, mark, millimetres, patch, row, text};
 use crate::{floating, theme};
 
 /// Colour of one pigment, alone and as a tint.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PigmentColors {
-    /// Reflectance of a hiding film, on the library's grid.
     pub(super) masstone: Vec<f64>,
-    /// Reflectance of one part in nine parts of white (or water); `None` if the
-    /// scattering is unknown.
+    /// Reflectance of one part in nine parts of white (or water); `None` if the scattering is
+    /// unknown.
     pub(super) tint: Option<Vec<f64>>,
     /// 8-bit sRGB of the masstone.
     pub(super) masstone_srgb: [u8; 3],
-    /// 8-bit sRGB of the tint.
     pub(super) tint_srgb: Option<[u8; 3]>,
 }
 
 /// Hiding power and tinting strength of one pigment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct PaintStrength {
-    /// Hiding power; `None` if the scattering is unknown.
     pub(super) hides: Option<Hides>,
-    /// Tinting strength in percent of the strongest in the library; `None` for the
-    /// white.
+    /// Tinting strength in percent of the strongest in the library; `None` for the white.
     pub(super) tints_percent: Option<f64>,
 }
 
-/// Colours and strengths of all pigments of a library under one light.
 #[derive(Debug)]
 pub(super) struct Catalogue {
     pub(super) library: Arc<PigmentLibrary>,
     light: Arc<Light>,
     colors: Vec<PigmentColors>,
-    /// Strengths in the order of the library. Computed on first use, because this takes
+    /// Strengths in the order of the library. We compute them on first use, because they take
     /// longer than the colours.
     strengths: OnceLock<Vec<PaintStrength>>,
 }
@@ -69,23 +64,20 @@ impl Catalogue {
         Arc::ptr_eq(&self.library, library) && Arc::ptr_eq(&self.light, light)
     }
 
-    /// Colour of a pigment.
     pub(super) fn colors(&self, pigment: PigmentId) -> &PigmentColors {
         &self.colors[pigment.index()]
     }
 
-    /// Name of a pigment.
     pub(super) fn name(&self, pigment: PigmentId) -> &str {
         &self.library[pigment].name
     }
 
-    /// Strengths of a pigment.
     pub(super) fn strength(&self, pigment: PigmentId) -> PaintStrength {
         self.strengths.get_or_init(|| strengths(&self.library, &self.light))[pigment.index()]
     }
 
-    /// Formats the smallest height, in mm, at which a film of the pigment hides its ground;
-    /// `never` or `not known` where there is none.
+    /// The smallest height in mm at which a film of the pigment hides its ground, as text, or
+    /// `never` or `not known`.
     pub(super) fn hiding(&self, pigment: PigmentId, scattering_per_mm: f64) -> String {
         match self.strength(pigment).hides {
             Some(Hides::From(thickness)) => millimetres(thickness / scattering_per_mm),
@@ -105,16 +97,18 @@ fn colors(library: &PigmentLibrary, light: &Light) -> Vec<PigmentColors> {
         encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
     };
     let palette = Palette::new(library, &light.viewing, Cards::standard(library.grid)).ok();
-    let colors_of = |pigment: PigmentId| {
-        let alone = library.mix([(pigment, 1.0)]).expect("one part is a mixture");
-        let masstone = alone.hiding(library.saunderson);
-        let palette = palette.as_ref().filter(|_| library[pigment].identified);
-        let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
-        let masstone_srgb = srgb(&masstone);
-        let tint_srgb = tint.as_deref().map(srgb);
-        PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
-    };
-    library.ids().map(colors_of).collect()
+    library
+        .ids()
+        .map(|pigment| {
+            let alone = library.mix([(pigment, 1.0)]).expect("one part is a mixture");
+            let masstone = alone.hiding(library.saunderson);
+            let palette = palette.as_ref().filter(|_| library[pigment].identified);
+            let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
+            let masstone_srgb = srgb(&masstone);
+            let tint_srgb = tint.as_deref().map(srgb);
+            PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
+        })
+        .collect()
 }
 
 fn strengths(library: &PigmentLibrary, light: &Light) -> Vec<PaintStrength> {
@@ -131,17 +125,17 @@ fn strengths(library: &PigmentLibrary, light: &Light) -> Vec<PaintStrength> {
     strengths
 }
 
-/// Cache of the catalogue for the painting's library and light.
+/// Cached catalogue for the painting's library and light.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CatalogueCache(Option<Arc<Catalogue>>);
 
 impl CatalogueCache {
-    /// Returns the catalogue, recomputed if library or light have changed.
+    /// Returns the catalogue. If library or light changed, this recomputes it.
     pub(super) fn get(&mut self, painting: &PaintingState) -> Arc<Catalogue> {
         self.under(&painting.library, &painting.light)
     }
 
-    /// The catalogue of a library under a light, recomputed if they have changed.
+    /// The catalogue of a library under a light. If these changed, this recomputes it.
     pub(super) fn under(
         &mut self,
         library: &Arc<PigmentLibrary>,
@@ -154,10 +148,9 @@ impl CatalogueCache {
     }
 }
 
-/// Height of the list, in points.
 const LIST: f32 = 300.0;
 
-/// State of the list: the search text.
+/// The search text.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PigmentList {
     search: String,
@@ -165,8 +158,8 @@ pub(super) struct PigmentList {
 }
 
 impl PigmentList {
-    /// Draws the list. `disabled_reason` gives the reason why a pigment cannot be chosen.
-    /// Returns the pigment that was clicked, or taken with Enter.
+    /// Draws the list. `disabled_reason` says why you cannot choose a pigment. Returns the pigment
+    /// that you clicked or took with Enter.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -229,19 +222,15 @@ impl PigmentList {
     }
 }
 
-/// Rectangles of swatch, name, colour index and hiding power in a row.
 fn places(rect: Rect) -> [Rect; 4] {
     let inner = rect.shrink2(vec2(4.0, 3.0));
-    let between = |left: f32, right: f32| {
-        Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
-    };
     let left = inner.left();
     let right = inner.right();
     [
-        between(left, left + 40.0),
-        between(left + 48.0, right - 128.0),
-        between(right - 124.0, right - 72.0),
-        between(right - 68.0, right),
+        between(inner, left, left + 40.0),
+        between(inner, left + 48.0, right - 128.0),
+        between(inner, right - 124.0, right - 72.0),
+        between(inner, right - 68.0, right),
     ]
 }
 
@@ -294,7 +283,6 @@ fn remark(catalogue: &Catalogue, pigment: PigmentId) -> &str {
     }
 }
 
-/// Width of the card, in points.
 const WIDTH: f32 = 280.0;
 
 /// Draws name, colour index, reflectance of masstone and tint, hiding power, tinting
@@ -355,15 +343,13 @@ fn lines(catalogue: &Catalogue, pigment: PigmentId, scattering_per_mm: f64) -> V
     lines
 }
 
-/// Width of the contents, in points.
 const EXCHANGE_WIDTH: f32 = 380.0;
 
-/// Layers in which a pigment is exchanged.
+/// Layers in which we replace a pigment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ExchangeScope {
-    /// All layers that contain the pigment.
+    /// All layers with the pigment.
     AllLayers,
-    /// A single layer, wet or dry.
     Layer(LayerRef),
 }
 
@@ -473,7 +459,6 @@ impl Exchange {
     }
 }
 
-/// Display name of the layers.
 fn scope_name(painting: &PaintingState, scope: ExchangeScope) -> String {
     match scope {
         ExchangeScope::AllLayers => tr("all layers").to_owned(),
@@ -491,7 +476,6 @@ fn all_scopes(painting: &PaintingState) -> Vec<ExchangeScope> {
     [ExchangeScope::AllLayers, ExchangeScope::Layer(LayerRef::Wet)].into_iter().chain(dry).collect()
 }
 
-/// State of a dry layer.
 fn state(painting: &PaintingState, layer: LayerRef) -> Option<&LayerState> {
     match layer {
         LayerRef::Wet => None,
@@ -529,8 +513,7 @@ fn pigments(painting: &PaintingState, scope: ExchangeScope) -> Vec<PigmentId> {
     found
 }
 
-/// Layers in which `from` can be replaced by `to`: those that contain `from` and not
-/// `to`.
+/// Layers in which you can replace `from` by `to`: they contain `from` and not `to`.
 fn layers(
     painting: &PaintingState,
     scope: ExchangeScope,

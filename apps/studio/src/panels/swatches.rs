@@ -1,5 +1,4 @@
-//! The swatches panel: the grid of mixtures that the painter keeps, and the recipe of the selected
-//! one.
+//! The swatches panel: the grid of mixtures that you keep, and the recipe of the selected one.
 
 use std::sync::Arc;
 
@@ -25,9 +24,9 @@ use crate::theme;
 #[derive(Debug, Clone, Default)]
 pub struct Swatches {
     chosen: Option<usize>,
-    /// Name of the chosen mixture while it is changed.
+    /// Name of the chosen mixture while you change it.
     typed: Option<String>,
-    /// Whether mixtures of other libraries are shown too.
+    /// Whether you see mixtures of other libraries too.
     all_libraries: bool,
     colors: SwatchColors,
 }
@@ -37,9 +36,11 @@ impl Swatches {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, book: &SwatchBook) {
         self.chosen = self.chosen.filter(|&index| index < book.swatches.len());
         self.header(ui, cx, book);
-        let own = |index: usize| book.swatches[index].library == cx.painting.library.title;
-        let shown: Vec<usize> =
-            (0..book.swatches.len()).filter(|&index| self.all_libraries || own(index)).collect();
+        let shown: Vec<usize> = (0..book.swatches.len())
+            .filter(|&index| {
+                self.all_libraries || book.swatches[index].library == cx.painting.library.title
+            })
+            .collect();
         if shown.is_empty() {
             ui.weak(
                 tr("No mixture is kept. \u{201c}Keep\u{201d} in the panel Brush keeps what the brush holds, beside a \
@@ -78,7 +79,8 @@ impl Swatches {
         self.chosen = Some(to);
     }
 
-    /// Keeps the selection on a mixture that the requests since `before` move or remove.
+    /// Requests since `before` may move or remove mixtures. This keeps the selection on the same
+    /// one.
     fn follow(&mut self, cx: &PanelContext<'_>, before: usize) {
         for request in &cx.requests[before..] {
             let Request::File(FileRequest::Swatches(change)) = request else { continue };
@@ -125,25 +127,24 @@ impl Swatches {
     }
 }
 
-/// Side of a patch, in points: large enough for a finger.
+/// Side of a patch, in points. It is large enough for a finger.
 const SIDE: f32 = 44.0;
 
-/// Payload of a mixture that is dragged to another place.
+/// Payload of a mixture that you drag to another place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct DraggedSwatch(usize);
 
-/// Request made in the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum GridRequest {
     /// Selects the mixture at an index.
     Select(usize),
-    /// Loads the brush with it.
+    /// Loads the brush with this mixture.
     Load(usize),
-    /// Moves it from one index to another.
+    /// Moves a mixture from one index to another.
     Move(usize, usize),
 }
 
-/// Draws patches of the mixtures at these indices. `colors` are those of all mixtures.
+/// Draws patches of the mixtures at these indices. `colors` has the colours of all mixtures.
 fn show<'a>(
     ui: &mut Ui,
     cx: &PanelContext<'_>,
@@ -192,7 +193,7 @@ fn one(
     let colors = theme::colors(ui.ctx());
     patch(ui.painter(), rect.shrink(3.0), color);
     if let Usable::NotInLibrary(_) = usable {
-        // Greyed: the colour of another time under a veil, and crossed out.
+        // We grey it: an older colour under a veil, and crossed out.
         let veil = Color32::from_rgba_unmultiplied(
             colors.panel.r(),
             colors.panel.g(),
@@ -226,7 +227,7 @@ fn tip(ui: &mut Ui, cx: &PanelContext<'_>, kept: &KeptMixture, usable: &Usable) 
     };
 }
 
-/// Why a mixture cannot be loaded now; `None` if it can.
+/// Why you cannot load a mixture now; `None` if you can.
 fn reason(cx: &PanelContext<'_>, usable: &Usable) -> Option<String> {
     match usable {
         Usable::Now => None,
@@ -249,7 +250,7 @@ fn reason(cx: &PanelContext<'_>, usable: &Usable) -> Option<String> {
     }
 }
 
-/// Place of a mixture in the list, and of its neighbours among those that are shown.
+/// Place of a mixture in the list, and of its neighbours among the shown ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Place {
     index: usize,
@@ -257,7 +258,7 @@ struct Place {
     after: Option<usize>,
 }
 
-/// Draws the mixture at a place. `typed` is its name while it is changed.
+/// Draws the mixture at a place. `typed` is its name while you change it.
 fn show_chosen(
     ui: &mut Ui,
     cx: &mut PanelContext<'_>,
@@ -319,7 +320,6 @@ fn show_chosen(
     add_tubes(ui, cx, &usable);
 }
 
-/// Draws the name, or the field that changes it.
 fn name(
     ui: &mut Ui,
     cx: &mut PanelContext<'_>,
@@ -344,7 +344,7 @@ fn name(
     }
 }
 
-/// Offers to put the tubes that are missing on the palette, if there is room.
+/// Offers to add the missing tubes to the palette, if there is room.
 fn add_tubes(ui: &mut Ui, cx: &mut PanelContext<'_>, usable: &Usable) {
     let Usable::NotOnPalette(away) = usable else { return };
     let held: Vec<_> = cx.painting.slots.iter().copied().flatten().collect();
@@ -359,7 +359,7 @@ fn add_tubes(ui: &mut Ui, cx: &mut PanelContext<'_>, usable: &Usable) {
     }
 }
 
-/// Colours by index of the list, computed anew when light, library or list change.
+/// Colours by index of the list. We recompute them when light, library or list change.
 #[derive(Debug, Clone, Default)]
 struct SwatchColors {
     of: Option<(Arc<PigmentLibrary>, Arc<Light>, SwatchBook)>,
@@ -367,8 +367,8 @@ struct SwatchColors {
 }
 
 impl SwatchColors {
-    /// sRGB of each mixture of `book`; one whose pigments are missing has the colour with which it
-    /// was kept.
+    /// sRGB of each mixture of `book`. If its pigments are missing, this is the colour at the time
+    /// when you kept it.
     fn get(&mut self, painting: &PaintingState, book: &SwatchBook) -> &[[u8; 3]] {
         let PaintingState { library, light, .. } = painting;
         let same = self.of.as_ref().is_some_and(|(own, under, list)| {

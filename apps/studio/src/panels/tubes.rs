@@ -1,5 +1,5 @@
-//! The tube panel beside the palette: eight tubes, squeezing and loading from them, and the window
-//! that chooses their pigments.
+//! The tube panel beside the palette. You squeeze paint from eight tubes, load brushes from them,
+//! and choose their pigments in a window.
 
 use eframe::egui::{
     Align, Button, Color32, Context, CornerRadius, DragAndDrop, Id, LayerId, Mesh, Order, Painter,
@@ -22,13 +22,12 @@ use crate::{floating, theme};
 
 pub(super) use draw as draw_tube;
 
-/// Space between tubes, in points.
 const GAP: f32 = 2.0;
 
-/// Largest tube, as a factor of its usual size.
+/// Largest tube, as a multiple of its usual size.
 const LARGEST: f32 = 2.0;
 
-/// Most that a tube is wider than its height asks for, as a factor.
+/// A tube can be wider than its height asks for by this factor.
 const WIDER: f32 = 1.4;
 
 /// Height of the name below the tubes, and of the gaps between the controls, in points.
@@ -48,7 +47,7 @@ impl Tubes {
         let catalogue = self.catalogue.get(cx.painting);
         let area = ui.available_width() + 2.0;
         let per_row = ((area / (TUBE_SIZE.x + 2.0)) as usize).clamp(1, SLOTS);
-        // Rows of equal length: 4 and 4 instead of 5 and 3.
+        // We make rows of equal length, e.g. 4 and 4 instead of 5 and 3.
         let rows = SLOTS.div_ceil(per_row);
         let per_row = SLOTS.div_ceil(rows);
         let room = vec2(area, ui.clip_rect().bottom() - ui.cursor().top() - controls_height(ui));
@@ -145,7 +144,6 @@ impl Tubes {
         }
     }
 
-    /// Draws the commands of the selected tube.
     fn chosen(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let slot = cx.tools.tube.min(SLOTS - 1);
         let held = cx.painting.slots[slot];
@@ -177,7 +175,7 @@ impl Tubes {
     }
 }
 
-/// Least width at which all tubes and their controls are seen in a panel `height` points high.
+/// Smallest width at which you see all tubes and their controls in a panel `height` points high.
 #[must_use]
 pub fn least_width(ui: &Ui, height: f32) -> f32 {
     let row = TUBE_SIZE.y + GAP;
@@ -185,23 +183,22 @@ pub fn least_width(ui: &Ui, height: f32) -> f32 {
     (SLOTS as f32 / rows).ceil() * (TUBE_SIZE.x + GAP)
 }
 
-/// Height of the controls below the tubes, in points.
 fn controls_height(ui: &Ui) -> f32 {
     2.0 * ui.spacing().interact_size.y + CONTROLS
 }
 
-/// Size of a tube where `rows` of `per_row` tubes have `room` points: as large as they fit,
-/// up to twice their usual size.
+/// Size of a tube if `rows` of `per_row` tubes share `room` points. Tubes grow up to twice their
+/// usual size.
 fn tube_size(room: Vec2, per_row: usize, rows: usize) -> Vec2 {
     let usual = TUBE_SIZE;
     let wide = (room.x / per_row as f32 - GAP) / usual.x;
     let high = (room.y / rows as f32 - GAP) / usual.y;
-    // Wider tubes have room for their names, also where they cannot be higher.
+    // Wider tubes have room for their names, even if they cannot be higher.
     let high = high.min(wide).clamp(1.0, LARGEST);
     vec2(usual.x * wide.clamp(1.0, LARGEST.min(WIDER * high)), usual.y * high)
 }
 
-/// Reason why no brush can be loaded, if any.
+/// Why you cannot load a brush, if so.
 fn no_brush(cx: &PanelContext<'_>) -> Option<&'static str> {
     let known = cx.painting.brushes.iter().any(|brush| brush.name == cx.tools.brush);
     (!known).then_some(tr("no brush is selected"))
@@ -221,7 +218,6 @@ fn clicked(response: &Response, cx: &mut PanelContext<'_>, slot: usize) {
     }
 }
 
-/// Draws a drop of paint at the pointer while a tube is dragged.
 fn drag(ui: &Ui, cx: &PanelContext<'_>) {
     let Some(dragged) = DragAndDrop::payload::<DraggedTube>(ui.ctx()) else { return };
     let Some(pointer) = ui.ctx().pointer_interact_pos() else { return };
@@ -234,10 +230,9 @@ fn drag(ui: &Ui, cx: &PanelContext<'_>) {
 /// Size of a tube with its name, in points.
 pub(super) const TUBE_SIZE: Vec2 = vec2(61.0, 118.0);
 
-/// Height of the name below the tube, in points.
 const NAME_HEIGHT: f32 = 34.0;
 
-/// Factor of the size from which names have the font of buttons.
+/// From this factor on, names have the font of buttons.
 const LARGE: f32 = 1.35;
 
 /// Shading of the metal: position from left (0) to right (1), and grey level.
@@ -276,7 +271,6 @@ pub(super) fn draw(
     names(ui, area, name);
 }
 
-/// Draws an empty slot.
 fn draw_empty(ui: &Ui, area: Rect) {
     let body = body(area).shrink(1.0);
     let painter = ui.painter();
@@ -309,7 +303,6 @@ fn body(area: Rect) -> Rect {
     )
 }
 
-/// Draws the folded end.
 fn crimp(painter: &Painter, body: Rect) {
     let fold = Rect::from_min_max(
         pos2(body.left() - 1.0, body.top()),
@@ -319,7 +312,6 @@ fn crimp(painter: &Painter, body: Rect) {
     painter.hline(fold.x_range(), fold.center().y, Stroke::new(1.0, Color32::from_gray(104)));
 }
 
-/// Draws the body, slightly narrower at the cap.
 fn tapered(painter: &Painter, body: Rect) {
     let mut mesh = Mesh::default();
     for (index, (place, grey)) in METAL.into_iter().enumerate() {
@@ -336,7 +328,6 @@ fn tapered(painter: &Painter, body: Rect) {
     painter.add(Shape::mesh(mesh));
 }
 
-/// Draws the shoulder between body and cap.
 fn shoulder(painter: &Painter, body: Rect, cap: Rect) {
     let points = vec![
         pos2(body.left() + 1.5, body.bottom()),
@@ -356,10 +347,8 @@ fn names(ui: &Ui, area: Rect, name: &str) {
     text_from_top(ui, below.shrink2(vec2(1.0, 1.0)), Align::Center, style, color, name);
 }
 
-/// Width of the contents, in points.
 const WIDTH: f32 = 400.0;
 
-/// State of the window: selected slot and pigment list.
 #[derive(Debug, Clone, Default)]
 struct Chooser {
     open: bool,
@@ -373,7 +362,6 @@ impl Chooser {
         *self = Self { open: true, slot, list: PigmentList::default() };
     }
 
-    /// Draws the window if it is open.
     fn show(&mut self, context: &Context, catalogue: &Catalogue, cx: &mut PanelContext<'_>) {
         let mut open = self.open;
         floating::show(context, tr("Choose tubes"), tr("choose tubes"), &mut open, |ui| {
@@ -455,23 +443,23 @@ fn set_slot(cx: &mut PanelContext<'_>, slot: usize, pigment: Option<PigmentId>) 
     cx.act(Action::Palette(PaletteSpec::from_names(names)));
 }
 
-/// Drag payload of a tube. A drop on a surface squeezes it there with [`squeeze`].
+/// Drag payload of a tube. If you drop it on a surface, this squeezes paint there with [`squeeze`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DraggedTube {
     /// Slot of the tube.
     pub slot: usize,
 }
 
-/// Squeezes the volume set in the tools from a slot's tube onto a surface, at a
-/// position in mm from the upper left corner. Does nothing for an empty slot.
+/// Squeezes the volume set in the tools from a slot's tube onto a surface. Pass the position in mm
+/// from the upper left corner. This does nothing for an empty slot.
 pub fn squeeze(cx: &mut PanelContext<'_>, slot: usize, on: SurfaceId, x_mm: f64, y_mm: f64) {
     let Some(recipe) = recipe(cx, slot) else { return };
     let volume_mm3 = cx.tools.squeeze_mm3;
     cx.act(Action::Squeeze(Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 }));
 }
 
-/// Loads the selected brush from a slot's tube, with the medium and height set in the
-/// tools, and selects the paint tool. Does nothing for an empty slot.
+/// Loads the selected brush from a slot's tube, with the medium and height set in the tools, and
+/// selects the paint tool. This does nothing for an empty slot.
 pub fn load(cx: &mut PanelContext<'_>, slot: usize) {
     if let Some(recipe) = recipe(cx, slot) {
         let vehicle = cx.tools.vehicle;
@@ -479,7 +467,7 @@ pub fn load(cx: &mut PanelContext<'_>, slot: usize) {
     }
 }
 
-/// Recipe of a slot's pigment alone.
+/// Recipe with only the pigment of this slot.
 fn recipe(cx: &PanelContext<'_>, slot: usize) -> Option<Recipe> {
     let pigment = (*cx.painting.slots.get(slot)?)?;
     Some(Recipe::from([(cx.painting.library[pigment].name.clone(), 1.0)]))

@@ -1,5 +1,5 @@
-//! The wheel panel: the colours that the tubes on hand can mix, by measured colour, and how near
-//! they come to a wanted one. The plane is a* and b*.
+//! The wheel panel shows the colours that your tubes can mix, by measured colour, and how near they
+//! come to a wanted one. The plane is a* and b*.
 
 use std::sync::Arc;
 
@@ -20,24 +20,24 @@ use crate::recipe_search::{RecipeSearch, SearchRequest};
 use crate::theme;
 use crate::wheel_maker::{MadeWheel, WheelMaker, WheelRequest};
 
-/// CIEDE2000 up to which a colour counts as reached: hardly visible, even side by side.
+/// A colour counts as reached up to this CIEDE2000. You hardly see it, even side by side.
 const REACHED: f64 = 1.0;
 
 /// Largest side of the plot, in points.
 const LARGEST: f32 = 420.0;
 
-/// Side down to which the plot shrinks so that a low panel shows all of it, in points.
+/// The plot shrinks to this side, in points, so that a low panel shows all of it.
 const SMALLEST: f32 = 128.0;
 
 /// State of the wheel panel.
 #[derive(Debug, Default)]
 pub struct Wheel {
     maker: WheelMaker,
-    /// L* of the region that is shown; `None` shows all lightnesses.
+    /// L* of the shown region; `None` shows all lightnesses.
     lightness: Option<f64>,
     view: WheelView,
     reach: Reach,
-    /// Colour that was clicked, and recipes for it.
+    /// Colour that you clicked, and recipes for it.
     target: Option<TargetColor>,
     search: SearchPanel,
 }
@@ -94,7 +94,7 @@ impl Wheel {
         self.lightness = (!all).then_some(lightness);
     }
 
-    /// Draws the wheel and its legend; a click begins a search.
+    /// Draws the wheel and its legend. Click a colour to search for it.
     fn wheel(
         &mut self,
         ui: &mut Ui,
@@ -118,7 +118,7 @@ impl Wheel {
         legend(ui, cx, self.reach.delta_e(), wanted);
     }
 
-    /// Draws the wheel. Returns the colour that was clicked.
+    /// Draws the wheel. Returns the clicked colour.
     fn plot(
         &self,
         ui: &mut Ui,
@@ -126,7 +126,7 @@ impl Wheel {
         wheel: &ColorWheel,
         wanted: Option<&TargetColor>,
     ) -> Option<TargetColor> {
-        // The controls above the plot scroll with it, so that the side does not change.
+        // The controls above scroll with the plot, so that its side does not change.
         let above = ui.cursor().top() - ui.min_rect().top();
         let seen = (ui.clip_rect().height() - above).max(SMALLEST);
         let side = ui.available_width().min(LARGEST).min(seen);
@@ -152,16 +152,16 @@ impl Wheel {
         clicked.map(|point| self.color_at(wheel, plane.place(point)))
     }
 
-    /// The colour of a place: with the lightness of the region or, if all are shown, with that of
-    /// the mixture nearest to it in the plane.
+    /// The colour of a place. Its lightness comes from the region or, if you see all of them, from
+    /// the mixture nearest in the plane.
     fn color_at(&self, wheel: &ColorWheel, [a, b]: [f64; 2]) -> TargetColor {
         let away = |lab: &Lab| (lab.a - a).hypot(lab.b - b);
-        let nearest = || {
-            let labs = wheel.gamut.samples.iter().map(|sample| sample.color.lab);
-            labs.min_by(|one, other| away(one).total_cmp(&away(other)))
-        };
         let round = |value: f64| (10.0 * value).round() / 10.0;
-        let lightness = self.lightness.or_else(|| Some(nearest()?.lightness)).map_or(50.0, round);
+        let nearest = self.lightness.or_else(|| {
+            let labs = wheel.gamut.samples.iter().map(|sample| sample.color.lab);
+            Some(labs.min_by(|one, other| away(one).total_cmp(&away(other)))?.lightness)
+        });
+        let lightness = nearest.map_or(50.0, round);
         let lab = Lab { lightness, a: round(a), b: round(b) };
         let name = format!("Lab {lightness} {} {}", lab.a, lab.b);
         TargetColor { name, color: Color::Lab(lab) }
@@ -181,7 +181,7 @@ fn reason(ui: &mut Ui, error: &PaletteError) {
     ui.weak(tr("Put tubes on the palette whose mixtures were measured."));
 }
 
-/// Marks of what the brush holds and of the colour that is wanted.
+/// Marks of the paint on the brush and of the wanted colour.
 fn marks(painting: &PaintingState, brush: &str, wanted: Option<&TargetColor>) -> Vec<Mark> {
     let held = held(painting, brush).map(|(lab, srgb)| Mark { lab, srgb, wanted: false });
     let grid = painting.library.grid;
@@ -193,14 +193,14 @@ fn marks(painting: &PaintingState, brush: &str, wanted: Option<&TargetColor>) ->
     held.into_iter().chain(wanted).collect()
 }
 
-/// Colour of the paint that a brush holds, in a film that hides.
+/// Colour of the paint on a brush, in a film that hides.
 fn held(painting: &PaintingState, brush: &str) -> Option<(Lab, [u8; 3])> {
     let state = painting.brushes.iter().find(|state| state.name == brush)?;
     let opaque = state.swatch.as_ref()?.opaque;
     Some((opaque.lab, opaque.srgb))
 }
 
-/// Says how near the tubes come to the colour that is wanted, and the brush to it.
+/// Explains how near the tubes and the brush come to the wanted colour.
 fn legend(ui: &mut Ui, cx: &PanelContext<'_>, nearest: Option<f64>, wanted: Option<&TargetColor>) {
     let Some(wanted) = wanted else {
         ui.weak(tr("Ring: what the brush holds."));
@@ -228,11 +228,13 @@ fn legend(ui: &mut Ui, cx: &PanelContext<'_>, nearest: Option<f64>, wanted: Opti
     }
 }
 
-/// Tells the tube below the pointer, or the colour there.
+/// Names the tube below the pointer, or the colour there.
 fn tip(response: Response, painting: &PaintingState, wheel: &ColorWheel, plane: &Plane) {
     let Some(pointer) = response.hover_pos() else { return };
-    let near = |lab: Lab| plane.point([lab.a, lab.b]).distance(pointer) < 7.0;
-    let tube = wheel.masstones.iter().find(|(_, color)| near(color.lab));
+    let tube = wheel
+        .masstones
+        .iter()
+        .find(|(_, color)| plane.point([color.lab.a, color.lab.b]).distance(pointer) < 7.0);
     let words = match tube {
         Some((pigment, color)) => {
             let [l, a, b] = color.lab.to_array();
@@ -251,17 +253,13 @@ fn tip(response: Response, painting: &PaintingState, wheel: &ColorWheel, plane: 
     response.on_hover_text_at_pointer(words);
 }
 
-/// Points around which a mark is drawn.
 const MARK: f32 = 6.0;
 
-/// A colour that is marked in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Mark {
-    /// Place of the mark.
     lab: Lab,
-    /// Colour of the mark, encoded sRGB.
     srgb: [u8; 3],
-    /// Whether it is the colour that is wanted, drawn as a square; else the brush, drawn as a ring.
+    /// True for the wanted colour, a square. False for the brush, a ring.
     wanted: bool,
 }
 
@@ -275,9 +273,8 @@ fn frame(painter: &Painter, plane: &Plane) {
     painter.hline(rect.x_range(), middle.y, line);
     painter.vline(middle.x, rect.y_range(), line);
     let rings = (plane.reach / RING) as usize;
-    let radius = |ring: usize| plane.point([ring as f64 * RING, 0.0]).x - middle.x;
     for ring in 1..=rings {
-        painter.circle_stroke(middle, radius(ring), line);
+        painter.circle_stroke(middle, plane.point([ring as f64 * RING, 0.0]).x - middle.x, line);
     }
     let font = FontId::proportional(10.0);
     let names = [
@@ -291,8 +288,8 @@ fn frame(painter: &Painter, plane: &Plane) {
     }
 }
 
-/// Fills what the tubes reach, in the colours of the outermost mixtures and of their mean lightness
-/// in the middle, and draws its outline.
+/// Fills the region that the tubes reach and draws its outline. The colours are those of the
+/// outermost mixtures and, in the middle, of their mean lightness.
 fn region(painter: &Painter, plane: &Plane, wheel: &ColorWheel, region: &Boundary) {
     let held: Vec<(Pos2, &Appearance)> = region
         .sectors
@@ -305,7 +302,7 @@ fn region(painter: &Painter, plane: &Plane, wheel: &ColorWheel, region: &Boundar
     }
     let lightness =
         held.iter().map(|(_, color)| color.lab.lightness).sum::<f64>() / held.len() as f64;
-    // Grey of this L*: its Y by CIELAB, encoded.
+    // The grey of this L*: Y by CIELAB, encoded.
     let grey = Rgb([((lightness + 16.0) / 116.0).powi(3).clamp(0.0, 1.0); 3]).encoded();
     let mut mesh = Mesh::default();
     mesh.colored_vertex(plane.rect.center(), screen(grey));
@@ -318,7 +315,7 @@ fn region(painter: &Painter, plane: &Plane, wheel: &ColorWheel, region: &Boundar
     for at in 0..count {
         let next = (at + 1) % count;
         let [from, to] = [held[at as usize].0, held[next as usize].0].map(|point| point - middle);
-        // Fans over wide gaps would fill what is not reached.
+        // If we filled wide gaps, this would show colours that the tubes do not reach.
         if from.normalized().dot(to.normalized()) > 0.9 {
             mesh.add_triangle(0, 1 + at, 1 + next);
         }
@@ -344,7 +341,6 @@ fn lines(painter: &Painter, plane: &Plane, wheel: &ColorWheel) {
     }
 }
 
-/// Draws the tubes.
 fn tubes(painter: &Painter, plane: &Plane, wheel: &ColorWheel) {
     let edge = Stroke::new(1.5, theme::colors(painter.ctx()).strong);
     for (_, color) in &wheel.masstones {
@@ -353,12 +349,12 @@ fn tubes(painter: &Painter, plane: &Plane, wheel: &ColorWheel) {
     }
 }
 
-/// Draws what the brush holds, or the colour that is wanted.
+/// Draws the paint on the brush, or the wanted colour.
 fn mark(painter: &Painter, plane: &Plane, mark: Mark) {
     let [r, g, b] = mark.srgb;
     let fill = Color32::from_rgb(r, g, b);
     let point = plane.rect.shrink(MARK).clamp(plane.point([mark.lab.a, mark.lab.b]));
-    // White over black, so that it is seen on any colour.
+    // You see white over black on any colour.
     for stroke in [Stroke::new(3.0, Color32::BLACK), Stroke::new(1.5, Color32::WHITE)] {
         if mark.wanted {
             let square = Rect::from_center_size(point, Vec2::splat(2.0 * MARK));
@@ -378,7 +374,7 @@ fn screen(srgb: Rgb) -> Color32 {
 /// Steps of the rings of equal chroma.
 const RING: f64 = 20.0;
 
-/// Mapping between a*, b* and points of the window: a* to the right, b* upwards, grey in the middle.
+/// Maps between a*, b* and points of the window: a* to the right, b* upwards, grey in the middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     /// Square on the screen.
@@ -388,7 +384,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// A plane in which everything up to this chroma is seen.
+    /// A plane that shows everything up to this chroma.
     #[must_use]
     pub fn with_chroma(rect: Rect, chroma: f64) -> Self {
         let half = 0.5 * RING;
@@ -411,7 +407,7 @@ impl Plane {
     }
 }
 
-/// Search for the nearest mixture of the tubes.
+/// Search for the mixture of the tubes nearest to a wanted colour.
 #[derive(Debug, Default)]
 struct Reach {
     search: RecipeSearch,
@@ -419,7 +415,7 @@ struct Reach {
 }
 
 impl Reach {
-    /// Follows the colour that is wanted, the tubes and the light.
+    /// Updates the search if wanted colour, tubes or light changed.
     fn update(&mut self, context: &Context, painting: &PaintingState, wanted: Option<Lab>) {
         self.search.update();
         let request = wanted.map(|wanted| request_for(painting, wanted));
@@ -434,7 +430,7 @@ impl Reach {
         }
     }
 
-    /// CIEDE2000 from the wanted colour to the nearest mixture; `None` while it is searched.
+    /// CIEDE2000 from the wanted colour to the nearest mixture; `None` while the search runs.
     fn delta_e(&self) -> Option<f64> {
         let result =
             self.search.result().filter(|result| Some(&result.request) == self.of.as_ref())?;
@@ -464,19 +460,18 @@ fn request_for(painting: &PaintingState, wanted: Lab) -> SearchRequest {
     SearchRequest { library, target, limits }
 }
 
-/// Region and size of a wheel.
 #[derive(Debug, Default)]
 struct WheelView {
     made: Option<MadeWheel>,
     lightness: Option<f64>,
-    /// Colours that the tubes reach at the lightness.
+    /// Colours that the tubes reach at this lightness.
     region: Option<Boundary>,
-    /// Greatest chroma of all mixtures.
+    /// Largest chroma of all mixtures.
     chroma: f64,
 }
 
 impl WheelView {
-    /// Follows the wheel and the lightness.
+    /// Updates this if wheel or lightness changed.
     fn update(&mut self, made: Option<&MadeWheel>, lightness: Option<f64>) {
         let Some(Ok(wheel)) = made.map(|made| made.as_ref().as_ref()) else { return };
         let same = self.made.as_ref().zip(made).is_some_and(|(own, made)| Arc::ptr_eq(own, made));

@@ -1,5 +1,5 @@
 //! Combines all input devices: turns their reports into strokes and hover events on the surfaces.
-//! [`TestField`] does so in a window, to try the settings of the pen.
+//! [`TestField`] does this in a window, so that you can try the settings of the pen.
 
 #[cfg(not(target_arch = "wasm32"))]
 use eframe::CreationContext;
@@ -21,23 +21,22 @@ use super::transform::{PenTargets, SurfaceTransform};
 #[cfg(target_arch = "wasm32")]
 use super::web::Systems;
 
-/// Time for which a stylus counts as near after its last report. The window system reports
-/// a stylus as a mouse too; these events are ignored while it is near, so that it does not
-/// paint twice.
+/// A stylus counts as near for this time after its last report. The window system reports a stylus
+/// as a mouse too. While it is near we ignore these events, or it would paint twice.
 const NEAR: Duration = Duration::from_millis(300);
 
 /// An event of a stylus, mouse or finger on canvas or palette.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PenEvent {
-    /// The device touched a surface and a stroke begins; samples follow.
+    /// The device touched a surface and a stroke begins. Samples follow.
     Down {
         /// The surface that was touched.
         surface: SurfaceId,
         /// The device that paints.
         device: Device,
     },
-    /// The stroke goes on. Holds at least one sample; seconds count from the first sample
-    /// of the stroke.
+    /// The stroke continues. This has at least one sample. Seconds count from the first sample of
+    /// the stroke.
     Move(Vec<PenSample>),
     /// The stroke ends.
     Up,
@@ -45,7 +44,7 @@ pub enum PenEvent {
     Hover {
         /// The surface below the device.
         surface: SurfaceId,
-        /// Position and attitude of the brush; pressure and seconds are 0.
+        /// Position and attitude of the brush. Pressure and seconds are 0.
         sample: Sample,
         /// The device that hovers.
         device: Device,
@@ -61,20 +60,19 @@ pub enum PenEvent {
     Barrel {
         /// Button number; 0 is the button nearest to the tip.
         button: usize,
-        /// Whether the button was pressed (or released).
+        /// Whether you pressed the button. False means you released it.
         pressed: bool,
     },
 }
 
 /// All devices that can paint: styluses, mice and fingers.
-///
-/// Call [`Pen::read_systems`] once a frame before egui processes its input, then
+/// | Call [`Pen::read_systems`] once a frame before egui processes its input, then
 /// [`Pen::process_frame`].
 #[derive(Debug, Default)]
 pub struct Pen {
     /// Preferences for pressure and grip.
     pub settings: PenSettings,
-    /// Options of the brush in hand, which come before the settings.
+    /// Options of the brush in hand. They override the settings.
     pub options: BrushOptions,
     /// Options of the brush that the eraser end of a stylus moves.
     pub eraser_options: BrushOptions,
@@ -82,9 +80,8 @@ pub struct Pen {
     pub guide: Option<Guide>,
     systems: Systems,
     pointer: Pointer,
-    /// Reports received since the last frame.
     pending: Vec<Report>,
-    /// Reports that were used in the last frame.
+    /// Reports used in the last frame.
     used: Vec<Report>,
     stylus_near_until: Option<Instant>,
     stroke: Option<PenStroke>,
@@ -92,14 +89,13 @@ pub struct Pen {
     pressed_outside: bool,
     /// The device over the window, with its state.
     hovering: Option<(Device, PointerState)>,
-    /// The hover event that was reported last.
     reported_hover: Option<PenEvent>,
     /// Surface and position in mm where the last stroke ended.
     last_end: Option<(SurfaceId, (f64, f64))>,
 }
 
 impl Pen {
-    /// Input without a window: mice and fingers from egui, and reports passed to
+    /// Input without a window. Mice and fingers come from egui, and you pass other reports to
     /// [`Pen::feed`].
     #[must_use]
     pub fn new(settings: PenSettings) -> Self {
@@ -113,26 +109,26 @@ impl Pen {
         Self { settings, systems: Systems::for_window(context), ..Self::default() }
     }
 
-    /// Removes and returns the reason why styluses act as mice; `None` if they do not, or
-    /// if it was returned before.
+    /// Removes and returns the reason why styluses act as mice; `None` if they do not, or if you
+    /// have asked before.
     pub fn take_notice(&mut self) -> Option<String> {
         self.systems.notice.take()
     }
 
-    /// Collects the reports of the window system's styluses and the times of its mice. To be
-    /// called from `App::raw_input_hook`.
+    /// Collects the reports of the window system's styluses and the times of its mice. Call this
+    /// from `App::raw_input_hook`.
     pub fn read_systems(&mut self, context: &egui::Context, input: &mut RawInput) {
         self.pending.extend(self.systems.reports(context, input));
         self.pointer.stamp(self.systems.mouse_times(context));
     }
 
-    /// Adds a report as if a window system had sent it.
+    /// Adds a report as if a window system had sent it. You can use this in tests.
     pub fn feed(&mut self, report: Report) {
         self.pending.push(report);
     }
 
-    /// Reports that were used in the last frame, in order: those of all devices, without the mouse
-    /// events that the system makes of a stylus.
+    /// Reports used in the last frame, in order. This leaves out the mouse events that the system
+    /// makes of a stylus.
     #[must_use]
     pub fn reports(&self) -> &[Report] {
         &self.used
@@ -156,8 +152,8 @@ impl Pen {
         self.stroke.is_some()
     }
 
-    /// Time until [`Pen::process_frame`] must be called again even without new input;
-    /// `None` if it need not be.
+    /// Time until you must call [`Pen::process_frame`] again even without new input; `None` if you
+    /// need not.
     #[must_use]
     pub fn repaint_after(&self, now: Instant) -> Option<Duration> {
         let rests = self.stroke.as_ref().and_then(|stroke| stroke.next_rest_sample(now));
@@ -166,10 +162,9 @@ impl Pen {
         [rests, finger, self.systems.poll_after(near)].into_iter().flatten().min()
     }
 
-    /// Returns all events since the last frame in order of time. `events` are egui's events
-    /// of this frame, `modifiers` the keys that are held (with shift, a stroke begins with
-    /// a straight line from the end of the last one), and `targets` the surfaces that are
-    /// visible now.
+    /// Returns all events since the last frame in order of time. `events` are egui's events of this
+    /// frame, `modifiers` the held keys, and `targets` the surfaces that you see now. With shift, a
+    /// stroke begins with a straight line from the end of the last one.
     pub fn process_frame(
         &mut self,
         events: &[Event],
@@ -205,7 +200,7 @@ impl Pen {
             stroke.add_rest_sample(now, &handling);
             flush(stroke, &mut events);
         }
-        // The palm of a hand that holds a stylus is no tap.
+        // The palm of a hand that holds a stylus is not a tap.
         let tapped = self.pointer.tapped().filter(|tap| {
             self.stroke.is_none() && !self.is_near(now) && targets.surface_at(tap.at).is_some()
         });
@@ -258,8 +253,7 @@ impl Pen {
                 None => self.hovering = Some((device, state)),
             },
             ReportKind::Pressed(state) => match &mut self.stroke {
-                // The system reported this press as a mouse event before, which began the
-                // stroke.
+                // The system reported this press as a mouse event before, and it began the stroke.
                 Some(stroke) if !paints && device.is_pen() => {
                     stroke.device = device;
                     stroke.extend(state, arrived, &handling);
@@ -317,7 +311,7 @@ impl Pen {
         let guide = self.guide.filter(|_| transform.surface == SurfaceId::Canvas);
         let stroke = PenStroke::new(device, state, at, (*transform, guide), from, &handling);
         self.stroke = Some(stroke);
-        // Differs from every hover event, so that the next one is reported as a change.
+        // This differs from every hover event, so the next one is reported as a change.
         self.reported_hover = Some(PenEvent::Up);
     }
 
@@ -380,7 +374,7 @@ pub struct TestPoint {
     pub pressure: f64,
 }
 
-/// Strokes that were drawn on a field.
+/// Strokes drawn on a field.
 #[derive(Debug, Default)]
 pub struct TestField {
     stroke: Option<PenStroke>,
@@ -388,8 +382,8 @@ pub struct TestField {
 }
 
 impl TestField {
-    /// Draws with the reports of this frame that are in `area`, as far as `reachable` tells that
-    /// nothing lies above it. The pen's settings and options are used.
+    /// Draws with the reports of this frame in `area`, with the pen's settings and options.
+    /// `reachable` says whether nothing lies above the area.
     pub fn update(&mut self, pen: &Pen, area: Rect, reachable: bool, now: Instant) {
         for report in pen.reports() {
             self.handle(report, area, reachable, &pen.handling(report.device));
@@ -456,10 +450,9 @@ impl TestField {
             return;
         };
         points.extend(stroke.take_samples().into_iter().map(|taken| {
-            let point = |mm: f64| (mm / MM_PER_POINT) as f32;
             let sample = taken.sample;
             TestPoint {
-                at: pos2(point(sample.x_mm), point(sample.y_mm)),
+                at: pos2((sample.x_mm / MM_PER_POINT) as f32, (sample.y_mm / MM_PER_POINT) as f32),
                 pressure: sample.pressure,
             }
         }));

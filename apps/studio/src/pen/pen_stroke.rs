@@ -1,5 +1,5 @@
-//! Turns the states of a pressed device into samples of a stroke, by the settings of the pen and
-//! the options of the brush.
+//! Turns the states of a pressed device into samples of a stroke. The settings of the pen and the
+//! options of the brush say how.
 
 use eframe::egui::{Pos2, Vec2};
 use paint::pose::Sample;
@@ -14,12 +14,12 @@ use super::settings::{Grip, PenSettings};
 use super::stabiliser::{SpeedPressure, Stabiliser, distance};
 use super::transform::SurfaceTransform;
 
-/// Time without reports after which a pen counts as still. A sample is then added at its
-/// position, because the smoothed path of the brush lags one sample behind.
+/// Time without reports after which a pen counts as still. We then add a sample at its position,
+/// because the smoothed path of the brush lags one sample behind.
 pub(super) const STILL: Duration = Duration::from_millis(30);
 
-/// Change of pressure (full pressure is 1) above which another sample is added while the
-/// pen rests.
+/// While the pen rests, we add a sample if the pressure changes by more than this (1 is full
+/// pressure).
 const CHANGED: f64 = 0.005;
 
 /// Seconds between the samples at the end of a stroke.
@@ -27,22 +27,21 @@ const END_INTERVAL_SECONDS: f64 = 0.008;
 
 /// Speed of a straight line drawn with shift, in mm per second.
 const LINE_SPEED_MM_S: f64 = 100.0;
-/// Length over which the pressure of a straight line rises, in mm.
+/// The pressure of a straight line rises over this length, in mm.
 const LINE_START_MM: f64 = 2.0;
 
-/// Length of the way in points after which perspective takes the direction of a stroke.
+/// Perspective takes the direction of a stroke after this length, in points.
 const DECIDED_POINTS: f64 = 14.0;
 
-/// Longest time for which the first samples wait for the direction of the stroke.
+/// The first samples wait at most this long for the direction of the stroke.
 const LONGEST_WAIT: Duration = Duration::from_millis(80);
 
-/// A stroke that has begun and not ended.
 #[derive(Debug)]
 pub(super) struct PenStroke {
     pub(super) device: Device,
     transform: SurfaceTransform,
     began: Instant,
-    /// Duration of the straight line at the start, in seconds.
+    /// Seconds that the straight line at the start takes.
     line_seconds: f64,
     pressure_model: SpeedPressure,
     state: PointerState,
@@ -57,7 +56,7 @@ pub(super) struct PenStroke {
 }
 
 impl PenStroke {
-    /// Begins a stroke on a surface, led by a guide if there is one. With `from`, a position in mm, a
+    /// Begins a stroke on a surface. A guide may lead it. If you give `from`, a position in mm, a
     /// straight line leads from there to the pen.
     pub(super) fn new(
         device: Device,
@@ -93,32 +92,28 @@ impl PenStroke {
         stroke
     }
 
-    /// The surface that is painted on.
     pub(super) fn surface(&self) -> SurfaceId {
         self.transform.surface
     }
 
-    /// The last state of the device.
     pub(super) fn state(&self) -> PointerState {
         self.state
     }
 
-    /// Current position on the surface, in mm.
     pub(super) fn position_mm(&self) -> (f64, f64) {
         self.transform.position_mm(self.state.at)
     }
 
-    /// The place on the surface where the brush is when it has caught up, in mm.
+    /// The place in mm where the brush will be after it has caught up.
     pub(super) fn end_mm(&self) -> (f64, f64) {
         self.lead.led(self.position_mm())
     }
 
-    /// Follows a change of zoom, pan or rotation.
     pub(super) fn set_transform(&mut self, transform: SurfaceTransform) {
         self.transform = transform;
     }
 
-    /// Adds a sample at a new state of the device.
+    /// Adds a sample for a new state of the device.
     pub(super) fn extend(&mut self, state: PointerState, at: Instant, handling: &Handling<'_>) {
         let seconds = self.seconds(at);
         let by_speed = handling.pressure_by_speed(self.pressure_model.move_to(state.at, seconds));
@@ -145,8 +140,7 @@ impl PenStroke {
         }
     }
 
-    /// Adds one sample when the pen comes to rest, and further ones only while the pressure
-    /// changes.
+    /// Adds one sample when the pen comes to rest, and more only while the pressure changes.
     pub(super) fn add_rest_sample(&mut self, now: Instant, handling: &Handling<'_>) {
         if self.has_waited(now) && !self.lead.is_open() {
             self.start_heading(handling);
@@ -170,8 +164,8 @@ impl PenStroke {
         self.led(place, handling)
     }
 
-    /// The place on the line of a guide. Once that line is decided, the samples that waited for it
-    /// are put on it, and a brush that follows its direction starts across it.
+    /// The place on the line of a guide. When we know this line, we move the samples that waited
+    /// for it there, and turn a brush that follows its direction.
     fn led(&mut self, place: (f64, f64), handling: &Handling<'_>) -> (f64, f64) {
         let waited = self.lead.is_open();
         let place = self.lead.follow(place);
@@ -211,8 +205,8 @@ impl PenStroke {
         }
     }
 
-    /// Adds the samples that end a stroke: the way on which a brush that stayed behind catches up,
-    /// and for a device without pressure those that lift it.
+    /// Adds the samples that end a stroke. A brush that stayed behind catches up, and a brush
+    /// without pressure is lifted.
     pub(super) fn finish(&mut self, at: Instant, handling: &Handling<'_>) {
         self.catch_up(at, handling);
         self.lead.settle();
@@ -228,7 +222,7 @@ impl PenStroke {
         }
     }
 
-    /// Leads the brush to the last place of the pen, as fast as a straight line is drawn.
+    /// Moves the brush to the last place of the pen, as fast as a straight line is drawn.
     fn catch_up(&mut self, at: Instant, handling: &Handling<'_>) {
         let mut before = self.lead.last().unwrap_or_else(|| self.position_mm());
         let mut seconds = self.last_seconds().max(self.seconds(at));
@@ -259,9 +253,9 @@ impl PenStroke {
         self.last.map_or(0.0, |last| last.seconds)
     }
 
-    /// Removes and returns the samples since the last call. There are none before the direction
-    /// of a stroke that the brush or a guide follows is known: a brush that turned on the canvas
-    /// would paint a hook.
+    /// Removes and returns the samples since the last call. There are none until we know the
+    /// direction that brush or guide follow. If the brush turned on the canvas, it would paint a
+    /// hook.
     pub(super) fn take_samples(&mut self) -> Vec<PenSample> {
         let waits = !self.heading.is_started() || self.lead.is_open();
         if waits { Vec::new() } else { std::mem::take(&mut self.samples) }
@@ -271,7 +265,7 @@ impl PenStroke {
         now.saturating_duration_since(self.began) >= LONGEST_WAIT
     }
 
-    /// Puts the brush across the direction of the stroke, from its first sample on.
+    /// Turns the brush across the direction of the stroke, from its first sample on.
     fn start_heading(&mut self, handling: &Handling<'_>) {
         if self.heading.is_started() {
             return;
@@ -341,7 +335,8 @@ impl PenStroke {
         self.push(Sample { pressure, seconds, x_mm, y_mm, ..sample }, at);
     }
 
-    /// Adds a sample. If its time is before that of the last one, it is set to that time.
+    /// Adds a sample. Time never runs backwards: an earlier time is set to the time of the last
+    /// sample.
     fn push(&mut self, sample: Sample, arrived: Instant) {
         let earliest = self.last.map_or(0.0, |last| last.seconds);
         let sample = Sample { seconds: sample.seconds.max(earliest), ..sample };
@@ -350,8 +345,8 @@ impl PenStroke {
     }
 }
 
-/// Sample of a brush over a surface at pressure 0. `twist` is the rotation used if the
-/// device measures none.
+/// Sample of a brush over a surface at pressure 0. If the device measures no rotation, `twist` is
+/// used.
 pub(super) fn brush_sample(
     transform: &SurfaceTransform,
     state: &PointerState,
@@ -367,23 +362,21 @@ pub(super) fn brush_sample(
     Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg }
 }
 
-/// The general settings and the options of the brush in hand, which come first.
+/// The general settings and the options of the brush in hand. The options win.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Handling<'a> {
-    /// The general settings.
     pub(super) settings: &'a PenSettings,
-    /// Options of the brush in hand.
     pub(super) options: &'a BrushOptions,
 }
 
 impl Handling<'_> {
-    /// Pressure of the brush for one that the device measures, 0 to 1.
+    /// Pressure of the brush for a measured pressure, 0 to 1.
     pub(super) fn pressure(&self, measured: f64) -> f64 {
         let curve = self.options.curve.as_ref().unwrap_or(&self.settings.curve);
         self.options.in_range(curve.at(measured))
     }
 
-    /// Pressure of the brush for one that follows from the speed of a device without pressure.
+    /// Pressure of the brush for a device without pressure; `pressure` follows from its speed.
     pub(super) fn pressure_by_speed(&self, pressure: f64) -> f64 {
         self.options.in_range(pressure)
     }
@@ -426,7 +419,7 @@ impl Handling<'_> {
         }
     }
 
-    /// Method of the stabiliser, and its length in mm on a surface that is shown like this.
+    /// Method of the stabiliser, and its length in mm on a surface with this transform.
     pub(super) fn stabiliser(&self, transform: &SurfaceTransform) -> (StabiliserMethod, f64) {
         let settings = self.options.stabiliser.unwrap_or(self.settings.stabiliser);
         let scale = match settings.unit {
@@ -437,28 +430,25 @@ impl Handling<'_> {
     }
 }
 
-/// Path length in points over which the brush turns: the remaining angle falls by a factor
-/// of e.
+/// The brush turns over this length, in points: the remaining angle falls by a factor of e.
 const TURNING_POINTS: f64 = 30.0;
 
-/// Path length in points over which the direction of the stroke is averaged: single steps
-/// of a mouse are a few whole points, so their directions jump by up to 45 degrees.
+/// We average the direction of the stroke over this length, in points. Single steps of a mouse are
+/// a few whole points, so their directions jump by up to 45 degrees.
 const AVERAGED_POINTS: f64 = 20.0;
 
-/// Path length in points at which the direction at the start of a stroke is taken. Shorter
-/// ones give a coarse direction, longer ones a later start.
+/// We take the first direction of the stroke at this length, in points. If it is shorter, the
+/// direction is coarse. If it is longer, the stroke starts later.
 const START_POINTS: f64 = 8.0;
 
 /// Rotation of a brush that follows its stroke.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Heading {
-    /// Rotation in the window, clockwise, in degrees.
     twist: f64,
-    /// Recent way of the stroke in points; older steps weigh less.
+    /// Recent way of the stroke in points. Older steps weigh less.
     way: (f64, f64),
-    /// Path length in points.
     path: f64,
-    /// Whether the rotation at the start of the stroke is settled.
+    /// Whether the rotation at the start of the stroke is decided.
     started: bool,
 }
 
@@ -468,17 +458,15 @@ impl Heading {
         Self { twist, way: (0.0, 0.0), path: 0.0, started: false }
     }
 
-    /// Rotation of the brush in the window, clockwise, in degrees.
     pub(super) fn twist(&self) -> f64 {
         self.twist
     }
 
-    /// Whether the rotation at the start of the stroke is settled.
     pub(super) fn is_started(&self) -> bool {
         self.started
     }
 
-    /// Whether the stroke is long enough to tell its direction.
+    /// Whether the stroke is long enough to have a direction.
     pub(super) fn is_clear(&self) -> bool {
         self.path >= START_POINTS
     }
@@ -497,7 +485,7 @@ impl Heading {
         }
     }
 
-    /// Settles the rotation at the start: across the direction so far, if there is one.
+    /// Decides the rotation at the start: across the direction so far, if there is one.
     pub(super) fn start(&mut self) {
         self.started = true;
         if self.path > 0.0 {
@@ -505,8 +493,8 @@ impl Heading {
         }
     }
 
-    /// Angle from the broad side to the line across the direction, in degrees. The broad side
-    /// has no direction, so it is taken modulo 180 degrees.
+    /// Angle from the broad side to the line across the direction, in degrees. The broad side has
+    /// no direction, so we take it modulo 180 degrees.
     fn off(&self) -> f64 {
         let across = self.way.1.atan2(self.way.0).to_degrees() + 90.0;
         (across - self.twist + 90.0).rem_euclid(180.0) - 90.0

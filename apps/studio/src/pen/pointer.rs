@@ -5,17 +5,15 @@ use web_time::{Duration, Instant};
 
 use super::report::{Device, PointerState, Report, ReportKind, Stamp, Stamps, filled};
 
-/// Distance after which a moving finger paints, in points. Until then a second finger can
-/// turn the touch into a gesture.
+/// A finger paints after moving this far, in points. Until then a second finger can turn the touch
+/// into a gesture.
 const DECIDED_POINTS: f32 = 6.0;
-/// Time after which a finger paints even if it has not moved that far.
+/// A finger paints after this time, even if it has not moved that far.
 const DECIDED: Duration = Duration::from_millis(70);
 
-/// Maximum time over which the events between two frames are spread: the duration of a slow
-/// frame.
+/// Longest time over which we spread the events between two frames: the duration of a slow frame.
 const FRAME: Duration = Duration::from_millis(34);
 
-/// Mouse and touch input of a window.
 #[derive(Debug, Default)]
 pub(super) struct Pointer {
     last_frame: Option<Instant>,
@@ -24,34 +22,35 @@ pub(super) struct Pointer {
     fingers: Vec<TouchId>,
     finger: Finger,
     taps: Taps,
-    /// The tap of several fingers in the last frame.
     tapped: Option<Tap>,
 }
 
 /// State of the finger that can paint.
 #[derive(Debug, Default)]
 enum Finger {
-    /// No finger is down.
     #[default]
     Up,
-    /// The touch may still become a gesture. Its reports are kept, so that the start of a
-    /// stroke is not lost if it paints.
-    Undecided { from: Pos2, since: Option<Instant>, kept: Vec<Report> },
-    /// The finger paints.
+    /// The touch may still become a gesture. We keep its reports, so that the start of a stroke is
+    /// not lost.
+    Undecided {
+        from: Pos2,
+        since: Option<Instant>,
+        kept: Vec<Report>,
+    },
     Paints,
-    /// The fingers zoom or pan until all of them are lifted.
+    /// The fingers zoom or pan until you lift all of them.
     Gesture,
 }
 
 impl Pointer {
-    /// Adds times of mouse events, as the window system reports them.
+    /// Adds times of mouse events that the window system reported.
     pub(super) fn stamp(&mut self, stamps: impl IntoIterator<Item = Stamp>) {
         self.stamps.extend(stamps);
     }
 
-    /// Reports since the last frame, in order. egui's events carry no times: they get those that
-    /// the window system reported for their places, and the others are spread evenly between
-    /// them, the last frame and `now`.
+    /// Reports since the last frame, in order. egui's events carry no times. Those with a time from
+    /// the window system get it. The others are spread evenly between them, the last frame and
+    /// `now`.
     pub(super) fn reports(&mut self, events: &[Event], now: Instant) -> Vec<Report> {
         let mut reports = Vec::new();
         self.tapped = None;
@@ -81,13 +80,13 @@ impl Pointer {
         self.decide(reports, now)
     }
 
-    /// The tap of several fingers that ended in the events of the last frame; `None` if one of them
-    /// painted before.
+    /// The tap of several fingers that ended in the last frame; `None` if one of them painted
+    /// before.
     pub(super) fn tapped(&self) -> Option<Tap> {
         self.tapped
     }
 
-    /// Whether it is not decided yet if the finger paints or makes a gesture.
+    /// Whether we do not know yet if the finger paints or makes a gesture.
     pub(super) fn undecided(&self) -> bool {
         matches!(self.finger, Finger::Undecided { .. })
     }
@@ -105,7 +104,7 @@ impl Pointer {
                         if self.fingers.len() == 1 {
                             report(Device::Touch, ReportKind::Pressed(state));
                         } else {
-                            // More than one finger: `decide` makes it a gesture.
+                            // With more than one finger, `decide` makes this a gesture.
                             report(Device::Touch, ReportKind::Gone);
                         }
                     }
@@ -119,8 +118,7 @@ impl Pointer {
                     }
                 }
             }
-            // While a finger is down, egui sends pointer events for it too; they are
-            // ignored.
+            // While a finger is down, egui sends pointer events for it too. We ignore them.
             _ if !self.fingers.is_empty() => {}
             Event::PointerMoved(at) => {
                 report(Device::Mouse, ReportKind::Moved(PointerState::at(at)));
@@ -139,8 +137,8 @@ impl Pointer {
         }
     }
 
-    /// Withholds the reports of a finger until it is decided that it paints, and drops
-    /// those of a gesture. Reports of the mouse pass unchanged.
+    /// Holds the reports of a finger back until we know that it paints, and drops the reports of a
+    /// gesture. Reports of the mouse pass unchanged.
     fn decide(&mut self, reports: Vec<Report>, now: Instant) -> Vec<Report> {
         let mut out = Vec::new();
         for report in reports {
@@ -194,8 +192,8 @@ impl Pointer {
     }
 }
 
-/// Whether egui made a press of the touch that begins after it: in a page it comes first, so that the
-/// finger would begin a stroke as a mouse.
+/// Whether egui made this press from the touch that follows. In a page it comes before the touch,
+/// so the finger would begin a stroke as a mouse.
 fn is_of_touch(event: &Event, next: Option<&Event>) -> bool {
     match (event, next) {
         (
@@ -206,21 +204,19 @@ fn is_of_touch(event: &Event, next: Option<&Event>) -> bool {
     }
 }
 
-/// Time within which all fingers of a tap come down.
+/// All fingers of a tap must come down within this time.
 const DOWN: Duration = Duration::from_millis(250);
 
-/// Time within which all of them are lifted, from the first contact.
+/// You must lift all of them within this time from the first contact.
 const UP: Duration = Duration::from_millis(450);
 
-/// Distance in points by which a finger of a tap may move.
+/// A finger of a tap can move this far, in points.
 const STILL: f32 = 10.0;
 
-/// A tap of several fingers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tap {
     /// Number of fingers, 2 or more.
     pub(super) fingers: usize,
-    /// Place of the first contact.
     pub(super) at: Pos2,
 }
 
@@ -230,14 +226,13 @@ pub(super) struct Taps {
     since: Option<Instant>,
     /// All fingers that came down, with their first places.
     fingers: Vec<(TouchId, Pos2)>,
-    /// Number of fingers that are down.
     down: usize,
     /// Whether this cannot be a tap any more.
     spoiled: bool,
 }
 
 impl Taps {
-    /// Reads an event of the frame at `now`. Returns the tap that ends with it.
+    /// Reads an event of the frame at `now`. Returns the tap if one ends here.
     pub(super) fn read(&mut self, event: &Event, now: Instant) -> Option<Tap> {
         let Event::Touch { id, phase, pos, .. } = *event else { return None };
         let since = match (phase, self.since) {
@@ -271,7 +266,7 @@ impl Taps {
         }
     }
 
-    /// Notes that a finger paints: until all are lifted, this is no tap.
+    /// Notes that a finger paints. Until you lift all fingers, this is not a tap.
     pub(super) fn paints(&mut self) {
         self.spoiled |= self.since.is_some();
     }
@@ -298,17 +293,19 @@ mod tests {
 
     /// The reports as letters: upper case for touch, lower case for the mouse.
     fn letters(reports: &[Report]) -> String {
-        let letter = |report: &Report| match (report.device, report.kind) {
-            (Device::Touch, ReportKind::Pressed(_)) => 'P',
-            (Device::Touch, ReportKind::Moved(_)) => 'M',
-            (Device::Touch, ReportKind::Released) => 'R',
-            (_, ReportKind::Pressed(_)) => 'p',
-            (_, ReportKind::Moved(_)) => 'm',
-            (_, ReportKind::Released) => 'r',
-            (_, ReportKind::Gone) => 'g',
-            (_, ReportKind::Barrel { .. }) => 'b',
-        };
-        reports.iter().map(letter).collect()
+        reports
+            .iter()
+            .map(|report| match (report.device, report.kind) {
+                (Device::Touch, ReportKind::Pressed(_)) => 'P',
+                (Device::Touch, ReportKind::Moved(_)) => 'M',
+                (Device::Touch, ReportKind::Released) => 'R',
+                (_, ReportKind::Pressed(_)) => 'p',
+                (_, ReportKind::Moved(_)) => 'm',
+                (_, ReportKind::Released) => 'r',
+                (_, ReportKind::Gone) => 'g',
+                (_, ReportKind::Barrel { .. }) => 'b',
+            })
+            .collect()
     }
 
     #[test]
@@ -324,7 +321,7 @@ mod tests {
         assert_eq!(letters(&reports), "mmmmpmmmmm");
         let times: Vec<Instant> = reports.iter().map(|report| report.arrived).collect();
         assert_eq!(times, (1..=10).map(|step| at(2 * step)).collect::<Vec<_>>());
-        // A long pause is not counted as part of the next movement.
+        // A long pause does not count as part of the next movement.
         let reports = pointer.reports(&[button(false), Event::PointerGone], at(5_000));
         assert_eq!(letters(&reports), "rg");
         assert_eq!([reports[0].arrived, reports[1].arrived], [at(4_983), at(5_000)]);
@@ -347,9 +344,10 @@ mod tests {
     #[test]
     fn a_finger_paints_once_no_second_one_can_follow_and_no_report_is_lost() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
+        let mut frame = |ms, events: &[Event]| {
+            letters(&pointer.reports(events, start + Duration::from_millis(ms)))
+        };
         // egui adds these pointer events for a finger.
         let down = [touch(1, Start, 0.0), button(true)];
         assert_eq!(frame(0, &down), "");
@@ -358,7 +356,7 @@ mod tests {
         assert_eq!(frame(32, &[touch(1, Move, 9.0)]), "PMM");
         assert_eq!(frame(48, &[touch(1, Move, 30.0)]), "M");
         assert_eq!(frame(64, &[touch(1, End, 30.0), button(false)]), "Rr");
-        // A finger that rests in place.
+        // This finger rests in place.
         assert_eq!(frame(100, &down), "");
         assert_eq!(frame(160, &[]), "");
         assert_eq!(frame(180, &[]), "P");
@@ -379,7 +377,7 @@ mod tests {
         assert_eq!(letters(&pointer.reports(&moved, at(10))), "PM");
         let lifted = [button(false), Event::PointerGone, touch(1, End, 20.0)];
         assert_eq!(letters(&pointer.reports(&lifted, at(20))), "R");
-        // A mouse elsewhere stays one.
+        // A mouse elsewhere stays a mouse.
         let both = [button(true), touch(2, Start, 50.0)];
         assert_eq!(letters(&pointer.reports(&both, at(30))), "p");
     }
@@ -387,9 +385,10 @@ mod tests {
     #[test]
     fn two_fingers_paint_nothing_and_end_a_stroke() {
         let start = Instant::now();
-        let at = |ms| start + Duration::from_millis(ms);
         let mut pointer = Pointer::default();
-        let mut frame = |ms, events: &[Event]| letters(&pointer.reports(events, at(ms)));
+        let mut frame = |ms, events: &[Event]| {
+            letters(&pointer.reports(events, start + Duration::from_millis(ms)))
+        };
         let first = touch(1, Start, 0.0);
         let pinch = [first.clone(), touch(2, Start, 50.0)];
         assert_eq!(frame(0, &pinch), "");
@@ -418,12 +417,12 @@ mod tests {
         assert_eq!(frame(90, std::slice::from_ref(&last)), none(""));
         assert_eq!(frame(100, std::slice::from_ref(&end)), (String::new(), Some((2, 7.0))));
         assert_eq!(frame(116, &[]), none(""), "it is told once");
-        // The first finger rests, which paints, before the second one comes.
+        // The first finger rests and paints before the second one comes.
         assert_eq!(frame(1000, std::slice::from_ref(&first)), none(""));
         assert_eq!(frame(1080, &[]), none("P"));
         assert_eq!(frame(1100, std::slice::from_ref(&second)), none("R"));
         assert_eq!(frame(1150, &[end.clone(), last.clone()]), none(""));
-        // All in one slow frame, once with a stroke before the second finger.
+        // All of this happens in one slow frame, once with a stroke before the second finger.
         let whole = [first.clone(), second.clone(), end.clone(), last.clone()];
         assert_eq!(frame(2000, &whole), (String::new(), Some((2, 7.0))));
         let stroke = touch(1, Move, 16.0);

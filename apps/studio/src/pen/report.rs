@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use eframe::egui::Pos2;
 use web_time::{Duration, Instant};
 
-/// The device that the painter uses.
+/// The device that you use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Device {
     /// A mouse, or a device that acts as one.
@@ -27,8 +27,7 @@ impl Device {
     }
 }
 
-/// Position and attitude of a device. A quantity that the device does not measure is
-/// `None`.
+/// Position and attitude of a device. If it does not measure a quantity, this is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointerState {
     /// Position in points of the window.
@@ -66,15 +65,15 @@ pub enum ReportKind {
     Moved(PointerState),
     /// The device touched the surface, or its primary button was pressed.
     Pressed(PointerState),
-    /// The device was lifted, or its primary button was released.
+    /// You lifted the device or released its primary button.
     Released,
-    /// The device left the range in which the system can detect it.
+    /// The device left the range of the system.
     Gone,
     /// A button on the barrel of a stylus.
     Barrel {
         /// Button number; 0 is the button nearest to the tip.
         button: usize,
-        /// Whether the button was pressed (or released).
+        /// Whether you pressed the button. False means you released it.
         pressed: bool,
     },
 }
@@ -112,8 +111,8 @@ impl Script {
         self
     }
 
-    /// Adds a stroke: pressed at the first state, moved through the others at intervals of
-    /// `every`, and released.
+    /// Adds a stroke: pressed at the first state, moved through the others at intervals of `every`,
+    /// and released.
     #[must_use]
     pub fn stroke(
         mut self,
@@ -147,18 +146,17 @@ impl Script {
     }
 }
 
-/// Distance in points within which a report of the window system is that of an event.
+/// A report of the window system belongs to an event within this distance, in points.
 const SAME_POINTS: f32 = 0.75;
 
-/// Age beyond which a report is of an event that never came.
+/// The event of an older report than this never came.
 const OLD: Duration = Duration::from_millis(200);
 
 /// A report of the window system: where a mouse was, and when.
 pub(super) type Stamp = (Pos2, Instant);
 
-/// Reports of the window system that no event was found for yet, in order.
-///
-/// The events of the window carry no times, so that they are matched by their places.
+/// Reports of the window system without an event so far, in order.
+/// | The events of the window carry no times, so we match them by their places.
 #[derive(Debug, Default)]
 pub(super) struct Stamps(VecDeque<Stamp>);
 
@@ -168,7 +166,7 @@ impl Stamps {
         self.0.extend(stamps);
     }
 
-    /// The time of the next event, which is at `place`; `None` if it was not reported. Removes
+    /// The time of the next event, which is at `place`; `None` if it was not reported. This removes
     /// it and the reports before it.
     pub(super) fn take(&mut self, place: Pos2, now: Instant) -> Option<Instant> {
         while self.0.front().is_some_and(|stamp| now.saturating_duration_since(stamp.1) > OLD) {
@@ -179,8 +177,8 @@ impl Stamps {
     }
 }
 
-/// Fills in times that are not known: spread evenly from the time before, at first `from`, to the
-/// next that is known, at last `to`. The result never decreases and lies in `from` to `to`.
+/// Fills in unknown times. They are spread evenly from the time before (`from` at the start) to the
+/// next known one (`to` at the end). The result never decreases and lies in `from` to `to`.
 pub(super) fn filled(known: &[Option<Instant>], from: Instant, to: Instant) -> Vec<Instant> {
     let mut times = Vec::with_capacity(known.len());
     let mut last = from;
@@ -189,7 +187,7 @@ pub(super) fn filled(known: &[Option<Instant>], from: Instant, to: Instant) -> V
         let unknown = rest.iter().take_while(|time| time.is_none()).count();
         let next = rest.get(unknown).copied().flatten();
         let until = next.unwrap_or(to).clamp(last, to.max(last));
-        // The event that is known ends the gap; without one the last of the gap does.
+        // The known event ends the gap. If there is none, the last of the gap does.
         let parts = unknown + usize::from(next.is_some());
         for part in 1..=parts {
             times.push(last + (until - last).mul_f64(part as f64 / parts as f64));
@@ -214,7 +212,7 @@ mod tests {
         );
         let mut take = |x, ms| stamps.take(pos2(x, 0.0), at(ms));
         assert_eq!(take(2.2, 20), Some(at(4)));
-        // The report before it is gone, and one that is not there removes none.
+        // The report before it is gone, and a missing one removes none.
         assert_eq!((take(1.0, 20), take(9.0, 20)), (None, None));
         assert_eq!(take(2.0, 20), Some(at(12)));
         assert_eq!(take(3.0, 20), None);

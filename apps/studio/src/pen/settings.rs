@@ -1,9 +1,9 @@
-//! Preferences for pen input; stored in the preferences file.
+//! Preferences for pen input. The preferences file stores these.
 
 use serde::{Deserialize, Serialize};
 use session::brushes::{PressureCurve, StabiliserSettings};
 
-/// Attitude of a brush that is led by a mouse or a finger, as seen in the window.
+/// Attitude of a brush that you move with a mouse or a finger, as you see it in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Grip {
@@ -25,7 +25,7 @@ impl Default for Grip {
 }
 
 impl Grip {
-    /// Rotates the brush about its handle; positive degrees are clockwise.
+    /// Rotates the brush about its handle. Positive degrees are clockwise.
     pub fn turn(&mut self, degrees: f64) {
         self.twist_deg = (self.twist_deg + degrees).rem_euclid(360.0);
     }
@@ -44,18 +44,18 @@ impl Grip {
 pub struct PenSettings {
     /// Pressure of the brush for each pressure of a stylus.
     pub curve: PressureCurve,
-    /// Attitude of a brush whose device measures none.
+    /// Attitude of a brush if the device measures none.
     pub grip: Grip,
     /// Whether a brush without a measured attitude turns its broad side across the
     /// direction of the stroke.
     pub follow: bool,
-    /// Whether the tilt and twist of a stylus move the brush; otherwise `grip` is used.
+    /// Whether the tilt and twist of a stylus move the brush. If not, `grip` is used.
     pub pen_tilt: bool,
     /// How far the brush stays behind the pen.
     pub stabiliser: StabiliserSettings,
 }
 
-/// The preferences as files have them. Older ones have an exponent instead of a curve.
+/// The preferences as they are in files. Older ones have an exponent instead of a curve.
 #[derive(Debug, Deserialize)]
 #[serde(default)]
 struct StoredSettings {
@@ -95,16 +95,16 @@ impl Default for PenSettings {
 }
 
 impl PenSettings {
-    /// Replaces values that are out of range by the defaults.
+    /// Replaces values out of range by the defaults.
     pub fn bound(&mut self) {
         let default = Self::default();
         let grip = &mut self.grip;
-        // NaN is in no range, so it is replaced too.
-        let bound = |value: &mut f64, least: f64, most: f64, default: f64| {
+        // NaN lies in no range, so this replaces it too.
+        fn bound(value: &mut f64, least: f64, most: f64, default: f64) {
             if !(least..=most).contains(value) {
                 *value = default;
             }
-        };
+        }
         bound(&mut grip.lean_deg, 0.0, 80.0, default.grip.lean_deg);
         bound(&mut grip.towards_deg, 0.0, 360.0, default.grip.towards_deg);
         bound(&mut grip.twist_deg, 0.0, 360.0, default.grip.twist_deg);

@@ -1,23 +1,19 @@
-//! Steadies the way of a brush: it follows the places of the pen by a rule that knows no time.
-//!
-//! - Average: the brush is at the mean of the last length of the pen's way, each part of the way
-//!   weighing as much as it is long, so it does not matter how often a device reports. On a
-//!   straight way it stays half the length behind.
+//! Steadies the way of a brush. It follows the places of the pen by a rule without time:
+//! | \- Average: the brush is at the mean of the last length of the pen's way. Each part weighs as
+//! much
+//!   as it is long, so it does not matter how often a device reports. On a straight way the brush
+//!   stays half the length behind.
 //! - String: the pen pulls the brush by a string. The brush moves only while the string is taut,
 //!   towards the pen.
-//!
-//! When the pen is lifted, the brush catches up with the last place of the pen.
-//!
-//! Pressure for devices that measure none, derived from the speed of the pointer.
-//!
-//! A slow movement presses more: the pressure is
-//! `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`, that is 0.70 at rest, 0.475 at 500 points
-//! per second and 0.25 at very high speed. (A point is 1/96 inch, so 500 points are 132
-//! mm.) The speed is smoothed over 0.2 s and starts at 500, so that every stroke begins at a
-//! moderate pressure; the pressure that follows from it changes by at most the full pressure a
-//! second, because even a steady hand moves unevenly. At the start of a stroke the pressure
-//! rises from a fifth to the full value over 10 points of path or 60 ms, whichever comes first;
-//! at the end it falls to 0. All constants were chosen by eye.
+//! | When you lift the pen, the brush catches up with its last place.
+//! | This also derives a pressure from the speed, for devices that measure none.
+//! | A slow movement presses more: the pressure is `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`,
+//! for example 0.70 at rest, 0.475 at 500 points per second and 0.25 at very high speed. (A point
+//! is 1/96 inch, so 500 points are 132 mm.) We smooth the speed over 0.2 s and start at 500, so
+//! that every stroke begins at a moderate pressure. This pressure changes by at most the full
+//! pressure a second, because even a steady hand moves unevenly. At the start of a stroke the
+//! pressure rises from a fifth to the full value over 10 points of path or 60 ms, whichever comes
+//! first. At the end it falls to 0. All constants were chosen by eye.
 
 use std::collections::VecDeque;
 
@@ -27,7 +23,6 @@ use session::brushes::StabiliserMethod;
 /// Steps in which a brush catches up with a pen.
 const CATCH_UP_STEPS: usize = 8;
 
-/// A place on a surface, in mm.
 type Place = (f64, f64);
 
 /// The brush of one stroke behind its pen.
@@ -73,8 +68,8 @@ impl Stabiliser {
         brush
     }
 
-    /// The places by which the brush catches up, the last of which is that of the pen; none if it
-    /// is there. From then on the brush is where the pen is.
+    /// The places by which the brush catches up. The last is the place of the pen. If the brush is
+    /// there already, there are none. Afterwards the brush is where the pen is.
     pub(super) fn catch_up(&mut self) -> Vec<Place> {
         let method = std::mem::take(&mut self.method);
         let (Some(brush), Some(&pen)) = (self.brush, self.way.front()) else { return Vec::new() };
@@ -107,12 +102,11 @@ impl Stabiliser {
     }
 }
 
-/// Distance of two places, in mm.
 pub(super) fn distance(from: Place, to: Place) -> f64 {
     (to.0 - from.0).hypot(to.1 - from.1)
 }
 
-/// A brush on a string of this length whose other end is pulled to `pen`.
+/// A brush on a string of this length. You pull its other end to `pen`.
 fn pulled(brush: Place, pen: Place, length_mm: f64) -> Place {
     let slack = length_mm / distance(brush, pen);
     // A brush at the pen has an infinite slack.
@@ -123,8 +117,8 @@ fn pulled(brush: Place, pen: Place, length_mm: f64) -> Place {
     }
 }
 
-/// Mean of the last `length_mm` of a way, whose last place comes first; of all of it if it is
-/// shorter.
+/// Mean of the last `length_mm` of a way, or of all of it if it is shorter. The last place comes
+/// first.
 fn mean(way: &VecDeque<Place>, length_mm: f64) -> Place {
     let Some(&pen) = way.front() else { return (0.0, 0.0) };
     let mut sum = (0.0, 0.0);
@@ -137,7 +131,7 @@ fn mean(way: &VecDeque<Place>, length_mm: f64) -> Place {
         }
         let share = 0.5 * part / whole;
         let middle = (to.0 + (from.0 - to.0) * share, to.1 + (from.1 - to.1) * share);
-        // Relative to the pen, so that a resting pen has no rounding error.
+        // We sum relative to the pen, so that a resting pen has no rounding error.
         sum.0 += (middle.0 - pen.0) * part;
         sum.1 += (middle.1 - pen.1) * part;
         reached += part;
@@ -145,7 +139,6 @@ fn mean(way: &VecDeque<Place>, length_mm: f64) -> Place {
     if reached > 0.0 { (pen.0 + sum.0 / reached, pen.1 + sum.1 / reached) } else { pen }
 }
 
-/// Length of a way, in mm.
 fn length(way: &VecDeque<Place>) -> f64 {
     way.iter().zip(way.iter().skip(1)).map(|(&to, &from)| distance(from, to)).sum()
 }
@@ -158,19 +151,18 @@ pub(super) const FAST: f64 = 0.25;
 pub(super) const MEDIUM: f64 = 500.0;
 /// Time constant of the smoothed speed, in seconds.
 const SMOOTHING_SECONDS: f64 = 0.2;
-/// Largest change of the pressure that follows from the speed, in full pressures per second.
+/// The pressure by speed changes at most this fast, in full pressures per second.
 const FASTEST_CHANGE: f64 = 1.0;
 /// Fraction of the full pressure with which a stroke starts.
 const START_SHARE: f64 = 0.2;
-/// Path length over which the pressure rises to its full value, in points.
+/// The pressure rises to its full value over this length of path, in points.
 const START_POINTS: f64 = 10.0;
-/// Time over which the pressure rises to its full value, in seconds.
+/// The pressure rises to its full value over this time, in seconds.
 const START_SECONDS: f64 = 0.06;
-/// Longest time step from which the speed is computed, in seconds. Without it, the first
-/// movement after a pause would count as slow and press too hard.
+/// Longest time step for the speed, in seconds. Without this limit, the first movement after a
+/// pause would count as slow and press too hard.
 const LONGEST_STEP_SECONDS: f64 = 0.05;
-/// Shortest time step from which the speed is computed, in seconds; shorter steps are added
-/// to the next one.
+/// Shortest time step for the speed, in seconds. We add a shorter one to the next step.
 const SHORTEST_STEP_SECONDS: f64 = 5e-4;
 
 /// Pressure of one stroke, updated with each movement.
@@ -178,7 +170,7 @@ const SHORTEST_STEP_SECONDS: f64 = 5e-4;
 pub(super) struct SpeedPressure {
     /// Smoothed speed in points per second.
     speed: f64,
-    /// Pressure that follows from the speed, without the rise at the start.
+    /// Pressure by speed, without the rise at the start.
     full: f64,
     /// Path length since the start of the stroke, in points.
     path: f64,
@@ -199,7 +191,7 @@ impl SpeedPressure {
         Self { speed, full, path: 0.0, step: 0.0, last: at, began: seconds, measured: seconds }
     }
 
-    /// Skips the initial rise: the stroke is at its full pressure.
+    /// Skips the rise at the start, e.g. after a straight line.
     #[must_use]
     pub(super) fn at_full_pressure(mut self) -> Self {
         self.path = START_POINTS;
@@ -225,7 +217,6 @@ impl SpeedPressure {
         self.pressure(seconds)
     }
 
-    /// Pressure at a time without further movement, 0 to 1.
     #[must_use]
     pub(super) fn pressure(&self, seconds: f64) -> f64 {
         let done = (self.path / START_POINTS).max((seconds - self.began) / START_SECONDS);
@@ -234,9 +225,8 @@ impl SpeedPressure {
         self.full * (START_SHARE + (1.0 - START_SHARE) * eased)
     }
 
-    /// Pressures, 0 to 1, of the samples that end the stroke at its last position; the last
-    /// is 0. A click with almost no movement begins with the full pressure, which it has
-    /// not reached yet.
+    /// Pressures, 0 to 1, of the samples that end the stroke at its last position. The last is 0.
+    /// If a click hardly moves, this begins with the full pressure, which it has not reached yet.
     #[must_use]
     pub(super) fn end_pressures(&self, seconds: f64) -> Vec<f64> {
         let mut lifted = Vec::new();
@@ -265,8 +255,9 @@ mod tests {
 
     /// A line to the right with a jitter of 0.5 mm across.
     fn shaky() -> Vec<Place> {
-        let jitter = |at: u32| if at.is_multiple_of(2) { 0.5 } else { -0.5 };
-        (0..200).map(|at| (0.3 * f64::from(at), jitter(at))).collect()
+        (0_u32..200)
+            .map(|at| (0.3 * f64::from(at), if at.is_multiple_of(2) { 0.5 } else { -0.5 }))
+            .collect()
     }
 
     fn near(a: Place, b: Place) -> bool {
@@ -323,12 +314,12 @@ mod tests {
 
     #[test]
     fn the_mean_does_not_depend_on_how_often_the_pen_reports() {
-        let brush = |steps: u32| {
+        fn brush(steps: u32) -> Option<Place> {
             let mut brush = Stabiliser::new(StabiliserMethod::Average, 4.0);
             (0..=steps)
                 .map(|at| brush.follow((10.0 * f64::from(at) / f64::from(steps), 0.0)))
                 .last()
-        };
+        }
         for steps in [5, 17, 400] {
             assert!(near(brush(steps).unwrap(), (8.0, 0.0)), "{steps}: {:?}", brush(steps));
         }
@@ -336,8 +327,8 @@ mod tests {
         (0..50).for_each(|_| assert_eq!(resting.follow((0.1, 0.7)), (0.1, 0.7)));
     }
 
-    /// Pressure after one second of even movement at `speed` points per second, reported
-    /// `rate` times a second.
+    /// Pressure after one second of even movement at `speed` points per second, with `rate` reports
+    /// a second.
     fn steady(speed: f32, rate: u16) -> f64 {
         let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0);
         let mut pressure = 0.0;
@@ -368,8 +359,8 @@ mod tests {
 
     #[test]
     fn an_even_hand_presses_evenly_although_its_reports_are_noisy() {
-        // Steps in points of a hand that means to go evenly, every 8 ms: whole points, late and
-        // early reports, as a mouse sends them.
+        // Steps in points of a hand that tries to move evenly, every 8 ms. A mouse sends whole
+        // points, and reports come late or early.
         let steps =
             [3.0, 5.0, 0.0, 8.0, 4.0, 3.0, 6.0, 1.0, 7.0, 4.0, 2.0, 5.0, 9.0, 0.0, 4.0, 3.0];
         let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0);
@@ -423,7 +414,7 @@ mod tests {
         let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0);
         let mut last = pressure_model.pressure(0.0);
         let mut x = 0.0;
-        // A sudden movement, two events at one time, then a pause of a second.
+        // This is a sudden movement, two events at one time, then a pause of a second.
         let steps = [(1.0, 0.004), (3.0, 0.008), (40.0, 0.012), (9.0, 0.012), (0.5, 1.012)];
         for (step, seconds) in steps {
             x += step;
@@ -432,7 +423,7 @@ mod tests {
             assert!((0.0..=SLOW).contains(&pressure), "{pressure}");
             last = pressure;
         }
-        // A pause does not reduce the speed of the step after it.
+        // After a pause, the speed of the next step is not reduced.
         let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0).at_full_pressure();
         let after = pressure_model.move_to(pos2(25.0, 0.0), 1.0);
         assert!((after - 0.475).abs() < 1e-9, "{after}");

@@ -15,23 +15,22 @@ use super::tablet::Tablet;
 #[cfg(target_os = "linux")]
 use super::x11::X11Pens;
 
-/// Newest version of Wayland's tablet protocol that octotablet supports. Binding a newer
-/// version would break the connection to the compositor, which ends the program.
+/// Newest version of Wayland's tablet protocol that octotablet supports. If we bound a newer
+/// version, this would break the connection to the compositor and end the program.
 #[cfg(target_os = "linux")]
 const TABLET_VERSION: u32 = 1;
 
-/// Interval at which an idle tablet is polled.
+/// We poll an idle tablet at this interval.
 const IDLE: Duration = Duration::from_millis(100);
 
-/// Styluses of the window system.
 #[derive(Debug, Default)]
 pub(super) struct Systems {
     #[cfg(target_os = "linux")]
     x11: Option<X11Pens>,
     tablet: Option<Tablet>,
-    /// Last position of the pointer that is emulated for a stylus.
+    /// Last position of the emulated pointer of a stylus.
     pointer: Pos2,
-    /// The reason why styluses act as mice, for the painter.
+    /// Message about why styluses act as mice.
     pub(super) notice: Option<String>,
 }
 
@@ -82,9 +81,8 @@ impl Systems {
         systems
     }
 
-    /// Reports since the last call. Where the window system moves no pointer with its
-    /// styluses, pointer events are added to `input`, so that a stylus can press buttons of
-    /// the window.
+    /// Reports since the last call. If the window system does not move its pointer with the
+    /// styluses, this adds pointer events to `input`, so that you can press buttons with a stylus.
     pub(super) fn reports(&mut self, egui: &Context, input: &mut RawInput) -> Vec<Report> {
         let mut all_reports = Vec::new();
         #[cfg(target_os = "linux")]
@@ -102,8 +100,8 @@ impl Systems {
         all_reports
     }
 
-    /// Places and times of the mouse events since the last call, where the window system is
-    /// X11. The events that winit passes on have no times, on any system.
+    /// Places and times of the mouse events since the last call, under X11. The events from winit
+    /// carry no times, on any system.
     pub(super) fn mouse_times(&mut self, egui: &Context) -> Vec<Stamp> {
         #[cfg(target_os = "linux")]
         if let Some(x11) = &mut self.x11 {
@@ -113,7 +111,7 @@ impl Systems {
         Vec::new()
     }
 
-    /// Time after which the window must poll a tablet, whose events do not wake it; `None`
+    /// Time after which the window must poll a tablet, because its events do not wake it; `None`
     /// without a tablet. `near` is true while a stylus is close to the tablet.
     pub(super) fn poll_after(&self, near: bool) -> Option<Duration> {
         let connected = self.tablet.as_ref().is_some_and(Tablet::connected);
@@ -168,8 +166,8 @@ impl Dispatch<WlRegistry, GlobalListContents> for Globals {
     }
 }
 
-/// Version of `zwp_tablet_manager_v2` that the compositor offers, queried on a separate
-/// connection; `None` if it offers none.
+/// Version of `zwp_tablet_manager_v2` that the compositor offers, if any. We ask on a separate
+/// connection.
 #[cfg(target_os = "linux")]
 pub(super) fn tablet_version() -> Option<u32> {
     let connection = Connection::connect_to_env().ok()?;
@@ -201,11 +199,13 @@ mod tests {
         emulate_pointer(&reports, Modifiers::NONE, &mut Pos2::default(), &mut input);
         let moved = Event::PointerMoved(state.at);
         assert_eq!(input.events[..2], [moved.clone(), moved]);
-        let pressed = |event: &Event| match event {
-            Event::PointerButton { pos, pressed, .. } if *pos == state.at => Some(*pressed),
-            _ => None,
-        };
-        let pressed: Vec<Option<bool>> = input.events[2..].iter().map(pressed).collect();
+        let pressed: Vec<Option<bool>> = input.events[2..]
+            .iter()
+            .map(|event| match event {
+                Event::PointerButton { pos, pressed, .. } if *pos == state.at => Some(*pressed),
+                _ => None,
+            })
+            .collect();
         assert_eq!(pressed, [Some(true), Some(false), None]);
         assert_eq!(input.events[4], Event::PointerGone);
     }

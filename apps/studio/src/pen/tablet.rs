@@ -1,5 +1,5 @@
-//! Styluses under Wayland and Windows, through octotablet. Converts their millisecond timestamps
-//! to [`Instant`]s of this program.
+//! Styluses under Wayland and Windows, through octotablet. This converts their millisecond
+//! timestamps to [`Instant`]s of this program.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -12,7 +12,6 @@ use web_time::{Duration, Instant};
 
 use super::report::{Device, PointerState, Report, ReportKind};
 
-/// Connection to the tablets of the window system.
 pub(super) struct Tablet {
     /// Source of the events; `None` after it failed.
     manager: Option<Manager>,
@@ -27,19 +26,17 @@ impl std::fmt::Debug for Tablet {
 }
 
 impl Tablet {
-    /// Reads events from a manager of the window.
     pub(super) fn new(manager: Manager) -> Self {
         Self { manager: Some(manager), clock: StampClock::default(), frame: EventFrame::default() }
     }
 
-    /// Whether a tablet is connected. Its events do not wake the window, so it must be
-    /// polled.
+    /// Whether a tablet is connected. Its events do not wake the window, so we must poll it.
     pub(super) fn connected(&self) -> bool {
         self.manager.as_ref().is_some_and(|manager| !manager.tablets().is_empty())
     }
 
-    /// Whether the system does not move its pointer with the styluses. Without an emulated
-    /// pointer, buttons of the window would not react to them.
+    /// Whether the system does not move its pointer with the styluses. If so, we must emulate a
+    /// pointer, or you could not press buttons of the window.
     pub(super) fn needs_pointer_emulation(&self) -> bool {
         let manager = self.manager.as_ref();
         manager.is_some_and(|m| matches!(m.backed(), Backend::WaylandTabletUnstableV2))
@@ -84,8 +81,8 @@ impl Tablet {
     }
 }
 
-/// The events of one frame of the tablet protocol. They belong to one moment and may come
-/// in any order.
+/// The events of one frame of the tablet protocol. They belong to one moment and may come in any
+/// order.
 #[derive(Debug, Default)]
 struct EventFrame {
     state: Option<PointerState>,
@@ -125,8 +122,7 @@ impl EventFrame {
         match (std::mem::take(&mut self.down), state, self.last) {
             (true, _, Some(state)) => finish(ReportKind::Pressed(state)),
             (false, Some(state), _) => finish(ReportKind::Moved(state)),
-            // The press has no position yet, so it is reported with the next frame, which
-            // has one.
+            // The press has no position yet, so we report it with the next frame, which has one.
             (true, _, None) => self.down = true,
             (false, None, _) => {}
         }
@@ -152,32 +148,30 @@ fn state(pose: &Pose, zoom: f32) -> PointerState {
     }
 }
 
-/// A timestamp that maps to an instant further in the past than this belongs to another
-/// clock.
+/// If a timestamp maps to an instant further in the past than this, it belongs to another clock.
 const STALE: Duration = Duration::from_secs(5);
 
-/// Converts timestamps to instants. The report with the least delay so far defines the
-/// offset between the two clocks, so time spent in a queue does not distort the times of a
-/// stroke.
+/// Converts timestamps to instants. The report with the smallest delay so far defines the offset
+/// between the two clocks, so time in a queue does not distort the times of a stroke.
 #[derive(Debug, Default)]
 pub(super) struct StampClock {
-    /// The last timestamp in ms and the instant it was mapped to.
+    /// The last timestamp in ms and its instant.
     last: Option<(u32, Instant)>,
 }
 
 impl StampClock {
-    /// Returns the instant of the timestamp `stamp_ms` (wraps at 2^32) of an event that was
+    /// Returns the instant of the timestamp `stamp_ms` (wraps at 2^32) of an event that you
     /// received at `arrived`. The result is never later than `arrived`.
     pub(super) fn instant(&mut self, stamp_ms: u32, arrived: Instant) -> Instant {
         let mapped = self.last.and_then(|(stamp, instant)| {
-            // Signed, because this timestamp may be earlier than the last one.
+            // This is signed, because the timestamp may be earlier than the last one.
             let later = i64::from(stamp_ms.wrapping_sub(stamp).cast_signed());
             let step = Duration::from_millis(later.unsigned_abs());
             if later < 0 { instant.checked_sub(step) } else { instant.checked_add(step) }
         });
         let plausible = mapped.filter(|&at| at <= arrived && arrived - at < STALE);
         let at = plausible.unwrap_or(arrived);
-        // Updated at every event, so that clocks that drift apart are followed.
+        // We update this at every event, to follow clocks that drift apart.
         self.last = Some((stamp_ms, at));
         at
     }
@@ -194,7 +188,6 @@ mod tests {
         ToolEvent::Pose(Pose { position: [x, 8.0], pressure, tilt, ..Pose::default() })
     }
 
-    /// The reports of one frame with these events.
     fn frame_reports(frame: &mut EventFrame, events: &[ToolEvent<'static>]) -> Vec<ReportKind> {
         events.iter().for_each(|&event| frame.add(event, 2.0));
         let mut reports = Vec::new();
@@ -211,13 +204,13 @@ mod tests {
         let (x, y) = state.tilt_deg.unwrap_or_default();
         assert!((x - 0.5).abs() < 1e-5 && (y + 30.0).abs() < 1e-5, "{x} {y}");
         assert_eq!(state.twist_deg, None);
-        // Down before its position, the order of Wayland.
+        // Wayland reports down before the position.
         let reports = frame_reports(&mut frame, &[ToolEvent::Down, pose(30.0)]);
         assert!(
             matches!(reports[..], [ReportKind::Pressed(state)] if state.at.x == 15.0),
             "{reports:?}"
         );
-        // Up before its position, the order of Windows.
+        // Windows reports up before the position.
         let reports = frame_reports(&mut frame, &[ToolEvent::Up, pose(34.0)]);
         assert!(matches!(reports[..], [ReportKind::Moved(_), ReportKind::Released]), "{reports:?}");
         assert_eq!(frame_reports(&mut frame, &[ToolEvent::Out]), [ReportKind::Gone]);
@@ -259,7 +252,7 @@ mod tests {
         let mut clock = StampClock::default();
         assert_eq!(clock.instant(u32::MAX, at(0)), at(0));
         assert_eq!(clock.instant(4, at(20)), at(5));
-        // A timestamp of an unrelated clock.
+        // This timestamp comes from an unrelated clock.
         assert_eq!(clock.instant(90_000_000, at(30)), at(30));
         assert_eq!(clock.instant(7, at(40)), at(40));
         assert_eq!(clock.instant(8, at(9_000)), at(9_000));

@@ -1,5 +1,5 @@
-//! Tests of pen input without a window, from reports of a device to samples: plain, led by a
-//! guide, and stabilised.
+//! Tests of pen input without a window: they feed reports of a device and check the samples, plain,
+//! led by a guide, and stabilised.
 
 use eframe::egui::{
     Event, Modifiers, PointerButton, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2, vec2,
@@ -17,14 +17,14 @@ use super::{
 
 /// Canvas and palette at 4 points per mm; the palette begins at x = 800.
 fn transforms() -> [SurfaceTransform; 2] {
-    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), vec2(width, 600.0));
-    let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    [
-        SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
-        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at: Pos2| {
-            mm(at - vec2(800.0, 0.0))
-        }),
-    ]
+    [(SurfaceId::Canvas, 0.0, 800.0), (SurfaceId::Palette, 800.0, 200.0)].map(
+        |(id, left, width)| {
+            let area = Rect::from_min_size(pos2(left, 0.0), vec2(width, 600.0));
+            SurfaceTransform::new(id, area, |at| {
+                (f64::from(at.x - left) / 4.0, f64::from(at.y) / 4.0)
+            })
+        },
+    )
 }
 
 struct TestPen {
@@ -50,7 +50,6 @@ impl TestPen {
         self.pen.process_frame(events, self.modifiers, now, &targets)
     }
 
-    /// Adds a report of the pen's tip at `ms`.
     fn feed(&mut self, ms: u64, kind: ReportKind) {
         let arrived = self.at(ms);
         self.pen.feed(Report { device: Device::Pen, arrived, kind });
@@ -92,16 +91,18 @@ fn samples(output: &[PenEvent]) -> Vec<PenSample> {
 
 /// The events as letters: D down, M move, U up, H hover, L leave, B barrel.
 fn letters(output: &[PenEvent]) -> String {
-    let letter = |event: &PenEvent| match event {
-        PenEvent::Down { .. } => 'D',
-        PenEvent::Move(_) => 'M',
-        PenEvent::Up => 'U',
-        PenEvent::Hover { .. } => 'H',
-        PenEvent::Leave => 'L',
-        PenEvent::Barrel { .. } => 'B',
-        PenEvent::Tap { .. } => 'T',
-    };
-    output.iter().map(letter).collect()
+    output
+        .iter()
+        .map(|event| match event {
+            PenEvent::Down { .. } => 'D',
+            PenEvent::Move(_) => 'M',
+            PenEvent::Up => 'U',
+            PenEvent::Hover { .. } => 'H',
+            PenEvent::Leave => 'L',
+            PenEvent::Barrel { .. } => 'B',
+            PenEvent::Tap { .. } => 'T',
+        })
+        .collect()
 }
 
 #[test]
@@ -145,7 +146,7 @@ fn a_mouse_paints_with_the_grip_and_pressure_from_speed() {
     let pressures: Vec<f64> = first.iter().map(|sample| sample.sample.pressure).collect();
     assert!(pressures[0] > 0.0 && pressures.is_sorted(), "{pressures:?}");
     assert_eq!((first[2].sample.tilt_x_deg, first[2].sample.tilt_y_deg), (3.54, 3.54));
-    // The stroke goes on beyond the canvas, over the palette.
+    // The stroke continues beyond the canvas, over the palette.
     let output = test.frame(32, &[moved(900.0, 40.0), button(900.0, 40.0, false)]);
     assert_eq!(letters(&output), "MUH");
     let last = samples(&output);
@@ -209,7 +210,7 @@ fn mouse_events_sent_for_a_pen_do_not_paint_again() {
     test.feed(24, ReportKind::Released);
     let output = test.frame(26, &[moved(40.0, 40.0), button(40.0, 40.0, false)]);
     assert_eq!((letters(&output).as_str(), samples(&output).len()), ("MUH", 1));
-    // The rest of the mouse events is ignored; later the mouse can paint again.
+    // The other mouse events are ignored. Later you can paint with the mouse again.
     assert_eq!(letters(&test.frame(200, &[button(9.0, 9.0, true)])), "");
     assert_eq!(letters(&test.frame(220, &[button(9.0, 9.0, false)])), "");
     assert_eq!(letters(&test.frame(600, &[button(9.0, 9.0, true)])), "D");
@@ -250,7 +251,7 @@ fn shift_draws_a_straight_line_from_the_last_end() {
     let mut test = TestPen::new();
     test.frame(0, &[button(40.0, 40.0, true), moved(80.0, 40.0), button(80.0, 40.0, false)]);
     test.modifiers = Modifiers::SHIFT;
-    // A straight line does not lead from one surface to the other.
+    // Shift draws no straight line from one surface to the other.
     let output = test.frame(100, &[button(900.0, 40.0, true), button(900.0, 40.0, false)]);
     assert_eq!(samples(&output)[0].sample.x_mm, 25.0);
     let output = test.frame(200, &[button(980.0, 100.0, true), moved(984.0, 100.0)]);
@@ -295,14 +296,14 @@ fn values_out_of_range_are_clamped_or_dropped() {
     test.feed(0, ReportKind::Pressed(odd));
     test.feed(5, ReportKind::Moved(PointerState { pressure: Some(f64::NAN), ..odd }));
     test.feed(6, ReportKind::Moved(PointerState { at: pos2(f32::INFINITY, 0.0), ..odd }));
-    // A report earlier than the last one, which no clock should produce.
+    // This report is earlier than the last one, which no clock should produce.
     test.feed(2, ReportKind::Moved(state(12.0, -1.0)));
     let output = samples(&test.frame(8, &[]));
     assert_eq!(output.len(), 2);
     assert_eq!((output[0].sample.pressure, output[1].sample.pressure), (1.0, 0.0));
     assert!(output.iter().all(|sample| sample.sample.tilt_x_deg.abs() <= 90.0), "{output:?}");
     assert!(output.is_sorted_by_key(|sample| sample.sample.seconds), "{output:?}");
-    // A report that arrives after the sample of a resting pen, although it is older.
+    // This report is older than the sample of the resting pen, but arrives after it.
     assert_eq!(samples(&test.frame(48, &[])).len(), 1);
     test.feed(44, ReportKind::Moved(state(14.0, 0.5)));
     let output = samples(&test.frame(50, &[]));
@@ -345,7 +346,7 @@ fn the_first_samples_wait_for_the_direction_but_not_long() {
         output.iter().all(|sample: &PenSample| sample.sample.twist_deg.rem_euclid(180.0) == 90.0),
         "{output:?}"
     );
-    // A press without a way keeps the rotation of the grip.
+    // A press without a movement keeps the rotation of the grip.
     test.frame(100, &[button(42.0, 40.0, false)]);
     test.pen.settings.grip.twist_deg = 30.0;
     let output = test.frame(200, &[button(90.0, 90.0, true), button(90.0, 90.0, false)]);
@@ -370,7 +371,7 @@ fn a_straight_line_is_painted_with_the_broad_side_across() {
 fn a_following_brush_does_not_jitter_with_the_whole_points_of_a_mouse() {
     let mut test = TestPen::new();
     test.frame(0, &[button(40.0, 40.0, true)]);
-    // Whole points of a straight way of 20 degrees, in steps of 1 to 3 points.
+    // A straight way at 20 degrees in whole points, in steps of 1 to 3 points.
     let events: Vec<Event> = (1_u8..=200)
         .map(|step| {
             let way = f32::from(step) * 2.0 + f32::from(step % 3);
@@ -394,15 +395,15 @@ fn barrel_buttons_are_reported() {
 
 #[test]
 fn a_tap_beside_a_surface_or_of_a_hand_that_holds_a_pen_is_none() {
-    let tap = |x: f32| {
-        let touch = |id, phase, x| {
-            let device_id = TouchDeviceId(0);
-            let id = TouchId(id);
-            Event::Touch { device_id, id, phase, pos: pos2(x, 99.0), force: None }
-        };
-        let both = |phase| [touch(1, phase, x), touch(2, phase, x + 30.0)];
-        [both(TouchPhase::Start), both(TouchPhase::End)].concat()
-    };
+    fn tap(x: f32) -> Vec<Event> {
+        let both = [TouchPhase::Start, TouchPhase::End].map(|phase| {
+            [(1, x), (2, x + 30.0)].map(|(id, x)| {
+                let device_id = TouchDeviceId(0);
+                Event::Touch { device_id, id: TouchId(id), phase, pos: pos2(x, 99.0), force: None }
+            })
+        });
+        both.concat()
+    }
     let mut test = TestPen::new();
     assert_eq!(letters(&test.frame(0, &tap(300.0))), "T");
     assert_eq!(letters(&test.frame(100, &tap(1300.0))), "", "beside the surfaces");
@@ -411,25 +412,11 @@ fn a_tap_beside_a_surface_or_of_a_hand_that_holds_a_pen_is_none() {
     assert_eq!(letters(&test.frame(900, &tap(300.0))), "T", "it is gone");
 }
 
-/// Canvas of 200 x 150 mm at 4 points per mm; right of it the palette, which begins at 0 mm too.
-fn both_surfaces() -> [SurfaceTransform; 2] {
-    let area = |x, width| Rect::from_min_size(pos2(x, 0.0), vec2(width, 600.0));
-    let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    [
-        SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
-        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at| {
-            mm(at - vec2(800.0, 0.0))
-        }),
-    ]
-}
-
-/// A pen at a place in mm of the canvas, without twist.
 fn hold(x_mm: f64, y_mm: f64) -> PointerState {
     let at = pos2(4.0 * x_mm as f32, 4.0 * y_mm as f32);
     PointerState { pressure: Some(0.5), ..PointerState::at(at) }
 }
 
-/// A wavy stroke to the lower right.
 fn wavy() -> Vec<PointerState> {
     (0..60)
         .map(|step: u8| {
@@ -439,10 +426,10 @@ fn wavy() -> Vec<PointerState> {
         .collect()
 }
 
-/// Samples of each of the strokes of a pen, one after another.
+/// The samples of each stroke.
 fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -> Vec<Vec<Sample>> {
     let start = Instant::now();
-    let transforms = both_surfaces();
+    let transforms = transforms();
     let mut script = Script::new(Device::Pen);
     for holds in strokes {
         script = script.stroke(holds.iter().copied(), Duration::from_millis(5));
@@ -486,7 +473,7 @@ fn perspective() -> Guide {
     Guide::Perspective(Perspective { count: 2, points })
 }
 
-/// Farthest distance of samples from the line through two places.
+/// Largest distance of the samples from the line through two places.
 fn off(samples: &[Sample], [from, to]: [[f64; 2]; 2]) -> f64 {
     let right = to[0] - from[0];
     let down = to[1] - from[1];
@@ -510,10 +497,15 @@ fn a_stroke_along_the_ruler_is_straight_and_keeps_time_and_pressure() {
     for (led, free) in led.iter().zip(&free) {
         assert_eq!((led.seconds, led.pressure), (free.seconds, free.pressure));
     }
-    // The broad side is across the ruler, whose slope is 3 to 4, from the first sample on.
+    // The broad side lies across the ruler (slope 3 to 4) from the first sample on.
     let across = 0.75_f64.atan().to_degrees() + 90.0;
-    let twist = |sample: &Sample| (sample.twist_deg - across + 90.0).rem_euclid(180.0) - 90.0;
-    assert!(led.iter().all(|sample| twist(sample).abs() < 1e-3), "{:?}", led[0]);
+    assert!(
+        led.iter().all(|sample| ((sample.twist_deg - across + 90.0).rem_euclid(180.0) - 90.0)
+            .abs()
+            < 1e-3),
+        "{:?}",
+        led[0]
+    );
 }
 
 #[test]
@@ -553,9 +545,9 @@ fn a_touch_in_perspective_paints_a_dot() {
     let led = stroke(Some(perspective()), touch.clone());
     let free = stroke(None, touch);
     assert!(led.len() >= 3);
-    let places = |samples: &[Sample]| {
+    fn places(samples: &[Sample]) -> Vec<[f64; 2]> {
         samples.iter().map(|sample| [sample.x_mm, sample.y_mm]).collect::<Vec<_>>()
-    };
+    }
     assert_eq!(places(&led)[..3], places(&free)[..3]);
 }
 
@@ -609,7 +601,6 @@ fn settings(method: StabiliserMethod, length: f64, unit: LengthUnit) -> PenSetti
     PenSettings { stabiliser, ..PenSettings::default() }
 }
 
-/// States of a pen that draws a wave from x = 10 to 80 mm.
 fn wave(measures: bool) -> Vec<PointerState> {
     (0..=100)
         .map(|at: u8| {
@@ -621,7 +612,7 @@ fn wave(measures: bool) -> Vec<PointerState> {
         .collect()
 }
 
-/// Events of a stroke along these states, one report each 5 ms, two in each frame.
+/// A stroke along these states, with a report every 5 ms and two reports in each frame.
 fn stabilised_stroke(pen: &mut Pen, device: Device, states: Vec<PointerState>) -> Vec<PenEvent> {
     let start = Instant::now();
     let mut script = Script::new(device).stroke(states, Duration::from_millis(5));
@@ -648,18 +639,17 @@ fn moved_samples(events: &[PenEvent]) -> Vec<Sample> {
 fn a_stabilised_stroke_is_steadier_ends_at_the_pen_and_keeps_its_times_in_order() {
     let end = wave(true)[100].at;
     for device in [Device::Pen, Device::Mouse] {
-        let states = || wave(device.is_pen());
         let mut plain = Pen::new(PenSettings::default());
-        let plain = moved_samples(&stabilised_stroke(&mut plain, device, states()));
+        let plain = moved_samples(&stabilised_stroke(&mut plain, device, wave(device.is_pen())));
         for method in [StabiliserMethod::Average, StabiliserMethod::String] {
             let mut pen = Pen::new(settings(method, 12.0, LengthUnit::Mm));
-            let steady = moved_samples(&stabilised_stroke(&mut pen, device, states()));
-            let swing = |samples: &[Sample]| {
+            let steady = moved_samples(&stabilised_stroke(&mut pen, device, wave(device.is_pen())));
+            fn swing(samples: &[Sample]) -> f64 {
                 let ys = samples.iter().filter(|at| (30.0..70.0).contains(&at.x_mm));
                 let ys: Vec<f64> = ys.map(|sample| sample.y_mm).collect();
                 let most = ys.iter().copied().fold(f64::MIN, f64::max);
                 most - ys.iter().copied().fold(f64::MAX, f64::min)
-            };
+            }
             assert!(
                 swing(&steady) < 0.8 * swing(&plain),
                 "{device:?} {method:?}: {} of {}",
@@ -692,10 +682,10 @@ fn the_eraser_end_has_the_options_of_its_own_brush() {
     let mut pen = Pen::new(PenSettings::default());
     pen.options.range = [0.9, 1.0];
     pen.eraser_options.range = [0.0, 0.5];
-    let most = |device, pen: &mut Pen| {
+    fn most(device: Device, pen: &mut Pen) -> f64 {
         let found = moved_samples(&stabilised_stroke(pen, device, wave(true)));
         found.iter().map(|sample| sample.pressure).fold(0.0, f64::max)
-    };
+    }
     assert!((most(Device::Pen, &mut pen) - 0.97).abs() < 1e-9, "the brush in hand");
     assert!((most(Device::Eraser, &mut pen) - 0.35).abs() < 1e-9, "that of the eraser");
 }

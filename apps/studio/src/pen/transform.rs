@@ -7,9 +7,9 @@ use paint::strokes::SurfaceId;
 /// surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceTransform {
-    /// The surface that is shown.
+    /// The surface of this map.
     pub surface: SurfaceId,
-    /// Part of the window in which a stroke on this surface can begin.
+    /// A stroke on this surface can begin in this part of the window.
     pub area: Rect,
     origin: (f64, f64),
     right: (f64, f64),
@@ -17,8 +17,8 @@ pub struct SurfaceTransform {
 }
 
 impl SurfaceTransform {
-    /// A surface with the affine map `mm` from points of the window to mm of the surface.
-    /// The map is evaluated at three points.
+    /// A surface with the affine map `mm` from points of the window to mm of the surface. We
+    /// evaluate the map at three points.
     pub fn new(surface: SurfaceId, area: Rect, mm: impl Fn(Pos2) -> (f64, f64)) -> Self {
         // A long distance keeps the rounding error of f32 small.
         const SPAN: f32 = 1024.0;
@@ -37,11 +37,12 @@ impl SurfaceTransform {
         (self.origin.0 + x, self.origin.1 + y)
     }
 
-    /// Converts a tilt towards the right and the lower edge of the window to a tilt towards
-    /// those of the surface; in degrees from upright.
+    /// Converts a tilt towards the right and the lower edge of the window to a tilt towards those
+    /// of the surface, in degrees from upright.
     pub(super) fn surface_tilt(&self, (tilt_x, tilt_y): (f64, f64)) -> (f64, f64) {
-        let slope = |degrees: f64| degrees.clamp(-89.0, 89.0).to_radians().tan();
-        let lean = (slope(tilt_x), slope(tilt_y));
+        let lean = [tilt_x, tilt_y]
+            .map(|degrees: f64| degrees.clamp(-89.0, 89.0).to_radians().tan())
+            .into();
         let (x, y) = self.displacement(lean);
         let length = x.hypot(y);
         if length == 0.0 {
@@ -51,16 +52,16 @@ impl SurfaceTransform {
         ((x * scale).atan().to_degrees(), (y * scale).atan().to_degrees())
     }
 
-    /// Converts a rotation seen in the window to a rotation on the surface, in degrees
-    /// clockwise as seen on a surface that is not mirrored.
+    /// Converts a rotation in the window to a rotation on the surface, in degrees clockwise as you
+    /// see it on a surface that is not mirrored.
     pub(super) fn surface_twist(&self, degrees: f64) -> f64 {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let (x, y) = self.displacement((cos, sin));
         y.atan2(x).to_degrees()
     }
 
-    /// Converts a displacement on the surface, in mm, to one in the window, in points; 0 if the
-    /// surface is shown without extent.
+    /// Converts a displacement on the surface, in mm, to one in the window, in points. If the
+    /// surface has no extent, this is 0.
     pub(super) fn way_in_window(&self, (x, y): (f64, f64)) -> Vec2 {
         let (a, b) = self.right;
         let (c, d) = self.down;
@@ -84,11 +85,11 @@ impl SurfaceTransform {
     }
 }
 
-/// The surfaces on which a pen can paint in this frame.
+/// The surfaces on which you can paint in this frame.
 pub struct PenTargets<'a> {
     /// The visible surfaces, the topmost first.
     pub surfaces: &'a [SurfaceTransform],
-    /// Tells whether a panel or dialog covers the surfaces at a point.
+    /// Returns whether a panel or dialog covers the surfaces at a point.
     pub covered: &'a dyn Fn(Pos2) -> bool,
 }
 
@@ -105,7 +106,7 @@ impl PenTargets<'_> {
         (!(self.covered)(at)).then_some(transform)
     }
 
-    /// The transform of a surface, if it is visible.
+    /// The transform of a surface, if you see it.
     pub(super) fn transform_of(&self, surface: SurfaceId) -> Option<&SurfaceTransform> {
         self.surfaces.iter().find(|transform| transform.surface == surface)
     }

@@ -1,9 +1,8 @@
 //! Styluses in a page: reports of the browser's pointer events.
-//!
-//! A browser gives every quantity a value, also those that a stylus does not measure: 0 for tilt and
-//! rotation, and for the pressure 0.5. So a quantity counts as measured from its first other
-//! value on. Some browsers on Windows 11 report 0.5 for every stylus; then the pressure follows
-//! from the speed, as with a mouse, and the painter is told.
+//! | A browser gives every quantity a value, even if a stylus does not measure it: 0 for tilt and
+//! rotation, and 0.5 for the pressure. So we count a quantity as measured after its first other
+//! value. Some browsers on Windows 11 report 0.5 for every stylus. Then the pressure follows from
+//! the speed, as with a mouse, and we show a message.
 
 use web_time::Instant;
 
@@ -18,10 +17,10 @@ use crate::language::tr;
 #[cfg(target_arch = "wasm32")]
 use web_time::Duration;
 
-/// The pressure that a browser reports for a stylus that measures none.
+/// The pressure that a browser reports for a stylus without pressure.
 const UNMEASURED: f64 = 0.5;
 
-/// Reports with that pressure, in contact, after which the painter is told.
+/// After this many reports with that pressure, in contact, we show the message.
 const CERTAIN: usize = 24;
 
 /// Bit of `buttons` for the nearest button on the barrel.
@@ -39,7 +38,7 @@ pub enum PagePhase {
     Move,
     /// It is lifted.
     Up,
-    /// The browser no longer feels it, or takes it for a gesture of its own.
+    /// The browser no longer feels it, or takes it for a gesture.
     Gone,
 }
 
@@ -56,7 +55,7 @@ pub struct PagePointer {
     pub tilt_deg: (f64, f64),
     /// `twist`, 0 to 359 degrees.
     pub twist_deg: f64,
-    /// `buttons`, a bit each.
+    /// `buttons`, one bit each.
     pub buttons: u16,
     /// Time of the event.
     pub arrived: Instant,
@@ -77,10 +76,10 @@ pub struct PagePens {
 }
 
 impl PagePens {
-    /// The reports of an event, for [`Pen::feed`](super::Pen::feed).
+    /// The reports of an event. Pass them to [`Pen::feed`](super::Pen::feed).
     pub fn reports(&mut self, event: &PagePointer) -> Vec<Report> {
         let mut kinds = Vec::new();
-        // The end that touches is known from the first contact on.
+        // We know from the first contact on which end touches.
         if event.phase == PagePhase::Down || !self.down {
             self.eraser = event.buttons & ERASER != 0;
         }
@@ -133,13 +132,13 @@ impl PagePens {
         }
     }
 
-    /// Removes and returns what the painter should know of the stylus; once for each page.
+    /// Removes and returns a message about the stylus. You get it once for each page.
     pub fn take_notice(&mut self) -> Option<String> {
         self.notice.take()
     }
 }
 
-/// The window system of a page has no styluses of its own: the page feeds their reports.
+/// A page has no styluses of its window system. It feeds their reports instead.
 #[cfg(target_arch = "wasm32")]
 #[derive(Debug, Default)]
 pub(super) struct Systems {

@@ -1,10 +1,8 @@
 //! Styluses under X11, through XInput 2 on a separate connection.
-//!
-//! Every device with an axis labelled `Abs Pressure` is a stylus. Its events are selected
-//! on the program's window, in addition to those of the pointer that it moves. Of the other
-//! devices that move a pointer only the times of their events are read.
-//!
-//! Axes of a stylus in XInput: numbers within a range, identified by a label.
+//! | Every device with an axis labelled `Abs Pressure` is a stylus. We select its events on the
+//! program's window, in addition to the events of the pointer that it moves. Of other devices that
+//! move a pointer, we read only the times of their events.
+//! | In XInput, an axis of a stylus is a number within a range, and a label identifies it.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -20,10 +18,8 @@ use x11rb::rust_connection::RustConnection;
 use super::report::{Device, PointerState, Report, ReportKind, Stamp};
 use super::tablet::StampClock;
 
-/// `XIAllDevices` of the protocol.
 const ALL_DEVICES: u16 = 0;
 
-/// Styluses of an X server.
 #[derive(Debug)]
 pub(super) struct X11Pens {
     reports: Receiver<Report>,
@@ -84,12 +80,11 @@ impl X11Pens {
 
     /// Places and times of the events of mice since the last call.
     pub(super) fn mouse_times(&mut self, pixels: f32) -> impl Iterator<Item = Stamp> + '_ {
-        let in_points = move |at: Pos2| (at.to_vec2() / pixels).to_pos2();
-        self.mouse_times.try_iter().map(move |(at, time)| (in_points(at), time))
+        self.mouse_times.try_iter().map(move |(at, time)| ((at.to_vec2() / pixels).to_pos2(), time))
     }
 }
 
-/// One end of a stylus, which X lists as a device of its own.
+/// One end of a stylus. X lists it as a separate device.
 struct PenEnd {
     id: u16,
     device: Device,
@@ -113,7 +108,8 @@ struct PenEnds {
 }
 
 impl PenEnds {
-    /// The report of an event that was received at `arrived`, if it is of a stylus.
+    /// Turns an event that arrived at `arrived` into a report; `None` if it does not come from a
+    /// stylus.
     fn report(&mut self, event: &Event, arrived: Instant) -> Option<Report> {
         let (Event::XinputMotion(input)
         | Event::XinputButtonPress(input)
@@ -135,7 +131,6 @@ impl PenEnds {
         Some(Report { device: end.device, arrived, kind })
     }
 
-    /// Place and time of an event that was received at `arrived`, if it is of a mouse.
     fn stamp(&mut self, event: &Event, arrived: Instant) -> Option<Stamp> {
         let (Event::XinputMotion(input) | Event::XinputButtonPress(input)) = event else {
             return None;
@@ -159,7 +154,7 @@ impl Listener {
     fn handle(&mut self, event: &Event) -> Result<bool, Disconnected> {
         let plugged = match event {
             Event::XinputHierarchy(_) => true,
-            // The range changed, or another tool is used on a device with several.
+            // The range changed, or you use another tool on a device with several.
             Event::XinputDeviceChanged(change) => {
                 self.ends.pens.iter().any(|end| end.id == change.deviceid)
             }
@@ -178,7 +173,7 @@ impl Listener {
     }
 }
 
-/// Buttons 2 and 3 are on the barrel; those after them are scroll wheels.
+/// Buttons 2 and 3 are on the barrel. Those after them are scroll wheels.
 fn barrel(button: u32, pressed: bool) -> Option<ReportKind> {
     let button = usize::try_from(button).ok()?.checked_sub(2)?;
     (button < 2).then_some(ReportKind::Barrel { button, pressed })
@@ -226,7 +221,7 @@ fn devices(
             | XIEventMask::BUTTON_PRESS
             | XIEventMask::BUTTON_RELEASE
             | XIEventMask::DEVICE_CHANGED;
-        // The device may have been unplugged in the meantime.
+        // Someone may have unplugged the device meanwhile.
         if select_events(connection, window, device.deviceid, mask).is_ok() {
             pens.push(PenEnd { id: device.deviceid, device: kind, valuators });
         }
@@ -254,28 +249,25 @@ fn position(x: i32, y: i32) -> Pos2 {
     pos2(x as f32 / 65536.0, y as f32 / 65536.0)
 }
 
-/// The quantity that an axis measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
-    /// Pressure of the tip.
     Pressure,
     /// Tilt towards the right.
     TiltX,
     /// Tilt towards the lower edge.
     TiltY,
-    /// Rotation of the barrel.
     Twist,
 }
 
 impl Axis {
-    /// The axis with this label in the X server's input drivers, if it is one of the four
-    /// (labels from xserver-properties.h).
+    /// The axis with this label in the X server's input drivers, if it is one of the four (labels
+    /// from xserver-properties.h).
     pub(super) fn labelled(label: &str) -> Option<Self> {
         match label {
             "Abs Pressure" => Some(Self::Pressure),
             "Abs Tilt X" => Some(Self::TiltX),
             "Abs Tilt Y" => Some(Self::TiltY),
-            // The first is the label of the Wacom driver, the second that of libinput.
+            // The Wacom driver uses the first label, libinput the second one.
             "Abs Wheel" | "Abs Rotary Z" => Some(Self::Twist),
             _ => None,
         }
@@ -285,19 +277,16 @@ impl Axis {
 /// One axis with its last value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Valuator {
-    /// Number of the axis in events.
     pub(super) number: u16,
-    /// The quantity that it measures.
     pub(super) axis: Axis,
     /// Lowest and highest value, in the server's unit.
     pub(super) range: (f64, f64),
-    /// Last value, in the server's unit.
     pub(super) value: f64,
 }
 
 impl Valuator {
-    /// The value as a pressure of 0 to 1 or as an angle in degrees; `None` if the range or
-    /// the value is invalid.
+    /// The value as a pressure of 0 to 1 or as an angle in degrees; `None` if range or value are
+    /// invalid.
     fn normalized(&self) -> Option<f64> {
         let (lowest, highest) = self.range;
         let span = highest - lowest;
@@ -307,8 +296,8 @@ impl Valuator {
         let value = self.value.clamp(lowest, highest);
         Some(match self.axis {
             Axis::Pressure => (value - lowest) / span,
-            // Drivers report degrees, at most 64 from upright. A range beyond 90 has
-            // another unit; its end is taken as 60 degrees.
+            // Drivers report degrees, at most 64 from upright. A range beyond 90 has another unit,
+            // so we take its end as 60 degrees.
             Axis::TiltX | Axis::TiltY => {
                 let most = lowest.abs().max(highest.abs());
                 if most <= 90.0 { value } else { value / most * 60.0 }
@@ -318,7 +307,6 @@ impl Valuator {
     }
 }
 
-/// The axes of one end of a stylus.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Valuators(pub(super) Vec<Valuator>);
 
@@ -328,8 +316,8 @@ impl Valuators {
         self.0.iter().any(|valuator| valuator.axis == Axis::Pressure)
     }
 
-    /// Applies an event. `mask` has one bit for each axis that has a value in `values`, in
-    /// order. The other axes keep their values, and bits without a value are ignored.
+    /// Applies an event. `mask` has one bit for each axis with a value in `values`, in order. The
+    /// other axes keep their values. If there are more bits than values, this ignores the rest.
     pub(super) fn update(&mut self, mask: &[u32], values: impl IntoIterator<Item = f64>) {
         let numbers = (0_u16..).zip(mask).flat_map(|(word, &bits)| {
             (0_u16..32).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| 32 * word + bit)
@@ -400,7 +388,7 @@ mod tests {
             (Event::XinputButtonPress(button_event(516, 2, None)), 20),
             (Event::XinputButtonRelease(button_event(517, 3, None)), 20),
             (Event::XinputButtonRelease(button_event(518, 1, Some(0))), 20),
-            // A scroll wheel, and a device that is no stylus.
+            // These are a scroll wheel, and a device that is not a stylus.
             (Event::XinputButtonPress(button_event(519, 4, None)), 20),
             (
                 Event::XinputMotion(ButtonPressEvent { deviceid: 4, ..button_event(520, 0, None) }),
@@ -469,7 +457,7 @@ mod tests {
         let change = HierarchyChange { len: 4, data: HierarchyChangeData::AddMaster(master) };
         connection.xinput_xi_change_hierarchy(&[change]).unwrap().check().unwrap();
         connection.sync().unwrap();
-        // The thread listed the devices again, without an error and without a report.
+        // The thread lists the devices again. This gives no error and no report.
         std::thread::sleep(Duration::from_millis(100));
         assert!(matches!(
             pens_of_server.reports.try_recv(),
@@ -504,7 +492,7 @@ mod tests {
     #[test]
     fn invalid_masks_and_ranges_are_harmless() {
         let mut pen = wacom();
-        // More bits than values, and axes that the device does not have.
+        // There are more bits than values, and axes that the device does not have.
         pen.update(&[u32::MAX, u32::MAX], [0.0, 0.0, 32768.0]);
         pen.update(&[], [1.0]);
         assert_eq!(pen.state(Pos2::ZERO).pressure, Some(0.5));
@@ -518,10 +506,10 @@ mod tests {
         }
         pen.0[1].value = f64::NAN;
         assert_eq!(pen.state(Pos2::ZERO).tilt_deg, None);
-        // A pressure range that does not start at 0, and tilt in another unit.
-        let normalized = |axis, range, value| {
+        // The pressure range does not start at 0, and tilt has another unit.
+        fn normalized(axis: Axis, range: (f64, f64), value: f64) -> f64 {
             Valuator { number: 0, axis, range, value }.normalized().unwrap_or(f64::NAN)
-        };
+        }
         assert_eq!(normalized(Axis::Pressure, (100.0, 300.0), 150.0), 0.25);
         assert_eq!(normalized(Axis::TiltX, (-9000.0, 9000.0), -4500.0), -30.0);
     }

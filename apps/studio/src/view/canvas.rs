@@ -1,9 +1,8 @@
-//! Draws quads in the window: by a shader of their own, or by egui's.
-//!
-//! egui's shader contains code that filters textures itself, and a software driver executes it for
-//! every pixel even when it is not needed, which makes it some twenty times as expensive. This
-//! shader only samples or fills. [`quicken`] also gives it the large opaque areas that egui's
-//! widgets draw, the trays and cards that took more than half of a frame.
+//! Draws quads in the window, by our own shader or by egui's.
+//! | egui's shader contains code that filters textures itself. A software driver executes this for
+//! every pixel even if it is not needed, so it takes some twenty times as long. Our shader only
+//! samples or fills. [`quicken`] also gives it the large opaque areas of egui's widgets, e.g. the
+//! trays and cards that took more than half of a frame.
 
 #[cfg(feature = "wgpu")]
 use std::sync::OnceLock;
@@ -32,15 +31,15 @@ use wgpu::{Buffer, Device, Queue};
 /// How the quads of a window are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drawing {
-    /// By a shader of their own, into pixels of this format.
+    /// By our own shader, into pixels of this format.
     #[cfg(feature = "wgpu")]
     OwnShader(TextureFormat),
-    /// By egui, for windows without wgpu.
+    /// By egui. Use this for windows without wgpu.
     Egui,
 }
 
 impl Default for Drawing {
-    /// The format where none was set, as in tests.
+    /// Used if you set none, as in tests.
     #[cfg(feature = "wgpu")]
     fn default() -> Self {
         Self::OwnShader(TextureFormat::Rgba8Unorm)
@@ -56,24 +55,21 @@ fn drawing_id() -> Id {
     Id::unique("how quads are drawn")
 }
 
-/// Sets how quads are drawn. To be called before the first frame.
+/// Sets how quads are drawn. Call this before the first frame.
 pub fn set_drawing(context: &Context, drawing: Drawing) {
     context.data_mut(|data| data.insert_temp(drawing_id(), drawing));
 }
 
 /// The window that quads are drawn in.
 pub(super) struct QuadCanvas {
-    /// The part of the window that has contents, in points.
+    /// The part of the window with contents, in points.
     pub(super) visible: Rect,
-    /// Pixels per point.
     pub(super) density: f32,
-    /// How quads are drawn.
     pub(super) drawing: Drawing,
     context: Context,
 }
 
 impl QuadCanvas {
-    /// The window of a context.
     pub(super) fn of(context: &Context) -> Self {
         Self {
             visible: context.content_rect(),
@@ -120,21 +116,20 @@ pub(super) fn draw_quads(painter: &Painter, quads: Vec<Quad>) {
     }
 }
 
-/// Least area that is worth the change of the shader, in pixels.
+/// For a smaller area, the change of the shader costs more than it saves, in pixels.
 const LEAST: f32 = 2500.0;
 
-/// Replaces the large opaque fills of this frame. To be called when all of it is drawn.
+/// Replaces the large opaque fills of this frame. Call this when you have drawn all of it.
 pub fn quicken(context: &Context) {
     let canvas = QuadCanvas::of(context);
     if canvas.drawing == Drawing::Egui {
         return;
     }
-    let moved = |layer: &LayerId| context.layer_transform_to_global(*layer).is_some();
     let mut layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
     if !layers.contains(&LayerId::background()) {
         layers.push(LayerId::background());
     }
-    layers.retain(|layer| !moved(layer));
+    layers.retain(|layer| context.layer_transform_to_global(*layer).is_none());
     context.graphics_mut(|graphics| {
         for layer in layers {
             let Some(list) = graphics.get_mut(layer) else { continue };
@@ -174,13 +169,13 @@ fn is_plain(shape: &RectShape) -> bool {
         && (shape.stroke.is_empty() || shape.stroke_kind != StrokeKind::Middle)
 }
 
-/// The fill without its corners as quads, rounded corners and the outline as egui draws them.
+/// The fill without its corners as quads. egui draws rounded corners and the outline.
 fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
     let rect = canvas.rounded(shape.rect);
     let CornerRadius { nw, ne, sw, se } = shape.corner_radius;
     let radius = f32::from(nw.max(ne).max(sw).max(se));
     let line = if shape.stroke.is_empty() { Vec::new() } else { outline(shape) };
-    // Beyond a half of the side egui makes the radius smaller.
+    // Beyond half of the side, egui makes the radius smaller.
     let corner = canvas.rounded_up(radius);
     if 2.0 * corner >= rect.size().min_elem() {
         return vec![shape.clone().into()];
@@ -191,8 +186,9 @@ fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
         let [left, right] = [(rect.left(), inner.left()), (inner.right(), rect.right())];
         let top = rect.top() + corner;
         let bottom = rect.bottom() - corner;
-        let side = |(from, to)| Rect::from_min_max(pos2(from, top), pos2(to, bottom));
-        parts.extend([side(left), side(right)]);
+        parts.extend(
+            [left, right].map(|(from, to)| Rect::from_min_max(pos2(from, top), pos2(to, bottom))),
+        );
     }
     let quads = parts.into_iter().map(|part| filled(part, shape.fill)).collect();
     let mut all = vec![canvas.shape(quads)];
@@ -203,7 +199,7 @@ fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
     all
 }
 
-/// Small rectangles with the four corners, which reach into the quads.
+/// Small rectangles with the four corners. They overlap the quads.
 fn corners(rect: Rect, corner: f32, shape: &RectShape) -> impl Iterator<Item = Shape> {
     let size = Vec2::splat(2.0 * corner);
     let fill = shape.fill;
@@ -214,7 +210,7 @@ fn corners(rect: Rect, corner: f32, shape: &RectShape) -> impl Iterator<Item = S
         pos2(rect.left(), rect.bottom() - size.y),
         rect.max - size,
     ];
-    // Each has one of the four radii; the others would leave gaps.
+    // Each has one of the four radii. The others would leave gaps.
     let only = [
         CornerRadius { nw: radius.nw, ..CornerRadius::ZERO },
         CornerRadius { ne: radius.ne, ..CornerRadius::ZERO },
@@ -235,7 +231,7 @@ fn filled(rect: Rect, color: Color32) -> Quad {
     Quad::colored(corners.map(|corner| (corner, color)))
 }
 
-/// Whether a mesh has no texture and covers what lies below.
+/// Whether a mesh has no texture and covers everything below.
 fn is_opaque(mesh: &Mesh) -> bool {
     mesh.texture_id == TextureId::default()
         && mesh.vertices.iter().all(|vertex: &eframe::egui::epaint::Vertex| {
@@ -243,7 +239,7 @@ fn is_opaque(mesh: &Mesh) -> bool {
         })
 }
 
-/// The triangles of a mesh, each as a quad whose last side has no length.
+/// The triangles of a mesh. Each is a quad with a last side of no length.
 fn triangles(mesh: &Mesh) -> Vec<Quad> {
     let three = mesh.indices.chunks_exact(3);
     three
@@ -256,8 +252,8 @@ fn triangles(mesh: &Mesh) -> Vec<Quad> {
         .collect()
 }
 
-/// Opaque quads as a shape that draws them in order, into pixels of this format in the part `visible` of the
-/// window, in points.
+/// Opaque quads as a shape that draws them in order, into pixels of this format in the part
+/// `visible` of the window, in points.
 #[cfg(feature = "wgpu")]
 pub(super) fn shape(quads: Vec<Quad>, format: TextureFormat, visible: Rect) -> Shape {
     let job = DrawQuads { quads, format, vertices: OnceLock::new() };
@@ -273,7 +269,7 @@ struct DrawQuads {
 
 #[cfg(feature = "wgpu")]
 impl DrawQuads {
-    /// The vertex data, two triangles per quad, for a screen size in points.
+    /// The vertex data for a screen size in points, two triangles per quad.
     fn vertices(&self, [width, height]: [f32; 2]) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.quads.len() * 6 * VERTEX_BYTES);
         for corner in self.quads.iter().flat_map(|quad| TRIANGLES.map(|at| quad.corners[at])) {
@@ -323,7 +319,7 @@ impl CallbackTrait for DrawQuads {
         pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
         pass.set_vertex_buffer(0, vertices.slice(..));
         let mut first = 0_u32;
-        // Neighbours without a texture are drawn at once.
+        // We draw neighbours without a texture at once.
         for run in self.quads.chunk_by(|a, b| a.texture.is_none() && b.texture.is_none()) {
             let end = first + 6 * run.len() as u32;
             let vertices = first..end;

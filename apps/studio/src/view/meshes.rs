@@ -1,7 +1,7 @@
-//! Draws the meshes of the interface, text above all, with the quads' shader.
-//!
-//! egui's shader filters textures and dithers; a software driver executes all of it for every pixel,
-//! which took three quarters of a frame. Here a pixel is one sample of a texture times a colour.
+//! Draws the meshes of the interface, above all text, with the quads' shader.
+//! | egui's shader filters textures and dithers. A software driver executes all of this for every
+//! pixel, which took three quarters of a frame. Here a pixel is one sample of a texture times a
+//! colour.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -35,11 +35,10 @@ pub fn draw_meshes(context: &Context) {
 /// A texture of egui, and whether its texels are interpolated.
 type MeshTexture = (LazyTexture, bool);
 
-/// Replaces the meshes of each frame.
 #[derive(Default)]
 struct MeshDrawer {
     textures: BTreeMap<TextureId, MeshTexture>,
-    /// Textures that the last frame was the last to draw.
+    /// Textures that no frame draws after the last one.
     freed: Vec<TextureId>,
 }
 
@@ -80,7 +79,7 @@ impl MeshDrawer {
         }
     }
 
-    /// The primitives as shapes: neighbouring meshes as one, all others as they are.
+    /// The primitives as shapes. Neighbouring meshes become one, all others stay.
     fn replaced(
         &self,
         primitives: Vec<ClippedPrimitive>,
@@ -129,7 +128,6 @@ struct ClippedMesh {
 struct DrawMeshes {
     meshes: Vec<ClippedMesh>,
     format: TextureFormat,
-    /// Vertices and indices.
     buffers: OnceLock<[Buffer; 2]>,
 }
 
@@ -151,7 +149,7 @@ impl DrawMeshes {
         laid_out.collect()
     }
 
-    /// Indices into the vertices of all meshes: WebGL 2 counts from no other vertex than the first.
+    /// Indices into the vertices of all meshes. WebGL 2 can count only from the first vertex.
     fn indices(&self) -> Vec<[u8; 4]> {
         let mut base = 0_u32;
         let mut all = Vec::new();

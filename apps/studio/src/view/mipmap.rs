@@ -1,8 +1,7 @@
 //! A picture with its mipmap levels.
-//!
-//! Each level has half the width and height of the one below, rounded up. A cell is the
-//! mean, in linear light, of the two by two cells below it, so that a picture keeps its
-//! brightness when it is zoomed out. Only the changed part is averaged again.
+//! | Each level has half the width and height of the one below, rounded up. A cell is the mean, in
+//! linear light, of the two by two cells below it, so that a picture keeps its brightness when you
+//! zoom out. We average only the changed part again.
 
 use std::sync::LazyLock;
 
@@ -10,14 +9,13 @@ use eframe::egui::{Color32, ColorImage};
 use graphics::tile::Rect;
 use palette::{LinSrgb, Srgb};
 
-/// Number of entries of the table that encodes linear light. The smallest step of 8-bit
-/// sRGB, 1 / 255 / 12.92, spans 2.5 entries.
+/// Number of entries of the table that encodes linear light. The smallest step of 8-bit sRGB, 1 /
+/// 255 / 12.92, spans 2.5 entries.
 const STEPS: usize = 8192;
 
-/// A level with no side longer than this is the last one, in cells.
+/// A level is the last one if no side is longer than this, in cells.
 const SMALLEST: usize = 128;
 
-/// One mipmap level.
 #[derive(Debug, Clone)]
 struct MipLevel {
     width: usize,
@@ -25,7 +23,7 @@ struct MipLevel {
     pixels: Vec<Color32>,
 }
 
-/// All mipmap levels of a picture; level 0 is the picture itself.
+/// All mipmap levels of a picture. Level 0 is the picture itself.
 #[derive(Debug, Clone)]
 pub(super) struct MipLevels {
     levels: Vec<MipLevel>,
@@ -46,7 +44,6 @@ impl MipLevels {
         }
     }
 
-    /// Number of levels, at least 1.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
@@ -57,8 +54,8 @@ impl MipLevels {
         Rect { x: 0, y: 0, width, height }
     }
 
-    /// Writes a rectangle of the picture, row by row, and updates the other levels. Pixels
-    /// outside the picture are ignored.
+    /// Writes a rectangle of the picture, row by row, and updates the other levels. This ignores
+    /// pixels outside the picture.
     pub(super) fn write(&mut self, rect: Rect, pixels: &[[u8; 4]]) {
         let inside = rect.intersection(self.bounds(0));
         let base = &mut self.levels[0];
@@ -84,7 +81,6 @@ impl MipLevels {
         (*width, pixels)
     }
 
-    /// Copies a rectangle of a level.
     pub(super) fn region(&self, level: usize, rect: Rect) -> ColorImage {
         let MipLevel { width, pixels, .. } = &self.levels[level];
         let rows = (rect.y..rect.y + rect.height).map(|y| y * width + rect.x);
@@ -104,7 +100,7 @@ pub(super) fn next_level_rect(rect: Rect) -> Rect {
 
 impl MipLevel {
     fn average(&mut self, below: &Self, changed: Rect) {
-        // Bound once, as each access checks whether the tables exist.
+        // We bind this once, because each access checks whether the tables exist.
         let decoded = &*DECODED;
         let encoded = &**ENCODED;
         for y in changed.y..changed.y + changed.height {
@@ -137,9 +133,8 @@ static DECODED: LazyLock<[f32; 256]> = LazyLock::new(|| {
 
 /// The nearest 8-bit sRGB value of each step of linear light.
 static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let step = |step| step as f32 / (STEPS - 1) as f32;
-    let nearest = |linear| Srgb::<u8>::from_linear(LinSrgb::new(linear, linear, linear)).red;
-    (0..STEPS).map(|at| nearest(step(at))).collect()
+    let steps = (0..STEPS).map(|step| step as f32 / (STEPS - 1) as f32);
+    steps.map(|light| Srgb::<u8>::from_linear(LinSrgb::new(light, light, light)).red).collect()
 });
 
 /// The nearest step of linear light.
@@ -156,7 +151,7 @@ mod tests {
         [value, value, value, 255]
     }
 
-    /// The values of a level of greys; asserts that the channels are equal.
+    /// The values of a level of greys. This asserts that the channels are equal.
     fn greys_of(levels: &MipLevels, level: usize) -> Vec<u8> {
         levels
             .region(level, levels.bounds(level))
@@ -196,13 +191,15 @@ mod tests {
 
     #[test]
     fn writing_in_pieces_equals_writing_at_once() {
-        // Odd sizes, and pieces whose edges do not fall on blocks of two by two.
+        // We use odd sizes, and pieces with edges that do not fall on blocks of two by two.
         let width = 333;
         let height = 257;
-        let value = |x: usize, y: usize| ((x * 31 + y * 17 + x * y) % 256) as u8;
         let cells = |rect: Rect| -> Vec<[u8; 4]> {
             (rect.y..rect.y + rect.height)
-                .flat_map(|y| (rect.x..rect.x + rect.width).map(move |x| grey(value(x, y))))
+                .flat_map(|y| {
+                    (rect.x..rect.x + rect.width)
+                        .map(move |x| grey(((x * 31 + y * 17 + x * y) % 256) as u8))
+                })
                 .collect()
         };
         let mut at_once = MipLevels::new(width, height, Color32::BLACK);
@@ -222,10 +219,10 @@ mod tests {
 
     #[test]
     fn the_last_level_has_at_most_the_smallest_size() {
-        let sizes = |width, height| {
+        fn sizes(width: usize, height: usize) -> Vec<usize> {
             let levels = MipLevels::new(width, height, Color32::BLACK);
             (0..levels.count()).map(|level| levels.bounds(level).width).collect::<Vec<_>>()
-        };
+        }
         assert_eq!(sizes(1920, 1080), [1920, 960, 480, 240, 120]);
         assert_eq!(sizes(100, 30), [100]);
     }

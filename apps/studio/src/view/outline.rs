@@ -1,10 +1,9 @@
 //! The outline of a surface (a rectangle, or a palette with a thumb hole), and the brush head as a
 //! cursor: an outline seen from above, clear inside.
-//!
-//! The cursor is a dark line with a light one in it, so that it is seen on light and on dark
-//! paint. It runs around the whole head, as far as it is bent now, and never over the place that
-//! it paints. The handle is a line that begins outside, with a dot of the brush's paint at its
-//! end. A head too small for an outline is a ring with four ticks.
+//! | The cursor is a dark line with a light one in it, so that you see it on light and on dark
+//! paint. It surrounds the whole head as it is bent now, and never covers the place that it paints.
+//! The handle is a line that begins outside, with a dot of the brush's paint at its end. If a head
+//! is too small for an outline, the cursor is a ring with four ticks.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -82,8 +81,7 @@ impl Outline {
         draw_quads(painter, strip.collect());
     }
 
-    /// Covers the parts outside the outline with the colour of the surround and draws the
-    /// edge.
+    /// Covers the parts outside the outline with the colour of the surround, and draws the edge.
     pub(super) fn draw_edge(self, painter: &Painter, placement: &Placement, cells: (usize, usize)) {
         let edge = self.edge(cells);
         let point = |place: [f64; 2]| placement.point(place);
@@ -121,8 +119,8 @@ impl Outline {
         }
     }
 
-    /// The edge in cells, clockwise from the upper left. For a palette, four arcs of
-    /// `QUARTER + 1` points each.
+    /// The edge in cells, clockwise from the upper left. A palette has four arcs of `QUARTER + 1`
+    /// points each.
     fn edge(self, cells: (usize, usize)) -> Vec<[f64; 2]> {
         let width = cells.0 as f64;
         let height = cells.1 as f64;
@@ -145,7 +143,7 @@ impl Outline {
     }
 }
 
-/// Offsets a closed convex polygon outwards by `by` points, vertex by vertex.
+/// Moves the sides of a closed convex polygon outwards by `by` points.
 pub(super) fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
     let count = edge.len();
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / count as f32;
@@ -153,16 +151,17 @@ pub(super) fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
         let normal = (to - from).normalized().rot90();
         if normal.dot(from - middle.to_pos2()) < 0.0 { -normal } else { normal }
     };
-    let moved = |at: usize| {
-        let before = edge[(at + count - 1) % count];
-        let here = edge[at];
-        let next = edge[(at + 1) % count];
-        let one = outwards(before, here);
-        let other = outwards(here, next);
-        // Both adjacent sides move by `by`, so a corner moves further than that.
-        here + (one + other) * (by / (1.0 + one.dot(other)))
-    };
-    (0..count).map(moved).collect()
+    (0..count)
+        .map(|at| {
+            let before = edge[(at + count - 1) % count];
+            let here = edge[at];
+            let next = edge[(at + 1) % count];
+            let one = outwards(before, here);
+            let other = outwards(here, next);
+            // Both sides move by `by`, so a corner moves further.
+            here + (one + other) * (by / (1.0 + one.dot(other)))
+        })
+        .collect()
 }
 
 fn corner(cells: (usize, usize)) -> f64 {
@@ -175,25 +174,24 @@ fn hole(cells: (usize, usize)) -> ([f64; 2], f64) {
     ([cells.0 as f64 - HOLE.1 * side, cells.1 as f64 - HOLE.1 * side], HOLE.0 * side)
 }
 
-/// Distance from the head to the middle of its outline, in points: the line covers no part of it.
+/// Distance from the head to the middle of its outline, in points. The line covers no part of the
+/// head.
 const GAP: f32 = 3.5;
 
 /// Widths of the dark line and of the light one in it, in points.
 const WIDTHS: [f32; 2] = [3.0, 1.2];
 
-/// The dark line: half transparent, so that it is soft on light paint.
+/// The dark line. It is half transparent, so that it is soft on light paint.
 const DARK: Color32 = Color32::from_black_alpha(170);
 
-/// Width of a head on the screen below which it is a ring, in points.
+/// A head narrower than this on the screen is a ring, in points.
 const SMALL: f32 = 12.0;
 
 /// Radius of that ring, and of the ends of its ticks, in points.
 const RING: (f32, f32) = (8.0, 13.0);
 
-/// Radius of the dot of paint, in points.
 const DOT: f32 = 4.0;
 
-/// Sides of the ring as a polygon.
 const RING_PARTS: usize = 40;
 
 /// Length of the handle, in half widths of the head (chosen by eye).
@@ -205,21 +203,22 @@ type Ring = Vec<[f32; 3]>;
 /// The lines of a head in the window, in points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HeadLines {
-    /// Lines, and whether each is closed. Each is drawn dark, then light ([`HeadLines::STROKES`]).
+    /// Lines, and whether each is closed. Draw each dark first, then light
+    /// ([`HeadLines::STROKES`]).
     pub lines: Vec<(Vec<Pos2>, bool)>,
     /// Middle and colour of the dot of paint.
     pub dot: Option<(Pos2, [u8; 3])>,
 }
 
 impl HeadLines {
-    /// Widths in points and colours of the strokes of a line, in the order in which they are drawn.
+    /// Widths in points and colours of the strokes of a line, in drawing order.
     pub const STROKES: [(f32, Color32); 2] = [(WIDTHS[0], DARK), (WIDTHS[1], Color32::WHITE)];
 
     /// Radii in points of the dark disc below the dot of paint, and of the dot.
     pub const DOT: [f32; 2] = [DOT + 1.5, DOT];
 
-    /// The lines of a head over its surface. A head with inconsistent vertex counts or values that
-    /// are not finite has none.
+    /// The lines of a head over its surface. There are none if the vertex counts do not fit or a
+    /// value is not finite.
     pub(super) fn of(placement: &Placement, head: &HeadOnCanvas, paint: Option<[u8; 3]>) -> Self {
         let Some(rings) = rings(head) else { return Self::default() };
         let screen = |place: [f32; 3]| placement.point([f64::from(place[0]), f64::from(place[1])]);
@@ -250,7 +249,7 @@ impl HeadLines {
         Self { lines: [(circle, true)].into_iter().chain(ticks).collect(), dot }
     }
 
-    /// Rectangle of all that is drawn; `None` if there is nothing.
+    /// Rectangle around everything that is drawn, if anything.
     #[must_use]
     pub fn bounds(&self) -> Option<Rect> {
         let all = self.lines.iter().flat_map(|(line, _)| line);
@@ -277,7 +276,7 @@ impl HeadLines {
     }
 }
 
-/// Splits the vertices into rings from ferrule to tip; `None` if the head is inconsistent.
+/// Splits the vertices into rings from ferrule to tip; `None` if their number does not fit.
 fn rings(head: &HeadOnCanvas) -> Option<Vec<Ring>> {
     let whole = head.around >= 3 && head.along >= 2;
     let finite = head.vertices.iter().flatten().all(|number| number.is_finite());
@@ -286,7 +285,7 @@ fn rings(head: &HeadOnCanvas) -> Option<Vec<Ring>> {
         .then(|| head.vertices.chunks(head.around).map(<[_]>::to_vec).collect())
 }
 
-/// The end of the handle, which goes on where the head begins.
+/// The end of the handle, which continues where the head begins.
 fn handle_end(rings: &[Ring]) -> [f32; 3] {
     let root = mean(&rings[0]);
     let next = mean(&rings[1]);
@@ -297,8 +296,8 @@ fn handle_end(rings: &[Ring]) -> [f32; 3] {
     [0, 1, 2].map(|part: usize| root[part] + HANDLE * half * along[part] / length)
 }
 
-/// Where the line from `root` to `end` leaves a convex outline; `None` if `end` is too near to it
-/// for a handle to be seen.
+/// Where the line from `root` to `end` leaves a convex outline; `None` if `end` is too near for you
+/// to see a handle.
 fn outside(edge: &[Pos2], root: Pos2, end: Pos2) -> Option<Pos2> {
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / edge.len() as f32;
     let is_in = |point: Pos2| {
@@ -318,23 +317,23 @@ fn outside(edge: &[Pos2], root: Pos2, end: Pos2) -> Option<Pos2> {
 /// Convex hull by Andrew's monotone chain (1979).
 fn hull(mut points: Vec<Pos2>) -> Vec<Pos2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let turn = |a: Pos2, b: Pos2, c: Pos2| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    let half = |points: &mut dyn Iterator<Item = &Pos2>| {
+    let mut all: Vec<Pos2> = Vec::new();
+    for _ in 0..2 {
         let mut chain: Vec<Pos2> = Vec::new();
-        for &point in points {
-            while chain.len() > 1
-                && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0
+        for &c in &points {
+            while let [.., a, b] = chain[..]
+                && (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) <= 0.0
             {
                 chain.pop();
             }
-            chain.push(point);
+            chain.push(c);
         }
         chain.pop();
-        chain
-    };
-    let mut lower = half(&mut points.iter());
-    lower.extend(half(&mut points.iter().rev()));
-    lower
+        all.extend(chain);
+        // The second half goes back.
+        points.reverse();
+    }
+    all
 }
 
 fn mean(places: &[[f32; 3]]) -> [f32; 3] {
@@ -383,11 +382,9 @@ mod tests {
     fn the_drawn_edge_bounds_the_surface() {
         let middle = [300.0, 200.0];
         for place in Outline::Palette.edge(CELLS) {
-            let towards = |by: f64| {
+            let [within, beyond] = [0.999, 1.001].map(|by| {
                 [0, 1].map(|axis: usize| middle[axis] + (place[axis] - middle[axis]) * by)
-            };
-            let within = towards(0.999);
-            let beyond = towards(1.001);
+            });
             assert!(Outline::Palette.contains(within, CELLS), "{within:?}");
             assert!(!Outline::Palette.contains(beyond, CELLS), "{beyond:?}");
         }

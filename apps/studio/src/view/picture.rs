@@ -1,5 +1,5 @@
-//! A picture on the screen, divided into chunks. Only visible chunks are uploaded, and only
-//! the parts of them that changed.
+//! A picture on the screen, divided into chunks. We upload only visible chunks, and of these only
+//! the changed parts.
 
 use eframe::egui::{Color32, ColorImage, Painter, Rect as Points, pos2};
 use graphics::tile::Rect;
@@ -11,17 +11,17 @@ use super::transform::Placement;
 use crate::theme;
 use session::TilePixels;
 
-/// Cells per side of a chunk. Its texture has one more on every inner side, so that
-/// neighbouring chunks interpolate without a seam.
+/// Cells per side of a chunk. Its texture has one more on every inner side, so that neighbouring
+/// chunks interpolate without a seam.
 const CHUNK: usize = 512;
 
-/// Zoom in physical pixels per cell from which cells are shown as squares.
+/// From this zoom on you see cells as squares, in physical pixels per cell.
 const SQUARES: f64 = 3.0;
 
-/// Number of changed rectangles from which a chunk is uploaded whole.
+/// From this number of changed rectangles on, we upload the whole chunk.
 const MOST_CHANGES: usize = 24;
 
-/// The part of a picture that is drawn, limited by a column of cells.
+/// The drawn part of a picture, limited by a column of cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DrawnPart {
     /// All columns of the surface.
@@ -34,9 +34,8 @@ pub enum DrawnPart {
 
 /// A rectangular piece of a level with its own texture.
 struct Chunk {
-    /// The cells that it draws.
     inner: Rect,
-    /// Those cells and their neighbours: the content of the texture.
+    /// These cells and their neighbours. The texture holds them all.
     padded: Rect,
     texture: Option<LazyTexture>,
     /// Rectangles that changed since the last upload.
@@ -49,16 +48,14 @@ pub struct Picture {
     levels: MipLevels,
     chunks: Vec<Vec<Chunk>>,
     uploaded: u64,
-    /// Cells that were written since they were last taken.
+    /// Cells written since the last call of `take_fresh` or the last drawing.
     fresh: Option<Rect>,
 }
 
-/// How a picture is shown in a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shown {
-    /// Level that is drawn.
     pub(super) level: usize,
-    /// Whether its cells are interpolated.
+    /// Whether we interpolate its cells.
     pub(super) interpolate: bool,
 }
 
@@ -70,7 +67,7 @@ impl std::fmt::Debug for Picture {
 }
 
 impl Picture {
-    /// A picture of `cells` columns and rows, grey until it is written.
+    /// A picture of `cells` columns and rows, grey until you write it.
     #[must_use]
     pub fn new(name: &'static str, cells: (usize, usize)) -> Self {
         let levels = MipLevels::new(cells.0, cells.1, theme::SURROUND);
@@ -98,7 +95,7 @@ impl Picture {
         }
     }
 
-    /// Pixels of a rectangle as they were written: 8-bit sRGB, row by row.
+    /// Pixels of a rectangle as you wrote them: 8-bit sRGB, row by row.
     #[must_use]
     pub fn pixels(&self, rect: Rect) -> ColorImage {
         self.levels.region(0, rect.intersection(self.levels.bounds(0)))
@@ -113,15 +110,15 @@ impl Picture {
     /// How the picture is shown at a placement and a density in pixels per point.
     pub(super) fn shown(&self, placement: &Placement, density: f64) -> Shown {
         let zoom = placement.scale() * density;
-        // Chooses the level with one to two cells per pixel, or level 0.
+        // We take the level with one to two cells per pixel, or level 0.
         let finest = (1.0 / zoom).log2().floor().max(0.0) as usize;
         let level = finest.min(self.levels.count() - 1);
         let smooth = zoom < SQUARES && !placement.aligned;
-        // A level that is shown reduced is always interpolated.
+        // A reduced level is always interpolated.
         Shown { level, interpolate: smooth || zoom < 1.0 }
     }
 
-    /// The rectangle of the cells that were written since the last call or drawing, if any were.
+    /// The rectangle of the cells written since the last call or drawing, if any.
     pub(super) fn take_fresh(&mut self) -> Option<Rect> {
         self.fresh.take()
     }
@@ -172,7 +169,6 @@ impl Picture {
     }
 }
 
-/// Divides a level into chunks, row by row.
 fn chunks(bounds: Rect) -> Vec<Chunk> {
     let mut all = Vec::new();
     for y in (0..bounds.height).step_by(CHUNK) {
@@ -190,13 +186,12 @@ fn chunks(bounds: Rect) -> Vec<Chunk> {
 }
 
 impl Chunk {
-    /// Records a change of its level.
     fn record_change(&mut self, rect: Rect) {
         let part = rect.intersection(self.padded);
         if part.is_empty() || self.texture.is_none() {
             return;
         }
-        // Adjacent tiles are joined into one upload.
+        // We join adjacent tiles into one upload.
         if let Some(joined) = self.changed.iter_mut().find(|other| is_tight_union(**other, part)) {
             *joined = union(*joined, part);
         } else if self.changed.len() < MOST_CHANGES {
@@ -217,8 +212,7 @@ impl Chunk {
         if !self.changed.is_empty()
             && texture.pending_cells() > self.padded.width * self.padded.height
         {
-            // More cells wait to be uploaded than the chunk has, so uploading it whole is
-            // cheaper.
+            // More cells wait than the chunk has, so it is cheaper to upload it whole.
             self.changed = vec![self.padded];
         }
         let mut sum = 0;

@@ -11,15 +11,13 @@ use wgpu::{
 /// colour.
 pub(super) const VERTEX_BYTES: usize = 20;
 
-/// Render pipelines for one format of the target.
 pub(super) struct Pipelines {
-    /// Format of the target.
     pub(super) format: TextureFormat,
     /// Draws a texture.
     pub(super) textured: RenderPipeline,
     /// Draws the interpolated colours of the vertices.
     pub(super) flat_color: RenderPipeline,
-    /// Draws a texture times the colours of the vertices, premultiplied, over what is there.
+    /// Draws a texture times the colours of the vertices, premultiplied, over the picture so far.
     pub(super) blended: RenderPipeline,
     layout: BindGroupLayout,
     /// Nearest-neighbour and linear filtering.
@@ -44,8 +42,8 @@ impl Pipelines {
             entries: &[entry(0, texture), entry(1, sampler)],
         });
         let attributes = wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
-        // egui works in encoded values. A target with an sRGB format encodes what is
-        // written, so the shader must decode it first.
+        // egui works in encoded values. A target with an sRGB format encodes values that we write,
+        // so the shader must decode them first.
         let constants = [("output_is_linear", f64::from(u8::from(format.is_srgb())))];
         let pipeline = |fragment: &str, groups: &[Option<&BindGroupLayout>], blend| {
             let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -100,7 +98,7 @@ impl Pipelines {
         Self { format, textured, flat_color, blended, layout, samplers }
     }
 
-    /// The pipelines for targets of this format, built when they are first asked for.
+    /// The pipelines for targets of this format. We build them when you first ask for them.
     pub(super) fn of<'a>(
         device: &Device,
         format: TextureFormat,
@@ -146,7 +144,6 @@ impl Pipelines {
     }
 }
 
-/// Creates a vertex buffer.
 pub(super) fn vertex_buffer(device: &Device, bytes: &[u8]) -> Buffer {
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("vertices of textured quads"),

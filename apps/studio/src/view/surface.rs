@@ -1,12 +1,10 @@
 //! A surface in the window: zoom and pan, its pictures, and the line between two lights.
-//!
-//! A [`Patch`] is a rectangle of its pixels, computed on the processor. A page in a browser shows
-//! a stroke by patches between its frames: a browser without a graphics card takes 60 ms to draw a
-//! frame, and 8 ms to show a patch.
-//!
-//! A line between the lights would show each heap of a palette under one of them only. A switch
-//! shows the palette under the first or the second light instead, because mixing needs to see the
-//! same heap under both.
+//! | A [`Patch`] is a rectangle of its pixels, computed on the processor. A page in a browser shows
+//! a stroke by patches between its frames: without a graphics card, a browser takes 60 ms for a
+//! frame, and 8 ms for a patch.
+//! | On a palette, a line between the lights would show each heap under only one of them. To mix,
+//! you must see the same heap under both, so a switch shows the whole palette under the first or
+//! the second light.
 
 use eframe::egui::{
     Align2, Button, Color32, CursorIcon, FontId, Frame, Id, Margin, MouseWheelSource,
@@ -21,21 +19,21 @@ use super::transform::{Placement, ViewState};
 use crate::language::{tr, tr_format};
 use crate::theme;
 
-/// Points of scrolling that zoom by a factor of e; one notch of a wheel is 50 points
-/// (chosen by eye).
+/// Scrolling by these points zooms by a factor of e. One notch of a wheel is 50 points (chosen by
+/// eye).
 const WHEEL_POINTS: f32 = 220.0;
 
 /// Effect of a drag with the primary button on the view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DragMode {
-    /// No effect: the pointer paints.
+    /// No effect, the pointer paints.
     #[default]
     None,
-    /// A drag pans the view.
+    /// Pans the view.
     Pan,
     /// Rotates about the middle of the view.
     Rotate,
-    /// Zooms, inwards when dragged upwards.
+    /// Zooms. You drag upwards to zoom in.
     Zoom,
 }
 
@@ -62,15 +60,13 @@ pub struct SurfaceView {
     density: f32,
     drag: DragMode,
     split_handle: Option<Rect>,
-    /// Whether the whole surface is shown under the second light.
+    /// Whether the switch shows the whole surface under the second light.
     pub(super) under_second: bool,
-    /// Rectangle of the switch between the lights, if it is shown.
     pub(super) light_switch: Option<Rect>,
 }
 
 impl SurfaceView {
-    /// A surface without a picture, fitted into its rectangle with `margin` points around
-    /// it.
+    /// A surface without a picture, fitted into its rectangle with `margin` points around it.
     #[must_use]
     pub fn new(name: &'static str, outline: Outline, margin: f32) -> Self {
         Self {
@@ -131,7 +127,7 @@ impl SurfaceView {
         if second { self.second.as_ref() } else { Some(&self.first) }
     }
 
-    /// Rectangle in which the surface was last shown, in points.
+    /// Rectangle that last showed the surface, in points.
     #[must_use]
     pub fn rect(&self) -> Rect {
         self.rect
@@ -162,8 +158,8 @@ impl SurfaceView {
         self.view.fit(self.cells(), self.rect, self.margin, self.density);
     }
 
-    /// Shows the surface in a rectangle of the window. `mode` is the effect of a drag with
-    /// the primary button that begins now; the middle button always pans.
+    /// Shows the surface in a rectangle of the window. `mode` says what a drag with the primary
+    /// button does if it begins now. The middle button always pans.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -202,8 +198,8 @@ impl SurfaceView {
         response
     }
 
-    /// Draws a brush head over the surface, with the colour of its paint. Returns the rectangle that
-    /// it covers.
+    /// Draws a brush head over the surface, with the colour of its paint. Returns the rectangle
+    /// that it covers.
     pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, paint: Option<[u8; 3]>) -> Option<Rect> {
         let lines = self.head_lines(over, paint);
         lines.draw(&ui.painter_at(self.rect));
@@ -216,7 +212,7 @@ impl SurfaceView {
         HeadLines::of(&self.placement(), over, paint)
     }
 
-    /// The part of the window whose picture changed since it was last drawn or taken, in points.
+    /// The part of the window with changes since the last call or frame, in points.
     pub fn take_fresh(&mut self) -> Option<Rect> {
         let cells = self.first.take_fresh()?;
         let left = cells.x as f64;
@@ -226,12 +222,13 @@ impl SurfaceView {
         let placement = self.placement();
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
         let points = corners.map(|corner| placement.point(corner));
-        // Interpolated pixels reach into the cells beside them, at reduced levels some cells far.
+        // Interpolated pixels depend on the cells beside them. At reduced levels these reach some
+        // cells far.
         let margin = 2.0 * (1.0 + placement.scale() as f32);
         Some(Rect::from_points(&points).expand(margin))
     }
 
-    /// Pixels of a rectangle of the window, given in points, as far as the surface is shown in it.
+    /// Pixels of a rectangle of the window, given in points, where this shows the surface.
     #[must_use]
     pub fn patch(&self, rect: Rect) -> Patch {
         Patch::of(&self.first, &self.placement(), rect.intersect(self.rect), self.density)
@@ -302,7 +299,7 @@ impl SurfaceView {
         }
     }
 
-    /// Draws the line between two lights and lets it be dragged.
+    /// Draws the line between two lights, which you can drag.
     fn split_line(&mut self, ui: &mut Ui, placement: &Placement, split: Split) {
         let width = self.cells().0 as f64;
         let height = self.cells().1 as f64;
@@ -329,7 +326,7 @@ impl SurfaceView {
             theme::colors(ui.ctx()).panel
         };
         painter.circle(centre, 10.0, fill, Stroke::new(1.0, theme::colors(ui.ctx()).strong));
-        // Arrows along the rows of the surface, however it is rotated.
+        // The arrows lie along the rows of the surface, even if you rotate it.
         let along = placement.direction([1.0, 0.0]).normalized();
         for side in [-1.0, 1.0] {
             let tip = centre + along * (6.0 * side);
@@ -384,13 +381,13 @@ impl SurfaceView {
         self.light_switch = Some(shown.response.rect);
     }
 
-    /// Whether the whole surface is shown under the second light.
+    /// Whether you see the whole surface under the second light.
     #[must_use]
     pub fn is_under_second(&self) -> bool {
         self.under_second && self.picture(true).is_some()
     }
 
-    /// Rectangle of the switch between the lights, if it is shown.
+    /// Rectangle of the switch between the lights, if there is one.
     #[must_use]
     pub fn light_switch(&self) -> Option<Rect> {
         self.light_switch
@@ -425,8 +422,8 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Pixels of a rectangle in points, at `density` physical pixels per point: the picture, and
-    /// around it the shadow and the surround.
+    /// Pixels of a rectangle in points, at `density` physical pixels per point. They show the
+    /// picture, its shadow and the surround.
     pub(super) fn of(picture: &Picture, placement: &Placement, rect: Rect, density: f32) -> Self {
         if !rect.is_positive() {
             return Self::default();
@@ -440,9 +437,8 @@ impl Patch {
         let x = left as f32 + 0.5;
         let y = top as f32 + 0.5;
         let from = place(x, y);
-        let step = |to: [f64; 2]| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32];
-        let right = step(place(x + 1.0, y));
-        let down = step(place(x, y + 1.0));
+        let [right, down] = [place(x + 1.0, y), place(x, y + 1.0)]
+            .map(|to| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32]);
         let cells = Cells::new(picture, placement, density);
         let mut rgba = Vec::with_capacity(4 * width * height);
         for row in 0..height {
@@ -456,16 +452,15 @@ impl Patch {
     }
 }
 
-/// Cells of a picture at the level that is shown.
 struct Cells<'a> {
     size: [f32; 2],
-    /// Cells in a cell of the level, along each side.
+    /// Number of cells in a cell of this level, along each side.
     scale: f32,
     columns: usize,
     rows: usize,
     pixels: &'a [Color32],
     interpolate: bool,
-    /// Points of the window in a cell.
+    /// Number of points of the window in a cell.
     points: f32,
 }
 
@@ -487,8 +482,7 @@ impl<'a> Cells<'a> {
 
     /// Colour at a place in cells.
     fn color(&self, [x, y]: [f32; 2]) -> Color32 {
-        let beyond = |at: f32, size: f32| (-at).max(at - size);
-        let outside = self.points * beyond(x, self.size[0]).max(beyond(y, self.size[1]));
+        let outside = self.points * (-x).max(x - self.size[0]).max((-y).max(y - self.size[1]));
         let color = if outside < 0.0 {
             self.sample(x / self.scale, y / self.scale)
         } else {
@@ -496,7 +490,7 @@ impl<'a> Cells<'a> {
             let grey = lerp(f32::from(SHADE.r())..=f32::from(theme::SURROUND.r()), share);
             Color32::from_gray(grey.round() as u8)
         };
-        // The line is half a point wide to both sides and fades out over as much.
+        // The line is half a point wide to both sides and fades out over another half.
         let covered = 1.0 - outside.abs();
         if covered > 0.0 { color.lerp_to_gamma(Color32::from_gray(EDGE), covered) } else { color }
     }
@@ -509,13 +503,11 @@ impl<'a> Cells<'a> {
         if !self.interpolate {
             return cell(x as usize, y as usize);
         }
-        // Weights of 8 bits, as samplers of graphics cards have them.
-        let along = |at: f32| {
+        // Weights have 8 bits, as in samplers of graphics cards.
+        let [(column, right), (row, down)] = [x, y].map(|at| {
             let at = ((at - 0.5).max(0.0) * 256.0) as usize;
             (at >> 8, (at & 255) as u32)
-        };
-        let (column, right) = along(x);
-        let (row, down) = along(y);
+        });
         let [a, b] = [cell(column, row), cell(column + 1, row)];
         let [c, d] = [cell(column, row + 1), cell(column + 1, row + 1)];
         let mixed = |channel: fn(&Color32) -> u8| {

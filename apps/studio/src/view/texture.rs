@@ -1,5 +1,4 @@
-//! Textures of cells that are uploaded when they are next drawn, and the large quads that show
-//! them.
+//! Textures of cells, which we upload when they are next drawn, and the large quads that show them.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -13,25 +12,24 @@ use eframe::egui_wgpu::wgpu::{self, BindGroup, Device, Extent3d, Origin3d, Queue
 #[cfg(feature = "wgpu")]
 use super::pipeline::Pipelines;
 
-/// A texture whose cells are uploaded when it is next drawn.
+/// A texture. Its cells are uploaded when it is next drawn.
 #[derive(Clone)]
 pub(super) struct LazyTexture(Arc<Mutex<TextureState>>);
 
 struct TextureState {
     size: [usize; 2],
-    /// Cells to upload, each with its column and row. Until the texture is made, the first entry has all cells.
+    /// Cells to upload, each with its column and row. Until the texture is made, the first entry
+    /// has all cells.
     pending: Vec<([usize; 2], ColorImage)>,
     /// The texture, with bind groups for nearest and linear filtering.
     #[cfg(feature = "wgpu")]
     texture: Option<(wgpu::Texture, [BindGroup; 2])>,
-    /// The texture where egui draws it, and whether its cells are interpolated.
+    /// The texture if egui draws it, and whether its cells are interpolated.
     of_egui: Option<(TextureHandle, bool)>,
-    /// The upper left cell.
     first: Color32,
 }
 
 impl LazyTexture {
-    /// A texture with these cells.
     pub(super) fn new(image: ColorImage) -> Self {
         Self(Arc::new(Mutex::new(TextureState {
             size: image.size,
@@ -47,7 +45,7 @@ impl LazyTexture {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Replaces a rectangle of cells whose upper left corner is `at` (column, row).
+    /// Replaces a rectangle of cells with the upper left corner `at` (column, row).
     pub(super) fn write(&self, at: [usize; 2], image: ColorImage) {
         let mut state = self.state();
         if image.size == state.size {
@@ -59,12 +57,12 @@ impl LazyTexture {
         state.pending.push((at, image));
     }
 
-    /// Number of cells that were written but not drawn since.
+    /// Number of cells written but not drawn since.
     pub(super) fn pending_cells(&self) -> usize {
         self.state().pending.iter().map(|(_, image)| image.pixels.len()).sum()
     }
 
-    /// The texture in egui, which uploads what was written with this frame.
+    /// The texture in egui. It uploads new cells with this frame.
     pub(super) fn for_egui(&self, context: &Context, smooth: bool) -> TextureId {
         let mut state = self.state();
         let TextureState { pending, of_egui, first, .. } = &mut *state;
@@ -80,14 +78,14 @@ impl LazyTexture {
             texture.set_partial(at, image, options);
         }
         if *is_smooth != smooth {
-            // The options change with an upload only.
+            // The options change only with an upload.
             texture.set_partial([0, 0], ColorImage::filled([1, 1], *first), options);
             *is_smooth = smooth;
         }
         texture.id()
     }
 
-    /// Uploads what was written, into a texture that is created the first time.
+    /// Uploads new cells. This creates the texture the first time.
     #[cfg(feature = "wgpu")]
     pub(super) fn upload(&self, device: &Device, queue: &Queue, pipelines: &Pipelines) {
         let mut state = self.state();
@@ -114,23 +112,21 @@ impl LazyTexture {
     }
 }
 
-/// A vertex of a quad.
 #[derive(Clone, Copy)]
 pub(super) struct Vertex {
     /// Position in the window, in points.
     pub(super) point: Pos2,
     /// Texture coordinates, 0 to 1.
     pub(super) uv: Pos2,
-    /// Colour, used where there is no texture.
+    /// Colour, used if there is no texture.
     pub(super) color: Color32,
 }
 
-/// A quad to draw.
 pub(super) struct Quad {
     /// The four corners, in order around the quad.
     pub(super) corners: [Vertex; 4],
-    /// The texture, and whether its cells are interpolated; without a texture the vertex
-    /// colours are drawn.
+    /// The texture, and whether its cells are interpolated. Without a texture, we draw the vertex
+    /// colours.
     pub(super) texture: Option<(LazyTexture, bool)>,
 }
 
@@ -138,14 +134,15 @@ pub(super) struct Quad {
 pub(super) const TRIANGLES: [usize; 6] = [0, 1, 2, 0, 2, 3];
 
 impl Quad {
-    /// A quad without texture whose corner colours are interpolated.
+    /// A quad without texture. It interpolates the corner colours.
     pub(super) fn colored(corners: [(Pos2, Color32); 4]) -> Self {
         let corners = corners.map(|(point, color)| Vertex { point, uv: Pos2::ZERO, color });
         Self { corners, texture: None }
     }
 }
 
-/// Opaque quads in order as meshes that egui draws by its own shader; neighbours of one texture as one mesh.
+/// Opaque quads in order as meshes that egui draws by its own shader. Neighbours with the same
+/// texture become one mesh.
 pub(super) fn meshes(quads: &[Quad], context: &Context) -> Shape {
     let mut meshes: Vec<Mesh> = Vec::new();
     for quad in quads {

@@ -1,15 +1,12 @@
 //! Zoom, pan, rotation and mirroring of a surface.
-//!
-//! A [`ViewState`] is chosen by the painter; a [`Placement`] is that view in a rectangle of
-//! the window at one pixel density, as an affine map:
-//!
-//! ```text
+//! | You choose a [`ViewState`]. A [`Placement`] is this view in a rectangle of the window at one
+//! pixel density, as an affine map:
+//! | \```text
 //! point = middle + M R s (cell - centre)
 //! ```
-//!
-//! Here R is the rotation, M the mirroring (left and right of the rotated surface) and s
-//! the scale in points per cell. It is computed in f64, so that a position maps back to
-//! within a millionth of a cell.
+//! | Here R is the rotation, M the mirroring (left and right of the rotated surface) and s the
+//! scale in points per cell. We compute it in f64, so that a position maps back to within a
+//! millionth of a cell.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -18,7 +15,7 @@ use eframe::egui::{Pos2, Rect, Vec2};
 /// Range of the zoom, in physical pixels per cell.
 const ZOOM: std::ops::RangeInclusive<f64> = 0.02..=64.0;
 
-/// A rotation this close to a quarter turn snaps to it, in degrees.
+/// If a rotation is this close to a quarter turn, it snaps to it, in degrees.
 const SNAP_DEG: f64 = 1.5;
 
 /// Zoom, pan, rotation and mirroring of a surface.
@@ -43,8 +40,8 @@ impl Default for ViewState {
 }
 
 impl ViewState {
-    /// Fits a surface of `cells` columns and rows into `rect`, with `margin` points around
-    /// it, at its current rotation.
+    /// Fits a surface of `cells` columns and rows into `rect`, with `margin` points around it, at
+    /// its current rotation.
     pub fn fit(&mut self, cells: (usize, usize), rect: Rect, margin: f32, density: f32) {
         let width = cells.0 as f64;
         let height = cells.1 as f64;
@@ -67,19 +64,19 @@ impl ViewState {
         self.fitted = false;
     }
 
-    /// Scales by `factor`; the cell at the point `about` stays there.
+    /// Scales by `factor`. The cell at the point `about` stays there.
     pub fn zoom_by(&mut self, factor: f64, about: Pos2, rect: Rect, density: f32) {
         self.keeping_fixed(about, rect, density, |view| {
             view.zoom = (view.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
         });
     }
 
-    /// Rotates clockwise, in radians; the cell at the point `about` stays there.
+    /// Rotates clockwise, in radians. The cell at the point `about` stays there.
     pub fn rotate_about(&mut self, radians: f64, about: Pos2, rect: Rect, density: f32) {
         self.keeping_fixed(about, rect, density, |view| view.rotate(radians));
     }
 
-    /// Applies `change`, then pans so that the cell at `about` is where it was.
+    /// Applies `change`, then pans to move the cell at `about` back to its place.
     fn keeping_fixed(
         &mut self,
         about: Pos2,
@@ -95,7 +92,7 @@ impl ViewState {
         self.fitted = false;
     }
 
-    /// Sets the zoom to one physical pixel per cell; the middle of the view stays.
+    /// Sets the zoom to one physical pixel per cell. The middle of the view stays.
     pub fn actual_size(&mut self) {
         self.zoom = 1.0;
         self.fitted = false;
@@ -107,7 +104,7 @@ impl ViewState {
         self.rotation = rotation.rem_euclid(TAU);
     }
 
-    /// The rotation as it is shown: snapped to a quarter turn if it is close to one.
+    /// The rotation that you see. Near a quarter turn it snaps to it.
     #[must_use]
     pub fn snapped_turn(&self) -> f64 {
         let quarters = (self.rotation / FRAC_PI_2).round();
@@ -120,7 +117,7 @@ impl ViewState {
     pub fn placement(&self, rect: Rect, density: f32) -> Placement {
         let rotation = self.snapped_turn();
         let quarters = rotation / FRAC_PI_2;
-        // Exact sines and cosines at quarter turns, so that cells align with pixels.
+        // Sines and cosines are exact at quarter turns, so that cells align with pixels.
         let (sin, cos) = if quarters == quarters.round() {
             [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarters as usize % 4]
         } else {
@@ -191,8 +188,8 @@ impl Placement {
         self.matrix[0][0].hypot(self.matrix[1][0])
     }
 
-    /// Converts a direction on the surface to the screen. Its length in points is its
-    /// length in cells times [`scale`](Self::scale).
+    /// Converts a direction on the surface to the screen. Its length in points is its length in
+    /// cells times [`scale`](Self::scale).
     #[must_use]
     pub fn direction(&self, [x, y]: [f64; 2]) -> Vec2 {
         let [[a, b], [c, d]] = self.matrix;
@@ -254,7 +251,7 @@ mod tests {
             let mut view =
                 ViewState { centre: [10.0, 10.0], zoom: 2.0, mirror, ..ViewState::default() };
             let before = view.placement(RECT, 1.0).point([15.0, 12.0]) - RECT.center();
-            // Close enough to snap to a quarter turn.
+            // This is close enough to snap to a quarter turn.
             view.rotate(FRAC_PI_2 + 0.01);
             let placement = view.placement(RECT, 1.0);
             let after = placement.point([15.0, 12.0]) - RECT.center();

@@ -10,11 +10,11 @@ use paint::strokes::{Action, Stroke, StrokeTool, SurfaceId};
 use session::{Command, Pace};
 use studio::files::Desk;
 use studio::pen::{
-    Device, DrawingAids, GuideKind, PointerState, Report, ReportKind, RulerShape, Script,
-    SymmetryKind,
+    Device, DrawingAids, GuideKind, PointerState, ReportKind, RulerShape, Script, SymmetryKind,
 };
 
 use super::harness::{Window, button};
+use super::pen::report;
 
 /// Places of a wavy stroke from a place in mm.
 fn wavy(x_mm: f64, y_mm: f64) -> Vec<[f64; 2]> {
@@ -31,7 +31,6 @@ fn hold(window: &Window, surface: SurfaceId, [x_mm, y_mm]: [f64; 2]) -> PointerS
     PointerState { at, pressure: Some(0.5), tilt_deg: Some((25.0, 10.0)), twist_deg: Some(30.0) }
 }
 
-/// Paints a stroke along places in mm with 200 reports a second.
 fn paint_on(window: &mut Window, surface: SurfaceId, places: &[[f64; 2]]) {
     let holds: Vec<PointerState> =
         places.iter().map(|&place| hold(window, surface, place)).collect();
@@ -55,7 +54,6 @@ fn paint(window: &mut Window, places: &[[f64; 2]]) {
     paint_on(window, SurfaceId::Canvas, places);
 }
 
-/// All strokes of the recording.
 fn strokes(window: &Window) -> Vec<Stroke> {
     let script = window.studio().recorded().expect("it is recorded");
     let strokes = script.actions.iter().filter_map(|action| match action {
@@ -65,7 +63,6 @@ fn strokes(window: &Window) -> Vec<Stroke> {
     strokes.collect()
 }
 
-/// The last stroke of the recording.
 fn last(window: &Window) -> Vec<Sample> {
     strokes(window).pop().expect("there is a stroke").samples
 }
@@ -82,13 +79,12 @@ fn ways(samples: &[Sample]) -> Vec<[f64; 6]> {
     ways
 }
 
-/// Numbers of actions that are done and that there are.
+/// Numbers of done actions and of all actions.
 fn done(window: &Window) -> (usize, usize) {
     let painting = window.studio().painting().expect("a painting is open");
     (painting.history_done, painting.history.len())
 }
 
-/// Extent of the places across and down.
 fn extent(samples: &[Sample]) -> [f64; 2] {
     [|at: &Sample| at.x_mm, |at: &Sample| at.y_mm].map(|of| {
         let places = samples.iter().map(of);
@@ -100,7 +96,6 @@ fn aids(window: &mut Window) -> &mut DrawingAids {
     &mut window.studio_mut().aids
 }
 
-/// Drags a handle of the aids to a place in mm.
 fn drag(window: &mut Window, handle: &str, [x_mm, y_mm]: [f64; 2]) {
     let from = window.harness().get_by_label(handle).rect().center();
     let to = window.point(SurfaceId::Canvas, x_mm, y_mm);
@@ -108,7 +103,6 @@ fn drag(window: &mut Window, handle: &str, [x_mm, y_mm]: [f64; 2]) {
     window.settle();
 }
 
-/// Screen colours of the canvas.
 fn pixels(window: &Window) -> Vec<[u8; 3]> {
     let view = &window.studio().canvas;
     let (width, height) = view.cells();
@@ -135,11 +129,15 @@ fn strokes_follow_the_ruler_while_they_are_to_and_are_free_else() {
     aids(&mut window).ruler.ends = [[2.0, 2.0], [22.0, 17.0]];
     paint(&mut window, &wavy(8.0, 4.0));
     let led = last(&window);
-    let off = |at: &Sample| (at.y_mm - led[0].y_mm) - 0.75 * (at.x_mm - led[0].x_mm);
-    assert!(led.iter().all(|at| off(at).abs() < 0.002), "{led:?}");
+    assert!(
+        led.iter()
+            .all(|at| ((at.y_mm - led[0].y_mm) - 0.75 * (at.x_mm - led[0].x_mm)).abs() < 0.002),
+        "{led:?}"
+    );
     assert_eq!((led[0].x_mm, led[0].y_mm), (8.0, 4.0));
     window.save("aids-ruler");
-    // Shown, but not to be followed: to the bit as without aids.
+    // You see the ruler, but strokes do not follow it. This must equal a stroke without aids to the
+    // bit.
     window.key(Modifiers::NONE, Key::G);
     paint(&mut window, &wavy(8.0, 8.0));
     assert_eq!(ways(&last(&window)), ways(&free));
@@ -158,11 +156,12 @@ fn strokes_in_perspective_run_to_a_vanishing_point() {
     window.harness().run_steps(2);
     let [left, right] = [0, 1].map(|at| window.studio().aids.perspective.points[at]);
     for (to, steps) in [(left, [-0.2, -0.12]), (right, [0.2, -0.11])] {
-        let place = |step: u8| {
-            let along = f64::from(step);
-            [16.0 + steps[0] * along, 17.0 + steps[1] * along + 0.3 * (0.3 * along).sin()]
-        };
-        let places: Vec<[f64; 2]> = (0..50).map(place).collect();
+        let places: Vec<[f64; 2]> = (0..50)
+            .map(|step: u8| {
+                let along = f64::from(step);
+                [16.0 + steps[0] * along, 17.0 + steps[1] * along + 0.3 * (0.3 * along).sin()]
+            })
+            .collect();
         paint(&mut window, &places);
         let led = last(&window);
         let across = to[0] - 16.0;
@@ -202,7 +201,7 @@ fn a_stroke_is_painted_mirrored_too_and_undone_with_its_twins() {
     }
     let painted = pixels(&window);
     window.save("aids-symmetry");
-    // Nearly as much paint on both sides, and nearly where the mirror has it.
+    // Both sides have nearly as much paint, and nearly at the mirrored places.
     let differs = |x: usize, y: usize| painted[y * 320 + x] != bare[y * 320 + x];
     let cells = (0..200).flat_map(|y| (0..160).map(move |x| (x, y)));
     let mut both = 0;
@@ -273,11 +272,6 @@ fn a_stroke_that_another_action_ends_has_no_twins() {
     let mut window = Window::open("aids-cut");
     window.click("Load brush");
     window.key(Modifiers::NONE, Key::Y);
-    let report = |window: &mut Window, kind| {
-        let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
-        window.studio_mut().pen.feed(report);
-        window.frame(Vec::new());
-    };
     for (order, &place) in wavy(4.0, 6.0).iter().enumerate() {
         let state = hold(&window, SurfaceId::Canvas, place);
         let kind = if order == 0 { ReportKind::Pressed(state) } else { ReportKind::Moved(state) };
@@ -303,10 +297,10 @@ fn handles_are_dragged_while_the_window_of_the_aids_is_open() {
     window.key(Modifiers::SHIFT, Key::G);
     window.harness().run_steps(3);
     drag(&mut window, centre, [22.0, 13.0]);
-    let near = |found: [f64; 2], wanted: [f64; 2]| {
+    fn near(found: [f64; 2], wanted: [f64; 2]) {
         let off = (found[0] - wanted[0]).hypot(found[1] - wanted[1]);
         assert!(off < 0.1, "{found:?}, not {wanted:?}");
-    };
+    }
     near(window.studio().aids.symmetry.centre, [22.0, 13.0]);
     drag(&mut window, "Angle of the symmetry", [27.0, 8.2]);
     assert_eq!(window.studio().aids.symmetry.angle_deg, 45.0);
@@ -318,7 +312,8 @@ fn handles_are_dragged_while_the_window_of_the_aids_is_open() {
     assert_eq!(window.studio().aids.perspective.in_use().len(), 3);
     drag(&mut window, "Vanishing point 3", [12.0, 17.0]);
     near(window.studio().aids.perspective.points[2], [12.0, 17.0]);
-    // A point beyond the view has its handle at the edge, which moves it by as much.
+    // A point beyond the view has its handle at the edge. If you move this, the point moves by as
+    // much.
     aids(&mut window).perspective.points[1] = [90.0, 8.0];
     window.harness().run_steps(2);
     let view = window.studio().canvas.rect();
@@ -348,7 +343,7 @@ fn handles_are_dragged_while_the_window_of_the_aids_is_open() {
     window.save("aids-handles-light");
     window.click("Put back");
     near(window.studio().aids.symmetry.centre, [16.0, 10.0]);
-    // Beside the handles the pen paints.
+    // Beside the handles you can paint.
     paint(&mut window, &wavy(10.0, 16.0));
     assert!(done(&window).1 > 1);
     window.key(Modifiers::NONE, Key::Escape);
@@ -367,7 +362,7 @@ fn handles_are_large_enough_to_be_touched() {
         let rect: Rect = window.harness().get_by_label(handle).rect();
         assert!(rect.width() >= 44.0 && rect.height() >= 44.0, "{handle}: {rect}");
     }
-    // The whole of a handle is kept from the pen.
+    // You cannot paint anywhere on a handle.
     let corner = window.harness().get_by_label("Centre of the symmetry").rect().shrink(2.0).min;
     window.frame(vec![eframe::egui::Event::PointerMoved(corner), button(corner, true)]);
     window.frame(vec![button(corner, false)]);

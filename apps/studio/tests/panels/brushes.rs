@@ -62,7 +62,7 @@ fn a_changed_shape_or_size_keeps_the_paint() {
     let mut harness = brushes();
     click(&mut harness, "shape filbert");
     assert_requests(&mut harness, &[take("round", HeadShape::Filbert, 6.0), round_paint()]);
-    // The worker has not reported yet, so the requested head is used.
+    // The worker has not reported yet, so we use the requested head.
     harness.state_mut().with_panel(|panel, cx| panel.resize(1.5, cx));
     assert_requests(&mut harness, &[take("round", HeadShape::Filbert, 9.0), round_paint()]);
     click(&mut harness, "shape filbert");
@@ -116,7 +116,7 @@ fn a_reported_head_ends_its_request() {
     let mut harness = brushes();
     click(&mut harness, "shape mop");
     harness.state_mut().requests.clear();
-    // The head is reported first, the load later.
+    // The worker reports the head first and the load later.
     let round = &mut harness.state_mut().painting.brushes[0];
     round.spec.shape = HeadShape::Mop;
     let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
@@ -190,10 +190,10 @@ fn loading_uses_tube_or_medium_with_the_slider_values() {
     harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(40.0);
     harness.run();
     click(&mut harness, "Load from tube");
-    let load = |recipe: &[(&str, f64)], vehicle| {
+    fn load(recipe: &[(&str, f64)], vehicle: f64) -> Request {
         let recipe = recipe.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
         act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle, amount_mm: 0.75 }))
-    };
+    }
     assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
     harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(99.5);
     harness.run();
@@ -334,7 +334,7 @@ fn the_mask_names_layers_as_the_layer_panel_does() {
         let found = stage.commands();
         assert!(matches!(&found[..], [Command::Apply(found)] if *found == mask), "{found:?}");
     }
-    // A long name does not leave the panel, which the window checks.
+    // A long name stays inside the panel. The window checks this.
     stage.state().painting.layers[1].name = "the light over the trees at the far bank ".repeat(2);
     stage.run();
 }
@@ -365,7 +365,7 @@ fn names(window: &Window) -> Vec<String> {
     })
 }
 
-/// Sets of brushes in the home folder, as they are on the disk.
+/// The sets of brushes on the disk of the home folder.
 fn stored(window: &Window) -> Vec<BrushSet> {
     let folder = window.folder().join("brushes");
     session::brushes::folder::read_sets(&folder).0.into_iter().map(|stored| stored.set).collect()
@@ -389,7 +389,7 @@ fn a_kept_brush_comes_back_with_head_options_and_paint() {
     window.click("Keep brush");
     assert_eq!(names(&window), ["round"]);
     window.save("own-brushes");
-    // Another painting's round is changed and clean, and has no options.
+    // The round brush of another painting is changed and clean, and has no options.
     let spec = BrushSpec { shape: HeadShape::Fan, size_mm: 20.0 };
     window.studio_mut().ask(Command::SetBrush { name: "round".to_owned(), spec });
     window.studio_mut().files.preferences.set_options("round", BrushOptions::default());
@@ -445,7 +445,7 @@ fn brushes_are_renamed_ordered_and_removed_and_sets_removed_with_their_file() {
     until(&mut window, "an empty folder", |window| stored(window).is_empty());
 }
 
-/// Imports a file, whose path is typed in the browser.
+/// Imports a file by typing its path in the browser.
 fn import(window: &mut Window, path: &Path) {
     window.click("Import...");
     window.harness().run_ok();

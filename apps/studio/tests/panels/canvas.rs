@@ -28,10 +28,9 @@ use super::fixture::{PanelWindow, made_painting};
 use super::harness::{Window, button};
 use crate::harness::{has_adapter, keep};
 
-/// Size of the test surfaces in cells: more than one chunk, not a multiple of it.
+/// Size of the test surfaces in cells. This is more than one chunk, and not a multiple of it.
 const CELLS: (usize, usize) = (700, 530);
 
-/// Colour of a cell; neighbouring cells differ.
 fn cell(x: usize, y: usize) -> [u8; 4] {
     [(x % 251) as u8, (y % 241) as u8, ((x / 16 + y / 16) % 2 * 255) as u8, 255]
 }
@@ -57,7 +56,6 @@ fn surface(outline: Outline) -> SurfaceView {
     surface
 }
 
-/// Creates a window that shows only a surface.
 fn shown(
     surface: SurfaceView,
     size: Vec2,
@@ -67,7 +65,7 @@ fn shown(
     shown_by(Drawing::default(), surface, size, density, split)
 }
 
-/// Creates such a window whose quads are drawn in this way.
+/// Like [`shown`], but you choose how the quads are drawn.
 fn shown_by(
     drawing: Drawing,
     surface: SurfaceView,
@@ -75,13 +73,6 @@ fn shown_by(
     density: f32,
     mut split: Option<f32>,
 ) -> Harness<'static, SurfaceView> {
-    let show = move |ui: &mut Ui, surface: &mut SurfaceView| {
-        let room = ui.ctx().content_rect();
-        ui.set_clip_rect(room);
-        ui.painter().rect_filled(room, 0.0, theme::SURROUND);
-        let split = split.as_mut().map(|at| Split { at, lights: ["D65", "A"] });
-        surface.show(ui, room, DragMode::None, split);
-    };
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(density)
@@ -90,7 +81,16 @@ fn shown_by(
             theme::apply(context);
             set_drawing(context, drawing);
         })
-        .build_ui_state(show, surface);
+        .build_ui_state(
+            move |ui: &mut Ui, surface: &mut SurfaceView| {
+                let room = ui.ctx().content_rect();
+                ui.set_clip_rect(room);
+                ui.painter().rect_filled(room, 0.0, theme::SURROUND);
+                let split = split.as_mut().map(|at| Split { at, lights: ["D65", "A"] });
+                surface.show(ui, room, DragMode::None, split);
+            },
+            surface,
+        );
     harness.run();
     harness
 }
@@ -176,7 +176,7 @@ fn egui_draws_what_the_shader_of_quads_draws() {
             surface.view =
                 ViewState { centre: [511.0, 509.0], zoom, rotation, mirror, fitted: false };
             let mut harness = shown_by(drawing, surface, vec2(300.0, 200.0), 1.0, split);
-            // Tiles change when their textures are there.
+            // Tiles change only when their textures exist.
             let around = tile::Rect { x: 505, y: 500, width: 40, height: 20 };
             let changed = tiles(|x: usize, y: usize| cell(x, y).map(|channel| channel / 2 + 127))
                 .into_iter()
@@ -246,7 +246,7 @@ fn only_changed_and_visible_tiles_are_uploaded() {
     let mut harness = shown(surface, vec2(100.0, 100.0), 1.0, None);
     let bytes = |harness: &Harness<SurfaceView>| harness.state().picture(false).unwrap().uploaded();
     let first = bytes(&harness);
-    // One of four chunks, and the edges of its neighbours.
+    // This is one of four chunks, and the edges of its neighbours.
     assert_eq!(first, 4 * 513 * 513);
     let text = tiles(|_, _| [9, 9, 9, 255]);
     let at =
@@ -285,7 +285,6 @@ fn the_hole_of_the_palette_shows_the_surround() {
     assert_ne!(pixel(&picture, on.x as u32, on.y as u32), [grey, grey, grey, 255]);
 }
 
-/// Whether a place is near the drawn outline.
 fn near_edge(place: [usize; 2]) -> bool {
     let [x, y] = place;
     x < 3 || y < 3 || x + 4 > CELLS.0 || y + 4 > CELLS.1
@@ -305,7 +304,7 @@ fn until(window: &mut Window, what: &str, done: impl Fn(&mut Window) -> bool) {
     window.settle();
 }
 
-/// A window with a red picture of 300 x 100 pixels pinned and laid over the canvas.
+/// A window with a red picture of 300 x 100 pixels, pinned and laid over the canvas.
 fn overlaid(name: &'static str) -> Window {
     let path = file(&format!("{name}.png"));
     RgbImage::from_pixel(300, 100, Pixel([200, 20, 20])).save(&path).unwrap();
@@ -321,7 +320,7 @@ fn overlaid(name: &'static str) -> Window {
 fn the_reference_lies_over_the_canvas_and_is_never_painted() {
     let mut window = overlaid("over-canvas");
     let history = window.studio().painting().unwrap().history.clone();
-    // Fitted: as wide as the canvas of 32 x 20 mm, and 10.7 mm high.
+    // The fitted picture is as wide as the canvas of 32 x 20 mm, and 10.7 mm high.
     let inside = window.point(SurfaceId::Canvas, 25.0, 10.0);
     let beside = window.point(SurfaceId::Canvas, 25.0, 2.0);
     if let Some(picture) = window.picture() {
@@ -460,7 +459,7 @@ fn hold(window: &mut Window, x_mm: f64, kind: impl Fn(PointerState) -> ReportKin
     window.studio_mut().pen.feed(report);
 }
 
-/// A window with the stroke of a stylus that is open, and its context.
+/// A window with an open stroke of a stylus.
 fn in_stroke(name: &'static str) -> (Window, Context) {
     let mut window = Window::open(name);
     window.click("Load brush");
@@ -471,7 +470,7 @@ fn in_stroke(name: &'static str) -> (Window, Context) {
     (window, context)
 }
 
-/// Moves the stylus from 6 to 24 mm, without frames. Returns what was shown.
+/// Moves the stylus from 6 to 24 mm without frames. Returns what was shown.
 fn moved(window: &mut Window, context: &Context) -> Vec<Between> {
     let mut shown = Vec::new();
     let mut show = |window: &mut Window| {
@@ -571,15 +570,16 @@ fn frames_show_what_is_more_than_paint_and_head() {
     assert!(window.studio_mut().between(&context).is_none(), "no stroke is open");
 }
 
-/// Largest difference of a channel: both round, and egui's shader filters by itself in tests.
+/// Largest difference of a channel. Both shaders round, and egui's shader filters by itself in
+/// tests.
 const NEAR: u8 = 3;
 
-/// Widgets, text of two sizes, a picture that changes, and a translucent card over them.
+/// Shows widgets, text of two sizes, a picture that changes, and a translucent card over them.
 fn show(ui: &mut Ui, state: &mut (usize, Option<TextureHandle>)) {
     let (frame, picture) = state;
-    let image = |side: usize, value: u8| {
+    fn image(side: usize, value: u8) -> ColorImage {
         ColorImage::filled([side, side], Color32::from_rgb(value, 255 - value, 90))
-    };
+    }
     let options = TextureOptions::NEAREST;
     let picture =
         picture.get_or_insert_with(|| ui.ctx().load_texture("picture", image(16, 20), options));
@@ -618,11 +618,13 @@ fn the_interface_looks_alike_with_either_shader() {
     }
     for density in [1.0, 1.5] {
         let by_egui = rendered(theme::apply, density);
-        let quick = |context: &Context| {
-            theme::apply(context);
-            view::draw_meshes(context);
-        };
-        let by_quads = rendered(quick, density);
+        let by_quads = rendered(
+            |context: &Context| {
+                theme::apply(context);
+                view::draw_meshes(context);
+            },
+            density,
+        );
         assert_eq!(by_egui.dimensions(), by_quads.dimensions());
         let colors: BTreeSet<[u8; 4]> = by_egui.pixels().map(|pixel| pixel.0).collect();
         assert!(colors.len() > 60, "a picture with {} colours", colors.len());

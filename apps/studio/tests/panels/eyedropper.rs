@@ -1,5 +1,5 @@
-//! Tests of the panels of colours (eyedropper, wheel and swatches): shown values equal those of
-//! the libraries, and clicks queue the right requests.
+//! Tests of the panels of colours (eyedropper, wheel and swatches). Shown values must equal the
+//! libraries' values, and clicks must queue the right requests.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
     let find = |name: &str| library.find(name).unwrap();
-    let layer = |label: &str, paint: &[(PigmentId, f64)], vehicle: f64| {
+    fn layer(label: &str, paint: &[(PigmentId, f64)], vehicle: f64) -> PickedLayer {
         let mut layer = PickedLayer {
             label: label.to_owned(),
             slots: [None; SLOTS],
@@ -53,7 +53,7 @@ fn picked(painting: &PaintingState) -> Picked {
         }
         layer.amounts_mm[SLOTS] = vehicle;
         layer
-    };
+    }
     let white = find("Zinc White");
     let blue = find("Ultramarine");
     let mixture = library.mix([(white, 3.0), (blue, 1.0)]).unwrap();
@@ -111,7 +111,7 @@ fn picked_wet_paint_is_loaded_and_its_recipe_copied() {
     assert_eq!((brush.as_str(), &**picked, *amount_mm), ("round", &wanted, 0.3));
     stage.harness.get_by_label("Copy Wet").click();
     stage.harness.step();
-    // The text is copied in the frame of the release.
+    // egui copies the text in the frame of the release.
     let copied = stage.harness.output().platform_output.commands.clone();
     let wanted = "\"Zinc White=3\" \"Ultramarine=1\" --thickness 4".to_owned();
     assert_eq!(copied, [OutputCommand::CopyText(wanted)]);
@@ -138,7 +138,7 @@ fn the_eyedropper_button_toggles_the_tool() {
     assert_eq!(stage.state().tools.mode, Mode::Paint);
 }
 
-/// Recipes that the library search finds for the painting's palette in up to 40 parts.
+/// The recipes in up to 40 parts that the library search finds for the painting's palette.
 fn library_recipes(
     painting: &PaintingState,
     target: &Target,
@@ -165,7 +165,6 @@ fn ask(stage: &mut PanelWindow<Eyedropper>, text: &str) {
     stage.run();
 }
 
-/// Waits for the first recipe's button.
 fn wait_for_recipes(stage: &mut PanelWindow<Eyedropper>) {
     for _ in 0..3000 {
         stage.harness.step();
@@ -193,9 +192,10 @@ fn a_typed_color_gets_the_recipes_of_the_library_search() {
         assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
     for (index, recipe) in wanted.iter().enumerate() {
-        let name = |at: usize| painting.library[recipe.shares.parts()[at].0].name.clone();
         let parts = recipe.parts.as_ref().unwrap();
-        let all = parts.iter().enumerate().map(|(at, part)| (name(at), f64::from(*part)));
+        let all = parts.iter().enumerate().map(|(at, part)| {
+            (painting.library[recipe.shares.parts()[at].0].name.clone(), f64::from(*part))
+        });
         let all = all.collect();
         stage.click(&format!("Load recipe {}", index + 1));
         let commands = stage.commands();
@@ -238,7 +238,7 @@ fn a_recipe_is_added_to_the_paint_on_a_brush_as_a_tube_is() {
 #[test]
 fn pigments_missing_on_the_palette_can_be_added() {
     let mut painting = made_painting();
-    // Greens need a pigment that is not on the palette.
+    // For greens you need a pigment that is not on the palette.
     painting.slots = [None; SLOTS];
     painting.slots[0] = Some(painting.library.find("Zinc White").unwrap());
     let mut stage = stage(painting);
@@ -337,7 +337,7 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
         &wanted.match_target(painting.library.grid, &conditions),
         conditions,
     );
-    // The search finds the mixture itself: three parts white and one part blue.
+    // The search finds the mixture itself, three parts white and one part blue.
     assert_eq!(best[0].parts, Some(vec![3, 1]));
     assert!(best[0].delta_e.iter().all(|difference| *difference < 0.01), "{best:?}");
     assert!(stage.harness.query_by_label("\u{2206}E 0.00, 0.00").is_some(), "under both lights");
@@ -346,7 +346,7 @@ fn a_picked_place_is_matched_under_both_lights_of_the_split_view() {
 #[test]
 fn a_search_can_be_cancelled() {
     let mut painting = made_painting();
-    // A large library, so that the search takes long.
+    // In a large library the search takes long.
     let mut library = (*painting.library).clone();
     for copy in 0..3 {
         let others = painting.library.pigments.iter().cloned();
@@ -437,13 +437,12 @@ fn the_tubes_lie_at_their_measured_colours() {
         let found = drawn.get_pixel(point.x as u32, point.y as u32).0;
         let wanted = color.srgb.linear().mapped_into_gamut().encoded().to_bytes();
         let apart = found.iter().zip(wanted).map(|(a, b)| a.abs_diff(b)).max().unwrap();
-        // White and black lie side by side in the middle, one over the other.
+        // The buttons of white and black lie in the middle.
         let chromatic = color.lab.a.hypot(color.lab.b) > 15.0;
         assert!(!chromatic || apart <= 2, "{pigment:?}: {found:?}, not {wanted:?}");
     }
 }
 
-/// Draws until a label contains these words.
 #[track_caller]
 fn wait_for(harness: &mut Harness<'static, Fixture<Wheel>>, words: &str) {
     let start = Instant::now();

@@ -1,5 +1,5 @@
-//! A test painting as a worker would report it, a window with a single panel, and what such a
-//! window shows.
+//! A test painting as a worker would report it, a window with a single panel, and what you see in
+//! such a window.
 
 use std::sync::{Arc, OnceLock};
 
@@ -87,9 +87,9 @@ pub(crate) fn painting() -> PaintingState {
     }
 }
 
-/// Pictures of all states but the last but one, of which each changes a corner.
+/// Pictures of all states but the last but one. Each changes a corner.
 fn shots() -> HistoryShots {
-    let shot = |state: usize| {
+    fn shot(state: usize) -> HistoryShot {
         let picture = Thumbnail {
             width: 48,
             height: 30,
@@ -102,12 +102,12 @@ fn shots() -> HistoryShots {
         };
         let changed = (state > 0).then(|| [12 * (state - 1), 0, 12, 12]);
         HistoryShot { picture: Arc::new(picture), changed }
-    };
+    }
     let shots = (0..5).map(|state| (state != 3).then(|| shot(state))).collect();
     HistoryShots { shots, bytes: 3 << 20, most_bytes: 24 << 20 }
 }
 
-/// A film that hides the ground in part, in this colour.
+/// A film in this colour that hides the ground in part.
 fn swatch([r, g, b]: [u8; 3]) -> BrushSwatch {
     let color =
         |srgb: [u8; 3], lightness| FilmColor { lab: Lab { lightness, a: 52.1, b: 38.4 }, srgb };
@@ -160,7 +160,6 @@ fn layer(id: u32, slots: Slots, opacity: f64) -> LayerState {
     }
 }
 
-/// A panel with its context and its requests.
 pub(crate) struct Fixture<P> {
     pub(crate) panel: P,
     pub(crate) painting: PaintingState,
@@ -209,13 +208,12 @@ pub(crate) fn show_panel<P: 'static>(
     harness
 }
 
-/// Clicks the control with a label and draws until nothing changes.
 pub(crate) fn click<P>(harness: &mut Harness<'_, Fixture<P>>, label: &str) {
     harness.get_by_label(label).click();
     harness.run();
 }
 
-/// Clicks a row of a list, even if it is scrolled out of view.
+/// Clicks a row of a list, even if you must scroll to see it.
 pub(crate) fn click_row<P>(harness: &mut Harness<'_, Fixture<P>>, label: &str) {
     harness.get_by_label(label).click_accesskit();
     harness.run();
@@ -246,7 +244,6 @@ pub(crate) fn picture<P>(
     Some(image)
 }
 
-/// A panel with its context and its requests.
 pub(crate) struct PanelState<P> {
     pub(crate) panel: P,
     pub(crate) painting: PaintingState,
@@ -254,7 +251,6 @@ pub(crate) struct PanelState<P> {
     pub(crate) requests: Vec<Request>,
 }
 
-/// A panel under test.
 pub(crate) struct PanelWindow<P: 'static> {
     pub(crate) harness: Harness<'static, PanelState<P>>,
 }
@@ -298,7 +294,6 @@ impl<P> PanelWindow<P> {
         self.harness.state_mut()
     }
 
-    /// Clicks the control with this label.
     pub(crate) fn click(&mut self, label: &str) {
         self.harness.get_by_label(label).click();
         self.run();
@@ -338,7 +333,6 @@ impl<P> PanelWindow<P> {
         commands.collect()
     }
 
-    /// File requests since the last call.
     pub(crate) fn requests(&mut self) -> Vec<FileRequest> {
         let requests = std::mem::take(&mut self.state().requests);
         let requests = requests.into_iter().map(|request| match request {
@@ -393,14 +387,13 @@ pub(crate) fn made_painting() -> PaintingState {
 const TUBES: [&str; 6] =
     ["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine", "Prussian Blue", "Bone Black"];
 
-/// Text on the screen.
 #[derive(Debug, Clone)]
 pub(crate) struct SeenText {
     pub(crate) words: String,
     pub(crate) rect: Rect,
-    /// The part of the window in which it is drawn.
+    /// The part of the window that it is drawn in.
     pub(crate) clip: Rect,
-    /// Its colour; translucent if it is disabled.
+    /// Translucent if the text is disabled.
     pub(crate) color: Color32,
     elided: bool,
 }
@@ -455,7 +448,7 @@ fn collect(shape: &Shape, clip: Rect, found: &mut Vec<SeenText>) {
     }
 }
 
-/// Something that is clicked or dragged with a finger.
+/// Something that you click or drag with a finger.
 #[derive(Debug, Clone)]
 pub(crate) struct Target {
     pub(crate) name: String,
@@ -463,17 +456,16 @@ pub(crate) struct Target {
     pub(crate) right: f32,
 }
 
-/// Everything below `root` that is clicked, and all sliders.
+/// Everything below `root` that you can click, and all sliders.
 pub(crate) fn targets(root: &Node<'_>) -> Vec<Target> {
-    let touched = |node: &Node<'_>| {
-        let inner = node.accesskit_node();
-        // Instead of scroll bars, fingers drag the content.
-        let is_bar = inner.role() == Role::ScrollBar;
-        let is_clicked = inner.data().supports_action(Action::Click);
-        (is_clicked && !is_bar) || inner.role() == Role::Slider
-    };
     root.children_recursive()
-        .filter(touched)
+        .filter(|node| {
+            let inner = node.accesskit_node();
+            // For fingers there are no scroll bars. You drag the content instead.
+            let is_bar = inner.role() == Role::ScrollBar;
+            let is_clicked = inner.data().supports_action(Action::Click);
+            (is_clicked && !is_bar) || inner.role() == Role::Slider
+        })
         .map(|node: Node<'_>| {
             let inner = node.accesskit_node();
             let name = inner.label().or(inner.value());

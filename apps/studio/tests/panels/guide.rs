@@ -16,12 +16,12 @@ use super::look::drawn_texts;
 
 const SIZE: Vec2 = vec2(1280.0, 800.0);
 
-/// Whether the window draws a text that contains `words`.
+/// Whether the window draws a text with `words`.
 fn draws(window: &mut Window, words: &str) -> bool {
     drawn_texts(window).iter().any(|(_, text)| text.contains(words))
 }
 
-/// Where the window draws a text that contains `words`.
+/// Where the window draws a text with `words`.
 fn place_of_text(window: &mut Window, words: &str) -> Option<eframe::egui::Rect> {
     window.harness().output().shapes.iter().find_map(|clipped| match &clipped.shape {
         Shape::Text(text) if text.galley.text().contains(words) => {
@@ -53,7 +53,7 @@ fn the_first_steps_are_gone_at_the_first_stroke_and_back_under_help() {
         assert!(draws(&mut window, words), "{words} is not shown");
     }
     let before = done(&window);
-    // Over the lines: they take no clicks.
+    // You can paint over the hints, because they take no clicks.
     let from = window.studio().canvas.rect().center_top() + vec2(-60.0, 40.0);
     let on = window.studio().canvas.position(from).is_some();
     let from = if on { from } else { window.studio().canvas.rect().center() };
@@ -100,15 +100,14 @@ fn the_first_steps_stay_within_a_small_window() {
 #[test]
 fn a_message_does_not_cover_the_first_steps() {
     let mut window = Window::first_start("first-steps-message", SIZE);
-    let place = |window: &mut Window| place_of_text(window, "Press here").unwrap();
-    let before = place(&mut window);
+    let before = place_of_text(&mut window, "Press here").unwrap();
     window.click("Load brush");
     window.settle();
     window.click("Keep this mixture");
     window.settle();
     window.save("first-steps-message");
     let message = place_of_text(&mut window, "Kept").expect("a message");
-    let lines = place(&mut window);
+    let lines = place_of_text(&mut window, "Press here").unwrap();
     assert!(message.intersects(before), "{message} would cover {before}");
     assert!(lines.top() > message.bottom(), "{message} covers {lines}");
 }
@@ -123,14 +122,15 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     assert!(window.studio().files.has_dialog(), "unsaved changes are asked for");
     window.click("Discard");
     let began = web_time::Instant::now();
-    let title = |window: &Window| window.studio().painting().unwrap().title.clone();
-    // The worker measures the layers when it has nothing else to do.
-    let measured = |window: &Window| {
+    // The worker measures the layers only when it is idle.
+    fn measured(window: &Window) -> bool {
         let layers = &window.studio().painting().unwrap().layers;
         layers.len() == 3 && layers.iter().all(|layer| layer.coverage > 0.0)
-    };
-    let playing = |window: &Window| window.studio().files.is_playing();
-    while title(&window) != "Oranges and a lemon" || playing(&window) || !measured(&window) {
+    }
+    while window.studio().painting().unwrap().title != "Oranges and a lemon"
+        || window.studio().files.is_playing()
+        || !measured(&window)
+    {
         assert!(began.elapsed().as_secs() < 60, "it is not opened");
         std::thread::sleep(std::time::Duration::from_millis(5));
         window.harness().step();
@@ -146,7 +146,7 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     assert!(message.text.contains("the recording was played"), "{message:?}");
 }
 
-/// Pixels of the window that changed between two pictures, with their new colours.
+/// Pixels of the window that differ between two pictures, with their new colours.
 fn changed(window: &mut Window, at: Pos2, reach: f32, hover: Pos2) -> Option<Vec<(Vec2, [u8; 3])>> {
     window.frame(vec![eframe::egui::Event::PointerGone]);
     window.harness().run_ok();
@@ -171,7 +171,7 @@ fn the_cursor_is_an_outline_that_leaves_its_place_free() {
     for (brush, turn) in [("flat", 0.0), ("round", 0.7), ("knife", 0.0), ("rigger", 0.0)] {
         window.studio_mut().tools.brush = brush.to_owned();
         window.studio_mut().canvas.view.rotation = turn;
-        // Fitted, a millimetre is 25 points; smaller, the rigger is small.
+        // A fitted millimetre is 25 points. If the view is smaller, so is the rigger.
         window.studio_mut().canvas.view.zoom = if brush == "rigger" { 0.5 } else { 1.0 };
         window.studio_mut().canvas.view.fitted = false;
         window.harness().run_ok();
@@ -189,8 +189,8 @@ fn the_cursor_is_an_outline_that_leaves_its_place_free() {
 #[test]
 fn the_bent_head_of_an_open_stroke_is_an_outline_too() {
     let mut window = Window::open("cursor-bent");
-    let at = |x| window_point(&window, x);
-    let along: Vec<Pos2> = (0..20).map(|step| at(8.0 + 0.4 * f64::from(step))).collect();
+    let along: Vec<Pos2> =
+        (0..20).map(|step| window_point(&window, 8.0 + 0.4 * f64::from(step))).collect();
     let last = along[19];
     window.frame(vec![eframe::egui::Event::PointerMoved(along[0])]);
     window.frame(vec![super::harness::button(along[0], true)]);
@@ -200,7 +200,7 @@ fn the_bent_head_of_an_open_stroke_is_an_outline_too() {
     window.settle();
     let Some(picture) = window.picture() else { return };
     window.save("cursor-bent");
-    // Inside, the window shows the cells of the canvas as they are.
+    // Inside, the window shows the cells of the canvas unchanged.
     let view = &window.studio().canvas;
     let [x, y] = view.position(last).unwrap().map(|cells| cells as usize);
     let cell = view.picture(false).unwrap().pixels(Rect { x, y, width: 1, height: 1 }).pixels[0];
@@ -257,12 +257,10 @@ fn the_palette_is_shown_under_either_of_two_lights() {
     window.key(Modifiers::NONE, Key::Escape);
 }
 
-/// The fixture's painting without layers and history.
 fn bare() -> PaintingState {
     PaintingState { history: Vec::new(), history_done: 0, layers: Vec::new(), ..painting() }
 }
 
-/// Adds an action to the history.
 fn add(painting: &mut PaintingState, label: &str) {
     painting.history.truncate(painting.history_done);
     painting.history.push(label.to_owned());
@@ -274,17 +272,14 @@ type Act<'a> = &'a dyn Fn(&mut PaintingState);
 
 #[test]
 fn each_step_is_done_by_its_own_action_only() {
-    let with_medium = |painting: &mut PaintingState| {
-        painting.layers = super::fixture::painting().layers;
-        painting.brushes[0].vehicle = 0.97;
-    };
     let acts: [(TourStep, Act); 6] = [
         (TourStep::Load, &|painting| painting.brushes[1].amount_mm += 0.3),
         (TourStep::Paint, &|painting| add(painting, "stroke, round")),
         (TourStep::Mix, &|painting| add(painting, "stroke on the palette, round")),
         (TourStep::Dry, &|painting| add(painting, "dry all")),
         (TourStep::Glaze, &|painting| {
-            with_medium(painting);
+            painting.layers = super::fixture::painting().layers;
+            painting.brushes[0].vehicle = 0.97;
             add(painting, "stroke, round");
         }),
         (TourStep::Relight, &|painting| painting.lighting.illuminant = "A".to_owned()),
@@ -370,7 +365,7 @@ fn draw(window: &mut Window, surface: SurfaceId, from: (f64, f64), to: (f64, f64
 
 fn double_click_tube(window: &mut Window, name: &str) {
     let label = format!("tube of {name}");
-    // Time passes, or the clicks before would make these two a triple click.
+    // Time must pass, or these and the earlier clicks would be a triple click.
     window.harness().run_steps(60);
     let tube = window.harness().get_by_label(&label);
     tube.click();
@@ -430,11 +425,11 @@ fn a_painter_goes_through_the_whole_tour() {
 #[test]
 fn the_card_goes_back_and_on_and_escape_leaves_it() {
     let mut window = Window::open("tour-card");
-    let start = |window: &mut Window| {
+    fn start(window: &mut Window) {
         window.harness().get_all_by_label("Help").next().unwrap().click();
         window.harness().run_ok();
         window.click("Guided tour");
-    };
+    }
     start(&mut window);
     for step in [TourStep::Paint, TourStep::Mix] {
         window.click("Next");
@@ -442,7 +437,7 @@ fn the_card_goes_back_and_on_and_escape_leaves_it() {
     }
     window.click("Back");
     assert_eq!(window.studio().tour().step(), Some(TourStep::Paint));
-    // A window over the tour comes first.
+    // A window over the tour gets the key first.
     window.key(Modifiers::NONE, Key::F1);
     window.key(Modifiers::NONE, Key::Escape);
     assert!(window.studio().tour().is_running(), "Escape closed the keys");
@@ -456,7 +451,7 @@ fn the_card_goes_back_and_on_and_escape_leaves_it() {
 
 #[test]
 fn the_steps_tell_the_keys_in_use() {
-    let key = |intent: Intent| {
+    fn key(intent: Intent) -> String {
         let keys = [
             (Intent::Tool(Mode::Paint), "F5"),
             (Intent::Dry, "F6"),
@@ -465,7 +460,7 @@ fn the_steps_tell_the_keys_in_use() {
         ];
         let own = keys.iter().find(|(own, _)| *own == intent);
         own.map_or_else(String::new, |(_, key)| (*key).to_owned())
-    };
+    }
     let with = |step: TourStep| step.lines(key).concat();
     assert!(with(TourStep::Mix).contains("Choose Paint (F5) and"), "{}", with(TourStep::Mix));
     assert!(with(TourStep::Dry).starts_with("Press F6, or this button."));

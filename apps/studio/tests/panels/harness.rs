@@ -17,13 +17,11 @@ use studio::files::{Files, Home, Preferences};
 use studio::pen::{Pen, PenSettings};
 use studio::theme;
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Time without events after which the worker counts as idle.
+/// After this time without events we count the worker as idle.
 const QUIET: Duration = Duration::from_millis(60);
 
-/// A window under test.
 pub(crate) struct Window {
     harness: Harness<'static, Option<Studio>>,
     name: &'static str,
@@ -33,20 +31,20 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Opens a window of 1280 x 800 points with 320 x 200 cells of linen (32 x 20 mm)
-    /// and Van Gogh's oils. `name` names the picture saved on failure.
+    /// Opens a window of 1280 x 800 points with 320 x 200 cells of linen (32 x 20 mm) and Van
+    /// Gogh's oils. If the test fails, its picture is saved as `name`.
     pub(crate) fn open(name: &'static str) -> Self {
         Self::sized(name, vec2(1280.0, 800.0), 1.0)
     }
 
-    /// Opens such a window with a size in points and a pixel density.
+    /// Like [`Self::open`], with a size in points and a pixel density.
     pub(crate) fn sized(name: &'static str, size: Vec2, density: f32) -> Self {
         let begin =
             vec![Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
         Self::with_commands(name, size, density, begin)
     }
 
-    /// Opens such a window as on the first start of the program, with the first steps shown.
+    /// Opens a window as on the first start of the program, with the first steps.
     pub(crate) fn first_start(name: &'static str, size: Vec2) -> Self {
         let mut window = Self::sized(name, size, 1.0);
         window.studio_mut().files.preferences.first_steps_seen = false;
@@ -55,7 +53,7 @@ impl Window {
         window
     }
 
-    /// Opens a window whose worker executes `begin` first, and waits for it.
+    /// Opens a window, and waits until its worker has executed `begin`.
     pub(crate) fn with_commands(
         name: &'static str,
         size: Vec2,
@@ -95,7 +93,7 @@ impl Window {
                         WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
                     let studio = studio.get_or_insert_with(|| {
                         let worker = StartedWorker::new(options, begin.take().unwrap_or_default());
-                        // Nothing lies over the picture.
+                        // We show nothing over the picture.
                         let preferences =
                             Preferences { first_steps_seen: true, ..Preferences::default() };
                         let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
@@ -104,7 +102,7 @@ impl Window {
                         Studio::new(ui.ctx(), parts)
                     });
                     studio.logic(ui.ctx());
-                    // Use the whole window, without the margin of the harness.
+                    // This uses the whole window, without the margin of the harness.
                     let whole = ui.ctx().content_rect();
                     let mut ui = ui.new_child(UiBuilder::new().max_rect(whole));
                     ui.set_clip_rect(whole);
@@ -115,7 +113,6 @@ impl Window {
         Self { harness, name, fences: 0, folder }
     }
 
-    /// State of the window.
     pub(crate) fn studio(&self) -> &Studio {
         self.harness.state().as_ref().expect("the window is there from the first frame on")
     }
@@ -125,12 +122,11 @@ impl Window {
         self.harness.state_mut().as_mut().expect("the window is there from the first frame on")
     }
 
-    /// The kittest harness, for `get_by_label` and similar queries.
+    /// The kittest harness. You need it for `get_by_label` and similar queries.
     pub(crate) fn harness(&mut self) -> &mut Harness<'static, Option<Studio>> {
         &mut self.harness
     }
 
-    /// Home folder of the program.
     pub(crate) fn folder(&self) -> &Path {
         self.folder.path()
     }
@@ -165,14 +161,12 @@ impl Window {
         self.harness.run_ok();
     }
 
-    /// Draws one frame with these events.
     pub(crate) fn frame(&mut self, events: Vec<Event>) {
         self.harness.input_mut().events.extend(events);
         self.harness.step();
     }
 
-    /// Drags the mouse with the primary button along points of the window, four in each
-    /// frame.
+    /// Drags the mouse with the primary button along points of the window, four in each frame.
     pub(crate) fn pen_stroke(&mut self, along: &[Pos2]) {
         let (Some(&first), Some(&last)) = (along.first(), along.last()) else { return };
         self.frame(vec![Event::PointerMoved(first)]);
@@ -185,21 +179,19 @@ impl Window {
         self.frame(Vec::new());
     }
 
-    /// Presses and releases a key.
     pub(crate) fn key(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.harness.step();
         self.harness.run_ok();
     }
 
-    /// Clicks the control with this label.
     pub(crate) fn click(&mut self, label: &str) {
         self.harness.get_by_label(label).click();
         self.harness.step();
         self.harness.run_ok();
     }
 
-    /// Clicks what opens a menu or a window, and waits until it is laid out.
+    /// Clicks a control that opens a menu or a window, and waits for its layout.
     pub(crate) fn open_menu(&mut self, label: &str) {
         self.click(label);
         self.harness.run_steps(3);
@@ -221,7 +213,7 @@ impl Window {
         has_adapter().then(|| self.harness.render().expect("the window is drawn"))
     }
 
-    /// Renders the window for a person to look at, if pictures are kept ([`keep`]).
+    /// Renders the window for a person to look at, if we keep pictures ([`keep`]).
     pub(crate) fn show(&mut self, name: &str) {
         if are_pictures_kept() {
             self.save(name);
@@ -242,7 +234,6 @@ impl Window {
         [red, green, blue]
     }
 
-    /// Rectangle of the whole window, in points.
     pub(crate) fn whole(&self) -> Rect {
         self.harness.ctx.content_rect()
     }
@@ -261,8 +252,8 @@ impl Drop for Window {
     }
 }
 
-/// Whether there is a graphics adapter. Appends its name (or `none`) to the file that the
-/// environment variable `IMPASTO_GPU_TESTS` names, if it is set.
+/// Whether there is a graphics adapter. If you set the environment variable `IMPASTO_GPU_TESTS` to
+/// a file, this appends the adapter's name (or `none`) there.
 pub(crate) fn has_adapter() -> bool {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);
@@ -277,12 +268,12 @@ pub(crate) fn has_adapter() -> bool {
     device.is_some()
 }
 
-/// Whether pictures are to be kept: whether the environment variable `IMPASTO_PICTURES` is set.
+/// Whether to keep pictures. You set the environment variable `IMPASTO_PICTURES` for this.
 fn are_pictures_kept() -> bool {
     std::env::var_os("IMPASTO_PICTURES").is_some()
 }
 
-/// Writes `target/tmp/NAME.png` if pictures are to be kept.
+/// Writes `target/tmp/NAME.png` if we keep pictures.
 pub(crate) fn keep(picture: &RgbaImage, name: &str) {
     if are_pictures_kept() {
         let path = folder().join(format!("{name}.png"));
@@ -290,13 +281,12 @@ pub(crate) fn keep(picture: &RgbaImage, name: &str) {
     }
 }
 
-/// An event of the primary mouse button.
 pub(crate) fn button(pos: Pos2, pressed: bool) -> Event {
     let modifiers = Modifiers::NONE;
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
 }
 
 fn folder() -> PathBuf {
-    // The variable is not set for examples.
+    // Examples do not have this variable.
     option_env!("CARGO_TARGET_TMPDIR").map_or_else(std::env::temp_dir, PathBuf::from)
 }

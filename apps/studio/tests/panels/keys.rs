@@ -19,7 +19,7 @@ fn press_for(window: &mut Window, chip: &str, modifiers: Modifiers, key: Key) {
     window.key(modifiers, key);
 }
 
-/// Clicks a control of the list, which may have to be scrolled to.
+/// Clicks a control of the list. This may scroll first.
 fn click(window: &mut Window, label: &str) {
     window.harness().get_by_label(label).scroll_to_me();
     window.harness().run_ok();
@@ -45,11 +45,11 @@ fn a_changed_key_works_and_the_old_one_no_longer() {
     assert!(!window.studio().canvas.view.mirror, "the old key does nothing");
     window.key(Modifiers::NONE, Key::J);
     assert!(window.studio().canvas.view.mirror, "the new key mirrors");
-    // Menus and tooltips show it.
+    // Menus and tooltips show the new key.
     let context = window.harness().ctx.clone();
     assert_eq!(Entry::of(Intent::Mirror).unwrap().shortcut_text(&context), "J");
     assert_eq!(Entry::of(Intent::Dry).unwrap().shortcut_text(&context), "D");
-    // A key that is removed leaves none.
+    // If you remove the only key, none is left.
     window.key(Modifiers::NONE, Key::F1);
     click(&mut window, "remove D of Dry");
     assert_eq!(keys_of(&window, "dry"), Some(Vec::new()));
@@ -74,7 +74,7 @@ fn a_key_of_another_action_is_named_and_taken_only_if_wanted() {
     assert_eq!(keys_of(&window, "wash"), Some(Vec::new()));
     window.key(Modifiers::NONE, Key::W);
     assert!(window.studio().canvas.view.mirror, "W mirrors");
-    // Reserved keys are refused with the reason, and Escape leaves the key.
+    // You cannot use reserved keys and see the reason. Escape leaves the key.
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Space);
     let refused = window.harness().query_by_label_contains("the space bar moves the view");
     assert!(refused.is_some(), "the reason is told");
@@ -161,7 +161,7 @@ fn scenes_have_keys_of_their_own() {
     assert_eq!(Entry::of(Intent::Mirror).unwrap().shortcut_text(&context), "M", "as before");
 }
 
-/// Whether a tooltip that contains `words` comes over one of the controls with this label.
+/// Whether a control with this label shows a tooltip that contains `words`.
 fn tells(window: &mut Window, label: &str, words: &str) -> bool {
     let count = window.harness().query_all_by_label(label).count();
     (0..count).any(|index| {
@@ -211,7 +211,7 @@ fn tooltips_tell_the_keys_in_use() {
     }
 }
 
-/// Rectangle of the window that holds the control with this label, found by its text.
+/// Rectangle of the window that holds the control with this label.
 fn shown(window: &mut Window, label: &str) -> Option<Rect> {
     window.harness().query_by_label(label).map(|node| node.rect())
 }
@@ -294,12 +294,12 @@ fn escape_in_the_name_of_a_set_leaves_the_window_open() {
     assert!(!window.studio().visible.brush_sets, "the second one closes the window");
 }
 
-/// Whether the menu of files is open. The list of keys has lines of that name, but no buttons.
+/// Whether the menu of files is open. The list of keys contains this name too, but not on a button.
 fn is_listed(window: &mut Window) -> bool {
     window.harness().query_by_role_and_label(Role::Button, "Save recording...").is_some()
 }
 
-/// Clicks a menu of the bar; the list of keys has headings of that name.
+/// Clicks a menu of the bar. The list of keys has headings of the same name.
 fn click_menu(window: &mut Window, name: &str) {
     window.harness().get_by_role_and_label(Role::Button, name).click();
     window.harness().step();
@@ -311,7 +311,7 @@ fn a_window_leaves_the_menus_free_and_closes_the_one_that_is_open() {
     let mut window = Window::open("floating-menus");
     window.click("File");
     assert!(is_listed(&mut window), "the menu is open");
-    // Escape belongs to the menu.
+    // The menu gets this Escape.
     window.click("Tubes...");
     window.key(Modifiers::NONE, Key::F1);
     click_menu(&mut window, "File");
@@ -325,7 +325,7 @@ fn a_window_leaves_the_menus_free_and_closes_the_one_that_is_open() {
     let bar = window.harness().get_by_role_and_label(Role::Button, "File").rect();
     let toolbar = window.harness().get_by_role_and_label(Role::Button, "Paint").rect();
     for label in ["Keys", "Choose tubes"] {
-        // The last one is the title; the menus and buttons come before.
+        // The last one is the title. The menus and buttons come before.
         let title = window.harness().get_all_by_label(label).last().unwrap().rect();
         assert!(title.top() > bar.bottom() && title.left() > toolbar.right(), "{label}: {title}");
     }
@@ -346,7 +346,7 @@ fn a_stroke_beside_a_window_reaches_the_canvas() {
     window.settle();
     let painted = window.studio().painting().unwrap().history_done;
     assert_eq!(painted, done + 1, "the stroke was painted");
-    // On the window itself nothing is painted.
+    // You cannot paint on the window itself.
     let inside = shown(&mut window, KEYS).unwrap().center();
     window.pen_stroke(&[inside, pos2(inside.x + 9.0, inside.y)]);
     window.settle();

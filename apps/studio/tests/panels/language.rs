@@ -1,5 +1,5 @@
-//! Tests of the languages: every text of the sources has a translation, and the German window is
-//! whole.
+//! Tests of the languages: every text of the sources has a translation, and you can read all of the
+//! German window.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -105,7 +105,7 @@ fn closing(rest: &str) -> usize {
     panic!("a text has no end: {}", &rest[..rest.len().min(80)]);
 }
 
-/// The text of a literal: escapes are resolved, and a line that goes on is joined.
+/// The text of a literal. This resolves escapes and joins continued lines.
 fn text(literal: &str) -> String {
     let mut found = String::new();
     let mut rest = literal;
@@ -132,7 +132,8 @@ fn text(literal: &str) -> String {
     found + rest
 }
 
-/// Whether a text of a table is shown: it has a word, and is no name such as `save-as`.
+/// Whether you see a text of a table in the window. It has a word, and is not a name, e.g.
+/// `save-as`.
 fn is_shown(text: &str) -> bool {
     let units = ["mm", "cm", "Cmd", "Ctrl", "Shift", "Alt"];
     let mut words = text.split(|letter: char| !letter.is_ascii_alphabetic());
@@ -191,7 +192,7 @@ fn every_text_has_a_german_one() {
     assert!(without.is_empty(), "add to german.json:\n{}", without.join("\n"));
 }
 
-/// A text as it is written in a JSON file.
+/// A text as JSON.
 fn json(text: &str) -> String {
     serde_json::to_string(text).unwrap()
 }
@@ -268,7 +269,7 @@ fn no_german_text_is_cut_in_any_size() {
         let mut window = german_window("german-cut", size);
         for look in [(ThemeChoice::Dark, false), (ThemeChoice::Light, true)] {
             set_look(&mut window, look);
-            // The small window in the dark, the larger ones in the light.
+            // We show the small window in the dark theme and the larger ones in the light theme.
             let save = |window: &mut Window, name: &str| {
                 if look.1 == (size.x > 1300.0) {
                     window.show(name);
@@ -292,7 +293,7 @@ fn no_german_text_is_cut_in_any_size() {
     }
 }
 
-/// Checks that no text is cut, and that nothing that is clicked reaches beyond the window.
+/// Checks that no text is cut, and that everything clickable lies inside the window.
 fn assert_is_whole(window: &mut Window, size: Vec2, place: &str) {
     let cut = cut(window);
     assert!(cut.is_empty(), "{place}: {cut:#?}");
@@ -301,7 +302,6 @@ fn assert_is_whole(window: &mut Window, size: Vec2, place: &str) {
     assert!(beyond.is_empty(), "{place}: {beyond:#?}");
 }
 
-/// All panels of the columns.
 const TABS: [Tab; 8] = [
     Tab::Brush,
     Tab::Layers,
@@ -335,7 +335,7 @@ fn no_german_text_of_a_dialog_is_cut() {
         let before = cut(&mut window);
         window.show(&format!("german-menu-{menu}"));
         assert!(before.is_empty(), "{menu}: {before:#?}");
-        // Left of a control of the panels that has this name.
+        // We want the control left of a control of the panels with this name.
         let named = window.harness().get_all_by_label(entry);
         let left = named.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left()));
         left.unwrap().click();
@@ -354,7 +354,7 @@ fn no_german_text_of_a_scene_is_cut() {
     window.studio_mut().files.preferences.language = Some(Language::German);
     window.settle();
     for tab in ["Ansicht", "Licht", "Hier", "Verlauf", "Export"] {
-        // After the menu of this name.
+        // This label stands after the menu of the same name.
         window.harness().get_all_by_label(tab).last().unwrap().click();
         window.harness().run_ok();
         check(&mut window, tab);

@@ -47,7 +47,7 @@ fn ctrl_click(harness: &mut Panel, label: &str) {
     harness.run();
 }
 
-/// A place of the row of a layer where it has no control: its name.
+/// A place in the row of a layer without a control: its name.
 fn name_at(harness: &Panel, label: &str) -> Pos2 {
     harness.get_by_label(label).rect().left_center() + vec2(4.0, 0.0)
 }
@@ -64,8 +64,8 @@ fn all_or_a_share_dries() {
     harness.run();
     click(&mut harness, "Dry share");
     click(&mut harness, "Dry all");
-    let dry = |fraction| act(Action::Dry { fraction });
-    assert_requests(&mut harness, &[dry(0.35), dry(1.0)]);
+    let dried = [0.35, 1.0].map(|fraction| act(Action::Dry { fraction }));
+    assert_requests(&mut harness, &dried);
 }
 
 #[test]
@@ -81,10 +81,10 @@ fn dragging_the_stiffness_adjusts_and_ends_once() {
     harness.run();
     harness.drop_at(rail.left_center() - vec2(20.0, 0.0));
     harness.run();
-    let stiffness = |value| Request::Worker(Command::Adjust(Action::Stiffness { value }));
+    let soft = Request::Worker(Command::Adjust(Action::Stiffness { value: 0.0 }));
     let requests = std::mem::take(&mut harness.state_mut().requests);
     let [.., last, end] = &requests[..] else { panic!("it adjusts and ends: {requests:?}") };
-    assert_eq!(format!("{last:?}"), format!("{:?}", stiffness(0.0)));
+    assert_eq!(format!("{last:?}"), format!("{soft:?}"));
     assert!(matches!(end, Request::Worker(Command::EndAdjustment)), "{end:?}");
     let slider = harness.get_by_role_and_label(Role::Slider, "Stiffness");
     assert_eq!(slider.accesskit_node().numeric_value(), Some(0.0), "shown before it is reported");
@@ -145,15 +145,14 @@ fn dragging_the_opacity_adjusts_and_ends_once() {
         }
     }
     assert!(values.is_sorted() && values[0] > 0.0 && values[2] < 4.0, "{values:?}");
-    // While the worker lags, the slider shows the requested value and sends nothing
-    // more.
+    // While the worker lags, the slider shows the requested value and sends nothing more.
     harness.drop_at(start + vec2(30.0, 0.0));
     harness.run();
     assert_requests(&mut harness, &[Request::Worker(Command::EndAdjustment)]);
-    let shown = |harness: &Panel| {
+    fn shown(harness: &Panel) -> f64 {
         let slider = harness.get_by_role_and_label(Role::Slider, "opacity of Layer 1");
         slider.accesskit_node().numeric_value().unwrap()
-    };
+    }
     assert_eq!(shown(&harness), values[2]);
     harness.run_steps(90);
     assert_eq!(shown(&harness), 1.0, "the reported value is shown in the end");
@@ -200,7 +199,7 @@ fn a_name_is_edited_by_a_double_click_or_by_f2() {
     assert_requests(&mut harness, &[named("sky")]);
     harness.state_mut().painting.layers[1].name = "sky".to_owned();
     harness.run();
-    // The double click chose it as well, so that F2 edits it again; its text is selected.
+    // The double click also chose the layer, so F2 edits it again with its text selected.
     key(&mut harness, Key::F2);
     harness.get_by_label("name of sky").type_text("water");
     harness.run();
@@ -284,10 +283,10 @@ fn two_chosen_layers_merge() {
     click(&mut harness, "choose Layer 1");
     assert!(is_disabled(&harness, "Merge chosen"), "one is chosen");
     ctrl_click(&mut harness, "choose Layer 3");
-    let chosen = |harness: &Panel, label: &str| {
+    fn chosen(harness: &Panel, label: &str) -> bool {
         harness.get_by_label(label).accesskit_node().toggled() == Some(true.into())
             || harness.get_by_label(label).accesskit_node().is_selected() == Some(true)
-    };
+    }
     assert!(chosen(&harness, "choose Layer 1") && chosen(&harness, "choose Layer 3"));
     assert!(!chosen(&harness, "choose Layer 2"));
     click(&mut harness, "Merge chosen");
@@ -393,8 +392,9 @@ fn undo_and_redo_request_one_step_and_are_disabled_at_the_ends() {
     let mut harness = history(painting());
     click(&mut harness, "Undo");
     click(&mut harness, "Redo");
-    let step = |action| Request::Worker(Command::Apply(action));
-    assert_requests(&mut harness, &[step(Action::Undo {}), step(Action::Redo {})]);
+    let steps =
+        [Action::Undo {}, Action::Redo {}].map(|action| Request::Worker(Command::Apply(action)));
+    assert_requests(&mut harness, &steps);
 
     harness.state_mut().painting.history_done = 4;
     harness.run();
@@ -413,9 +413,9 @@ fn a_long_list_scrolls_to_the_current_entry() {
     long.history = (1..=2000).map(|number| format!("stroke {number}")).collect();
     long.history_done = 1500;
     let mut harness = history(long);
-    let there = |harness: &Harness<'_, Fixture<History>>, place: usize| {
+    fn there(harness: &Harness<'_, Fixture<History>>, place: usize) -> bool {
         harness.query_by_label(&format!("{place} stroke {place}")).is_some()
-    };
+    }
     assert!(there(&harness, 1500), "the current entry is visible");
     assert!(!there(&harness, 1), "invisible rows are not laid out");
     harness.state_mut().painting.history_done = 40;
@@ -489,7 +489,7 @@ fn rows_show_the_canvas_after_their_action_and_hovering_enlarges_it() {
             let at = drawn.get_pixel((rect.left() + x) as u32, (rect.top() + 5.0) as u32).0;
             i32::from(at[0]) - i32::from(at[1])
         };
-        // The third action has no picture, those around it have.
+        // The third action has no picture, the others have one.
         assert!(red("2 stroke, round", 42.0) > 60, "{}", red("2 stroke, round", 42.0));
         assert!(red("3 dry 50 %", 42.0).abs() < 10, "{}", red("3 dry 50 %", 42.0));
     }

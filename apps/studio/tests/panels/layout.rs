@@ -1,5 +1,5 @@
-//! Tests of the window: layout, columns of panels, view, strokes and split view. A window in which
-//! nothing happens draws no frames.
+//! Tests of the window: layout, columns of panels, view, strokes and split view. If nothing
+//! happens, the window draws no frames.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -33,11 +33,14 @@ fn injected_window(name: &'static str, size: Vec2, density: f32) -> Window {
         [(SurfaceId::Canvas, 1920, 1080), (SurfaceId::Palette, 640, 420)]
     {
         let rect = tile::Rect { x: 0, y: 0, width, height };
-        let grey = |x: usize| match surface {
-            SurfaceId::Canvas => [235 - (x / 96) as u8, 232 - (x / 96) as u8, 224, 255],
-            SurfaceId::Palette => [120 + (x % 23) as u8, 84, 52, 255],
-        };
-        let pixels = (0..width * height).map(|at| grey(at % width)).collect();
+        let pixels = (0..width * height)
+            .map(|at| match surface {
+                SurfaceId::Canvas => {
+                    [235 - ((at % width) / 96) as u8, 232 - ((at % width) / 96) as u8, 224, 255]
+                }
+                SurfaceId::Palette => [120 + ((at % width) % 23) as u8, 84, 52, 255],
+            })
+            .collect();
         let tiles = vec![TilePixels { rect, pixels }];
         studio.handle_event(Event::Tiles { surface, second: false, tiles, newest: None });
     }
@@ -133,7 +136,7 @@ fn the_view_follows_drag_wheel_and_held_keys() {
     window.harness().key_up(Key::Space);
     window.harness().step();
 
-    // A tool key held during use restores the previous tool on release.
+    // If you use a tool while you hold its key, the previous tool returns when you release it.
     window.harness().key_down(Key::Z);
     window.harness().step();
     assert_eq!(window.studio().tools.mode, Mode::Zoom);
@@ -143,7 +146,7 @@ fn the_view_follows_drag_wheel_and_held_keys() {
     window.harness().key_up(Key::Z);
     window.harness().step();
     assert_eq!(window.studio().tools.mode, Mode::Paint);
-    // A short press selects the tool.
+    // If you press the key shortly, the tool stays.
     window.key(Modifiers::NONE, Key::I);
     assert_eq!(window.studio().tools.mode, Mode::Pick);
 
@@ -206,7 +209,6 @@ fn loaded(name: &'static str) -> Window {
     window
 }
 
-/// Paints a stroke from left to right through the centre of the canvas.
 fn stroke(window: &mut Window) {
     let along: Vec<Pos2> = (0..=40)
         .map(|at| window.point(SurfaceId::Canvas, 8.0 + 0.4 * f64::from(at), 10.0))
@@ -325,7 +327,6 @@ fn is_shown(window: &mut Window, label: &str) -> bool {
     window.harness().query_by_label(label).is_some()
 }
 
-/// Drags from one point to another in five frames.
 fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.frame(vec![UiEvent::PointerMoved(from)]);
     window.frame(vec![button(from, true)]);
@@ -338,7 +339,7 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.harness().run_ok();
 }
 
-/// A window of 1440 x 1000 points, in which both groups are open.
+/// A window of 1440 x 1000 points, with both groups open.
 fn tall(name: &'static str) -> Window {
     Window::sized(name, vec2(1440.0, 1000.0), 1.0)
 }
@@ -354,7 +355,7 @@ fn a_tab_is_dragged_to_the_other_side_and_remembered() {
     assert!(moved.right() < 400.0, "the panel is at the left: {moved}");
     assert!(rect(&mut window, "Colour").left() > 1000.0, "the others stay");
     assert!(window.studio().canvas.rect().left() > canvas.left() + 200.0, "the canvas yields");
-    // The arrangement is in the preferences, and another window starts with it.
+    // The preferences keep the arrangement, and another window starts with it.
     let kept = window.studio().files.preferences.arrangement.clone();
     let text = serde_json::to_string(&kept).unwrap();
     assert!(text.contains("light"), "{text}");
@@ -439,12 +440,12 @@ fn columns_and_the_palette_are_resized_at_their_edges() {
     window.save("docking-resized");
 }
 
-/// Time after the last frame at which the window wants another one.
+/// Delay until the next frame that the window asks for.
 fn next_frame(window: &mut Window) -> Duration {
     window.harness().output().viewport_output[&ViewportId::ROOT].repaint_delay
 }
 
-/// Draws frames for as many seconds of the window's clock.
+/// Draws frames for this many seconds of the window's clock.
 fn pass(window: &mut Window, seconds: usize) {
     window.harness().run_steps(60 * seconds);
 }

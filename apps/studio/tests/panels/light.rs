@@ -23,7 +23,6 @@ fn stage(painting: PaintingState) -> PanelWindow<LightPanel> {
     PanelWindow::new(LightPanel::default(), vec2(300.0, 660.0), painting, LightPanel::show)
 }
 
-/// Lighting of the only queued command.
 fn queued_lighting(stage: &mut PanelWindow<LightPanel>) -> Lighting {
     let commands = stage.commands();
     let [Command::Apply(Action::Light(lighting))] = &commands[..] else {
@@ -146,7 +145,7 @@ fn dragging_the_direction_adjusts_and_ends_on_release() {
     assert!(lights.iter().any(|light| light.azimuth_deg == 90.0), "{lights:?}");
     let last = lights[lights.len() - 1];
     assert_eq!(last.azimuth_deg, 180.0);
-    // The radius of the drawn hemisphere is 48 points.
+    // The drawn hemisphere has a radius of 48 points.
     assert!((last.elevation_deg - (30.0_f64 / 48.0).acos().to_degrees()).abs() < 0.1, "{last:?}");
     let undirected = Lighting { azimuth_deg: 0.0, elevation_deg: 0.0, ..last.clone() };
     let before = &stage.state().painting.lighting;
@@ -234,7 +233,7 @@ fn wet_and_dry_gloss_are_dragged() {
         let corner = Gloss { strength: 1.0, exponent: 500.0 };
         let wanted = if is_wet { (corner, medium.dry) } else { (medium.wet, corner) };
         assert_eq!((*wet, *dry), wanted, "{name}");
-        // The worker keeps reporting the old value.
+        // The worker still reports the old value.
         stage.wait(3.5);
     }
 }
@@ -336,7 +335,6 @@ fn wait_for(window: &mut Window, label: &str) {
     panic!("there is no {label}");
 }
 
-/// A file dropped by the window system.
 #[derive(Debug)]
 struct Dropped(PathBuf);
 
@@ -439,10 +437,10 @@ fn the_pigment_whose_whole_name_was_typed_is_taken_by_enter() {
     let mut window = Window::open("searched-pigment");
     window.studio_mut().tools.tube = 7;
     window.click("Tubes...");
-    let name = |window: &Window| {
+    fn name(window: &Window) -> String {
         let painting = window.studio().painting().unwrap();
         painting.library[painting.slots[7].unwrap()].name.clone()
-    };
+    }
     assert_eq!(name(&window), "Bone Black");
     window.harness().get_by_label("Search").focus();
     window.harness().step();
@@ -507,14 +505,14 @@ fn a_key_asks_the_system_for_full_screen_and_back() {
     let mut press = |full: bool| {
         let viewport = window.harness().input_mut().viewports.entry(ViewportId::ROOT).or_default();
         viewport.fullscreen = Some(full);
-        let key = |pressed| Event::Key {
+        let keys = [true, false].map(|pressed| Event::Key {
             key: Key::F11,
             physical_key: None,
             pressed,
             repeat: false,
             modifiers: Modifiers::NONE,
-        };
-        window.frame(vec![key(true), key(false)]);
+        });
+        window.frame(keys.to_vec());
         window.harness().output().viewport_output[&ViewportId::ROOT].commands.clone()
     };
     assert!(press(false).contains(&ViewportCommand::Fullscreen(true)));

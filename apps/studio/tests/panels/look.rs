@@ -17,7 +17,6 @@ use super::fixture::{SeenText, Target, targets, texts};
 use super::harness::Window;
 use super::volumes::scene;
 
-/// All panels of the columns.
 pub(super) const TABS: [Tab; 8] = [
     Tab::Brush,
     Tab::Layers,
@@ -29,10 +28,9 @@ pub(super) const TABS: [Tab; 8] = [
     Tab::Files,
 ];
 
-/// Sizes of windows, in points.
 const SIZES: [Vec2; 3] = [vec2(1280.0, 800.0), vec2(1440.0, 1000.0), vec2(1920.0, 1080.0)];
 
-/// Themes, and whether everything is to be touched.
+/// Themes, and whether the window is in touch mode.
 const LOOKS: [(ThemeChoice, bool); 4] = [
     (ThemeChoice::Dark, false),
     (ThemeChoice::Light, false),
@@ -104,7 +102,7 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
         let mut window = Window::sized("whole-brush-panel", size, 1.0);
         for look in LOOKS {
             set_look(&mut window, look);
-            // Whichever panel was used last, the spectral curve yields.
+            // The spectral curve makes room for any panel that was used last.
             show(&mut window, Tab::Light);
             show(&mut window, Tab::Brush);
             let heads = ["Fold Light", "Unfold Light"];
@@ -133,7 +131,8 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
     for look in [(ThemeChoice::Dark, false), (ThemeChoice::Light, false)] {
         set_look(&mut window, look);
         show(&mut window, Tab::Brush);
-        // With paint there are numbers above; without, the panel is shorter, and Light stays open.
+        // If there is paint, numbers stand above. If not, the panel is shorter, and Light stays
+        // open.
         for key in [Key::D, Key::W] {
             window.click("Load brush");
             window.key(Modifiers::NONE, key);
@@ -143,7 +142,7 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
             window.show(&format!("whole-tip-{key:?}"));
             assert!(tip.bottom() < below.top(), "{look:?} {key:?}: {tip} {below}");
         }
-        // Settings of a tool take the place of the numbers of the film.
+        // The settings of a tool replace the numbers of the film.
         window.click("Load brush");
         for mode in [Mode::Blend, Mode::Scrape, Mode::Erase] {
             window.studio_mut().tools.mode = mode;
@@ -172,17 +171,16 @@ fn words_stand_in_the_middle_of_high_buttons() {
 
 #[test]
 fn palette_and_tubes_grow_with_the_window() {
-    let sizes = |size| {
+    let [small, large] = [SIZES[0], SIZES[2]].map(|size| {
         let mut window = Window::sized("growing", size, 1.0);
-        let mut rect = |label| window.harness().get_by_label(label).rect();
-        [rect("Palette").size(), rect("tube of Vermilion").size()]
-    };
-    let [small, large] = [sizes(SIZES[0]), sizes(SIZES[2])];
+        ["Palette", "tube of Vermilion"]
+            .map(|label| window.harness().get_by_label(label).rect().size())
+    });
     assert!(large[0].y > 1.25 * small[0].y, "the palette: {small:?} {large:?}");
     assert!(large[1].y > 1.25 * small[1].y, "the tubes: {small:?} {large:?}");
 }
 
-/// Colour that most pixels of a rectangle have.
+/// The most frequent colour of a rectangle.
 fn background(picture: &RgbaImage, rect: Rect) -> [u8; 3] {
     let mut counts: std::collections::BTreeMap<[u8; 3], usize> = std::collections::BTreeMap::new();
     for y in rect.top().max(0.0) as u32..(rect.bottom() as u32).min(picture.height()) {
@@ -219,7 +217,7 @@ fn all_text_on_the_screen_has_a_contrast_of_seven() {
     }
 }
 
-/// Targets that may be smaller, and why.
+/// Targets that can be smaller, with the reason.
 const SMALLER: [(&str, &str); 4] = [
     ("Close window", "the window's own button; Escape and a click elsewhere close it too"),
     ("Height of ", "edges are dragged, not clicked; folding does without them"),
@@ -227,14 +225,17 @@ const SMALLER: [(&str, &str); 4] = [
     ("Target colour", "it shows a colour and does nothing when it is clicked"),
 ];
 
-/// Targets that are smaller than a finger.
+/// Targets smaller than a finger.
 pub(super) fn small(window: &mut Window) -> Vec<Target> {
     let all = targets(&window.harness().root());
     assert!(all.len() > 20, "{} targets", all.len());
     let least = theme::TOUCH_TARGET - 0.5;
-    let is_small = |target: &Target| target.size.x < least || target.size.y < least;
-    let excused = |target: &Target| SMALLER.iter().any(|(name, _)| target.name.starts_with(name));
-    all.into_iter().filter(|target| is_small(target) && !excused(target)).collect()
+    all.into_iter()
+        .filter(|target| {
+            (target.size.x < least || target.size.y < least)
+                && !SMALLER.iter().any(|(name, _)| target.name.starts_with(name))
+        })
+        .collect()
 }
 
 #[test]
@@ -249,7 +250,7 @@ fn everything_that_is_touched_is_44_points_wide_and_high() {
         window.studio_mut().ask(Command::Apply(action));
     }
     let layers = |window: &Window| window.studio().painting().map_or(0, |p| p.layers.len());
-    // On a busy machine its picture comes after the answers.
+    // On a busy machine this picture comes after the answers.
     for _ in 0..20 {
         window.settle();
         if layers(&window) > 0 {
@@ -304,14 +305,14 @@ fn scenes_have_the_same_theme_and_targets() {
 #[test]
 fn the_menu_changes_theme_targets_and_scale_at_once() {
     let mut window = Window::open("look-menu");
-    let choose = |window: &mut Window, entry: &str| {
+    fn choose(window: &mut Window, entry: &str) {
         window.open_menu("View");
         let entry = window.harness().query_all_by_label_contains(entry).last();
-        // It may be scrolled out of view.
+        // The entry may be out of view.
         entry.expect("an entry of the menu").click_accesskit();
         window.harness().step();
         window.harness().run_ok();
-    };
+    }
     choose(&mut window, "Light theme");
     assert_eq!(window.harness().ctx.theme(), Theme::Light);
     choose(&mut window, "Dark theme");
@@ -349,7 +350,7 @@ fn nothing_is_cut_at_any_scale_of_any_screen() {
     }
 }
 
-/// A window over the canvas: its name, a label that is seen while it is open, and how it is opened.
+/// A window over the canvas: its name, a label that you see while it is open, and how to open it.
 type Over = (&'static str, &'static str, fn(&mut Window));
 
 const OVER: [Over; 7] = [
@@ -364,7 +365,7 @@ const OVER: [Over; 7] = [
     }),
 ];
 
-/// Opens a window over the canvas and waits for what it reads.
+/// Opens a window over the canvas and waits until it has read its files.
 fn open(window: &mut Window, (name, label, opens): Over) {
     opens(window);
     window.settle();
@@ -416,7 +417,7 @@ fn every_character_over_the_canvas_has_a_glyph() {
     }
 }
 
-/// Texts that were drawn in the last frame, with the family of their font.
+/// Collects the texts of the last frame, with the family of their font.
 fn drawn(shape: &Shape, texts: &mut BTreeSet<(FontFamily, String)>) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| drawn(shape, texts)),
@@ -442,8 +443,7 @@ pub(super) fn drawn_texts(window: &mut Window) -> BTreeSet<(FontFamily, String)>
     texts
 }
 
-/// Checks what is shown now: drawn texts, and the names for screen readers. Returns the number of
-/// texts.
+/// Checks all drawn texts and all names for screen readers. Returns the number of texts.
 pub(super) fn check(window: &mut Window, place: &str) -> usize {
     let mut texts = drawn_texts(window);
     let nodes = window.harness().query_all_by(|_| true);
@@ -477,7 +477,7 @@ fn check_menus(window: &mut Window) {
 #[test]
 fn a_chosen_entry_has_a_tick_that_is_drawn() {
     let mut window = Window::open("ticks");
-    let lines = |window: &mut Window| {
+    fn lines(window: &mut Window) -> (usize, String) {
         window.harness().get_all_by_label("View").next().unwrap().click();
         window.harness().run_ok();
         let entry = window.harness().get_by_role_and_label(Role::CheckBox, "Mirror");
@@ -491,7 +491,7 @@ fn a_chosen_entry_has_a_tick_that_is_drawn() {
         let found = (ticks.count(), format!("{chosen:?}"));
         window.key(Modifiers::NONE, Key::Escape);
         found
-    };
+    }
     let plain = lines(&mut window);
     window.key(Modifiers::NONE, Key::M);
     let ticked = lines(&mut window);
@@ -520,7 +520,7 @@ fn every_character_of_the_workspace_of_scenes_has_a_glyph() {
     let mut window = scene("glyphs-of-scenes");
     check_menus(&mut window);
     for tab in ["View", "Light", "Here", "Events", "Export"] {
-        // After the menu of this name.
+        // This label stands after the menu of the same name.
         window.harness().get_all_by_label(tab).last().unwrap().click();
         window.harness().run_ok();
         check(&mut window, tab);

@@ -24,7 +24,6 @@ use web_time::{Duration, Instant};
 
 use super::harness::{has_adapter, keep};
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Four panels side by side, and a worker.
@@ -95,7 +94,6 @@ impl Studio {
     }
 }
 
-/// A simulated painter who operates the panels.
 struct Painter {
     harness: Harness<'static, Studio>,
     fences: u64,
@@ -114,7 +112,6 @@ impl Painter {
         painter
     }
 
-    /// Waits until the worker has executed all commands.
     fn settle(&mut self) {
         self.harness.step();
         self.fences += 1;
@@ -132,8 +129,8 @@ impl Painter {
         self.harness.run();
     }
 
-    /// Waits until the reported painting satisfies `is`. The worker answers before it
-    /// has measured everything.
+    /// Waits until the reported painting satisfies `is`. The worker answers before it has measured
+    /// everything.
     #[track_caller]
     fn wait_until(
         &mut self,
@@ -168,7 +165,7 @@ impl Painter {
         self.settle();
     }
 
-    /// Clicks a row of a list, even if it is scrolled out of view.
+    /// Clicks a row of a list, even if you must scroll to see it.
     fn choose(&mut self, label: &str) {
         self.harness.get_by_label(label).click_accesskit();
         self.harness.run();
@@ -182,7 +179,6 @@ impl Painter {
         self.settle();
     }
 
-    /// Squeezes the selected tube.
     fn squeeze(&mut self, on: SurfaceId, x_mm: f64, y_mm: f64) {
         let Studio { painting, tools, requests, .. } = self.harness.state_mut();
         let painting = painting.clone().unwrap();
@@ -225,7 +221,6 @@ impl Painter {
         painting.brushes.iter().find(|brush| brush.name == name).unwrap().clone()
     }
 
-    /// Share of a pigment in the paint of a brush.
     fn part(&self, brush: &str, pigment: &str) -> f64 {
         let painting = self.painting();
         let index = painting.library.find(pigment).unwrap();
@@ -241,7 +236,6 @@ impl Painter {
     }
 }
 
-/// Whether two amounts are equal up to the rounding to quanta.
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.01
 }
@@ -287,7 +281,7 @@ fn a_brush_is_loaded_thinned_wiped_duplicated_and_resized() {
     painter.click("Medium only");
     painter.wait_until_brush("round", is(0.6, 0.6));
 
-    // The larger head keeps the paint.
+    // A larger head keeps the paint.
     painter.slide("Size", 9.0);
     let larger =
         painter.wait_until_brush("round", |brush| brush.spec.size_mm == 9.0 && is(0.6, 0.6)(brush));
@@ -323,7 +317,7 @@ fn dried_layers_are_dimmed_merged_and_undone() {
     }
     painter.save("painter");
 
-    // A drag is one action with the value at its end.
+    // A drag is one action with its final value.
     let before = painting.history.len();
     let rail = painter.harness.get_by_role_and_label(Role::Slider, "opacity of Layer 1");
     let start = rail.rect().left_center() + vec2(30.0, 0.0);
@@ -383,7 +377,7 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     painter.stroke(SurfaceId::Canvas, (6.0, 6.0), (26.0, 12.0));
     painter.wait_until("a stroke", |painting| painting.history.len() == 1);
 
-    // A slot whose paint is still wet cannot be changed.
+    // You cannot change a slot while its paint is wet.
     let slots = painter.painting().slots;
     painter.click("Tubes...");
     painter.click("slot 4");
@@ -397,7 +391,7 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     assert!(text.contains("Vermilion") && hint.is_some(), "{text}, {hint:?}");
     assert_eq!(painter.painting().slots, slots, "the slot is unchanged");
 
-    // Another slot can be changed.
+    // You can change another slot.
     painter.click("slot 5");
     painter.choose("Cobalt Blue");
     let mut wanted = slots;
@@ -405,7 +399,7 @@ fn tubes_change_without_wet_paint_and_exchange_in_the_painting() {
     painter.wait_until("Cobalt Blue in slot 5", |painting| painting.slots == wanted);
     painter.click("Close window");
 
-    // Exchange in the painting, wet and dry.
+    // This exchanges the pigment in the painting, wet and dry.
     painter.slide("Share", 50.0);
     painter.click("Dry share");
     painter.wait_until("a dry layer", |painting| painting.layers.len() == 1);

@@ -19,20 +19,26 @@ use web_time::{Duration, Instant};
 
 use super::harness::{Window, button};
 
-/// Pointer state at a position of the canvas, in mm.
+/// Draws a frame with this report of a pen.
+pub(crate) fn report(window: &mut Window, kind: ReportKind) {
+    let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
+    window.studio_mut().pen.feed(report);
+    window.frame(Vec::new());
+}
+
 fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
     let at = window.point(SurfaceId::Canvas, x_mm, y_mm);
     PointerState { at, pressure: Some(pressure), tilt_deg: Some((15.0, 5.0)), twist_deg: Some(0.0) }
 }
 
-/// Plays a stroke of a loaded brush from x = 6 to 26 mm with 200 reports per second in
-/// frames of 20 ms. Returns its end in the window.
+/// Plays a stroke of a loaded brush from x = 6 to 26 mm, with 200 reports per second in frames of
+/// 20 ms. Returns its end in the window.
 fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     window.click("Load brush");
     draw(window, y_mm, pressure)
 }
 
-/// Plays such a stroke of the tool in use.
+/// Like [`stroke`], with the tool in use.
 pub(crate) fn draw(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     let places = (0..60).map(|step| 6.0 + f64::from(step) / 3.0);
     let holds: Vec<PointerState> = places.map(|x_mm| hold(window, x_mm, y_mm, pressure)).collect();
@@ -56,8 +62,9 @@ fn painted(window: &Window, before: &RgbaImage, after: &RgbaImage, y_mm: f64) ->
     let [from, to] = [y_mm - 4.0, y_mm + 4.0].map(|y| window.point(SurfaceId::Canvas, 2.0, y));
     let right = window.point(SurfaceId::Canvas, 30.0, y_mm).x as u32;
     let rows = from.y as u32..to.y as u32;
-    let differs = |&(x, y): &(u32, u32)| before.get_pixel(x, y) != after.get_pixel(x, y);
-    rows.flat_map(|y| (from.x as u32..right).map(move |x| (x, y))).filter(differs).count()
+    rows.flat_map(|y| (from.x as u32..right).map(move |x| (x, y)))
+        .filter(|&(x, y)| before.get_pixel(x, y) != after.get_pixel(x, y))
+        .count()
 }
 
 #[test]
@@ -85,7 +92,7 @@ fn more_pressure_paints_a_broader_stroke() {
 fn mouse_events_emulated_for_a_pen_make_no_second_stroke() {
     let mut window = Window::open("pen-mouse");
     let end = stroke(&mut window, 5.0, 0.5);
-    // The mouse events of the pen arrive late, because they come over another connection.
+    // The mouse events of the pen arrive late, because they use another connection.
     window.frame(vec![Event::PointerMoved(end), button(end, true)]);
     assert!(!window.studio().pen.is_down(), "the pen is near");
     window.frame(vec![button(end, false)]);
@@ -113,7 +120,6 @@ fn open(name: &'static str) -> Window {
     window
 }
 
-/// Drags the mouse from one point of the window to another.
 fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.frame(vec![Event::PointerMoved(from)]);
     window.frame(vec![button(from, true)]);
@@ -133,7 +139,7 @@ fn points_of_the_curve_are_added_dragged_and_removed() {
     let mut window = open("pen-curve");
     let plot = window.harness().get_by_label("Pressure curve").rect();
     window.click("Linear");
-    // A click adds a point, and dragging moves it.
+    // You click to add a point, and drag to move it.
     drag(&mut window, plot.center() + vec2(0.0, 30.0), plot.center() + vec2(0.0, 50.0));
     let [_, [x, y], _] = points(&window)[..] else { panic!("{:?}", points(&window)) };
     assert!((x - 0.5).abs() < 0.02 && (0.2..0.3).contains(&y), "{x} {y}");
@@ -143,25 +149,22 @@ fn points_of_the_curve_are_added_dragged_and_removed() {
     assert!(x > 0.6 && moved > y, "{x} {moved}");
     assert!(window.studio().pen.settings.curve.at(0.5) < 0.5, "the pen uses it");
     window.save("pen-curve");
-    // Arrow keys move the point that has the focus.
+    // Arrow keys move the focused point.
     window.harness().get_by_label("curve point 2").focus();
     window.harness().step();
     window.key(Modifiers::NONE, Key::ArrowUp);
     assert!((points(&window)[1][1] - moved - 0.02).abs() < 1e-9, "{:?}", points(&window));
-    // Dragged out of the field it goes; the last two stay.
+    // If you drag a point out of the field, it is removed. The last two stay.
     let point = window.harness().get_by_label("curve point 2").rect().center();
     drag(&mut window, point, plot.left_bottom() + vec2(-60.0, 90.0));
     assert_eq!(points(&window).len(), 2);
     let point = window.harness().get_by_label("curve point 2").rect().center();
     let modifiers = Modifiers::NONE;
-    let secondary = |pressed| {
-        let pos = point;
-        let button = PointerButton::Secondary;
-        Event::PointerButton { pos, button, pressed, modifiers }
-    };
     window.frame(vec![Event::PointerMoved(point)]);
-    window.frame(vec![secondary(true)]);
-    window.frame(vec![secondary(false)]);
+    for pressed in [true, false] {
+        let button = PointerButton::Secondary;
+        window.frame(vec![Event::PointerButton { pos: point, button, pressed, modifiers }]);
+    }
     assert_eq!(points(&window).len(), 2, "two must stay");
     window.click("Firm");
     assert_eq!(window.studio().files.preferences.pen.curve, PressureCurve::FIRM);
@@ -188,11 +191,6 @@ fn the_test_field_shows_the_pressure_after_the_curve() {
     let mut window = open("pen-field");
     window.click("Firm");
     let field = window.harness().get_by_label("Test field").rect();
-    let report = |window: &mut Window, kind| {
-        let report = Report { device: Device::Pen, arrived: Instant::now(), kind };
-        window.studio_mut().pen.feed(report);
-        window.frame(Vec::new());
-    };
     for step in 0..=20_u8 {
         let at = field.left_center() + vec2(10.0 + 10.0 * f32::from(step), 0.0);
         let state =
@@ -200,7 +198,7 @@ fn the_test_field_shows_the_pressure_after_the_curve() {
         let kind = if step == 0 { ReportKind::Pressed(state) } else { ReportKind::Moved(state) };
         report(&mut window, kind);
     }
-    // 0.5 to the power of 1.6.
+    // The value is 0.5 to the power of 1.6.
     assert!(window.harness().query_by_label("pen 0.50, brush 0.33").is_some(), "the live mark");
     window.save("pen-field");
     report(&mut window, ReportKind::Released);
@@ -305,7 +303,7 @@ fn a_recorded_stabilised_stroke_replays_to_the_bit() {
         WorkerEvent::Recording { script, .. } => Some(script),
         _ => None,
     });
-    // The brush leaves out most of the wave.
+    // The brush skips most of the wave.
     let Some(Action::Stroke(stroke)) = recorded.actions.last() else { panic!("{recorded:?}") };
     let ys = stroke.samples.iter().filter(|at| at.x_mm > 8.0 && at.x_mm < 26.0).map(|at| at.y_mm);
     let swing = ys.clone().fold(f64::MIN, f64::max) - ys.fold(f64::MAX, f64::min);
@@ -325,7 +323,6 @@ fn history(window: &Window) -> Vec<String> {
     window.studio().painting().map(|painting| painting.history.clone()).unwrap_or_default()
 }
 
-/// Text of the status line with its hint.
 fn message(window: &Window) -> String {
     let message = window.studio().message().expect("a message is shown");
     format!("{}: {}", message.text, message.hint.as_deref().unwrap_or_default())
@@ -337,11 +334,11 @@ fn tools_of_the_toolbar_work_the_wet_paint_and_the_status_line_tells_what_they_t
     window.click("Load brush");
     draw(&mut window, 8.0, 0.6);
     window.settle();
-    let brush = |window: &Window| {
+    fn brush(window: &Window) -> session::BrushState {
         let painting = window.studio().painting().expect("a painting is open");
         let name = &window.studio().tools.brush;
         painting.brushes.iter().find(|brush| brush.name == *name).expect("it is listed").clone()
-    };
+    }
     let loaded = brush(&window);
     for (key, tool, wanted) in [
         (Key::N, "blend", "of paint wiped off the head: "),
@@ -381,10 +378,10 @@ fn a_tool_over_dry_paint_alone_says_that_there_was_no_wet_paint() {
 #[test]
 fn the_brush_tab_shows_the_settings_of_the_tool() {
     let mut window = Window::sized("working-settings", vec2(1920.0, 1080.0), 1.0);
-    let shown = |window: &mut Window, label: &str| {
+    fn shown(window: &mut Window, label: &str) -> bool {
         use egui_kittest::kittest::Queryable;
         window.harness().query_all_by_label(label).next().is_some()
-    };
+    }
     assert!(!shown(&mut window, "Strength") && !shown(&mut window, "Height"));
     for (tool, label) in [("Blend", "Strength"), ("Erase", "Strength"), ("Scrape", "Height")] {
         window.click(tool);
@@ -427,7 +424,7 @@ fn covered(window: &Window) -> Option<f64> {
 fn the_pen_draws_masks_which_the_brush_tab_inverts_and_takes_off() {
     let mut window = Window::open("working-mask");
     window.key(Modifiers::NONE, Key::K);
-    // Half of the 32 x 20 mm as a triangle.
+    // This triangle is half of the 32 x 20 mm.
     drag_with(
         &mut window,
         &[(0.0, 0.0), (16.0, 0.0), (32.0, 0.0), (16.0, 10.0), (0.0, 20.0)],
@@ -435,7 +432,7 @@ fn the_pen_draws_masks_which_the_brush_tab_inverts_and_takes_off() {
     );
     let triangle = covered(&window).expect("a mask is set");
     assert!((triangle - 0.5).abs() < 0.02, "{triangle}");
-    // A quarter as a rectangle.
+    // This rectangle is a quarter.
     drag_with(&mut window, &[(8.0, 5.0), (12.0, 14.0), (24.0, 15.0)], Modifiers::SHIFT);
     let rectangle = covered(&window).expect("another mask is set");
     assert!((rectangle - 0.75).abs() < 0.02, "{rectangle}");

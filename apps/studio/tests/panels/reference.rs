@@ -65,7 +65,6 @@ fn click(stage: &mut PanelWindow<Reference>, place: Pos2) {
     stage.run();
 }
 
-/// Picked colour as 8-bit sRGB.
 fn wanted(stage: &mut PanelWindow<Reference>) -> Option<[u8; 3]> {
     stage.state().tools.reference_color.take().map(|linear| Rgb(linear).encoded().to_bytes())
 }
@@ -89,7 +88,7 @@ fn a_click_picks_the_color_shown_there() {
 
 #[test]
 fn pictures_of_every_format_have_their_colors() {
-    // JPEG rounds.
+    // JPEG rounds values.
     for (name, off) in [("kind.tif", 0), ("kind.webp", 0), ("kind.jpg", 4)] {
         let mut stage = stage(name);
         for (field, (x, y)) in
@@ -126,11 +125,10 @@ fn the_mean_over_the_radius_is_in_linear_light() {
     let middle = at(&stage, 0.5, 0.25);
     click(&mut stage, middle);
     let found = stage.state().tools.reference_color.take().unwrap();
-    let linear = |bytes: [u8; 3]| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0;
-    let left = linear(FIELDS[0]);
-    let right = linear(FIELDS[1]);
+    let [left, right] = [FIELDS[0], FIELDS[1]]
+        .map(|bytes| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0);
     for ((found, left), right) in found.iter().zip(left).zip(right) {
-        // Equal numbers of pixels on both sides, except at the rim.
+        // Both sides have equal numbers of pixels, except at the rim.
         let share = (found - left) / (right - left);
         assert!((share - 0.5).abs() < 0.15, "{share}");
     }
@@ -166,7 +164,7 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
     stage.wait(1.0);
     click(&mut stage, about);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "zooming keeps the position under the pointer");
-    // The boundary was 20 pixels to the right and is farther away after zooming.
+    // The boundary was 20 pixels to the right. After zooming it is farther away.
     let right = about + vec2(30.0, 0.0);
     click(&mut stage, right);
     assert_eq!(wanted(&mut stage), Some(FIELDS[0]), "still the same field after zooming");
@@ -179,12 +177,14 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
 }
 
 fn drag_middle(stage: &mut PanelWindow<Reference>, from: Pos2, by: Vec2) {
-    let button = |pos: Pos2, pressed: bool| Event::PointerButton {
-        pos,
-        button: PointerButton::Middle,
-        pressed,
-        modifiers: Default::default(),
-    };
+    fn button(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Middle,
+            pressed,
+            modifiers: Default::default(),
+        }
+    }
     stage.harness.hover_at(from);
     stage.harness.event(button(from, true));
     stage.harness.hover_at(from + by / 2.0);
@@ -229,17 +229,18 @@ fn an_unreadable_picture_shows_an_error_with_its_name() {
     assert!(text.contains("broken.png") && text.contains("PNG, JPEG, TIFF or WebP"), "{text}");
 }
 
-/// Width and height of the picture.
 const SIZE: [f64; 2] = [800.0, 400.0];
 
 type Stage = PanelWindow<Reference>;
 
-/// A panel with a picture of stripes.
 fn drawing_panel(name: &str) -> (Stage, PathBuf) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let stripe = |x: u32, y: u32| if (x + y / 3) % 24 < 12 { [196, 150, 80] } else { [90, 70, 60] };
     let [width, height] = SIZE.map(|side| side as u32);
-    RgbImage::from_fn(width, height, |x, y| Pixel(stripe(x, y))).save(&path).unwrap();
+    RgbImage::from_fn(width, height, |x, y| {
+        Pixel(if (x + y / 3) % 24 < 12 { [196, 150, 80] } else { [90, 70, 60] })
+    })
+    .save(&path)
+    .unwrap();
     let panel = Reference::default();
     let mut stage = Stage::new(panel, vec2(460.0, 520.0), made_painting(), Reference::show);
     let context = stage.harness.ctx.clone();
@@ -264,7 +265,7 @@ fn draw(stage: &mut Stage, places: &[[f64; 2]]) {
     stage.drag(&along);
 }
 
-/// The drawing that a click on this button asks to save.
+/// The drawing that this button asks to save.
 fn drawn(stage: &mut Stage, button: &str) -> DrawnFile {
     stage.click(button);
     match &stage.requests()[..] {
@@ -342,7 +343,7 @@ fn a_zoomed_and_mirrored_picture_gives_the_same_places() {
     let zoom = 2.0_f32.exp()
         * (drawing_place(&stage, [401.0, 200.0]) - drawing_place(&stage, [400.0, 200.0])).x;
     let middle = drawing_place(&stage, [400.0, 200.0]);
-    // To the left on the screen, so to the right in the mirrored picture.
+    // This goes left on the screen, so right in the mirrored picture.
     stage.drag(&[middle, middle + zoom * vec2(-50.0, 20.0)]);
     let points = scribble(&marks(&mut stage).samples[0].area).to_vec();
     assert!(near(points[0], [400.0, 200.0]) && near(points[1], [450.0, 220.0]), "{points:?}");
@@ -368,7 +369,7 @@ fn spacing_is_drawn_or_clicked_for_the_selected_sample() {
     assert!(near(found.samples[0].spacing.unwrap()[0], [150.0, 110.0]), "{found:?}");
     assert!(shows(&stage, "24.0 px") || shows(&stage, "23.9 px") || shows(&stage, "24.1 px"));
     stage.save("reference-spacing");
-    // A click selects the sample below it.
+    // Click the sample below to select it.
     stage.click("Scribble");
     draw(&mut stage, &[[200.0, 100.0], [200.0, 100.0]]);
     stage.click("Spacing");
@@ -399,7 +400,7 @@ fn samples_are_renamed_and_deleted() {
     for y in [100.0, 200.0, 300.0] {
         draw(&mut stage, &[[100.0, y], [300.0, y]]);
     }
-    let rename = |stage: &mut Stage, index: usize, name: &str| {
+    fn rename(stage: &mut Stage, index: usize, name: &str) {
         let role = eframe::egui::Role::TextInput;
         stage.harness.get_all_by_role(role).nth(index).unwrap().focus();
         stage.run();
@@ -409,13 +410,13 @@ fn samples_are_renamed_and_deleted() {
         stage.run();
         stage.harness.key_press(Key::Enter);
         stage.run();
-    };
+    }
     rename(&mut stage, 0, "sky");
     rename(&mut stage, 1, "sky");
     stage.click("Delete sample 3");
-    let names = |stage: &mut Stage| -> Vec<String> {
+    fn names(stage: &mut Stage) -> Vec<String> {
         marks(stage).samples.into_iter().map(|mark| mark.name).collect()
-    };
+    }
     assert_eq!(names(&mut stage), ["sky", "sample 2"], "a name is used once");
     stage.click("Undo mark");
     assert_eq!(names(&mut stage), ["sky", "sample 2", "sample 3"], "it is back");

@@ -1,5 +1,5 @@
-//! Fingers and narrow windows: taps of several undo and redo, two of them move the view, and the
-//! panels of a narrow window lie on a sheet over the canvas.
+//! Fingers and narrow windows: taps of several fingers undo and redo, two fingers move the view,
+//! and the panels of a narrow window lie on a sheet over the canvas.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ fn touch(id: u64, phase: TouchPhase, pos: Pos2) -> Event {
     Event::Touch { device_id, id, phase, pos, force: Some(0.5) }
 }
 
-/// The events of a finger as the window system sends them: the first one is a mouse, too.
+/// The events of a finger as the window system sends them. The first finger is a mouse too.
 fn finger(id: u64, phase: TouchPhase, pos: Pos2) -> Vec<Event> {
     let mouse = match phase {
         _ if id > 0 => vec![],
@@ -37,7 +37,7 @@ fn fingers(phase: TouchPhase, places: &[Pos2]) -> Vec<Event> {
     numbered.flat_map(|(&place, id)| finger(id, phase, place)).collect()
 }
 
-/// Places around the middle of the canvas, in a row with these distances from it.
+/// Places in a row through the middle of the canvas, at these distances from it.
 fn around(window: &Window, distances: &[f32]) -> Vec<Pos2> {
     let middle = window.point(SurfaceId::Canvas, 16.0, 10.0);
     distances.iter().map(|&distance| middle + vec2(distance, 0.0)).collect()
@@ -55,7 +55,7 @@ fn done(window: &Window) -> (usize, usize) {
     (painting.history_done, painting.history.len())
 }
 
-/// A window whose canvas has two strokes of a loaded brush.
+/// A window with two strokes of a loaded brush on the canvas.
 fn painted(name: &'static str) -> Window {
     let mut window = Window::open(name);
     let load = Load {
@@ -85,7 +85,7 @@ fn a_tap_of_two_fingers_undoes_and_one_of_three_redoes() {
     assert_eq!(done(&window), (0, 2));
     tap(&mut window, &three);
     assert_eq!(done(&window), (1, 2), "three fingers redo");
-    // Beside canvas and palette it is none.
+    // Beside canvas and palette, this is not a tap.
     let beside = window.harness().get_by_label("Rename").rect().center();
     tap(&mut window, &[beside, beside + vec2(30.0, 0.0)]);
     assert_eq!(done(&window), (1, 2), "on a panel nothing is undone");
@@ -95,7 +95,7 @@ fn a_tap_of_two_fingers_undoes_and_one_of_three_redoes() {
 fn a_second_finger_that_ends_a_stroke_undoes_nothing() {
     let mut window = painted("touch-late");
     let places = around(&window, &[0.0, 80.0]);
-    // Far enough to paint, and near enough for a tap.
+    // This is far enough to paint, and near enough for a tap.
     let moved = places[0] + vec2(0.0, 8.0);
     let mut events = finger(0, TouchPhase::Start, places[0]);
     events.extend(finger(0, TouchPhase::Move, moved));
@@ -108,7 +108,7 @@ fn a_second_finger_that_ends_a_stroke_undoes_nothing() {
     assert_eq!(done(&window), (3, 3), "the stroke stays, and nothing is undone");
 }
 
-/// The way from one place of the canvas to another one, 10 mm beside it, in the window.
+/// The movement in the window for 10 mm to the right on the canvas.
 fn right(window: &Window) -> Vec2 {
     window.point(SurfaceId::Canvas, 21.0, 10.0) - window.point(SurfaceId::Canvas, 11.0, 10.0)
 }
@@ -121,11 +121,11 @@ fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     let place = middle;
     let mut at = around(&window, &[-50.0, 50.0]);
     window.frame(fingers(TouchPhase::Start, &at));
-    let go = |window: &mut Window, at: &[Pos2]| {
+    fn go(window: &mut Window, at: &[Pos2]) {
         window.frame(fingers(TouchPhase::Move, at));
-    };
+    }
     go(&mut window, &at);
-    // Together: the picture follows.
+    // The fingers move together, and the picture follows.
     for _ in 0..4 {
         at = at.iter().map(|&finger| finger + vec2(6.0, 4.0)).collect();
         go(&mut window, &at);
@@ -133,7 +133,7 @@ fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     let moved = window.point(SurfaceId::Canvas, 16.0, 10.0) - place;
     assert!((moved - vec2(24.0, 16.0)).length() < 1.0, "{moved}");
     assert!((right(&window) - before).length() < 0.01, "only moved");
-    // Apart: it grows around the middle between them.
+    // The fingers move apart, and the picture grows around the middle between them.
     let middle = at[0].lerp(at[1], 0.5);
     for half in [55.0, 65.0, 80.0, 100.0] {
         at = vec![middle - vec2(half, 0.0), middle + vec2(half, 0.0)];
@@ -143,7 +143,7 @@ fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     assert!((grown - 2.0).abs() < 0.02, "{grown} times as large");
     let stays = window.point(SurfaceId::Canvas, 16.0, 10.0) - middle;
     assert!(stays.length() < 1.0, "the middle stays: {stays}");
-    // Around each other: it turns with them.
+    // The fingers move around each other, and the picture turns with them.
     for step in 1..=10 {
         let arm = 100.0 * Vec2::angled(0.05 * step as f32);
         at = vec![middle - arm, middle + arm];
@@ -156,7 +156,7 @@ fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     assert_eq!(done(&window), (2, 2), "nothing was painted or undone");
 }
 
-/// Centres and sizes of the squares in which the controls whose labels begin so are pressed.
+/// Centres and sizes of the squares in which you press the controls with labels that begin so.
 fn handles(window: &mut Window, label: &str) -> Vec<Rect> {
     let found = window.harness().query_all_by_label_contains(label);
     found.map(|node| node.rect()).collect()
@@ -172,8 +172,10 @@ fn handles_over_the_canvas_and_points_of_the_curve_are_large_enough_to_be_touche
         window.studio_mut().files.preferences.touch_targets = touch;
         let large = |rects: &[Rect], count: usize, what: &str| {
             assert_eq!(rects.len(), count, "{what}: {rects:?}");
-            let least = |rect: &Rect| rect.width().min(rect.height());
-            let least = rects.iter().map(least).fold(f32::INFINITY, f32::min);
+            let least = rects
+                .iter()
+                .map(|rect| rect.width().min(rect.height()))
+                .fold(f32::INFINITY, f32::min);
             assert_eq!(least >= TOUCH_TARGET - 0.5, touch, "{what}: {least}");
         };
         window.studio_mut().visible.pen = true;
@@ -202,10 +204,9 @@ fn handles_over_the_canvas_and_points_of_the_curve_are_large_enough_to_be_touche
     }
 }
 
-/// Window of a phone that is held upright, in points.
+/// Window of an upright phone, in points.
 const PHONE: Vec2 = vec2(390.0, 844.0);
 
-/// A window with a loaded brush.
 fn loaded(name: &'static str) -> Window {
     let mut window = Window::sized(name, PHONE, 2.0);
     window.studio_mut().tools.brush = "round".to_owned();
@@ -220,7 +221,7 @@ fn loaded(name: &'static str) -> Window {
     window
 }
 
-/// Paints a stroke through the middle of the canvas; returns the number of strokes done.
+/// Paints a stroke through the middle of the canvas. Returns the number of strokes done.
 fn stroke(window: &mut Window) -> usize {
     let along: Vec<_> = (0..=20)
         .map(|at| window.point(SurfaceId::Canvas, 8.0 + 0.8 * f64::from(at), 10.0))

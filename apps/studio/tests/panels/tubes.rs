@@ -153,16 +153,16 @@ fn searching_lists_only_matching_pigments() {
 fn a_pigment_is_exchanged_in_every_layer_where_possible() {
     let mut harness = tubes();
     let blue = harness.state().painting.library.find("Cobalt Blue").unwrap();
-    // The upper dry layer already has the new pigment and stays unchanged.
+    // The upper dry layer already has the new pigment, so it stays unchanged.
     harness.state_mut().painting.layers[1].slots[7] = Some(blue);
     harness.get_by_label("tube of Ultramarine").click_secondary();
     harness.run();
     click(&mut harness, "Exchange in the painting...");
     click_row(&mut harness, "Cobalt Blue");
-    let swap = |layer| {
+    fn swap(layer: LayerRef) -> Request {
         let [from, to] = ["Ultramarine", "Cobalt Blue"].map(str::to_owned);
         act(Action::Swap { layer, from, to })
-    };
+    }
     assert_requests(&mut harness, &[swap(LayerRef::Id(LayerId(1))), swap(LayerRef::Wet)]);
     assert!(harness.query_by_label("Search").is_none(), "the window is closed");
 }
@@ -252,7 +252,7 @@ fn place(window: &mut Window, label: &str) -> Pos2 {
     window.harness().get_by_label(label).rect().center()
 }
 
-/// Moves the pointer to a point, presses and releases the primary button there.
+/// Clicks at a point with the primary button.
 fn click_at(window: &mut Window, point: Pos2) {
     window.frame(vec![Event::PointerMoved(point)]);
     window.frame(vec![button(point, true)]);
@@ -311,12 +311,14 @@ fn escape_a_click_outside_and_the_key_close_it() {
 fn the_right_button_is_dragged_to_a_size_and_let_go() {
     let mut window = Window::open("quick-drag");
     let point = over_canvas(&mut window);
-    let secondary = |pos, pressed| Event::PointerButton {
-        pos,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    fn secondary(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton {
+            pos,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }
+    }
     window.frame(vec![secondary(point, true)]);
     window.frame(Vec::new());
     let size = place(&mut window, "quick size 12 mm");
@@ -328,7 +330,7 @@ fn the_right_button_is_dragged_to_a_size_and_let_go() {
     let brushes = &studio.painting().unwrap().brushes;
     let brush = brushes.iter().find(|brush| brush.name == studio.tools.brush).unwrap();
     assert!((brush.spec.size_mm - 12.0).abs() < 1e-9, "{:?}", brush.spec);
-    // A short click leaves it open for a second one.
+    // After a short click it stays open for a second one.
     window.frame(vec![secondary(point, true)]);
     window.frame(vec![secondary(point, false)]);
     window.frame(Vec::new());
@@ -349,7 +351,7 @@ fn mixtures_that_were_loaded_or_kept_come_back() {
     let painting = window.studio().painting().unwrap();
     let held = painting.brushes.iter().find(|b| b.name == window.studio().tools.brush).unwrap();
     assert_eq!(held.parts.iter().filter(|part| **part > 0.0).count(), 2, "{:?}", held.parts);
-    // Kept through the panel, written to the home folder, and offered.
+    // The panel keeps it, writes it to the home folder, and offers it.
     window.click("Keep this mixture");
     window.settle();
     window.studio_mut().tools.recent.clear();

@@ -1,8 +1,7 @@
 //! The program in a window on a virtual screen: starting, painting, saving, killing.
-//!
-//! Needs Xvfb and a graphics adapter (software will do). Without them the tests pass
-//! and print a note. If the variable `IMPASTO_GPU_TESTS` names a file, each test
-//! appends the adapter's name or `none`.
+//! | You need Xvfb and a graphics adapter (software is enough). Without them the tests pass and
+//! print a note. If the variable `IMPASTO_GPU_TESTS` names a file, each test appends the adapter's
+//! name or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 

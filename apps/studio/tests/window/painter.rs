@@ -1,8 +1,7 @@
-//! A scripted painter at the built program, who does everything that a guide tells of and takes a
-//! picture of the screen at every station, for a person to look at.
-//!
-//! The painter's hand does everything twice: in the program on its screen, and in a window without
-//! a screen that is set up alike and knows where each control is.
+//! A scripted painter uses the built program. It does everything that the guides explain, and takes
+//! a picture of the screen at every station for a person to look at.
+//! | It does everything twice: in the program on its screen, and in a twin window without a screen.
+//! The twin has the same set-up and knows where each control is.
 
 #[expect(dead_code, reason = "the tests of the panels need more of it")]
 #[path = "../panels/harness.rs"]
@@ -25,10 +24,9 @@ use crate::program::{Program, keep_preferences};
 use crate::screen::{CONTROL, RETURN, SECONDARY, SHIFT as SHIFT_KEY};
 use harness::Window;
 
-/// Longest time that the screen gets to become still before a picture.
+/// Longest time that we wait for a still screen before a picture.
 const REST: Duration = Duration::from_secs(8);
 
-/// Keysyms of keys that write nothing.
 const ESCAPE: u32 = 0xff1b;
 const F1: u32 = 0xffbe;
 const F12: u32 = 0xffc9;
@@ -36,9 +34,8 @@ const F12: u32 = 0xffc9;
 /// A hand at both windows.
 struct Hand<'a> {
     program: Program<'a>,
-    /// The window that tells where controls are.
+    /// The twin window. It knows where controls are.
     twin: Window,
-    /// Folder of the pictures.
     folder: PathBuf,
     pictures: usize,
 }
@@ -66,8 +63,8 @@ impl<'a> Hand<'a> {
         })
     }
 
-    /// Middle of the first control with this label, or else with one that contains it: rows of
-    /// files have their sizes in theirs.
+    /// Middle of the first control with this label, or else of one that contains it. For example,
+    /// rows of files contain their sizes too.
     fn find(&mut self, label: &str) -> Option<Pos2> {
         let harness = self.twin.harness();
         let found = harness.query_all_by_label(label).next();
@@ -75,7 +72,7 @@ impl<'a> Hand<'a> {
         found.map(|node| node.rect().center())
     }
 
-    /// Middle of the slider or field of a role with a label.
+    /// Middle of the slider or field with a label.
     fn place_of(&mut self, role: Role, label: &str) -> Pos2 {
         let root = self.twin.harness().root();
         let mut all = root.children_recursive();
@@ -86,7 +83,7 @@ impl<'a> Hand<'a> {
         found.map(|node| node.rect().center()).unwrap_or_else(|| panic!("no {role:?} {label}"))
     }
 
-    /// Waits until both windows have done what was asked.
+    /// Waits until both windows are done.
     fn wait(&mut self) {
         std::thread::sleep(Duration::from_millis(150));
         self.twin.settle();
@@ -106,7 +103,6 @@ impl<'a> Hand<'a> {
         }
     }
 
-    /// Clicks with the secondary button.
     fn click_aside(&mut self, at: Pos2) {
         self.program.screen.click_with(SECONDARY, self.on_screen(at));
         self.twin_click(at, PointerButton::Secondary);
@@ -123,7 +119,8 @@ impl<'a> Hand<'a> {
         let screen = self.program.screen;
         screen.point(self.on_screen(at));
         std::thread::sleep(Duration::from_millis(150));
-        // Quickly: frames of a busy computer lie far apart, and would make two clicks of it.
+        // We click quickly, because frames of a busy computer lie far apart and would make two
+        // clicks of it.
         for pressed in [true, false, true, false] {
             screen.button(pressed);
             std::thread::sleep(Duration::from_millis(15));
@@ -133,7 +130,6 @@ impl<'a> Hand<'a> {
         self.wait();
     }
 
-    /// Opens a menu and clicks one of its entries, which stand below its name.
     fn choose(&mut self, menu: &str, entry: &str) {
         let left = self.twin.harness().get_all_by_label(menu).next().unwrap().rect().left();
         self.click(menu);
@@ -176,7 +172,7 @@ impl<'a> Hand<'a> {
         screen.point(self.on_screen(along[0]));
         std::thread::sleep(Duration::from_millis(80));
         screen.button(true);
-        // Between press and release there is a frame, also of a busy computer.
+        // Even on a busy computer there is a frame between press and release.
         std::thread::sleep(Duration::from_millis(100));
         for &point in &along {
             screen.point(self.on_screen(point));
@@ -194,20 +190,18 @@ impl<'a> Hand<'a> {
         self.drag(&points);
     }
 
-    /// Moves the pointer over something.
     fn hover(&mut self, at: Pos2) {
         self.program.screen.point(self.on_screen(at));
         self.twin.frame(vec![Event::PointerMoved(at)]);
         self.wait();
     }
 
-    /// Moves the pointer to the status line.
     fn aside(&mut self) {
         let height = self.twin.whole().height();
         self.hover(Pos2::new(120.0, height - 8.0));
     }
 
-    /// Takes a picture of the screen once it is still, with the pointer where it is.
+    /// Takes a picture once the screen is still. The pointer stays where it is.
     fn picture(&mut self, name: &str) {
         let screen = self.program.screen;
         let began = Instant::now();
@@ -224,13 +218,11 @@ impl<'a> Hand<'a> {
         last.save(&self.folder.join(format!("{:02}-{name}.png", self.pictures)));
     }
 
-    /// Takes a picture with the pointer out of the way.
     fn station(&mut self, name: &str) {
         self.aside();
         self.picture(name);
     }
 
-    /// Ends the program.
     fn end(self) {
         self.program.kill();
     }
@@ -258,7 +250,7 @@ const NONE: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 
 impl Hand<'_> {
-    /// Pressure curve and stabiliser, with strokes on the field to try them.
+    /// Shows pressure curve and stabiliser, with strokes on the test field.
     fn pen(&mut self) {
         self.key(SHIFT, Key::P);
         self.click("Firm");
@@ -275,7 +267,7 @@ impl Hand<'_> {
         self.key(SHIFT, Key::P);
     }
 
-    /// An own brush is kept with its paint.
+    /// Keeps an own brush with its paint.
     fn own_brush(&mut self) {
         self.key(SHIFT, Key::B);
         self.click("with its paint");
@@ -284,7 +276,7 @@ impl Hand<'_> {
         self.key(SHIFT, Key::B);
     }
 
-    /// The tools that work wet paint, and a mask.
+    /// Uses the tools that work wet paint, and a mask.
     fn tools(&mut self) {
         self.key(NONE, Key::W);
         self.double_click("tube of Chrome Yellow");
@@ -308,7 +300,7 @@ impl Hand<'_> {
         self.station("painted-through-the-mask");
     }
 
-    /// The round menu at the pointer.
+    /// Opens the round menu at the pointer.
     fn quick_palette(&mut self) {
         let middle = self.twin.point(Canvas, 100.0, 50.0);
         self.click_aside(middle);
@@ -319,7 +311,7 @@ impl Hand<'_> {
         self.click_at(tube);
     }
 
-    /// Kept mixtures, the wheel of the tubes, and the eyedropper with recipes.
+    /// Shows kept mixtures, the wheel of the tubes, and the eyedropper with recipes.
     fn colors(&mut self) {
         self.click("Keep this mixture");
         self.click("Swatches");
@@ -339,7 +331,7 @@ impl Hand<'_> {
         self.station("light");
     }
 
-    /// Layers: dried, named, ordered, merged.
+    /// Dries, names, moves and merges layers.
     fn layers(&mut self) {
         self.key(NONE, Key::D);
         self.double_click("tube of Zinc White");
@@ -382,7 +374,7 @@ const DIALOGS_NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 
 impl Hand<'_> {
-    /// The frame of a crop, left again.
+    /// Opens the frame of a crop and leaves it.
     fn crop(&mut self) {
         self.choose("Edit", "Crop...");
         self.station("crop-all");
@@ -397,7 +389,7 @@ impl Hand<'_> {
         self.escape();
     }
 
-    /// A picture pinned beside the canvas, and laid over it.
+    /// Pins a picture beside the canvas and lays it over it.
     fn reference(&mut self) {
         self.choose("File", "Pin a picture...");
         self.wait_for("reference.png");
@@ -413,7 +405,7 @@ impl Hand<'_> {
         self.click("Close picture");
     }
 
-    /// All dialogs of files.
+    /// Opens all dialogs of files.
     fn dialogs(&mut self) {
         self.key(CTRL, Key::N);
         self.station("new");
@@ -432,7 +424,7 @@ impl Hand<'_> {
         self.escape();
     }
 
-    /// Menus, keys, figures and touch mode.
+    /// Opens menus, keys and figures, and uses the touch mode.
     fn window(&mut self) {
         for menu in ["File", "Edit", "View", "Tools", "Help"] {
             self.click(menu);
@@ -468,7 +460,7 @@ impl Hand<'_> {
         self.escape();
     }
 
-    /// The workspace of scenes, and the sample painting.
+    /// Shows the workspace of scenes, and the sample painting.
     fn others(&mut self) {
         self.choose("File", "New scene");
         std::thread::sleep(Duration::from_secs(4));
@@ -489,7 +481,7 @@ impl Hand<'_> {
         self.station("sample");
     }
 
-    /// Goes through the tour, doing what each card asks for.
+    /// Follows the tour and does what each card asks for.
     fn tour(&mut self) {
         self.station("first-start");
         self.choose("Help", "Guided tour");
@@ -521,7 +513,7 @@ impl Hand<'_> {
             TourStep::Dry => self.key(Modifiers::NONE, Key::D),
             TourStep::Glaze => {
                 self.key(Modifiers::NONE, Key::W);
-                // The medium of the loads, which is seen once the other panels are folded.
+                // You see the medium of the loads once the other panels are folded.
                 self.click("Fold Light");
                 self.set_medium("99");
                 self.double_click("tube of Cochineal Lake");
@@ -549,7 +541,8 @@ const SIZES: [(u16, u16); 4] = [(1280, 800), (1024, 700), (1440, 900), (1920, 10
 const THEMES: [(&str, ThemeChoice); 2] =
     [("dark", ThemeChoice::Dark), ("light", ThemeChoice::Light)];
 
-/// Stations left out, as a list of their first letters in `IMPASTO_STATIONS`; all without it.
+/// Goes through all stations. If you list first letters in `IMPASTO_STATIONS`, this leaves those
+/// stations out.
 fn walks(hand: &mut Hand<'_>) {
     let wanted = std::env::var("IMPASTO_STATIONS").unwrap_or_else(|_| "tpobqclrdwx".to_owned());
     for station in wanted.chars() {
@@ -573,7 +566,6 @@ fn walks(hand: &mut Hand<'_>) {
     }
 }
 
-/// A picture to pin.
 fn write_reference(folder: &Path) {
     let picture = image::RgbImage::from_fn(300, 200, |x: u32, y: u32| {
         image::Rgb([(x * 4 / 5) as u8, (y * 6 / 5) as u8, 120])

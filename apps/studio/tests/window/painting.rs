@@ -1,5 +1,5 @@
-//! Painting, saving, reopening and exporting in the program's window, and recovery after it was
-//! killed, for paintings and scenes.
+//! Painting, saving, reopening and exporting in the program's window, and recovery of paintings and
+//! scenes after it was killed.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,12 @@ use web_time::{Duration, Instant, SystemTime};
 use crate::program::{Program, keep_preferences};
 use crate::screen::{CONTROL, Pixels, RETURN, SHIFT, until};
 
-/// Asserts that two captures are equal; saves both for inspection if not.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).collect()
+}
+
+/// Asserts that two captures are equal. If they are not, this saves both for you to inspect.
 fn same(what: &str, before: &Pixels, after: &Pixels) {
     let differing = before.differing(after);
     if differing > 0 {
@@ -34,21 +39,20 @@ fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
     let program = Program::start(&screen, &home, "1280x800", &[]);
     screen.key(u32::from('1'), &[CONTROL]);
     let (x, y) = program.room.clone();
-    let at = |across, down| program.at(across, down);
     let now = || {
         screen.aside();
         screen.still(x.clone(), y.clone())
     };
-    // Capture the canvas after a change.
+    // Captures the canvas after a change.
     let changed = |what: &str, before: &Pixels| {
         until(what, || Some(now()).filter(|after| before.differing(after) > 1_000))
     };
     let bare = now();
-    screen.drag(at(0.2, 0.3), at(0.8, 0.35), 0.5);
+    screen.drag(program.at(0.2, 0.3), program.at(0.8, 0.35), 0.5);
     let wet = changed("a stroke is seen", &bare);
     screen.key(u32::from('d'), &[]);
     let dried = changed("its gloss is gone", &wet);
-    screen.drag(at(0.5, 0.1), at(0.45, 0.9), 0.4);
+    screen.drag(program.at(0.5, 0.1), program.at(0.45, 0.9), 0.4);
     let crossed = changed("a second stroke is seen", &dried);
     screen.key(u32::from('z'), &[CONTROL]);
     same("undo takes the stroke back", &dried, &changed("undo is seen", &crossed));
@@ -73,7 +77,7 @@ fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
     let status = program.quit();
     assert!(status.success(), "{status}");
 
-    // Reopen in a new process on a larger screen.
+    // We reopen in a new process on a larger screen.
     let Some(screen) = crate::screen(1920, 1080) else { return };
     let program = Program::start(&screen, &home, "1920x1080", &[&path]);
     let covered = shows(&program, &picture);
@@ -81,15 +85,10 @@ fn a_saved_and_reopened_painting_is_shown_as_the_engine_exports_it() {
     assert!(program.quit().success());
 }
 
-/// Seconds between autosaves.
 const AUTOSAVE: u64 = 2;
 
 /// Newest autosaved painting below `home`, and its time of writing.
 fn kept(home: &Path) -> Option<(PathBuf, SystemTime)> {
-    let entries = |folder: &Path| {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        entries.map(|entry| entry.path()).collect::<Vec<_>>()
-    };
     let sessions = Home::in_folder(home).sessions();
     let canvases = entries(&sessions).into_iter().flat_map(|session| entries(&session));
     let canvases = canvases.filter(|folder| {
@@ -109,8 +108,8 @@ fn wet(document: &Document) -> u64 {
     document.wet.totals().iter().sum()
 }
 
-/// Finds the centre of the recover button: the left of two equal buttons below the menu
-/// bar, recognized by the colour of buttons.
+/// Finds the centre of the recover button. It is the left of two equal buttons below the menu bar,
+/// and we recognise it by the colour of buttons.
 pub(crate) fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
     let fill = [theme::DARK.button.r(), theme::DARK.button.g(), theme::DARK.button.b()];
     for y in 44..120 {
@@ -136,19 +135,18 @@ fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     let program = Program::start(&screen, &home, "1280x800", &[]);
     screen.key(u32::from('1'), &[CONTROL]);
     let (x, y) = program.room.clone();
-    let at = |across, down| program.at(across, down);
-    screen.drag(at(0.2, 0.2), at(0.8, 0.2), 0.5);
+    screen.drag(program.at(0.2, 0.2), program.at(0.8, 0.2), 0.5);
     let first = until("the first stroke is kept", || {
         let document = painting(&kept(&home)?.0);
         (wet(&document) > 0).then_some(document)
     });
-    // Kill the program during a long stroke, once part of it was autosaved.
-    screen.begin_drag(at(0.2, 0.5), at(0.8, 0.5), 4.0);
+    // We kill the program during a long stroke, once part of it was autosaved.
+    screen.begin_drag(program.at(0.2, 0.5), program.at(0.8, 0.5), 4.0);
     let some = until("some of the open stroke is kept", || {
         let document = painting(&kept(&home)?.0);
         (wet(&document) > wet(&first)).then_some(document)
     });
-    screen.begin_drag(at(0.8, 0.5), at(0.8, 0.9), 1.0);
+    screen.begin_drag(program.at(0.8, 0.5), program.at(0.8, 0.9), 1.0);
     let before = screen.pixels(x.clone(), y.clone());
     let killed = SystemTime::now();
     program.kill();
@@ -168,7 +166,7 @@ fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     assert_eq!(covered, x.len() * y.len());
     let now = screen.pixels(x.clone(), y.clone());
     assert!(before.differing(&now) > 0, "paint after the autosave is lost");
-    // Quitting would ask about the unsaved painting.
+    // If we quit, it would ask about the unsaved painting.
     program.kill();
 }
 
@@ -192,7 +190,6 @@ fn signals_that_end_the_program_are_handled() {
     assert_eq!(program.child.wait().unwrap().signal(), Some(15), "shells see the signal");
 }
 
-/// Number of pixels with a colour.
 fn colored(pixels: &Pixels) -> usize {
     let places = (0..pixels.height).flat_map(|y| (0..pixels.width).map(move |x| (x, y)));
     places
@@ -205,10 +202,6 @@ fn colored(pixels: &Pixels) -> usize {
 
 /// Text of the autosaved script below `home`, if there is one.
 fn autosaved_scene(home: &Path) -> Option<String> {
-    let entries = |folder: &Path| {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        entries.map(|entry| entry.path()).collect::<Vec<_>>()
-    };
     let scenes = entries(&Home::in_folder(home).scenes());
     let generations = scenes.into_iter().flat_map(|scene| entries(&scene));
     let mut scripts = generations.map(|folder| folder.join("scene.toml"));
@@ -248,7 +241,6 @@ fn a_scene_is_poured_over_and_survives_a_kill() {
     program.kill();
 }
 
-/// Reads a painting file.
 pub(crate) fn painting(path: &Path) -> Document {
     let bytes = std::fs::read(path).expect("the painting was saved");
     file::read(&path.display().to_string(), &bytes).expect("it is a painting")
@@ -267,15 +259,15 @@ pub(crate) fn exported(document: &Document) -> Pixels {
     Pixels { width, height, rows: picture.pixels().map(|pixel| pixel.0).collect() }
 }
 
-/// Waits until the visible part of the canvas equals `picture`, one cell per pixel, to
-/// the bit. Returns the number of pixels compared.
+/// Waits until the visible part of the canvas equals `picture`, one cell per pixel, to the bit.
+/// Returns the number of compared pixels.
 pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
     let screen = program.screen;
     let (x, y) = &program.room;
     screen.aside();
     let began = Instant::now();
     until("the screen shows the picture of the file", || {
-        // Opening a painting fits it into the view, so the zoom is set afterwards.
+        // Opening a painting fits it into the view, so we set the zoom afterwards.
         screen.key(u32::from('1'), &[CONTROL]);
         let shown = screen.still(x.clone(), y.clone());
         let found = seen(program, picture).filter(|seen| *seen == shown);
@@ -289,7 +281,7 @@ pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
     })
 }
 
-/// Part of the picture that is visible, from the position that the program reports.
+/// The visible part of the picture, by the position that the program reports.
 fn seen(program: &Program<'_>, picture: &Pixels) -> Option<Pixels> {
     let [left, top, right, bottom] = program.canvas()?;
     let whole = left.fract() == 0.0 && top.fract() == 0.0;

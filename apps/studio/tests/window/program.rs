@@ -9,14 +9,12 @@ use studio::files::{Home, Preferences};
 
 use crate::screen::{CONTROL, Screen, until};
 
-/// Writes preferences into the home folder of the program.
 pub(crate) fn keep_preferences(home: &Path, preferences: &Preferences) {
     let path = Home::in_folder(home).preferences();
     std::fs::create_dir_all(path.parent().expect("it is in a folder")).expect("a folder is made");
     preferences.write(&path).expect("preferences are written");
 }
 
-/// The program, running on a virtual screen.
 pub(crate) struct Program<'a> {
     pub(crate) screen: &'a Screen,
     /// Columns and rows of the screen that the canvas view covers.
@@ -56,15 +54,14 @@ impl<'a> Program<'a> {
 
     /// Position in the canvas view by shares of its width and height.
     pub(crate) fn at(&self, across: f64, down: f64) -> (i32, i32) {
-        let place = |range: &Range<usize>, share: f64| {
+        fn place(range: &Range<usize>, share: f64) -> i32 {
             (range.start as f64 + share * range.len() as f64) as i32
-        };
+        }
         (place(&self.room.0, across), place(&self.room.1, down))
     }
 
-    /// Position of the canvas on the screen in pixels: left, top, right, bottom, from
-    /// the log that the program writes once a second. The window has no frame and
-    /// stands in the corner.
+    /// Position of the canvas on the screen in pixels: left, top, right, bottom. The program logs
+    /// it once a second. The window has no frame and stands in the corner.
     pub(crate) fn canvas(&self) -> Option<[f64; 4]> {
         let lines = self.figures().ok()?;
         let line = lines.last()?;
@@ -78,13 +75,12 @@ impl<'a> Program<'a> {
         Ok(text.lines().map(serde_json::from_str).collect::<Result<_, _>>()?)
     }
 
-    /// Columns and rows of the screen that the canvas covers when fitted, as at the
-    /// start. Only the canvas is drawn there, whatever the zoom.
+    /// Columns and rows of the screen that the fitted canvas covers, as at the start. You see only
+    /// the canvas there, at any zoom.
     fn fitted(&self) -> Option<(Range<usize>, Range<usize>)> {
         let [left, top, right, bottom] = self.canvas()?;
-        let whole = |from: f64, to: f64| from.ceil() as usize..to.floor() as usize;
-        let x = whole(left, right);
-        let y = whole(top, bottom);
+        let [x, y] = [(left, right), (top, bottom)]
+            .map(|(from, to): (f64, f64)| from.ceil() as usize..to.floor() as usize);
         // The window gets its size shortly after it appears.
         let (width, height) = self.screen.size();
         let wide = x.len() > width / 2;

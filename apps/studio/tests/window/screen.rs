@@ -16,7 +16,6 @@ pub(crate) const RETURN: u32 = 0xff0d;
 pub(crate) const CONTROL: u32 = 0xffe3;
 pub(crate) const SHIFT: u32 = 0xffe1;
 
-/// Numbers of the buttons of a mouse.
 const PRIMARY: u8 = 1;
 pub(crate) const SECONDARY: u8 = 3;
 
@@ -53,7 +52,7 @@ impl Pixels {
         self.rows.iter().zip(&other.rows).filter(|(a, b)| a != b).count()
     }
 
-    /// Saves the picture for inspection and returns its path.
+    /// Saves the picture for you to inspect and returns its path.
     pub(crate) fn keep(&self, name: &str) -> String {
         let thread = std::thread::current();
         let test = thread.name().and_then(|name| name.split("::").next()).unwrap_or("window");
@@ -100,8 +99,8 @@ impl Screen {
         Some(Self { server, name, connection, root, size: (width, height), keys })
     }
 
-    /// Waits for a program's window and gives it the keyboard focus, as there is no
-    /// window manager.
+    /// Waits for a program's window and gives it the keyboard focus, because there is no window
+    /// manager.
     pub(crate) fn focus_window(&self) {
         let window = until("a window is shown", || {
             let tree = self.connection.query_tree(self.root).unwrap().reply().unwrap();
@@ -119,7 +118,7 @@ impl Screen {
             .expect("the window takes the keyboard");
     }
 
-    /// Presses and releases the key of a keysym while others are held.
+    /// Presses and releases the key of a keysym while you hold others.
     pub(crate) fn key(&self, writes: u32, held: &[u32]) {
         let (code, shifted) = self.code(writes);
         let mut held = held.to_vec();
@@ -132,18 +131,16 @@ impl Screen {
         self.fake(xproto::KEY_RELEASE_EVENT, code);
         codes.iter().rev().for_each(|&code| self.fake(xproto::KEY_RELEASE_EVENT, code));
         self.connection.sync().expect("the server is there");
-        // Give the program a frame in which it sees key and modifiers.
+        // The program needs a frame in which it sees key and modifiers.
         std::thread::sleep(Duration::from_millis(40));
     }
 
-    /// Types a text.
     pub(crate) fn text(&self, text: &str) {
         for letter in text.chars() {
             self.key(u32::from(letter), &[]);
         }
     }
 
-    /// Moves the pointer.
     pub(crate) fn point(&self, (x, y): (i32, i32)) {
         let at = |length: i32| i16::try_from(length).expect("a place on a screen");
         self.connection
@@ -152,7 +149,6 @@ impl Screen {
         self.connection.sync().expect("the server is there");
     }
 
-    /// Presses or releases the primary button.
     pub(crate) fn button(&self, pressed: bool) {
         self.numbered_button(PRIMARY, pressed);
     }
@@ -163,7 +159,6 @@ impl Screen {
         self.connection.sync().expect("the server is there");
     }
 
-    /// Clicks at a position.
     pub(crate) fn click(&self, at: (i32, i32)) {
         self.click_with(PRIMARY, at);
     }
@@ -216,14 +211,13 @@ impl Screen {
             .unwrap()
             .reply()
             .expect("the server returns pixels");
-        // 24 bits of colour in 32, blue first: the order of every Xvfb on x86 and ARM.
+        // Every Xvfb on x86 and ARM has 24 bits of colour in 32, blue first.
         let rows = image.data.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]);
         let rows: Vec<[u8; 3]> = rows.collect();
         assert_eq!(rows.len(), width * height, "32 bits a pixel");
         Pixels { width, height, rows }
     }
 
-    /// Width and height in pixels.
     pub(crate) fn size(&self) -> (usize, usize) {
         (self.size.0.into(), self.size.1.into())
     }
@@ -233,7 +227,6 @@ impl Screen {
         self.point((120, i32::from(self.size.1) - 8));
     }
 
-    /// Captures the whole screen.
     pub(crate) fn all(&self) -> Pixels {
         self.pixels(0..self.size.0.into(), 0..self.size.1.into())
     }

@@ -1,5 +1,5 @@
 //! Reported state of layers, brushes and tubes, palettes and brushes from a painting's file, and
-//! sessions that are recovered from autosaves.
+//! sessions recovered from autosaves.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -18,9 +18,14 @@ use paint::strokes::{
     Action, LayerRef, MaskChange, SampleDecimals, Squeeze, StrokeScript, SurfaceId,
 };
 use session::{
-    Autosave, Command, Event, KeptPainting, LostSession, Origin, Pace, PenSample, SessionMeta,
-    Snapshot,
+    Autosave, BrushState, Command, Event, KeptPainting, LostSession, Origin, Pace, PenSample,
+    SessionMeta, Snapshot,
 };
+
+fn round(window: &Window) -> BrushState {
+    let found = window.state().brushes.iter().find(|brush| brush.name == "round");
+    found.cloned().expect("the brush exists")
+}
 
 #[test]
 fn layers_report_height_coverage_and_thumbnail() {
@@ -60,17 +65,17 @@ fn layers_report_height_coverage_and_thumbnail() {
         let share = opaque as f64 / thumbnail.pixels.len() as f64;
         assert!((share - reported.coverage).abs() < 0.05, "{share} of {}", reported.coverage);
     }
-    let reddest = |window: &Window| {
+    fn reddest(window: &Window) -> Option<i32> {
         let pixels = &window.state().layers[0].thumbnail.pixels;
         pixels.iter().filter(|p| p[3] == 255).map(|p| i32::from(p[0]) - i32::from(p[2])).max()
-    };
+    }
     assert!(reddest(&window) > Some(40), "vermilion is red: {:?}", reddest(&window));
     let layer = LayerRef::Dry(0);
     let from = "Vermilion".to_owned();
     let to = "Emerald Green".to_owned();
     window.act(Action::Swap { layer, from, to });
     window.wait_until("another colour", |window| reddest(window) < Some(0));
-    // Undo changes the paint of a layer, so its thumbnail must be updated.
+    // Undo changes the paint of a layer, so its thumbnail must follow.
     window.act(Action::Undo {});
     window.act(Action::Undo {});
     window.wait_until("one layer", |window| window.state().layers.len() == 1);
@@ -117,7 +122,7 @@ fn names_visibility_and_order_are_reported_by_identity() {
     window.wait_until("the order", |window| window.state().layers[1].label() == "under");
     let state = window.state().layers[1].clone();
     assert_eq!((state.id, state.visible, state.opacity), (LayerId(1), false, 1.0));
-    // A moved layer keeps its figures and its picture while they are computed again.
+    // A moved layer keeps its figures and its picture until we have computed them again.
     assert_eq!((state.coverage, state.max_mm), (before[0].coverage, before[0].max_mm));
     assert_eq!(state.thumbnail, before[0].thumbnail);
     let snapshot = window.snapshot();
@@ -136,10 +141,6 @@ fn brushes_and_tubes_are_reported() {
     assert!(state.masstones.iter().all(Option::is_some), "eight tubes");
     assert!(state.tints.iter().all(Option::is_some), "all can be mixed with white");
     window.act(load("round", "Ultramarine"));
-    let round = |window: &Window| {
-        let found = window.state().brushes.iter().find(|brush| brush.name == "round");
-        found.cloned().expect("the brush exists")
-    };
     window.wait_until("paint on the brush", |window| round(window).amount_mm > 0.0);
     let loaded = round(&window);
     assert!((loaded.amount_mm - 0.3).abs() < 1e-4, "{}", loaded.amount_mm);
@@ -151,7 +152,7 @@ fn brushes_and_tubes_are_reported() {
         (1e-3..loaded.amount_mm).contains(&round(window).amount_mm)
     });
     let used = round(&window);
-    // The tip paints, so that it loses more than the whole head.
+    // The tip paints, so it loses more than the whole head.
     assert!(used.tip_mm < used.amount_mm, "{} of {}", used.tip_mm, used.amount_mm);
     window.act(Action::Undo {});
     window.wait_until("the paint back", |window| round(window).amount_mm == loaded.amount_mm);
@@ -162,16 +163,16 @@ fn brushes_and_tubes_are_reported() {
 #[test]
 fn the_first_dirty_brush_is_told_once() {
     let mut window = Window::open(BackendChoice::Cpu);
-    let dirty = |window: &mut Window| {
+    fn dirty(window: &mut Window) -> Vec<String> {
         window.snapshot();
         std::mem::take(&mut window.dirty)
-    };
+    }
     window.act(load("round", "Ultramarine"));
     let path = wander(43, 60, 10.0, 8.0);
     window.stroke(SurfaceId::Canvas, "round", [&path[..]]);
     window.stroke(SurfaceId::Canvas, "round", [&path[..]]);
     assert!(dirty(&mut window).is_empty(), "its own paint makes no brush dirty");
-    // A clean flat through wet paint.
+    // This is a clean flat through wet paint.
     window.stroke(SurfaceId::Canvas, "flat", [&path[..]]);
     assert_eq!(dirty(&mut window), ["flat"]);
     window.stroke(SurfaceId::Canvas, "filbert", [&path[..]]);
@@ -219,9 +220,6 @@ fn a_painting_opens_as_it_was_left_and_its_recording_replays() {
     today.ask(Command::Open(origin));
     today.wait("the painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     assert_same(&today.snapshot(), &left, "opened");
-    let round = |window: &Window| {
-        window.state().brushes.iter().find(|brush| brush.name == "round").cloned().unwrap()
-    };
     window.wait_until("the used brush", |window| round(window).amount_mm < 0.299);
     assert_eq!(round(&today), round(&window), "as it was reported");
 
@@ -281,7 +279,6 @@ fn undo_reaches_back_across_saving_light_drying_merging_and_the_palette() {
     assert_eq!(bare.palette.wet.totals(), [0; 9]);
 }
 
-/// Number of actions that can be undone.
 fn window_history(window: &mut Window) -> usize {
     let revision = window.snapshot().revision;
     window.wait_until("the state", |window| window.state().revision >= revision);
@@ -300,25 +297,22 @@ fn meta() -> SessionMeta {
     SessionMeta { title: "study".to_owned(), path: None, seconds: 7, desk: None }
 }
 
-/// The only lost session below `folder`.
 fn lost(folder: &Path) -> LostSession {
     let mut all = LostSession::all(folder).unwrap();
     assert_eq!(all.len(), 1, "one session was lost");
     all.remove(0)
 }
 
-/// Opens the session that was lost in `folder`, as the studio does.
+/// Opens the session lost in `folder`, as the studio does.
 fn recovered(folder: &Path) -> Window {
     let lost = lost(folder);
-    let read = |path: &Path| {
-        let bytes = std::fs::read(path).unwrap();
-        Box::new(read("autosave", &bytes).unwrap())
-    };
     let [canvas, palette] = lost.files();
     let kept = lost.work().unwrap().map(|work| Box::new(work.session));
     let mut window = Window::new(BackendChoice::Cpu);
-    let canvas = read(&canvas);
-    let palette = read(&palette);
+    let [canvas, palette] = [canvas, palette].map(|path| {
+        let bytes = std::fs::read(path).unwrap();
+        Box::new(read("autosave", &bytes).unwrap())
+    });
     window.ask(Command::Open(Origin::Recovered { canvas, palette, kept }));
     window.wait("the painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     window
@@ -386,10 +380,10 @@ fn a_mask_survives_recovery_and_the_recording_replays_under_it() {
     drop((autosave, window));
 
     let mut window = recovered(folder.path());
-    // 18 of 32 mm.
+    // The mask covers 18 of 32 mm.
     let covered = window.state().mask.as_ref().map(|mask| mask.covered);
     assert_eq!(covered, Some(0.5625), "it is reported");
-    // A stroke over the open part.
+    // This stroke is over the open part.
     paint(&mut window, 2);
     assert!(window.snapshot().canvas.wet.totals().iter().any(|total| *total > 0), "painted");
     assert_replays(&mut window, "painted under the mask");

@@ -21,7 +21,6 @@ use super::strokes::{assert_same, session};
 use super::window::{Window, load, small, stroke, wander};
 use session::{Command, Event, HistoryShot, Origin, Pace, Snapshot};
 
-/// A script of strokes on both surfaces and other actions.
 fn script(actions: Vec<Action>) -> (Box<StrokeScript>, Box<pigment::library::PigmentLibrary>) {
     let Origin::Blank { mut script, library } = small() else { panic!("a bare canvas") };
     script.actions = actions;
@@ -76,7 +75,7 @@ fn assert_replay(pace: Pace) {
     assert_same(&snapshot, &mut session, "after a replay");
     window.wait_until("the state", |window| window.state().revision == snapshot.revision);
     assert_pictures(&mut window, &snapshot);
-    // Painting can continue after the replay.
+    // You can paint after the replay.
     let samples = wander(25, 30, 32.0, 20.0);
     session.apply(&stroke(SurfaceId::Canvas, "knife", &samples)).unwrap();
     window.stroke(SurfaceId::Canvas, "knife", [&samples[..]]);
@@ -167,7 +166,7 @@ fn a_refused_action_ends_the_replay() {
     let (text, _, failed) = window.message();
     assert!(failed && text.contains("after 1 of 3 actions, at action 1 (opacity)"), "{text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
-    // A script that cannot be played leaves the painting unchanged.
+    // If a script cannot be played, the painting stays as it was.
     let before = window.snapshot();
     let mut hopeless = script;
     hopeless.actions = vec![Action::Load(lacking)];
@@ -178,14 +177,14 @@ fn a_refused_action_ends_the_replay() {
     assert_eq!(window.snapshot().revision, before.revision, "nothing was changed");
 }
 
-/// Side of a pixel of the pictures in cells: 320 cells of the small canvas take 160 pixels.
+/// Side of a pixel of the pictures in cells. The small canvas of 320 cells gives 160 pixels.
 const STEP: usize = 2;
 
 fn shots(window: &Window) -> Vec<Option<&HistoryShot>> {
     window.state().history_shots.shots.iter().map(Option::as_ref).collect()
 }
 
-/// Mean light of a pixel's cells in the picture that the window received, as bytes.
+/// Mean light of a pixel's cells in the picture of the window, as bytes.
 fn seen(window: &Window, x: usize, y: usize) -> [u8; 3] {
     let cells = (0..STEP * STEP).map(|i| (STEP * x + i % STEP, STEP * y + i / STEP));
     let mut sum = [0.0; 3];
@@ -223,7 +222,8 @@ fn every_action_has_a_picture_of_the_canvas_after_it() {
     assert!(shots[1].changed.is_some(), "the stroke is outlined");
     assert_eq!(shots[2].changed, None, "the palette is not on the picture");
     assert!(Arc::ptr_eq(&shots[1].picture, &shots[2].picture), "kept once");
-    // The heap of 3 mm3 at 5, 4 mm, whose radius is 0.94 of the cube root: 27 cells across.
+    // The heap has 3 mm3 and lies at 5, 4 mm. Its radius is 0.94 of the cube root, so it is 27
+    // cells across.
     let [left, top, width, height] = shots[3].changed.expect("the heap is outlined");
     assert!(
         left <= 25 && left + width >= 25 && top <= 20 && top + height >= 20,
@@ -242,7 +242,7 @@ fn every_action_has_a_picture_of_the_canvas_after_it() {
         let apart = pixel.iter().zip(seen).map(|(a, b)| a.abs_diff(b)).max().expect("three bytes");
         far += usize::from(apart > 8);
     }
-    // Highlights are cut off cell by cell on the screen, and after the mean in the picture.
+    // The screen clips highlights cell by cell, the picture after averaging.
     assert!(far < 160, "{far} of 16000 pixels are not those that the window shows");
 }
 
@@ -258,9 +258,8 @@ fn pictures_stay_with_their_actions_through_undo_and_adjustments() {
     });
     let before: Vec<_> = shots(&window).into_iter().map(Option::<&HistoryShot>::cloned).collect();
     assert_eq!(window.state().history_done, 1);
-    let turned = |azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() });
-    let first = turned(10.0);
-    let last = turned(200.0);
+    let [first, last] = [10.0, 200.0]
+        .map(|azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() }));
     window.ask(Command::Adjust(first));
     window.ask(Command::Adjust(last));
     window.ask(Command::EndAdjustment);
@@ -284,7 +283,7 @@ pub(crate) fn exported(document: &Document, light: &Light) -> Vec<[u8; 4]> {
     file.pixels().map(|pixel| pixel.0).collect()
 }
 
-/// Asserts that the tiles received so far equal the rendered document, to the byte.
+/// Asserts that the received tiles equal the rendered document, to the byte.
 pub(crate) fn assert_pictures(window: &mut Window, snapshot: &Snapshot) {
     let light = Arc::clone(&window.state().light);
     let Lighting { illuminant, observer, .. } = &snapshot.canvas.lighting;
@@ -299,13 +298,11 @@ pub(crate) fn assert_pictures(window: &mut Window, snapshot: &Snapshot) {
     window.wait_until("the palette as it is", |window| window.pictures.palette == palette);
 }
 
-/// A step of the test.
 type Step<'a> = &'a dyn Fn(&mut Window);
 
 #[test]
 fn tiles_cover_every_change() {
     let mut window = Window::open(BackendChoice::Cpu);
-    let turned = |azimuth_deg| Lighting { azimuth_deg, ..Lighting::default() };
     let lamp = Lighting { illuminant: "A".to_owned(), ..Lighting::default() };
     let far = wander(11, 150, 32.0, 20.0);
     let near = wander(12, 80, 10.0, 8.0);
@@ -329,8 +326,10 @@ fn tiles_cover_every_change() {
         ("the first state", &|w| w.ask(Command::GoTo(1))),
         ("the last state", &|w| w.ask(Command::GoTo(6))),
         ("a lamp that turns", &|w| {
-            w.ask(Command::Adjust(Action::Light(turned(10.0))));
-            w.ask(Command::Adjust(Action::Light(turned(120.0))));
+            for azimuth_deg in [10.0, 120.0] {
+                let turned = Lighting { azimuth_deg, ..Lighting::default() };
+                w.ask(Command::Adjust(Action::Light(turned)));
+            }
             w.ask(Command::EndAdjustment);
         }),
         ("scraping", &|w| w.act(Action::Scrape { on: SurfaceId::Palette })),
@@ -411,7 +410,7 @@ fn refusals_come_with_a_hint_and_leave_the_painting_alone() {
             assert!(hint.as_ref().is_some_and(|hint| hint.contains(hinted)), "{asked}: {hint:?}");
         }
     }
-    // Pen moves after a PenDown with an unknown brush.
+    // These are moves after a PenDown with an unknown brush.
     window.ask(Command::PenUp);
     let after = window.snapshot();
     assert!(after.canvas == before.canvas && after.palette == before.palette, "nothing changed");
@@ -508,7 +507,7 @@ fn heaps_take_the_first_free_place_or_else_the_emptiest() {
         [[2.0, 2.0], [6.0, 2.0]],
         "a place outside the surface is not used"
     );
-    // With more paint at the last place, the first has the least.
+    // Because the last place has more paint, the first has the least.
     lay(&mut window, "Zinc White", &[[6.0, 2.0]]);
     lay(&mut window, "Zinc White", &[[6.0, 2.0], [2.0, 2.0]]);
     assert_eq!(heaps(&mut window)[2..], [[6.0, 2.0], [2.0, 2.0]]);

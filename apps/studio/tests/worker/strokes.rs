@@ -18,14 +18,14 @@ use paint::session::PaintingSession;
 use paint::strokes::{Action, MaskChange, SampleDecimals, StrokeTool, SurfaceId};
 use session::{Command, Event, Origin, Pace, PenSample, Picked, Snapshot};
 
-/// A session set up as the worker does, for comparison.
+/// A session with the set-up of the worker, for comparison.
 pub(crate) fn session() -> PaintingSession {
     let Origin::Blank { script, library } = small() else { panic!("a bare canvas") };
     let (canvas, palette) = script.surfaces(&library, None).unwrap();
-    let painting = |document: Document| {
+    fn painting(document: Document) -> Painting {
         let engine = PaintEngine::on_cpu(document.ground.height.clone());
         Painting::open(document, engine, 1 << 28).unwrap()
-    };
+    }
     let mut session =
         PaintingSession::recorded(painting(canvas), palette.map(painting), &script).unwrap();
     for (name, spec) in &script.brushes {
@@ -63,7 +63,7 @@ fn all_samples_of_bursts_are_painted_in_the_order_of_commands() {
     for (index, action) in actions.iter().enumerate() {
         session.apply(action).unwrap();
         match action {
-            // Send samples all at once, one by one, or in uneven pieces.
+            // We send samples all at once, one by one, or in uneven pieces.
             Action::Stroke(stroke) => {
                 let length = [1000, 1, 7, 33][index % 4];
                 window.stroke(stroke.on, &stroke.brush, stroke.samples.chunks(length));
@@ -92,10 +92,10 @@ fn a_snapshot_does_not_wait_for_the_pen() {
         brush: "filbert".to_owned(),
         decimals: SampleDecimals::RECORDING,
     });
-    let moves = |samples: &[Sample]| {
+    fn moves(samples: &[Sample]) -> Command {
         let arrived = Instant::now();
         Command::PenMove(samples.iter().map(|&sample| PenSample { sample, arrived }).collect())
-    };
+    }
     window.ask(moves(&samples[..90]));
     let midway = window.snapshot();
     assert!(midway.canvas.wet.totals() != [0; 9], "the paint so far is in it");
@@ -119,7 +119,7 @@ fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
     window.act(load("round", "Vermilion"));
     let samples = wander(5, 600, 32.0, 20.0);
     window.stroke(SurfaceId::Canvas, "round", samples.chunks(5));
-    // Long enough for updates at 60 per second to pile up.
+    // Updates at 60 per second would pile up in this time.
     std::thread::sleep(Duration::from_millis(1500));
     window.events.clear();
     window.handle_events();
@@ -218,7 +218,7 @@ fn a_device_gives_the_same_painting() {
     }
     let snapshot = window.snapshot();
     assert_same(&snapshot, &mut session, "on the device");
-    // Shading agrees up to rounding: a byte may differ by one.
+    // Shading agrees up to rounding, so a byte may differ by one.
     let light = Arc::clone(&window.state().light);
     let wanted = super::replay::exported(&snapshot.canvas, &light);
     window.wait_until("the canvas as it is", |window| {
@@ -227,8 +227,8 @@ fn a_device_gives_the_same_painting() {
     });
 }
 
-/// Whether there is a graphics adapter. Appends its name (or `none`) to the file that the
-/// environment variable `IMPASTO_GPU_TESTS` names, if it is set.
+/// Whether there is a graphics adapter. If you set the environment variable `IMPASTO_GPU_TESTS` to
+/// a file, this appends the adapter's name (or `none`) there.
 fn has_adapter() -> bool {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);
@@ -242,13 +242,12 @@ fn has_adapter() -> bool {
     device.is_some()
 }
 
-/// Paints a stroke with a brush of the default set.
 fn paint(window: &mut Window, seed: u64) {
     let samples = wander(seed, 60, 32.0, 20.0);
     window.stroke(SurfaceId::Canvas, "round", samples.chunks(20));
 }
 
-/// Waits until so many actions are done, of as many as the history has.
+/// Waits until `done` of `all` actions of the history are done.
 fn wait_for(window: &mut Window, done: usize, all: usize) {
     window.wait_until("the history", |window| {
         (window.state().history_done, window.state().history.len()) == (done, all)
@@ -282,7 +281,7 @@ fn one_undo_takes_back_the_strokes_of_a_group_and_one_redo_repeats_them() {
     }
     let again = window.snapshot();
     assert!(*again.canvas == *whole.canvas, "all is repeated");
-    // The recording holds an undo for each stroke, and replays to the bit.
+    // The recording has an undo for each stroke, and replays to the bit.
     let recording = window.recording();
     let undos = recording.actions.iter().filter(|action| matches!(action, Action::Undo {})).count();
     assert_eq!(undos, 5);
@@ -399,7 +398,7 @@ fn a_pick_equals_an_instrument_reading() {
     let heights: f64 = one.layers[1].amounts_mm.iter().sum();
     let volume = snapshot.canvas.wet.cell(row * 320 + column).volume();
     assert!((heights - paint::amount::mm_from_quanta(volume, 0.1)).abs() < 1e-12, "its height");
-    // Mean over a disc, computed cell by cell.
+    // The mean over a disc, computed cell by cell.
     let radius = 0.35;
     let disc = pick(&mut window, x_mm, y_mm, radius);
     let mut sum = vec![0.0; wanted.len()];
@@ -418,7 +417,7 @@ fn a_pick_equals_an_instrument_reading() {
     let mean: Vec<f64> = sum.iter().map(|sum| sum / count).collect();
     assert!(near(&disc.reflectance, &mean), "the mean of {count} cells");
 
-    // A brush loaded with picked paint holds that paint.
+    // If you load a brush with picked paint, it has this paint.
     let brush = "filbert".to_owned();
     window.act(load("filbert", "Zinc White"));
     window.act(Action::Wash { brush: brush.clone() });
@@ -428,10 +427,10 @@ fn a_pick_equals_an_instrument_reading() {
         amount_mm: 0.2,
     });
     window.snapshot();
-    let filbert = |window: &Window| {
+    fn filbert(window: &Window) -> session::BrushState {
         let found = window.state().brushes.iter().find(|brush| brush.name == "filbert");
         found.cloned().expect("the brush exists")
-    };
+    }
     window.wait_until("paint on the brush", |window| {
         let state = filbert(window);
         (state.amount_mm - 0.2).abs() < 1e-3 && state.parts[0] == 0.0

@@ -12,7 +12,6 @@ use session::volumes::{
 };
 use volumes::script::Script;
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 const SIZE: [usize; 2] = [200, 150];
@@ -30,7 +29,7 @@ struct Client {
 }
 
 impl Client {
-    /// A worker that has opened `subject` and is seen by `camera`.
+    /// A worker that has opened `subject` and shows it to `camera`.
     fn open(subject: Subject) -> Self {
         let (wake, woken) = channel();
         let worker = VolumeWorker::start(move || wake.send(()).unwrap_or(()));
@@ -102,7 +101,6 @@ impl Client {
         self.wait(|client| client.state().time.step >= step);
     }
 
-    /// Stops time at a step.
     fn seek(&mut self, step: u64) {
         self.ask(VolumeCommand::Seek(step));
         self.wait(|client| {
@@ -136,7 +134,6 @@ fn village() -> Subject {
     Subject::Shape("village".to_owned())
 }
 
-/// Number of pixels with a colour.
 fn colored(picture: &ScenePicture) -> usize {
     picture
         .pixels
@@ -275,7 +272,7 @@ fn time_runs_on_and_pictures_come_while_paint_is_mixed() {
     client.wait(|client| client.state().prepares);
     let step = client.state().time.step;
     let pictures = client.pictures;
-    // What takes long is done beside the scene: it is not awaited.
+    // Slow work runs beside the scene, so we need not wait for it.
     client.wait(|client| client.pictures > pictures + 1 || !client.state().prepares);
     assert!(client.state().prepares, "a picture comes before the paint is mixed");
     client.wait(|client| client.state().time.step > step + 2);
@@ -288,13 +285,16 @@ fn time_runs_on_and_pictures_come_while_paint_is_mixed() {
         client.picture.as_ref().is_some_and(|shown| shown.fine && shown.step == last)
     });
     let shown = client.picture.clone().unwrap();
-    let rounded = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     let off = shown.pixels.iter().zip(glaze.pixels.values()).filter(|(pixel, linear)| {
-        let encoded = |value: f32| match value {
-            value if value <= 0.003_130_8 => 12.92 * value,
-            value => 1.055 * value.powf(1.0 / 2.4) - 0.055,
-        };
-        (0..3).any(|i| pixel[i].abs_diff(rounded(encoded(linear[i]))) > 1)
+        fn encoded(value: f32) -> f32 {
+            match value {
+                value if value <= 0.003_130_8 => 12.92 * value,
+                value => 1.055 * value.powf(1.0 / 2.4) - 0.055,
+            }
+        }
+        (0..3).any(|i| {
+            pixel[i].abs_diff((encoded(linear[i]).clamp(0.0, 1.0) * 255.0).round() as u8) > 1
+        })
     });
     assert_eq!(off.count(), 0, "the picture at rest is the one that is exported");
     client.ask(VolumeCommand::Look(Look { inside: Inside::OwnColours, ..client.state().look }));

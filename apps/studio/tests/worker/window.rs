@@ -13,23 +13,21 @@ use session::{
 };
 use web_time::{Duration, Instant};
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A worker and everything it has reported.
 pub(crate) struct Window {
     worker: Worker,
     woken: Receiver<()>,
     pub(crate) state: Option<Arc<PaintingState>>,
     pub(crate) pictures: Pictures,
     pub(crate) events: Vec<Event>,
-    /// Brushes that were reported to be dirty.
+    /// Brushes reported to be dirty.
     pub(crate) dirty: Vec<String>,
     numbers: u64,
 }
 
-/// Pictures assembled from tiles: canvas and palette, each also under the second light.
-/// Cells never received are 0.
+/// Pictures assembled from tiles: canvas and palette, each also under the second light. Cells that
+/// we never received are 0.
 #[derive(Default)]
 pub(crate) struct Pictures {
     pub(crate) canvas: Vec<[u8; 4]>,
@@ -73,7 +71,7 @@ impl Window {
         self.ask(Command::Apply(action));
     }
 
-    /// Paints a stroke whose samples are sent in pieces.
+    /// Paints a stroke. Its samples are sent in pieces.
     pub(crate) fn stroke<'a>(
         &mut self,
         surface: SurfaceId,
@@ -93,7 +91,6 @@ impl Window {
         self.ask(Command::PenUp);
     }
 
-    /// Handles all events received so far.
     pub(crate) fn handle_events(&mut self) {
         let events: Vec<Event> = self.worker.events().collect();
         for event in events {
@@ -140,8 +137,8 @@ impl Window {
         }
     }
 
-    /// Waits for the first event, past or future, for which `wanted` returns a value;
-    /// drops all earlier events.
+    /// Waits for the first event, past or future, for which `wanted` returns a value. This drops
+    /// all earlier events.
     pub(crate) fn wait<T>(&mut self, what: &str, wanted: impl Fn(&Event) -> Option<T>) -> T {
         let end = Instant::now() + PATIENCE;
         loop {
@@ -193,7 +190,7 @@ impl Window {
         })
     }
 
-    /// Next message: text, hint, and whether it is an error.
+    /// Next message: text, hint, and whether this is an error.
     pub(crate) fn message(&mut self) -> (String, Option<String>, bool) {
         self.wait("a message", |event| match event {
             Event::Message { text, hint, failed } => {
@@ -234,21 +231,22 @@ pub(crate) fn small() -> Origin {
 /// second. `seed` selects the phase.
 pub(crate) fn wander(seed: u64, count: usize, width_mm: f64, height_mm: f64) -> Vec<Sample> {
     let phase = seed as f64 * 1.7;
-    let sample = |index: usize| {
-        let seconds = index as f64 / 120.0;
-        let a = phase + 2.1 * seconds;
-        let b = 1.3 * phase + 1.7 * seconds;
-        Sample {
-            seconds,
-            x_mm: width_mm * (0.5 + 0.45 * a.sin()),
-            y_mm: height_mm * (0.5 + 0.45 * b.cos()),
-            pressure: 0.4 + 0.3 * (3.0 * seconds + phase).sin(),
-            tilt_x_deg: 20.0 * (seconds + phase).sin(),
-            tilt_y_deg: 15.0 * (seconds - phase).cos(),
-            twist_deg: 40.0 * (0.5 * seconds).sin(),
-        }
-    };
-    (0..count).map(sample).collect()
+    (0..count)
+        .map(|index| {
+            let seconds = index as f64 / 120.0;
+            let a = phase + 2.1 * seconds;
+            let b = 1.3 * phase + 1.7 * seconds;
+            Sample {
+                seconds,
+                x_mm: width_mm * (0.5 + 0.45 * a.sin()),
+                y_mm: height_mm * (0.5 + 0.45 * b.cos()),
+                pressure: 0.4 + 0.3 * (3.0 * seconds + phase).sin(),
+                tilt_x_deg: 20.0 * (seconds + phase).sin(),
+                tilt_y_deg: 15.0 * (seconds - phase).cos(),
+                twist_deg: 40.0 * (0.5 * seconds).sin(),
+            }
+        })
+        .collect()
 }
 
 pub(crate) fn load(brush: &str, pigment: &str) -> Action {

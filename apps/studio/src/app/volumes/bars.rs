@@ -14,7 +14,7 @@ use crate::app::intent::Intent;
 use crate::language::tr;
 use crate::theme;
 
-/// Shows the bar with `title` at its right. Returns the entry that was clicked.
+/// Shows the bar with `title` at its right. Returns the clicked entry.
 pub(super) fn show_menus(
     ui: &mut Ui,
     state: Option<&SceneState>,
@@ -102,7 +102,6 @@ fn checked(intent: SceneIntent, state: Option<&SceneState>) -> Option<bool> {
     }
 }
 
-/// Buttons in groups.
 const GROUPS: [&[SceneIntent]; 3] = [
     &[
         SceneIntent::Tool(SceneTool::Pour),
@@ -114,7 +113,7 @@ const GROUPS: [&[SceneIntent]; 3] = [
     &[SceneIntent::Volumes, SceneIntent::Hatching, SceneIntent::Frame],
 ];
 
-/// Draws the toolbar. Returns the intent of the button that was clicked.
+/// Draws the toolbar. Returns the intent of the clicked button.
 pub(super) fn show_toolbar(
     ui: &mut Ui,
     tool: SceneTool,
@@ -167,7 +166,6 @@ fn button(ui: &mut Ui, intent: SceneIntent, chosen: bool, enabled: bool) -> bool
     clicked.inner
 }
 
-/// Draws the icon of an intent at the centre of a button.
 pub(super) fn draw(painter: &Painter, button: Rect, intent: SceneIntent, color: Color32) {
     draw_marks(painter, button, marks(intent), color);
 }

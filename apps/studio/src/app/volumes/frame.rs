@@ -24,7 +24,7 @@ use crate::view::fill_rect;
 use crate::{floating, theme};
 
 impl Volumes {
-    /// Draws the workspace over the whole window. Returns what is left to the window.
+    /// Draws the workspace over the whole window. Returns intents that the window must carry out.
     pub(in crate::app) fn show(
         &mut self,
         ui: &mut Ui,
@@ -56,7 +56,7 @@ impl Volumes {
         left
     }
 
-    /// Draws all parts around the picture. Returns the intent of menu or toolbar.
+    /// Draws everything around the picture. Returns the intent of menu or toolbar.
     fn show_panels(&mut self, ui: &mut Ui) -> Option<SceneIntent> {
         let context = ui.ctx().clone();
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
@@ -106,7 +106,6 @@ impl Volumes {
         intent
     }
 
-    /// Sends the queued requests on in order.
     fn send_requests(&mut self, files: &mut Files) {
         for request in std::mem::take(&mut self.requests) {
             match request {
@@ -126,7 +125,7 @@ impl Volumes {
         }
     }
 
-    /// Intents of this frame's key events, which are removed.
+    /// Removes this frame's key events and returns their intents.
     pub(super) fn read_keys(&self, context: &Context) -> Vec<SceneIntent> {
         if context.text_edit_focused() {
             return Vec::new();
@@ -163,7 +162,7 @@ impl Volumes {
         intents
     }
 
-    /// Performs one intent. Returns what is left to the window.
+    /// Performs one intent. If the window must carry it out, this returns it.
     pub(super) fn perform(
         &mut self,
         intent: SceneIntent,
@@ -199,8 +198,9 @@ impl Volumes {
                 self.with_panels(|cx| cx.change_look(|look| look.hatching ^= true));
             }
             SceneIntent::Inside => {
-                let next = |state: &SceneState| state.look.inside.next(state.by_region);
-                if let Some(inside) = self.state().map(next) {
+                if let Some(inside) =
+                    self.state().map(|state| state.look.inside.next(state.by_region))
+                {
                     self.with_panels(|cx| cx.change_look(|look| look.inside = inside));
                     self.tell_inside(inside);
                 }
@@ -235,7 +235,7 @@ impl Volumes {
         self.say(text);
     }
 
-    /// Tells what volumes show from now on.
+    /// Says in the status line what volumes show from now on.
     fn tell_inside(&mut self, inside: Inside) {
         self.say(match inside {
             Inside::OwnColours => tr("inside: the subject's own colours").to_owned(),
@@ -245,7 +245,6 @@ impl Volumes {
         });
     }
 
-    /// Draws the status line.
     pub(super) fn status_line(&self, ui: &mut Ui) {
         let Some(state) = &self.state else {
             ui.weak(tr("preparing the scene"));
@@ -282,7 +281,7 @@ impl Volumes {
                 if let Some(message) =
                     message.filter(|message| message.is_displayed(Instant::now()))
                 {
-                    // A text that is cut tells all of itself under the pointer.
+                    // If the text is cut, its tooltip has all of it.
                     ui.add(Label::new(&message.text).truncate());
                 }
             });
@@ -290,7 +289,7 @@ impl Volumes {
     }
 }
 
-/// Factor of the rate for one key press.
+/// One key press changes the rate by this factor.
 const STEP: f64 = 1.25;
 
 /// Lowest and highest rate in mm3 a second.
@@ -299,13 +298,9 @@ const RATES: [f64; 2] = [1.0, 1000.0];
 /// An intent that the window itself carries out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::app) enum WindowIntent {
-    /// Shows the easel.
     Easel,
-    /// Shows or hides the panels.
     Panels,
-    /// Shows or hides the table of keys.
     Keys,
-    /// Shows the preferences.
     Preferences,
 }
 

@@ -7,8 +7,7 @@ use session::volumes::SceneTool;
 use crate::keymap::{self, KeyRow, KeyTable, Shortcut, name_of};
 use crate::language::{tr, tr_format};
 
-/// One action of the hand in a scene, or on its window. Its name in the preferences follows from
-/// its name here.
+/// One action in a scene, or on its window. Preferences name it as this enum does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SceneIntent {
@@ -26,7 +25,7 @@ pub enum SceneIntent {
     Quit,
     /// Takes back the last event.
     Undo,
-    /// Lets time run, or stops it.
+    /// Starts or stops time.
     Play,
     /// Takes one step.
     Step,
@@ -34,13 +33,13 @@ pub enum SceneIntent {
     Start,
     /// Shows the volumes, or the final picture.
     Volumes,
-    /// Hatches, or not.
+    /// Switches hatching on or off.
     Hatching,
     /// Dries all paint.
     DryAll,
     /// Fills the tubes from a library.
     Library,
-    /// Changes what volumes show inside.
+    /// Changes what you see inside the volumes.
     Inside,
     /// Frames the whole scene.
     Frame,
@@ -100,18 +99,17 @@ pub struct SceneEntry {
     pub name: &'static str,
     /// Description shown in the tooltip and the table of keys.
     pub description: &'static str,
-    /// Shortcuts; the first is shown beside the name.
+    /// Shortcuts. The first stands beside the name.
     pub shortcuts: &'static [Shortcut],
 }
 
 impl SceneIntent {
-    /// Name by which preferences keep its keys, such as `scene.step` or `scene.tool-pour`.
+    /// Name of its keys in preferences, e.g. `scene.step` or `scene.tool-pour`.
     #[must_use]
     pub fn name(self) -> String {
         format!("scene.{}", name_of(&self))
     }
 
-    /// Whether a held key repeats it.
     pub(super) fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::More | Self::Less | Self::Undo)
     }
@@ -333,8 +331,8 @@ impl SceneEntry {
         SCENE_ENTRIES.iter().find(|entry| entry.intent == intent)
     }
 
-    /// Text of the first key in use, or of the first standard one before any are in use; empty
-    /// without one.
+    /// Text of the first key in use. Before you install any keys, this is the first standard one.
+    /// It is empty without a key.
     #[must_use]
     pub fn shortcut_text(&self, context: &Context) -> String {
         keymap::text(context, &self.intent.name())
@@ -342,7 +340,6 @@ impl SceneEntry {
     }
 }
 
-/// Keys of the tubes.
 const TUBES: [Key; 8] =
     [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8];
 

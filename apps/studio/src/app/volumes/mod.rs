@@ -1,4 +1,4 @@
-//! The workspace of paint volumes: a scene that is turned, poured over and played.
+//! The workspace of paint volumes. You turn a scene, pour over it and play it.
 
 mod orbit;
 mod intent;

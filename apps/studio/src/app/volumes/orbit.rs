@@ -1,4 +1,4 @@
-//! The camera of a scene, as the hand moves it.
+//! The camera of a scene. You turn, move and zoom it.
 
 use eframe::egui::{Vec2, vec2};
 use glam::Vec3;
@@ -7,13 +7,13 @@ use graphics::camera::Camera;
 /// Vertical field of view in degrees.
 const FIELD_DEG: f32 = 35.0;
 
-/// Width by height of the picture that a scene is framed in.
+/// Width by height of the picture that we frame a scene in.
 const FRAMED_ASPECT: f32 = 4.0 / 3.0;
 
-/// Turn of the camera by a drag of one point, in degrees (chosen by hand).
+/// A drag of one point turns the camera by this, in degrees (chosen by hand).
 const TURN_DEG: f32 = 0.35;
 
-/// Highest elevation of the camera, in degrees: above, its picture would turn over.
+/// Highest elevation of the camera, in degrees. Above it, the picture would turn over.
 const STEEPEST_DEG: f32 = 85.0;
 
 /// A camera that turns around a target.
@@ -26,14 +26,14 @@ pub struct Orbit {
     angles: [f32; 2],
     target: Vec3,
     distance: f32,
-    /// Width of the picture by its height.
+    /// Width of the picture divided by its height.
     aspect: f32,
-    /// Whether the scene is framed again whenever the picture changes its shape.
+    /// Whether we frame the scene again whenever the picture changes its shape.
     framed: bool,
 }
 
 impl Orbit {
-    /// A camera around the box between two corners, which `home` frames in a picture of 4 by 3.
+    /// A camera around the box between two corners. `home` frames this in a picture of 4 by 3.
     #[must_use]
     pub fn around(bounds: [Vec3; 2], home: Camera) -> Self {
         let mut orbit = Self {
@@ -49,10 +49,10 @@ impl Orbit {
         orbit
     }
 
-    /// Frames the whole scene, as it is seen first.
+    /// Frames the whole scene, as you see it first.
     pub fn frame(&mut self) {
         *self = self.seen_by(&self.home);
-        // In a narrower picture from farther away.
+        // In a narrower picture we go farther away.
         self.distance *= (FRAMED_ASPECT / self.aspect).max(1.0);
         self.framed = true;
     }
@@ -67,14 +67,14 @@ impl Orbit {
         }
     }
 
-    /// This camera around the same scene, as `camera` sees it.
+    /// This camera around the same scene, with the view of `camera`.
     #[must_use]
     pub fn seen_by(self, camera: &Camera) -> Self {
         let from_target = camera.eye - camera.target;
         let distance = from_target.length().max(1e-6);
         let elevation_deg = (from_target.y / distance).asin().to_degrees();
         let azimuth_deg = from_target.x.atan2(from_target.z).to_degrees();
-        // The field of view is this camera's own: what is at the target keeps its size.
+        // This camera keeps its field of view, and things at the target keep their size.
         let tangent = |degrees: f32| (0.5 * degrees).to_radians().tan();
         let distance = distance * tangent(camera.field_of_view_deg) / tangent(FIELD_DEG);
         let angles = [azimuth_deg, elevation_deg.clamp(-STEEPEST_DEG, STEEPEST_DEG)];
@@ -89,8 +89,8 @@ impl Orbit {
         self.framed = false;
     }
 
-    /// Moves the picture by `by` points in a picture of `height` points: what is at the distance
-    /// of the target follows the pointer.
+    /// Moves the picture by `by` points in a picture of `height` points. Things as far away as the
+    /// target follow the pointer.
     pub fn pan(&mut self, by: Vec2, height: f32) {
         let [right, up, _] = self.camera().axes();
         let size = 2.0 * self.distance * (0.5 * FIELD_DEG).to_radians().tan() / height.max(1.0);
@@ -98,8 +98,8 @@ impl Orbit {
         self.framed = false;
     }
 
-    /// Comes nearer by a factor above 1, moves away by one below. What is at `from_middle` points
-    /// from the middle of a picture of `height` points stays there.
+    /// Comes nearer if the factor is above 1, or moves away if it is below. The point at
+    /// `from_middle` points from the middle of a picture of `height` points stays there.
     pub fn zoom(&mut self, factor: f32, from_middle: Vec2, height: f32) {
         let radius = self.radius();
         let before = self.distance;
@@ -119,12 +119,11 @@ impl Orbit {
         length as f32 / size
     }
 
-    /// Half the diagonal of the scene.
     fn radius(&self) -> f32 {
         (0.5 * (self.bounds[1] - self.bounds[0]).length()).max(1e-6)
     }
 
-    /// The camera now. Its near and far planes hold the scene and paint around it.
+    /// The camera now. Its near and far planes enclose the scene and paint around it.
     #[must_use]
     pub fn camera(&self) -> Camera {
         let [azimuth, elevation] = self.angles.map(f32::to_radians);

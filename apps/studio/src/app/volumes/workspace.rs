@@ -36,10 +36,10 @@ use crate::pen::{Device, Pen, PenEvent, PenTargets, SurfaceTransform};
 use crate::view::{DrawnPart, Picture, ViewState, fill_rect};
 use crate::{pace, theme};
 
-/// Subject of a new scene.
+/// A new scene begins with this subject.
 const NEW: &str = "village";
 
-/// The camera before a scene is open.
+/// The camera that we use before a scene is open.
 const NOWHERE: Camera = Camera {
     eye: Vec3::Z,
     target: Vec3::ZERO,
@@ -54,36 +54,34 @@ const NOWHERE: Camera = Camera {
 pub struct Volumes {
     /// Tools and panels as they are set.
     pub tools: SceneTools,
-    /// The camera, moved by the hand.
+    /// The camera, as you move it.
     pub orbit: Orbit,
     pub(super) worker: VolumeWorker,
     pub(super) state: Option<Arc<SceneState>>,
-    /// The last picture, and it on the screen.
+    /// The last picture, also as textures.
     pub(super) picture: Option<(Arc<ScenePicture>, Picture)>,
-    /// Rectangle of the picture in the window, in points.
     pub(super) rect: Rect,
-    /// Camera and size of the picture that the worker was told last.
+    /// Camera and size of the picture that we last sent to the worker.
     pub(super) told: (Option<Camera>, [usize; 2]),
-    /// The device that is down.
     pub(super) device: Option<Device>,
-    /// Whether the worker knows that it is down.
+    /// Whether we have told the worker that the device is down.
     pub(super) pours: bool,
-    /// The answer to a right click, and where it was asked.
+    /// The answer to a right click, and where you clicked.
     pub(super) here: Option<(Pos2, Option<Here>)>,
     pub(super) message: Option<Message>,
     pub(super) requests: Vec<SceneRequest>,
-    /// Pictures received, and when the last one came.
+    /// Number of received pictures, and the time of the last one.
     pub(super) pictures: u64,
     pub(super) shown_at: Option<Instant>,
     /// Frames of the last second in which a picture arrived.
     pub(super) frames: Frames,
-    /// Files that the worker was asked to fill, by the number of the request.
+    /// Files that the worker will fill, by the number of the request.
     pub(super) awaited: Vec<(u64, SceneExport, PathBuf)>,
     pub(super) last_request: u64,
 }
 
 impl Volumes {
-    /// Starts the workspace. `context` is drawn again when the worker has news.
+    /// Starts the workspace. News of the worker repaint `context`.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         let woken = context.clone();
@@ -113,7 +111,7 @@ impl Volumes {
         }
     }
 
-    /// Lets the worker of a page work until `deadline`. Returns how long it may wait.
+    /// Lets the worker of a page work until `deadline`. Returns how long it can wait.
     pub(crate) fn turn(&self, deadline: Instant) -> Wait {
         self.worker.turn(deadline)
     }
@@ -164,7 +162,7 @@ impl Volumes {
         self.open(Subject::Shape(NEW.to_owned()));
     }
 
-    /// Whether a scene is open or was asked for.
+    /// Whether a scene is open or requested.
     #[must_use]
     pub fn is_used(&self) -> bool {
         self.state.is_some() || !self.requests.is_empty()
@@ -176,12 +174,10 @@ impl Volumes {
         self.state.as_ref().map_or_else(|| "scene".to_owned(), |state| state.title.clone())
     }
 
-    /// Shows a message in the status line.
     pub(in crate::app) fn say(&mut self, text: String) {
         self.message = Some(Message { text, hint: None, failed: false, shown_at: Instant::now() });
     }
 
-    /// Queues a request for files.
     pub(super) fn file(&mut self, request: SceneFileRequest) {
         self.requests.push(SceneRequest::File(request));
     }
@@ -193,27 +189,28 @@ impl Volumes {
         ask(&mut SceneContext { state: &state, tools: &mut self.tools, requests });
     }
 
-    /// Place of the picture at a point of the window, as the worker's commands name it.
+    /// Place of the picture at a point of the window, for the worker's commands.
     pub(super) fn place(&self, point: Pos2) -> [f32; 2] {
         let from_corner = point - self.rect.min;
         let share = from_corner / self.rect.size().max(vec2(1.0, 1.0));
         [share.x, share.y]
     }
 
-    /// Number of a new request for the content of a file.
+    /// Notes the file and returns the number of the request for its content.
     pub(super) fn await_file(&mut self, export: SceneExport, path: PathBuf) -> u64 {
         self.last_request += 1;
         self.awaited.push((self.last_request, export, path));
         self.last_request
     }
 
-    /// Name of the subject that new scenes have, as the command line takes it.
+    /// Name of the subject of new scenes, as on the command line.
     #[must_use]
     pub fn new_subject() -> String {
         format!("{SHAPE}{NEW}")
     }
 
-    /// Draws the picture in a rectangle of the window, and lets the hand work on it.
+    /// Draws the picture in a rectangle of the window, and lets you use the tool and the camera on
+    /// it.
     pub(super) fn show_canvas(&mut self, ui: &mut Ui, rect: Rect, pen: &mut Pen) {
         fill_rect(ui.painter(), rect, theme::SURROUND);
         self.rect = rect;
@@ -226,7 +223,7 @@ impl Volumes {
             let mut view = ViewState::default();
             view.fit(picture.cells(), rect, 0.0, density);
             let mut placement = view.placement(rect, density);
-            // A picture that is drawn smaller while the scene moves is smoothed.
+            // While the scene moves, the picture is smaller and we smooth it.
             placement.aligned &= view.zoom == 1.0;
             picture.draw(&painter, &placement, DrawnPart::Whole);
         }
@@ -237,7 +234,7 @@ impl Volumes {
         self.tell_sight(rect, density);
     }
 
-    /// Tells the worker camera and size if they changed.
+    /// Sends camera and size to the worker if they changed.
     fn tell_sight(&mut self, rect: Rect, density: f32) {
         if self.state.is_none() {
             return;
@@ -256,7 +253,7 @@ impl Volumes {
         }
     }
 
-    /// Draws the reach of the tool around the pointer.
+    /// Draws a ring around the pointer, as wide as the tool reaches.
     fn draw_reach(&self, ui: &Ui, response: &Response) {
         let Some(pointer) = response.hover_pos() else { return };
         let Some(state) = &self.state else { return };
@@ -271,7 +268,7 @@ impl Volumes {
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
     }
 
-    /// Asks what is under a click of the right button, and shows the answer.
+    /// If you click with the right button, this asks what lies there and shows the answer.
     fn ask_here(&mut self, ui: &Ui, response: &Response) {
         if let (Some((at, Some(here))), Some(state)) = (&self.here, &self.state)
             && !show_here(ui.ctx(), *at, here, state)
@@ -287,7 +284,7 @@ impl Volumes {
         }
     }
 
-    /// Turns, moves and zooms the camera by the middle button and the wheel.
+    /// The middle button and the wheel turn, move and zoom the camera.
     pub(super) fn navigate(&mut self, ui: &Ui, response: &Response) {
         let height = self.rect.height();
         if response.dragged_by(PointerButton::Middle) {
@@ -327,7 +324,7 @@ impl Volumes {
         };
         let targets = PenTargets { surfaces: &[plane], covered: &covered };
         let events: Vec<Event> = ui.input(|input| input.events.clone());
-        // Paint is poured at once: it has no direction that the pen would wait for, and no brush.
+        // Paint pours at once. It has no brush and no direction that we could wait for.
         pen.settings.follow = false;
         pen.settings.stabiliser.method = StabiliserMethod::Off;
         (pen.options, pen.guide) = (BrushOptions::default(), None);
@@ -422,7 +419,6 @@ impl Volumes {
         }
     }
 
-    /// Puts a picture on the screen.
     fn show_picture(&mut self, picture: Arc<ScenePicture>) {
         let ScenePicture { width, height, .. } = *picture;
         let kept = self.picture.take().map(|(_, shown)| shown);
@@ -436,14 +432,14 @@ impl Volumes {
         self.frames.begin(Instant::now(), None);
     }
 
-    /// Asks for the next frame while something is awaited.
+    /// Asks for the next frame while we wait for the worker.
     pub(super) fn keep_awake(&self, context: &Context) {
         if let Some(rest) = self.message.as_ref().and_then(|message| message.rest(Instant::now())) {
             context.request_repaint_after(rest);
         }
     }
 
-    /// Carries out what the painter chose for a scene.
+    /// Does what you chose for a scene.
     pub(in crate::app) fn answer(&mut self, answer: SceneAnswer, files: &mut Files) {
         match answer {
             SceneAnswer::Open(path) => self.open(Subject::of_file(&path)),
@@ -489,14 +485,13 @@ impl Volumes {
         });
     }
 
-    /// Removes and returns the file that a request was for.
+    /// Removes and returns the file of a request.
     fn take_awaited(&mut self, number: u64) -> Option<(SceneExport, PathBuf)> {
         let at = self.awaited.iter().position(|(own, ..)| *own == number)?;
         let (_, export, path) = self.awaited.remove(at);
         Some((export, path))
     }
 
-    /// Writes the recording where it was asked for.
     pub(super) fn write_recording(
         &mut self,
         number: u64,
@@ -523,7 +518,6 @@ impl Volumes {
         }
     }
 
-    /// Writes a picture where it was asked for.
     pub(super) fn write_picture(
         &mut self,
         number: u64,
@@ -539,7 +533,7 @@ impl Volumes {
         });
     }
 
-    /// Writes a painting, or an export of it, where it was asked for.
+    /// Writes a painting, or an export of it.
     pub(super) fn write_painting(
         &mut self,
         number: u64,
@@ -563,11 +557,9 @@ impl Volumes {
     }
 }
 
-/// Name of the picture for screen readers and tests.
 const NAME: &str = "Scene";
 
-/// Points of scrolling that zoom by a factor of e, as on the easel.
+/// Scrolling by these points zooms by a factor of e, as on the easel.
 const WHEEL_POINTS: f32 = 220.0;
 
-/// Number of the request for the recording of an autosave.
 const AUTOSAVE: u64 = 0;

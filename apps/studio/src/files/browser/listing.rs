@@ -16,23 +16,21 @@ use crate::language::english;
 /// Maximum number of entries that are listed.
 const MAX_ENTRIES: usize = 20_000;
 
-/// A file or folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Entry {
     /// Name without the folder.
     pub(crate) name: String,
     /// Whether this is a folder.
     pub(crate) folder: bool,
-    /// Size of a file in bytes.
     pub(crate) bytes: u64,
     /// Time of the last change, if the system knows it.
     pub(crate) changed: Option<SystemTime>,
 }
 
-/// A rule that selects which files are shown.
+/// A rule for which files you see.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Filter {
-    /// Label of the rule in the dialog.
+    /// Label in the dialog.
     pub(crate) label: &'static str,
     /// Extensions of the names, in lower case. An empty list accepts all files.
     pub(crate) endings: &'static [&'static str],
@@ -42,7 +40,7 @@ impl Filter {
     /// Accepts all files.
     pub(crate) const ALL: Self = Self { label: english("All files"), endings: &[] };
 
-    /// Whether a file of this name is shown.
+    /// Whether you see a file of this name.
     #[must_use]
     pub(crate) fn passes(&self, name: &str) -> bool {
         let name = name.to_lowercase();
@@ -54,7 +52,7 @@ impl Filter {
     }
 }
 
-/// Endings of all pictures that can be read, and `others`: `ALL` together.
+/// Extensions of all pictures that we can read, and `others`: `ALL` together.
 pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [&'static str; ALL] {
     let mut endings = [""; ALL];
     assert!(ALL == ENDINGS.len() + others.len(), "the number of all endings");
@@ -79,12 +77,12 @@ pub(super) fn entries(folder: &Path, task: &Task) -> Result<Vec<Entry>, JobError
     {
         task.reach(0.0)?;
         let Ok(entry) = entry else { continue };
-        // A name that is not valid Unicode could not be typed or shown.
+        // You could not type or see a name that is not valid Unicode.
         let Ok(name) = entry.file_name().into_string() else { continue };
         if name.starts_with('.') {
             continue;
         }
-        // Links are followed; a broken link is left out.
+        // We follow links and leave broken ones out.
         let Ok(found) = disk::metadata(entry.path()) else { continue };
         let bytes = found.len();
         let changed = found.modified().ok();
@@ -118,8 +116,8 @@ fn sort_key(name: &str) -> Vec<NamePart> {
     pieces
 }
 
-/// The entries that `filter` accepts and whose names contain the words of `typed`, capitals or
-/// not, in `order`. `entries` are sorted by name, folders first.
+/// The entries that `filter` accepts and that contain the words of `typed` in their names, in
+/// `order`. Case does not matter. `entries` are sorted by name, folders first.
 #[must_use]
 pub(super) fn arranged<'a>(
     entries: &'a [Entry],
@@ -129,14 +127,13 @@ pub(super) fn arranged<'a>(
 ) -> Vec<&'a Entry> {
     let typed = typed.to_lowercase();
     let words: Vec<&str> = typed.split_whitespace().collect();
-    let named = |entry: &Entry| {
+    let mut shown: Vec<&Entry> = entries.iter().collect();
+    shown.retain(|entry| {
         let name = entry.name.to_lowercase();
-        words.iter().all(|word| name.contains(word))
-    };
-    let fits = |entry: &&Entry| (entry.folder || filter.passes(&entry.name)) && named(entry);
-    let mut shown: Vec<&Entry> = entries.iter().filter(fits).collect();
+        (entry.folder || filter.passes(&entry.name)) && words.iter().all(|word| name.contains(word))
+    });
     if order == BrowserOrder::Date {
-        // A stable order: names decide between equal times.
+        // A stable order keeps the names sorted at equal times.
         shown.sort_by_key(|entry| (!entry.folder, Reverse(entry.changed)));
     }
     shown

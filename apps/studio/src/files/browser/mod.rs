@@ -1,5 +1,5 @@
-//! A file browser inside the window. A system dialog would need the services of a desktop,
-//! and could not be tested.
+//! A file browser inside the window. A system dialog would need the services of a desktop, and we
+//! could not test it.
 
 mod listing;
 mod thumbnails;

@@ -25,14 +25,12 @@ const WIDTH: f32 = 860.0;
 const HEIGHT: f32 = 440.0;
 
 impl Browser {
-    /// Whether it asks where to save.
     #[must_use]
     pub(crate) fn is_saving(&self) -> bool {
         self.options.saving
     }
 
-    /// Shows the dialog above everything else. Returns the painter's answer, after which
-    /// the caller closes the dialog.
+    /// Shows the dialog above everything else. If this returns an answer, close the dialog.
     pub(crate) fn show(&mut self, ctx: &Context, thumbnails: &mut Thumbnails) -> Option<Answer> {
         self.update();
         let mut answer = None;
@@ -44,7 +42,7 @@ impl Browser {
             self.look_line(ui);
             ui.add_space(2.0);
             let height = HEIGHT.min(ctx.content_rect().height() - 250.0);
-            // A fixed height, so that the buttons below do not move.
+            // The height is fixed, so that the buttons below do not move.
             let size = vec2(ui.available_width(), height);
             let across = Layout::left_to_right(Align::Min);
             ui.allocate_ui_with_layout(size, across, |ui| {
@@ -71,7 +69,7 @@ impl Browser {
         answer
     }
 
-    /// The current folder, and the button to the folder above.
+    /// Shows the current folder, and the button to the folder above.
     fn path_line(&mut self, ui: &mut Ui) -> Option<Answer> {
         let mut answer = None;
         ui.horizontal(|ui| {
@@ -90,7 +88,7 @@ impl Browser {
         answer
     }
 
-    /// The letters that names must have, the order, and the form of the files.
+    /// Shows the filter by letters, the order, and the form of the files.
     fn look_line(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let edit = theme::text_field(&mut self.typed_filter).hint_text(tr("Filter by name"));
@@ -117,7 +115,7 @@ impl Browser {
         });
     }
 
-    /// The name, the filter, problems and the buttons.
+    /// Shows the name, the filter, problems and the buttons.
     fn last_lines(&mut self, ui: &mut Ui) -> Option<Answer> {
         if let Some(problem) = &self.problem {
             ui.label(&problem.text);
@@ -179,15 +177,15 @@ impl Browser {
         answer
     }
 
-    /// Asks if an existing file may be replaced.
+    /// Asks whether to replace an existing file.
     fn question(&mut self, ui: &mut Ui, path: &Path) -> Option<Answer> {
         let mut answer = None;
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
         ui.horizontal(|ui| {
             ui.label(tr_format!("{name} already exists.", name = name.unwrap_or_default()));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                // The button that changes nothing is where `Save` was, so that a second
-                // click replaces no file.
+                // The button that changes nothing takes the place of `Save`, so that a second click
+                // does not replace a file.
                 let keep = ui.button(tr("Keep"));
                 if keep.on_hover_text(tr("Keeps the file; choose another name")).clicked() {
                     self.replacing = None;
@@ -201,7 +199,7 @@ impl Browser {
         answer
     }
 
-    /// Handles keys, unless they are typed into a field that had the keyboard (`taken`).
+    /// Handles keys, unless you type them into a field that had the keyboard (`taken`).
     fn keys(&mut self, ctx: &Context, taken: bool) -> Option<Answer> {
         let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         let page = 12;
@@ -230,7 +228,7 @@ impl Browser {
         if dialogs::pressed(ctx, taken) { self.enter() } else { None }
     }
 
-    /// Adds letters that are typed into the list to the filter.
+    /// If you type letters into the list, this adds them to the filter.
     fn type_letters(&mut self, ctx: &Context) {
         let focused = ctx.memory(|memory| memory.focused().is_some());
         if self.options.saving || focused {
@@ -245,7 +243,7 @@ impl Browser {
         });
     }
 
-    /// The entries in the form that the painter chose.
+    /// Shows the entries in the chosen form.
     pub(super) fn entries_view(
         &mut self,
         ui: &mut Ui,
@@ -315,7 +313,7 @@ impl Browser {
         let selected = self.selected.as_ref() == Some(&entry.name);
         let name = if entry.folder { format!("{}/", entry.name) } else { entry.name.clone() };
         let details = RichText::new(details(entry)).small();
-        // Faint text is not legible on the selected row.
+        // You could not read faint text on the selected row.
         let details = if selected { details } else { details.weak() };
         let (place, _) = ui.allocate_exact_size(vec2(ROW + 8.0, ROW), Sense::hover());
         self.sign(ui, place.shrink(1.0), entry, thumbnails);
@@ -354,7 +352,6 @@ impl Browser {
         response
     }
 
-    /// Draws the picture of an entry, or a plain sign.
     fn sign(&self, ui: &Ui, rect: Rect, entry: &Entry, thumbnails: &mut Thumbnails) {
         let faint = theme::colors(ui.ctx()).faint;
         match thumbnails.of(ui.ctx(), &self.folder, entry) {
@@ -369,7 +366,7 @@ impl Browser {
         }
     }
 
-    /// Draws the column; a click opens the folder, or chooses the file.
+    /// Draws the column. Click a folder to open it, or a file to choose it.
     pub(super) fn places_view(&mut self, ui: &mut Ui, height: f32) -> Option<Answer> {
         ui.set_width(PLACES_WIDTH);
         let mut answer = None;
@@ -391,7 +388,7 @@ impl Browser {
                 heading(ui, if kind == PlaceKind::Drive { tr("Drives") } else { tr("Folders") });
             }
             let here = place.path == self.folder;
-            // The names of places are found on another thread, in English.
+            // Another thread finds the names of places, in English.
             let name = if kind == PlaceKind::Own { tr(&place.name) } else { &place.name };
             let button = ui.add(place_button(name, here));
             if button.on_hover_text(place.path.display().to_string()).clicked() {
@@ -438,12 +435,10 @@ fn down() -> Layout {
     Layout::top_down(Align::Min)
 }
 
-/// Draws the sign of a folder, or of a file, in the middle of `rect`.
 pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) {
     let side = rect.width().min(rect.height()) * 0.8;
     let size = if folder { vec2(side, 0.78 * side) } else { vec2(0.72 * side, side) };
     let corner = rect.center() - 0.5 * size;
-    let place = |(x, y): (f32, f32)| pos2(corner.x + x * size.x, corner.y + y * size.y);
     let stroke = Stroke::new((side / 22.0).clamp(1.0, 2.0), color);
     let lines: [&[(f32, f32)]; 2] = if folder {
         [
@@ -465,27 +460,26 @@ pub(super) fn draw(painter: &Painter, rect: Rect, folder: bool, color: Color32) 
         ]
     };
     for line in lines {
-        let places: Vec<Pos2> = line.iter().copied().map(place).collect();
+        let places: Vec<Pos2> = line
+            .iter()
+            .copied()
+            .map(|(x, y)| pos2(corner.x + x * size.x, corner.y + y * size.y))
+            .collect();
         painter.add(Shape::line(places, stroke));
     }
 }
 
-/// Height of a row of the list, in points.
 const ROW: f32 = 34.0;
 
-/// Size of a tile of the grid, in points.
 const TILE: Vec2 = vec2(126.0, 124.0);
 
-/// Height of the name below a picture of the grid, in points.
 const NAME: f32 = 20.0;
 
-/// Size and age of an entry in words.
 fn details(entry: &Entry) -> String {
     let age = entry.changed.map(|then| ago(then, SystemTime::now())).unwrap_or_default();
     if entry.folder { age } else { format!("{}   {age}", size(entry.bytes)) }
 }
 
-/// Width of the column, in points.
 pub(super) const PLACES_WIDTH: f32 = 160.0;
 
 fn heading(ui: &mut Ui, name: &str) {

@@ -1,4 +1,4 @@
-//! State of the file browser: how keys and clicks change it, and which places it offers.
+//! State of the file browser: what keys and clicks change in it, and which places it offers.
 
 use std::path::{Path, PathBuf};
 
@@ -12,20 +12,18 @@ use crate::files::preferences::BrowserLook;
 use crate::files::problem::Problem;
 use crate::language::{english, tr};
 
-/// Title, filters and purpose of a file browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct BrowserOptions {
-    /// Title of the dialog.
     pub(crate) title: &'static str,
-    /// Whether the file is to be written rather than read.
+    /// Whether the file will be written and not read.
     pub(crate) saving: bool,
-    /// Filters that the painter can choose from; the first is active when the dialog opens.
+    /// Filters to choose from. The first is active when the dialog opens.
     pub(crate) filters: &'static [Filter],
-    /// Extension that is added to the name of a new file; `None` for no extension.
+    /// Extension added to the name of a new file, if any.
     pub(crate) ending: Option<&'static str>,
-    /// Other extensions that a new file may have, to which none is added.
+    /// Other extensions that a new file can have. It gets none of our own then.
     pub(crate) others: &'static [&'static str],
-    /// Name that is suggested for a new file.
+    /// Suggested name of a new file.
     pub(crate) name: String,
 }
 
@@ -39,52 +37,45 @@ impl BrowserOptions {
 /// A dialog that asks for a file.
 #[derive(Debug)]
 pub(crate) struct Browser {
-    /// Title, filters and purpose.
     pub(crate) options: BrowserOptions,
-    /// The folder that is listed.
     pub(super) folder: PathBuf,
-    /// The text of the folder field.
     pub(super) typed_folder: String,
     pub(super) recent: Vec<PathBuf>,
-    /// Folders of one click, once they are found.
+    /// Folders that you open with one click, once we have found them.
     pub(super) places: Vec<PlaceFolder>,
     finding_places: Option<Job<Vec<PlaceFolder>>>,
     /// Form and order of the files.
     pub(crate) look: BrowserLook,
-    /// Letters that the shown names must have.
+    /// Only names with these letters are shown.
     pub(super) typed_filter: String,
-    /// Number of entries beside each other.
+    /// Number of entries side by side.
     pub(super) columns: usize,
     entries: Vec<Entry>,
     reading: Option<Job<Vec<Entry>>>,
     /// The last problem, shown in the dialog.
     pub(super) problem: Option<Problem>,
-    /// Index of the active filter.
     pub(super) filter: usize,
-    /// Name of the selected entry.
     pub(super) selected: Option<String>,
-    /// Name of the file to be written.
     pub(super) name: String,
-    /// Whether the name field has received the keyboard focus, which happens once.
+    /// Whether we have focused the name field, which we do once.
     pub(super) name_focused: bool,
-    /// The existing file that would be replaced, while the painter is asked.
+    /// The existing file to replace, while we ask.
     pub(super) replacing: Option<PathBuf>,
     /// Whether the list must scroll to the selection.
     pub(super) scroll_to_selected: bool,
     wake: eframe::egui::Context,
 }
 
-/// The painter's answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Answer {
-    /// The file that was chosen.
+    /// The chosen file.
     File(PathBuf),
-    /// No file was chosen.
+    /// You closed the dialog without a file.
     Cancelled,
 }
 
 impl Browser {
-    /// A browser that lists `folder`, or the home folder if that does not exist.
+    /// A browser for `folder`, or for the home folder if `folder` does not exist.
     #[must_use]
     pub(crate) fn new(
         options: BrowserOptions,
@@ -128,7 +119,6 @@ impl Browser {
         browser
     }
 
-    /// The folder that is listed.
     #[must_use]
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
@@ -152,7 +142,7 @@ impl Browser {
         self.folder = folder;
     }
 
-    /// Applies the result of listing; returns whether it is still running.
+    /// Applies the result of listing. Returns whether this is still running.
     pub(crate) fn update(&mut self) -> bool {
         if let Some(found) = self.finding_places.as_mut().and_then(Job::poll) {
             self.finding_places = None;
@@ -169,7 +159,7 @@ impl Browser {
         self.reading.is_some()
     }
 
-    /// The entries that the filters accept, in the order that the painter chose.
+    /// The entries that the filters accept, in the chosen order.
     #[must_use]
     pub(crate) fn shown(&self) -> Vec<&Entry> {
         let filter = self.options.filters.get(self.filter).copied().unwrap_or(Filter::ALL);
@@ -205,7 +195,7 @@ impl Browser {
         self.scroll_to_selected = true;
     }
 
-    /// Selects an entry. In a save dialog, a file's name becomes the name of the new file.
+    /// Selects an entry. In a save dialog, the new file gets the name of a selected file.
     pub(crate) fn select(&mut self, entry: &Entry) {
         self.selected = Some(entry.name.clone());
         self.replacing = None;
@@ -230,7 +220,7 @@ impl Browser {
         }
     }
 
-    /// Opens the folder that was typed, or chooses the file.
+    /// Opens the typed folder, or chooses the file.
     pub(crate) fn enter_typed(&mut self) -> Option<Answer> {
         let typed = self.folder.join(self.typed_folder.trim());
         if disk::is_file(&typed) && !self.options.saving {
@@ -240,7 +230,7 @@ impl Browser {
         None
     }
 
-    /// Chooses the file of the typed name; asks first if it exists.
+    /// Chooses the file with the typed name. If it exists, this asks first.
     pub(crate) fn save(&mut self) -> Option<Answer> {
         let name = self.name.trim();
         if name.is_empty() || name.contains(['/', '\\', '\0']) || [".", ".."].contains(&name) {
@@ -256,7 +246,6 @@ impl Browser {
         Some(Answer::File(path))
     }
 
-    /// Creates a folder of the typed name and lists it.
     pub(crate) fn make_folder(&mut self) {
         let name = self.name.trim();
         let name = name.split('.').next().unwrap_or(name);
@@ -268,7 +257,7 @@ impl Browser {
     }
 }
 
-/// Appends the extension `ending` to `path` if it has neither it nor one of the `others`.
+/// Appends the extension `ending` to `path`, unless it has this or one of the `others`.
 fn with_ending(path: PathBuf, ending: Option<&str>, others: &[&str]) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let small = name.to_lowercase();
@@ -281,21 +270,17 @@ fn with_ending(path: PathBuf, ending: Option<&str>, others: &[&str]) -> PathBuf 
     }
 }
 
-/// Most folders of recent files.
 const MOST_FOLDERS: usize = 6;
 
-/// Kinds of places, each with a heading of its own.
+/// Kinds of places. Each has a heading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PlaceKind {
-    /// The painter's own folders.
     Own,
-    /// Folders in which files were chosen lately.
+    /// Folders in which you chose files lately.
     Lately,
-    /// Drives and cards.
     Drive,
 }
 
-/// A folder that one click opens.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PlaceFolder {
     pub(super) kind: PlaceKind,
@@ -303,21 +288,21 @@ pub(super) struct PlaceFolder {
     pub(super) path: PathBuf,
 }
 
-/// The user's home folder, or the root folder if it is not known.
+/// The user's home folder, or the root folder if unknown.
 #[must_use]
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn home_folder() -> PathBuf {
     UserDirs::new().map_or_else(|| PathBuf::from("/"), |dirs| dirs.home_dir().to_owned())
 }
 
-/// The folder of files that the painter opened or saved in this page.
+/// The folder of files that you opened or saved in this page.
 #[must_use]
 #[cfg(target_arch = "wasm32")]
 pub(super) fn home_folder() -> PathBuf {
     PathBuf::from("/files")
 }
 
-/// The painter's folders for desktop, documents, pictures and downloads.
+/// The folders for desktop, documents, pictures and downloads.
 fn own_folders() -> [Option<PathBuf>; 4] {
     #[cfg(not(target_arch = "wasm32"))]
     if let Some(dirs) = UserDirs::new() {
@@ -327,8 +312,8 @@ fn own_folders() -> [Option<PathBuf>; 4] {
     [const { None }; 4]
 }
 
-/// The places that exist now. `lately` lists folders of the last file and of recent ones, the
-/// latest first. Looks at the disk.
+/// The places that exist now. `lately` lists the folders of the last file and of recent ones, the
+/// latest first. This reads the disk.
 #[must_use]
 pub(super) fn places(lately: &[PathBuf]) -> Vec<PlaceFolder> {
     let mut found = Vec::new();
@@ -357,7 +342,7 @@ pub(super) fn places(lately: &[PathBuf]) -> Vec<PlaceFolder> {
     found
 }
 
-/// Adds a folder that exists and is not listed yet; returns whether it was added.
+/// Adds a folder if it exists and is not listed yet. Returns whether this added it.
 fn add(found: &mut Vec<PlaceFolder>, kind: PlaceKind, name: &str, path: &Path) -> bool {
     if !disk::is_dir(path) || found.iter().any(|place| place.path == path) {
         return false;
@@ -366,7 +351,7 @@ fn add(found: &mut Vec<PlaceFolder>, kind: PlaceKind, name: &str, path: &Path) -
     true
 }
 
-/// Drives where the system shows them: letters, or folders that they are mounted in.
+/// Drives as the system shows them: letters, or the folders that they are mounted in.
 fn drives(home: &Path) -> Vec<PathBuf> {
     if cfg!(target_arch = "wasm32") {
         return Vec::new();
@@ -390,7 +375,7 @@ fn drives(home: &Path) -> Vec<PathBuf> {
     drives
 }
 
-/// The folders of `last` and of the recent files, each once, the latest first.
+/// The folders of `last` and of the recent files, without duplicates, the latest first.
 #[must_use]
 pub(super) fn folders_of(last: Option<&Path>, recent: &[PathBuf]) -> Vec<PathBuf> {
     let mut folders: Vec<PathBuf> = Vec::new();
@@ -442,10 +427,10 @@ mod tests {
     #[test]
     fn keys_move_through_the_filtered_entries() {
         let (mut browser, folder) = browser(false);
-        let names = |browser: &Browser| {
-            browser.shown().iter().map(|entry| entry.name.clone()).collect::<Vec<_>>()
-        };
-        assert_eq!(names(&browser), ["sub", "a.exr", "b.exr"]);
+        assert_eq!(
+            browser.shown().iter().map(|entry| entry.name.clone()).collect::<Vec<_>>(),
+            ["sub", "a.exr", "b.exr"]
+        );
         assert_eq!(browser.enter(), None, "nothing is selected");
         for (steps, wanted) in [(1, "sub"), (1, "a.exr"), (9, "b.exr"), (-1, "a.exr"), (-9, "sub")]
         {

@@ -1,5 +1,5 @@
-//! Small pictures of files: read one after the other on a thread of their own, and kept in
-//! memory while there is room.
+//! Thumbnails of files. One thread reads them one after the other, and we keep them in memory while
+//! there is room.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -17,37 +17,36 @@ use crate::language::tr;
 /// Longest side of a picture, in pixels.
 const LONGEST: usize = 192;
 
-/// Most pictures that are kept, which take 37 MB at most.
+/// Most pictures that we keep. They take at most 37 MB.
 const MOST_KEPT: usize = 256;
 
-/// Largest file that is read for its picture, in bytes: 256 MiB.
+/// Largest file that we read for its picture, in bytes: 256 MiB.
 const MOST_FILE_BYTES: u64 = 256 << 20;
 
-/// Most memory that reading a painting for its picture may take, in bytes: 2 GiB.
+/// Most memory that we use to read a painting for its picture, in bytes: 2 GiB.
 const MOST_MEMORY: u64 = 2 << 30;
 
-/// Size and time of a file: its picture is read again when they change.
+/// Size and time of a file. If these change, we read its picture again.
 type Stamp = (u64, Option<SystemTime>);
 
-/// The picture of a file, as far as it is known.
+/// The picture of a file, as far as we know it.
 pub(crate) enum Thumbnail<'a> {
-    /// Texture of the picture on the screen.
+    /// Texture of the picture.
     Ready(&'a TextureHandle),
-    /// It is not read yet.
+    /// We have not read it yet.
     Awaited,
-    /// The file has none that can be read.
+    /// The file has no picture that we can read.
     Plain,
 }
 
-/// A picture that was read, or a file without one.
+/// A picture that we have read, or a file without one.
 struct Known {
     stamp: Stamp,
     picture: Option<TextureHandle>,
-    /// Number of the request that asked for it last.
+    /// Number of the request that last asked for it.
     asked: u64,
 }
 
-/// Small pictures of files.
 #[derive(Default)]
 pub(crate) struct Thumbnails {
     known: BTreeMap<PathBuf, Known>,
@@ -62,8 +61,8 @@ impl fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// The picture of `entry` in `folder`. One that is not known is read next if nothing else
-    /// is being read, and `context` is repainted when it is there.
+    /// The picture of `entry` in `folder`. If we do not know it, it is read next, unless another
+    /// one is being read, and repaints `context` when it is there.
     pub(crate) fn of(&mut self, context: &Context, folder: &Path, entry: &Entry) -> Thumbnail<'_> {
         if entry.folder || !may_have_picture(&entry.name) || entry.bytes > MOST_FILE_BYTES {
             return Thumbnail::Plain;
@@ -119,7 +118,7 @@ impl Thumbnails {
                 self.known.remove(&path);
             }
         }
-        // The next one begins in the next frame.
+        // We begin the next one in the next frame.
         context.request_repaint();
     }
 }
@@ -131,7 +130,7 @@ fn may_have_picture(name: &str) -> bool {
     is_painting || has_picture_ending(path)
 }
 
-/// The picture of a file as it is shown, at most [`LONGEST`] pixels a side.
+/// The picture of a file, at most [`LONGEST`] pixels a side.
 fn small_picture(path: &Path) -> Result<ColorImage, crate::files::problem::Problem> {
     let read = read_picture(path, LONGEST, MOST_MEMORY)?;
     Ok(on_screen(&read.linear, |rgb| rgb))
@@ -147,7 +146,7 @@ mod tests {
         Entry { name, folder: false, bytes: found.len(), changed: found.modified().ok() }
     }
 
-    /// Size of the picture of a file once it is read; `None` for a file without one.
+    /// Size of the picture of a file once we have read it; `None` for a file without one.
     fn picture(thumbnails: &mut Thumbnails, path: &Path) -> Option<[usize; 2]> {
         let context = Context::default();
         loop {

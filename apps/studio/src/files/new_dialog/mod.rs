@@ -30,35 +30,31 @@ use crate::theme;
 use pigment::library::PigmentLibrary;
 use preview::{CELLS, Preview, PreviewLight};
 
-/// sRGB of each tone; `None` of one whose pigments a library lacks.
+/// sRGB of each tone; `None` if the library lacks one of the pigments.
 type ToneColors = Vec<Option<[u8; 3]>>;
 
-/// A dialog that describes a new painting.
 #[derive(Debug)]
 pub(super) struct NewDialog {
-    /// The canvas as it is described so far.
+    /// The canvas with your choices so far.
     pub(super) new: NewCanvas,
-    /// Pigments of the current painting.
     pub(super) palette: PaletteSpec,
-    /// Library of the current painting.
     pub(super) library: Arc<PigmentLibrary>,
     /// The library that comes with the program.
     pub(super) oils: Arc<PigmentLibrary>,
     lighting: Lighting,
     light: Arc<Light>,
     preview: Preview,
-    /// Name of the preset that is chosen or typed.
+    /// Name of the preset, chosen or typed.
     preset: String,
-    /// Free memory in bytes, if the system tells.
+    /// Free memory in bytes, if the system reports it.
     free_bytes: Option<u64>,
     finding_memory: Option<Job<Option<u64>>>,
-    /// Colours of the tones in each library: of the current painting, and of the program.
     tones: [ToneColors; 2],
     mixing_tones: Option<Job<[ToneColors; 2]>>,
 }
 
 impl NewDialog {
-    /// A dialog that starts with `last`, for a painting begun after that of `state`.
+    /// Creates the dialog, with the choices of `last`. The painting of `state` is the current one.
     #[must_use]
     pub(super) fn new(state: &PaintingState, mut last: NewCanvas, context: &Context) -> Self {
         last.bound();
@@ -103,13 +99,13 @@ impl NewDialog {
         if self.new.same_pigments { &self.library } else { &self.oils }
     }
 
-    /// Colour of the tone with this index, once it is known.
+    /// Colour of a tone, once we know it.
     fn tone_color(&self, index: usize) -> Option<[u8; 3]> {
         let tones = &self.tones[usize::from(!self.new.same_pigments)];
         tones.get(index).copied().flatten()
     }
 
-    /// Uses a picture that the painter chose.
+    /// Uses a picture that you chose.
     pub(super) fn set_picture(&mut self, purpose: CanvasPicture, path: PathBuf) {
         match purpose {
             CanvasPicture::FirstLayer => self.new.first_layer = Some(path),
@@ -125,7 +121,6 @@ impl NewDialog {
         }
     }
 
-    /// Takes what was found out beside the window's thread.
     fn update(&mut self, context: &Context) {
         if let Some(found) = self.finding_memory.as_mut().and_then(Job::poll) {
             self.finding_memory = None;
@@ -137,7 +132,7 @@ impl NewDialog {
         }
         let same = self.new.same_pigments;
         let library = Arc::clone(self.own_library());
-        // A light is made for a library.
+        // The light depends on the library, so we can take it over only with the same one.
         let light = (same || *library == *self.library).then(|| Arc::clone(&self.light));
         let lighting = self.lighting.clone();
         self.preview.update(context, &self.new.canvas, same, move || PreviewLight {
@@ -147,7 +142,6 @@ impl NewDialog {
         });
     }
 
-    /// Shows the dialog.
     pub(super) fn show(&mut self, ctx: &Context, kept: &mut KeptCanvases) -> Option<NewAnswer> {
         self.update(ctx);
         let begin = (tr("Begin"), tr("Begins to paint on the new canvas (Enter)"));
@@ -184,7 +178,7 @@ impl NewDialog {
         oils.on_hover_text(tr("The library that comes with the program"));
     }
 
-    /// The lit piece of the ground.
+    /// Draws the lit piece of the ground.
     fn ground_picture(&self, ui: &mut Ui) {
         let room = vec2(CELLS[0] as f32, CELLS[1] as f32);
         let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
@@ -293,13 +287,13 @@ impl NewDialog {
         Some(tr_format!("With one layer this needs more memory than is free now, {free}.", free))
     }
 
-    /// Draws the problem of the size in a line that is always there.
+    /// Draws the warning about the size. The line is always there, so that nothing moves.
     fn size_line(&self, ui: &mut Ui) {
         let text = self.size_problem().unwrap_or_default();
         ui.label(RichText::new(text).strong().color(theme::colors(ui.ctx()).strong));
     }
 
-    /// Adds the choice of a preset, and keeping and removing one.
+    /// Lets you choose, keep and remove presets.
     fn preset_row(&mut self, ui: &mut Ui, kept: &mut KeptCanvases) {
         let chosen = kept.preset(&self.preset).is_some();
         let shown = if chosen { self.preset.as_str() } else { tr("Presets") };
@@ -435,7 +429,7 @@ impl NewDialog {
             if row.on_hover_text(tip).clicked() && !own_film {
                 *primer = match primer.take() {
                     Some(Primer::Toned(mut toned)) => {
-                        // So that it is no longer the tone of that name.
+                        // This makes it differ from the tone of that name.
                         toned.film.height_mm *= 1.01;
                         Some(Primer::Toned(toned))
                     }
@@ -453,7 +447,7 @@ impl NewDialog {
             .on_hover_text(tone.map_or(tr("Colour of the priming"), |tone| tone.description));
     }
 
-    /// Adds rows for a colour of the painter's own.
+    /// Adds rows for your own colour.
     fn own_tone(&mut self, ui: &mut Ui) {
         let library = self.own_library().clone();
         let primer = &mut self.new.canvas.ground.reflectance;
@@ -488,30 +482,25 @@ impl NewDialog {
     }
 }
 
-/// Use of a picture file that the painter is asked for.
+/// Why we ask for a picture file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CanvasPicture {
-    /// Its greys become the relief of the ground.
+    /// The greys become the relief of the ground.
     Relief,
-    /// Its colours become the first dry layer.
+    /// The colours become the first dry layer.
     FirstLayer,
 }
 
-/// Answer of the painter to the dialog of a new painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum NewAnswer {
-    /// Begins the painting.
     Begin,
-    /// Closes the dialog.
     Cancelled,
-    /// Asks for a picture; the dialog stays.
+    /// Asks for a picture. The dialog stays open.
     Choose(CanvasPicture),
 }
 
-/// Width of the dialog in points.
 const WIDTH: f32 = 760.0;
 
-/// Width of the settings in points.
 const SETTINGS: f32 = 476.0;
 
 fn side(ui: &mut Ui, name: &str, unit: LengthUnit, mm: &mut f64) {
@@ -525,7 +514,6 @@ fn side(ui: &mut Ui, name: &str, unit: LengthUnit, mm: &mut f64) {
     }
 }
 
-/// Draws a small field of a colour; empty while it is not known.
 fn swatch(ui: &mut Ui, color: Option<[u8; 3]>) {
     let side = ui.spacing().interact_size.y - 4.0;
     let (rect, _) = ui.allocate_exact_size(vec2(1.4 * side, side), Sense::hover());
@@ -537,19 +525,18 @@ fn swatch(ui: &mut Ui, color: Option<[u8; 3]>) {
 /// Most pigments of a film.
 const MOST_PIGMENTS: usize = 3;
 
-/// A film to begin with: the first pigment of the library whose K and S are known.
+/// The first film that we offer, of the first pigment with known K and S.
 fn first_film(library: &PigmentLibrary) -> Option<Primer> {
     let name = library.pigments.iter().find(|pigment| pigment.identified)?.name.clone();
     let film = PrimerFilm { recipe: [(name, 1.0)].into(), height_mm: 0.001 };
     Some(Primer::Toned(TonedPrimer { film }))
 }
 
-/// A plain colour to begin with.
 fn first_color() -> Primer {
     Primer::Color(ColorPrimer { rgb: "#c8b89a".to_owned() })
 }
 
-/// Adds the rows of a film: one for each pigment, and one for its thickness.
+/// Adds a row for each pigment of the film, and one for the thickness.
 fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &PigmentLibrary) {
     let names: Vec<String> = film.recipe.keys().cloned().collect();
     for (row, name) in names.iter().enumerate() {
@@ -587,7 +574,6 @@ fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &PigmentLibrary) {
     });
 }
 
-/// Draws the choice of the pigment `name`.
 fn pigment(ui: &mut Ui, row: usize, film: &mut PrimerFilm, name: &str, library: &PigmentLibrary) {
     let combo = ComboBox::from_id_salt(("film", row)).selected_text(name).width(150.0);
     let combo = combo.show_ui(ui, |ui| {
@@ -606,7 +592,6 @@ fn pigment(ui: &mut Ui, row: usize, film: &mut PrimerFilm, name: &str, library: 
         .on_hover_text(tr("A pigment of it"));
 }
 
-/// Adds the row of a plain colour.
 fn color_row(ui: &mut Ui, color: &mut ColorPrimer) {
     grid_row(ui, "", |ui| {
         let mut bytes = Rgb::from_hex(&color.rgb).map_or([200; 3], Rgb::to_bytes);
@@ -622,21 +607,21 @@ fn color_row(ui: &mut Ui, color: &mut ColorPrimer) {
     });
 }
 
-/// Memory in bytes that programs can still take; `None` where the system does not tell.
+/// Memory in bytes that programs can still take; `None` where the system does not report it.
 #[must_use]
 fn free_bytes() -> Option<u64> {
     let text = std::fs::read_to_string(Path::new("/proc/meminfo")).ok()?;
     available(&text)
 }
 
-/// The line `MemAvailable` of Linux, in bytes.
+/// Reads the line `MemAvailable` of Linux, in bytes.
 fn available(meminfo: &str) -> Option<u64> {
     let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     kib.checked_mul(1024)
 }
 
-/// Bytes as MiB in words, such as `178 MiB`.
+/// Bytes as text, for example `178 MiB`.
 #[must_use]
 fn in_mib(bytes: u64) -> String {
     format!("{} MiB", bytes.div_ceil(1 << 20))

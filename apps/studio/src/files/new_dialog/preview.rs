@@ -1,4 +1,4 @@
-//! A lit piece of the ground, made beside the window's thread.
+//! A lit piece of the ground, made on another thread than the window's.
 
 use std::sync::Arc;
 
@@ -20,22 +20,22 @@ use crate::language::tr;
 /// Columns and rows of cells of the piece.
 pub(super) const CELLS: [usize; 2] = [264, 200];
 
-/// Pigments and light that the ground is shown with.
+/// Pigments and light for the ground.
 #[derive(Debug, Clone)]
 pub(super) struct PreviewLight {
     pub(super) library: Arc<PigmentLibrary>,
     pub(super) lighting: Lighting,
-    /// The light, made for `library`; without it, it is made.
+    /// The light for `library`. If there is none, we make it.
     pub(super) light: Option<Arc<Light>>,
 }
 
-/// The piece that is shown, and the one being made.
+/// The piece that you see, and the one being made.
 #[derive(Default)]
 pub(super) struct Preview {
     pub(super) texture: Option<TextureHandle>,
-    /// Why the ground cannot be made.
+    /// Why we cannot make the ground.
     pub(super) problem: Option<Problem>,
-    /// The canvas that was asked for last, and whether its library was the painting's.
+    /// The last requested canvas, and whether its library was the painting's.
     asked: Option<(Canvas, bool)>,
     making: Option<Job<ColorImage>>,
 }
@@ -47,8 +47,8 @@ impl std::fmt::Debug for Preview {
 }
 
 impl Preview {
-    /// Takes the piece that was made, and begins another one if the canvas has changed since.
-    /// `same` is whether the painting's own pigments are used.
+    /// Takes the finished piece, and begins another one if the canvas has changed since. `same`
+    /// says whether to use the painting's own pigments.
     pub(super) fn update(
         &mut self,
         context: &Context,
@@ -85,14 +85,15 @@ impl Preview {
     }
 }
 
-/// A piece of the canvas from its upper left corner, a pixel a cell; of a relief from a picture
-/// the whole canvas.
+/// A piece of the canvas from its upper left corner, a pixel a cell. For a relief from a picture
+/// this is the whole canvas.
 fn piece(canvas: &Canvas, light: &PreviewLight) -> Result<ColorImage, Problem> {
     let PreviewLight { library, lighting, light } = light;
-    let named = || Light::named(library, &lighting.illuminant, &lighting.observer).map(Arc::new);
     let light = match light {
         Some(light) => Arc::clone(light),
-        None => named().map_err(|error| Problem::from_error(&error))?,
+        None => Light::named(library, &lighting.illuminant, &lighting.observer)
+            .map(Arc::new)
+            .map_err(|error| Problem::from_error(&error))?,
     };
     let part = part_of(canvas);
     let ground = part.ground(library).map_err(|error| Problem::from_error(&error))?;
@@ -111,7 +112,7 @@ fn piece(canvas: &Canvas, light: &PreviewLight) -> Result<ColorImage, Problem> {
     Ok(on_screen(&linear, |rgb| rgb))
 }
 
-/// The canvas that is shown in place of `canvas`, of at most [`CELLS`].
+/// The canvas that we show in place of `canvas`, of at most [`CELLS`].
 fn part_of(canvas: &Canvas) -> Canvas {
     let mut part = canvas.clone();
     let [columns, rows] = CELLS.map(|cells| cells as f64);
@@ -148,10 +149,10 @@ mod tests {
         canvas.ground.reflectance = Some(Primer::Grey(0.2));
         let grey = piece(&canvas, &light()).unwrap();
         assert!(mean(&grey) < mean(&white) - 60.0, "{} {}", mean(&grey), mean(&white));
-        let spread = |image: &ColorImage| {
+        fn spread(image: &ColorImage) -> u8 {
             let greens = image.pixels.iter().map(|pixel| pixel.g());
             greens.clone().max().unwrap() - greens.min().unwrap()
-        };
+        }
         canvas.ground = GroundKind::Panel.spec(1);
         let panel = piece(&canvas, &light()).unwrap();
         assert!(spread(&white) > spread(&panel), "linen has more relief than a panel");

@@ -1,5 +1,5 @@
-//! The brush panel: list of brushes, head shape and size, and loading, wiping and washing the
-//! selected brush.
+//! The brush panel: list of brushes, head shape and size. You load, wipe and wash the selected
+//! brush here.
 
 pub(super) mod row;
 
@@ -22,14 +22,13 @@ use row::{Row, TipPreview};
 #[derive(Debug, Clone, Default)]
 pub struct Brushes {
     list: BrushList,
-    /// Size while its slider is dragged, in mm.
+    /// Size in mm while you drag its slider.
     dragged_mm: Option<f64>,
-    /// Name of the brush being renamed, and the text typed so far.
+    /// Name of the brush that you rename, and the text typed so far.
     renaming: Option<(String, String)>,
     tip: TipPreview,
 }
 
-/// Request of a row or of the buttons below the list.
 enum ListRequest {
     Select(usize),
     Duplicate,
@@ -63,15 +62,15 @@ impl Brushes {
         exists
     }
 
-    /// Scales the selected brush by a factor. It keeps the mean of its paint.
+    /// Scales the selected brush by a factor. The mean of its paint stays.
     pub fn resize(&mut self, factor: f64, cx: &mut PanelContext<'_>) {
         self.list.synchronize(cx);
         let Some(spec) = self.list.spec(cx.painting, &cx.tools.brush) else { return };
         self.set_size(spec.size_mm * factor, cx);
     }
 
-    /// Makes the selected brush as wide as `size_mm`, within the range of sizes. It keeps the mean
-    /// of its paint.
+    /// Sets the width of the selected brush, within the range of sizes. The mean of its paint
+    /// stays.
     pub fn set_size(&mut self, size_mm: f64, cx: &mut PanelContext<'_>) {
         self.list.synchronize(cx);
         let Some(spec) = self.list.spec(cx.painting, &cx.tools.brush) else { return };
@@ -79,8 +78,7 @@ impl Brushes {
         self.list.replace_head(BrushSpec { size_mm, ..spec }, cx);
     }
 
-    /// Head of the selected brush, including a requested change that is not confirmed
-    /// yet.
+    /// Head of the selected brush, with changes that the worker has not confirmed yet.
     #[must_use]
     pub fn selected(&self, cx: &PanelContext<'_>) -> Option<BrushSpec> {
         self.list.spec(cx.painting, &cx.tools.brush)
@@ -187,7 +185,7 @@ impl Brushes {
         ui.horizontal_wrapped(|ui| {
             let gap = if theme::is_touch(ui.ctx()) { 0.0 } else { 2.0 };
             ui.spacing_mut().item_spacing = Vec2::splat(gap);
-            // Narrower than their share, so that the last one is not wrapped by rounding.
+            // This is narrower than their share, because rounding would wrap the last one.
             let share = |count: f32| ((ui.available_width() + gap) / count - gap).floor();
             let width = if share(8.0) < theme::target(ui) { share(4.0) } else { share(8.0) };
             for shape in HeadShape::ALL {
@@ -256,7 +254,7 @@ impl Brushes {
                     clean_buttons(ui, cx, none);
                 });
             } else {
-                // In pairs, so that no button stands alone.
+                // The buttons wrap in pairs, so that none stands alone.
                 ui.horizontal_wrapped(|ui| load_buttons(ui, cx, none));
                 ui.horizontal_wrapped(|ui| clean_buttons(ui, cx, none));
             }
@@ -269,9 +267,9 @@ impl Brushes {
         self.list.position(name).map_or(name, |at| &self.list.brushes[at].label)
     }
 
-    /// Takes a kept brush in hand: that of its name in the list, with the kept head, or a new one.
-    /// It is washed and loaded with the kept
-    /// paint, if there is any. Returns its name in the painting.
+    /// Takes a kept brush in hand. If the list has this name, it gets the kept head. If not, this
+    /// adds a new brush. The brush is washed, and loaded with the kept paint if there is any.
+    /// Returns its name in the painting.
     pub fn take(&mut self, preset: &BrushPreset, cx: &mut PanelContext<'_>) -> String {
         self.list.synchronize(cx);
         match self.list.position(&preset.name) {
@@ -285,7 +283,7 @@ impl Brushes {
         if let Some(load) = &preset.load {
             (cx.tools.vehicle, cx.tools.load_mm) = (load.vehicle, load.amount_mm);
             if let Some(load) = load.for_brush(&name) {
-                // The kept paint alone, without what the brush held before.
+                // We want the kept paint alone, without the paint on the brush before.
                 wash(cx);
                 cx.act(Action::Load(load));
             }
@@ -293,8 +291,8 @@ impl Brushes {
         name
     }
 
-    /// The brush in hand as it is kept, with these options, and with its paint if `with_paint` is
-    /// set; `None` if there is none.
+    /// The brush in hand with these options, as a preset. `with_paint` keeps the paint too. `None`
+    /// if there is no brush.
     pub fn kept(
         &mut self,
         options: BrushOptions,
@@ -315,7 +313,7 @@ impl Brushes {
     }
 }
 
-/// Draws the buttons that load the selected brush; `none` says why there is no brush.
+/// Draws the buttons that load the selected brush. `none` explains why there is no brush.
 fn load_buttons(ui: &mut Ui, cx: &mut PanelContext<'_>, none: Option<&str>) {
     let slot = cx.tools.tube;
     let held = cx.painting.slots.get(slot).copied().flatten();
@@ -331,7 +329,7 @@ fn load_buttons(ui: &mut Ui, cx: &mut PanelContext<'_>, none: Option<&str>) {
     }
 }
 
-/// Draws the buttons that clean the selected brush; `none` says why there is no brush.
+/// Draws the buttons that clean the selected brush. `none` explains why there is no brush.
 fn clean_buttons(ui: &mut Ui, cx: &mut PanelContext<'_>, none: Option<&str>) {
     let clean = (!is_loaded(cx)).then_some(tr("the brush is clean"));
     let [wipe_key, wash_key] = ["wipe", "wash"].map(|name| hint(ui.ctx(), name));
@@ -345,7 +343,6 @@ fn clean_buttons(ui: &mut Ui, cx: &mut PanelContext<'_>, none: Option<&str>) {
     }
 }
 
-/// Rounds a size in mm to 0.1 mm, below 1 mm to 0.01 mm.
 fn rounded(size_mm: f64) -> f64 {
     let steps = if size_mm < 1.0 { 100.0 } else { 10.0 };
     (size_mm * steps).round() / steps
@@ -354,12 +351,10 @@ fn rounded(size_mm: f64) -> f64 {
 /// Range of head sizes, in mm.
 const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
 
-/// An entry of the brush list.
 #[derive(Debug, Clone, PartialEq)]
 struct ListedBrush {
-    /// Name of the brush in the painting and its recording.
     name: String,
-    /// Label shown to the painter.
+    /// Label that you see.
     label: String,
     /// Requested head that the worker has not reported yet.
     requested: Option<RequestedHead>,
@@ -371,8 +366,8 @@ struct RequestedHead {
     paint: Option<Load>,
 }
 
-/// Brushes shown in the panel. A removed brush stays in the painting, because the
-/// recording may name it.
+/// Brushes in the panel. If you remove one, it stays in the painting, because the recording may
+/// name it.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct BrushList {
     brushes: Vec<ListedBrush>,
@@ -380,8 +375,8 @@ struct BrushList {
 }
 
 impl BrushList {
-    /// Updates the list from the reported state: appends new brushes, drops missing
-    /// ones, and ensures that the selected brush is in the list.
+    /// Updates the list from the reported state: appends new brushes, drops missing ones, and
+    /// ensures that the selected brush is in the list.
     fn synchronize(&mut self, cx: &mut PanelContext<'_>) {
         let reported = |name: &str| cx.painting.brushes.iter().find(|brush| brush.name == name);
         for entry in &mut self.brushes {
@@ -397,13 +392,16 @@ impl BrushList {
         }
         self.brushes.retain(|entry| entry.requested.is_some() || reported(&entry.name).is_some());
         self.removed.retain(|name| reported(name).is_some());
-        let new = |brush: &&BrushState| {
-            !self.removed.contains(&brush.name) && self.position(&brush.name).is_none()
-        };
-        let mut new: Vec<&BrushState> = cx.painting.brushes.iter().filter(new).collect();
+        let mut new: Vec<&BrushState> = cx
+            .painting
+            .brushes
+            .iter()
+            .filter(|brush| {
+                !self.removed.contains(&brush.name) && self.position(&brush.name).is_none()
+            })
+            .collect();
         // In the order of the shapes, from round to knife.
-        let shape = |brush: &BrushState| HeadShape::ALL.iter().position(|s| *s == brush.spec.shape);
-        new.sort_by_key(|brush| shape(brush));
+        new.sort_by_key(|brush| HeadShape::ALL.iter().position(|s| *s == brush.spec.shape));
         for BrushState { name, .. } in new {
             self.brushes.push(ListedBrush {
                 name: name.clone(),
@@ -418,17 +416,17 @@ impl BrushList {
         }
     }
 
-    /// Index of a brush in the list.
     fn position(&self, name: &str) -> Option<usize> {
         self.brushes.iter().position(|entry| entry.name == name)
     }
 
-    /// Head of a brush, including a requested change that is not confirmed yet.
+    /// Head of a brush, with changes that the worker has not confirmed yet.
     fn spec(&self, painting: &PaintingState, name: &str) -> Option<BrushSpec> {
         let requested =
             self.position(name).and_then(|entry| self.brushes[entry].requested.as_ref());
-        let reported = || painting.brushes.iter().find(|brush| brush.name == name);
-        requested.map(|requested| requested.spec.clone()).or_else(|| Some(reported()?.spec.clone()))
+        requested.map(|requested| requested.spec.clone()).or_else(|| {
+            Some(painting.brushes.iter().find(|brush| brush.name == name)?.spec.clone())
+        })
     }
 
     /// Selects a brush, and the paint tool unless another tool with a head is in use.
@@ -441,8 +439,8 @@ impl BrushList {
         }
     }
 
-    /// Adds a new, clean brush after the selected one and selects it. Its name is
-    /// `base`, numbered if that exists.
+    /// Adds a new, clean brush after the selected one and selects it. Its name is `base`, with a
+    /// number if this exists.
     fn add(&mut self, base: &str, spec: BrushSpec, cx: &mut PanelContext<'_>) {
         let name = self.free_name(base, cx.painting);
         let after = self.position(&cx.tools.brush).map_or(self.brushes.len(), |entry| entry + 1);
@@ -462,7 +460,7 @@ impl BrushList {
         }
     }
 
-    /// Removes a brush from the list; if it was selected, selects its neighbour.
+    /// Removes a brush from the list. If you had selected it, this selects its neighbour.
     fn remove(&mut self, index: usize, cx: &mut PanelContext<'_>) {
         let removed = self.brushes.remove(index);
         if removed.name == cx.tools.brush && !self.brushes.is_empty() {
@@ -472,7 +470,7 @@ impl BrushList {
         self.removed.push(removed.name);
     }
 
-    /// Replaces the head of the selected brush, which keeps the mean of its paint.
+    /// Replaces the head of the selected brush. The mean of its paint stays.
     fn replace_head(&mut self, spec: BrushSpec, cx: &mut PanelContext<'_>) {
         let Some(entry) = self.position(&cx.tools.brush) else { return };
         if self.spec(cx.painting, &cx.tools.brush).as_ref() == Some(&spec) {
@@ -480,7 +478,7 @@ impl BrushList {
         }
         let name = cx.tools.brush.clone();
         self.follow_shape(entry, spec.shape, cx.painting);
-        // A second request before the worker reported: keep the paint of the first.
+        // This is a second request before the worker reported, so we keep the paint of the first.
         let before = self.brushes[entry].requested.take();
         let paint = match before {
             Some(requested) => requested.paint,
@@ -494,7 +492,7 @@ impl BrushList {
         }
     }
 
-    /// Labels a brush by its new shape, unless it has a label of the painter's.
+    /// Labels a brush by its new shape, unless you have renamed it.
     fn follow_shape(&mut self, entry: usize, shape: HeadShape, painting: &PaintingState) {
         let label = stem(&self.brushes[entry].label);
         let is_shape = HeadShape::ALL.iter().any(|known| known.name() == label);
@@ -503,7 +501,7 @@ impl BrushList {
         }
     }
 
-    /// Returns a name that no brush of painting or list has, and no label: `flat`, `flat 2`, ..
+    /// A name that is free both as name and as label, e.g. `flat` or `flat 2`.
     fn free_name(&self, base: &str, painting: &PaintingState) -> String {
         let exists = |name: &str| {
             self.brushes.iter().any(|entry| entry.name == name || entry.label == name)
@@ -546,20 +544,18 @@ pub fn wash(cx: &mut PanelContext<'_>) {
     }
 }
 
-/// State of the selected brush as last reported by the worker.
 fn selected<'a>(cx: &PanelContext<'a>) -> Option<&'a BrushState> {
     cx.painting.brushes.iter().find(|brush| brush.name == cx.tools.brush)
 }
 
-/// Whether the selected brush holds paint.
 fn is_loaded(cx: &PanelContext<'_>) -> bool {
     selected(cx).is_some_and(|brush| brush.amount_mm > 0.0)
 }
 
-/// Keeps what the selected brush holds in the painter's list of mixtures.
+/// Adds the paint on the selected brush to the kept mixtures.
 fn keep_mixture(cx: &mut PanelContext<'_>) {
     let Some(brush) = selected(cx) else { return };
-    // Four digits are as fine as a knife can part paint.
+    // Four digits are as fine as you can divide paint with a knife.
     let rounded = recipe(cx, brush).into_iter().map(|(name, part)| (name, round(part)));
     let parts = rounded.filter(|(_, part)| *part > 0.0).collect();
     let vehicle = round(brush.vehicle);
@@ -570,7 +566,7 @@ fn round(share: f64) -> f64 {
     (1e4 * share).round() / 1e4
 }
 
-/// Parts of the pigments on a brush by name.
+/// Pigments on a brush and their parts.
 fn recipe(cx: &PanelContext<'_>, brush: &BrushState) -> Recipe {
     let library = &cx.painting.library;
     let parts = cx.painting.slots.iter().zip(brush.parts);
@@ -578,8 +574,7 @@ fn recipe(cx: &PanelContext<'_>, brush: &BrushState) -> Recipe {
     parts.filter_map(|(slot, part)| Some((library[(*slot)?].name.clone(), part))).collect()
 }
 
-/// Load action that reproduces the mean of the paint on a brush; `None` for a clean
-/// brush.
+/// Load action that reproduces the mean paint of a brush; `None` for a clean brush.
 fn load_matching(cx: &PanelContext<'_>, brush: &BrushState) -> Option<Load> {
     if brush.amount_mm <= 0.0 {
         return None;

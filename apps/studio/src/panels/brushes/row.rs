@@ -10,20 +10,19 @@ use session::{BrushState, BrushSwatch, FilmColor, PaintingState};
 
 use crate::language::{brush_label, english, tr, tr_format};
 use crate::panels::controls::{
-    button, fits_on_a_line, millimetres, named_button, percent, row, slider, text,
+    between, button, fits_on_a_line, millimetres, named_button, percent, row, slider, text,
 };
 use crate::panels::{Mode, PanelContext};
 use crate::theme;
 use paint::brush::{ContactMark, HeadShape};
 use paint::strokes::{Action, BrushSpec, LayerRef, MaskChange};
 
-/// Height of a row, in points.
 const HEIGHT: f32 = 31.0;
 
-/// Paint height at which the bar is full, in mm.
+/// The bar is full at this height of paint, in mm.
 const FULL_MM: f64 = 1.0;
 
-/// Contents of a row; `state` is `None` until the worker has reported the brush.
+/// Contents of a row. `state` is `None` until the worker has reported the brush.
 pub(super) struct Row<'a> {
     pub(super) number: usize,
     pub(super) label: &'a str,
@@ -33,28 +32,24 @@ pub(super) struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Draws the row, which can be clicked.
     pub(super) fn show(&self, ui: &mut Ui, painting: &PaintingState) -> Response {
         let label = brush_label(self.label);
         let response = row(ui, HEIGHT, &label, self.is_selected);
         let inner = response.rect.shrink2(vec2(6.0, 2.0));
-        let between = |left: f32, right: f32| {
-            Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
-        };
         let faint = if self.is_selected {
             theme::colors(ui.ctx()).text
         } else {
             theme::colors(ui.ctx()).faint
         };
         if self.number <= 9 {
-            let key = between(inner.left(), inner.left() + 12.0);
+            let key = between(inner, inner.left(), inner.left() + 12.0);
             let number = self.number.to_string();
             text(ui, key, Align::Center, TextStyle::Small, faint, &number);
         }
         let color = self.state.and_then(|state| state.color);
-        let icon_rect = between(inner.left() + 18.0, inner.left() + 42.0);
+        let icon_rect = between(inner, inner.left() + 18.0, inner.left() + 42.0);
         draw(ui.painter(), icon_rect, self.spec.shape, color);
-        let words = between(inner.left() + 50.0, inner.right() - 84.0);
+        let words = between(inner, inner.left() + 50.0, inner.right() - 84.0);
         let strong = theme::colors(ui.ctx()).strong;
         let (name, below) = words.split_top_bottom_at_fraction(0.55);
         if fits_on_a_line(ui, name, TextStyle::Body, &label) {
@@ -62,11 +57,11 @@ impl Row<'_> {
             let kind = format!("{} {}", tr(self.spec.shape.name()), millimetres(self.spec.size_mm));
             text(ui, below, Align::Min, TextStyle::Small, faint, &kind);
         } else {
-            // A long name takes the room of shape and size, which the tooltip tells.
+            // A long name takes the room of shape and size. You find these in the tooltip.
             text(ui, words, Align::Min, TextStyle::Body, strong, &label);
         }
         let (amount, bar) =
-            between(inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
+            between(inner, inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
         let amount_text = match self.state {
             Some(state) if state.amount_mm > 0.0 => millimetres(state.tip_mm),
             _ => tr("clean").to_owned(),
@@ -78,7 +73,6 @@ impl Row<'_> {
         response.on_hover_text(self.tooltip(painting))
     }
 
-    /// Tooltip text: shape, size and paint of the brush.
     fn tooltip(&self, painting: &PaintingState) -> String {
         let BrushSpec { shape, size_mm } = self.spec;
         let cells = size_mm / painting.cell_mm;
@@ -95,7 +89,7 @@ impl Row<'_> {
     }
 }
 
-/// Describes the paint on a brush: `0.12 mm at the tip, 0.30 mm in all, 15 % medium: ..`.
+/// Describes the paint on a brush, e.g. `0.12 mm at the tip, 0.30 mm in all, 15 % medium: ..`.
 fn paint(painting: &PaintingState, state: &BrushState) -> String {
     let tip = millimetres(state.tip_mm);
     let mut words =
@@ -127,22 +121,20 @@ fn paint_bar(painter: &Painter, bar: Rect, state: &BrushState) {
 const PRESSURES: [(&str, f64); 3] =
     [(english("light"), 0.15), (english("middle"), 0.5), (english("full"), 1.0)];
 
-/// Most cells along a head: more would not be seen in the preview.
+/// Most cells along a head. You would not see more in the preview.
 const FINEST: f64 = 64.0;
 
-/// Height of the preview with its labels, in points.
 const TIP_HEIGHT: f32 = 54.0;
 
-/// Height of the labels, in points.
 const LABEL: f32 = 15.0;
 
-/// The marks of one head, which are computed once.
+/// The marks of one head. We compute them once.
 #[derive(Clone, Default)]
 pub(super) struct TipPreview {
     shown: Option<(BrushSpec, Vec<Mark>)>,
 }
 
-/// A mark with its texture, whose pixels are white where the hair touches.
+/// A mark with its texture. Its pixels are white where the hair touches.
 #[derive(Clone)]
 struct Mark {
     size_mm: [f64; 2],
@@ -156,7 +148,7 @@ impl std::fmt::Debug for TipPreview {
 }
 
 impl TipPreview {
-    /// Draws the three marks to one scale, so that the widest fills its field.
+    /// Draws the three marks to one scale. The widest fills its field.
     pub(super) fn show(&mut self, ui: &mut Ui, spec: &BrushSpec) {
         if self.shown.as_ref().is_none_or(|(shown, _)| shown != spec) {
             self.shown = Some((spec.clone(), marks(ui.ctx(), spec)));
@@ -200,7 +192,7 @@ impl TipPreview {
     }
 }
 
-/// The marks of a head at all pressures; none for a head that cannot be made.
+/// The marks of a head at all pressures, or none if the head cannot be made.
 fn marks(context: &Context, spec: &BrushSpec) -> Vec<Mark> {
     let cell_mm = spec.size_mm / FINEST;
     let made = PRESSURES.iter().map(|&(name, pressure)| {
@@ -219,7 +211,6 @@ fn marks(context: &Context, spec: &BrushSpec) -> Vec<Mark> {
     made.flatten().collect()
 }
 
-/// Whether a tool has settings. Their heads are clean: they neither lay nor keep the brush's paint.
 pub(super) fn has_settings(mode: Mode) -> bool {
     matches!(mode, Mode::Blend | Mode::Erase | Mode::Scrape | Mode::Mask)
 }
@@ -302,7 +293,7 @@ pub(in crate::panels) fn draw(
     let contour = shape.contour();
     let (length, _) = contour[contour.len() - 1];
     let metal = area.height() * 0.28;
-    // Fit to the height for long heads, to the width for wide ones.
+    // We fit long heads to the height and wide ones to the width.
     let scale = (area.width() * 0.78).min((area.height() - metal) / length);
     let foot = pos2(area.center().x, area.top() + area.height() - metal);
     let tip = foot.y - length * scale;
@@ -323,7 +314,7 @@ pub(in crate::panels) fn draw(
         (None, HeadShape::Knife) => Color32::from_gray(190),
         (None, _) => Color32::from_gray(112),
     };
-    // Dark in both themes, so that light hair stands out.
+    // This is dark in both themes, so that light hair stands out.
     let edge = Stroke::new(1.0, theme::DARK.well);
     painter.add(Shape::convex_polygon(outline(&contour, foot, scale), hair, edge));
 }
@@ -338,15 +329,14 @@ fn outline(contour: &[(f32, f32)], foot: Pos2, scale: f32) -> Vec<Pos2> {
     up.chain(down).collect()
 }
 
-/// Height of the swatch, in points.
 const SWATCH_HEIGHT: f32 = 50.0;
 
-/// Height of the bare edge of ground and cards above and below the film, in points.
+/// Height of the bare edge above and below the film, in points.
 const EDGE: f32 = 7.0;
 
-/// Draws the paint of a brush: at the left as a film that hides, at the right as the film that it
-/// lays now, over the ground and over a black and white card; and its colour in numbers. With
-/// `film` also how thick it is, and a button. Returns whether the mixture is to be kept.
+/// Draws the paint of a brush and its colour in numbers. You see a hiding film at the left, and at
+/// the right the film that it lays now, over the ground and over a black and white card. `film`
+/// adds the thickness and a button. Returns whether you want to keep the mixture.
 pub(super) fn show_swatch(ui: &mut Ui, brush: Option<&BrushState>, film: bool) -> bool {
     let swatch = brush.and_then(|brush| brush.swatch.as_deref());
     let size = vec2(ui.available_width(), SWATCH_HEIGHT);
@@ -361,7 +351,7 @@ pub(super) fn show_swatch(ui: &mut Ui, brush: Option<&BrushState>, film: bool) -
     let (Some(swatch), Some(brush)) = (swatch, brush) else { return false };
     tip(response, swatch);
     ui.scope(|ui| {
-        // Nothing is clicked in this line: it is only as high as its text.
+        // You cannot click in this line, so it is only as high as its text.
         ui.spacing_mut().interact_size.y = 0.0;
         ui.horizontal(|ui| color(ui, swatch));
     });
@@ -400,17 +390,17 @@ fn clean(ui: &Ui, rect: Rect, brush: Option<&BrushState>) {
 }
 
 fn tip(response: Response, swatch: &BrushSwatch) {
-    let lab = |color: FilmColor| {
+    fn lab(color: FilmColor) -> String {
         let [l, a, b] = color.lab.to_array();
         format!("Lab {l:.1} {a:.1} {b:.1}")
-    };
+    }
     response.on_hover_text(tr_format!("The paint at the tip, by its measured K and S under the light of the painting.\n\
          Left: a film that hides, {film}.\n\
          Then the film as thick as the paint at the tip: over the ground, {ground}; over a black card, \
          {black}; over a white card, {white}. Their bare edges show above and below.", film = lab(swatch.opaque), ground = lab(swatch.over_ground), black = lab(swatch.over_cards[0]), white = lab(swatch.over_cards[1])));
 }
 
-/// Thickness and medium of the film; returns whether the mixture is to be kept.
+/// Thickness and medium of the film. Returns whether you want to keep the mixture.
 fn film_line(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
     let thickness = millimetres(swatch.thickness_mm);
     let medium = tr_format!(
@@ -431,7 +421,6 @@ fn film_line(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
     line.inner
 }
 
-/// The colour of the film, and how much of the ground it hides.
 fn color(ui: &mut Ui, swatch: &BrushSwatch) {
     let [l, a, b] = swatch.opaque.lab.to_array();
     ui.spacing_mut().item_spacing.x = 10.0;

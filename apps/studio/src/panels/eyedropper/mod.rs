@@ -31,7 +31,7 @@ pub(super) use target::{LayerPaint, swatch};
 #[derive(Debug, Default)]
 pub struct Eyedropper {
     target: Option<TargetColor>,
-    /// Colour of the reference picture that was last made the target.
+    /// Last colour of the reference picture that became the target.
     last_reference_color: Option<[f64; 3]>,
     text: String,
     fault: Option<String>,
@@ -40,14 +40,14 @@ pub struct Eyedropper {
 }
 
 impl Eyedropper {
-    /// Whether a file holds colour swatches, by its extension: `.gpl`, `.ase`, `.aco`.
+    /// Whether a file has colour swatches, by its extension: `.gpl`, `.ase`, `.aco`.
     #[must_use]
     pub fn takes(path: &Path) -> bool {
         reader(path).is_some()
     }
 
-    /// Loads the swatches of another painting program's palette. An error is shown in
-    /// the panel.
+    /// Loads the swatches of another painting program's palette. If this fails, the panel shows the
+    /// error.
     pub fn open_swatches(&mut self, path: &Path) {
         self.fault = None;
         match colors(path) {
@@ -209,7 +209,7 @@ fn colors(path: &Path) -> Result<SwatchFile, String> {
     reader(&name, &bytes).map_err(|error| error.to_string())
 }
 
-/// Converts swatches to target colours. Spot inks without a colour are skipped.
+/// Converts swatches to target colours. This skips spot inks without a colour.
 fn wanted_of(palette: &SwatchFile) -> Vec<TargetColor> {
     let swatches = palette.swatches.iter();
     let wanted = swatches.filter_map(|one| {
@@ -220,8 +220,8 @@ fn wanted_of(palette: &SwatchFile) -> Vec<TargetColor> {
     wanted.collect()
 }
 
-/// Draws colour, spectrum and layers of the picked place. Returns whether recipes for
-/// its colour are requested.
+/// Draws colour, spectrum and layers of the picked place. Returns whether you want recipes for its
+/// colour.
 fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picked) -> bool {
     let painting = cx.painting;
     let weights = weights(painting.library.grid, &painting.light.viewing);
@@ -342,7 +342,6 @@ pub(super) fn layer(
     }
 }
 
-/// Draws amounts and names in two columns.
 fn recipe(ui: &mut Ui, salt: &str, lines: &[(String, String)]) {
     let grid = Grid::new(salt).num_columns(2).min_row_height(16.0).spacing(vec2(8.0, 2.0));
     grid.show(ui, |ui| {

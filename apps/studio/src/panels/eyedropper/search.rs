@@ -21,11 +21,9 @@ use crate::language::{tr, tr_format};
 use crate::recipe_search::{RecipeSearch, SearchRequest};
 use crate::theme;
 
-/// Number of recipes shown.
 const BEST: usize = 3;
 
-/// Default for the total of a recipe's whole parts. Large, because strong pigments need
-/// small shares.
+/// Default total of a recipe's whole parts. It is large, because strong pigments need small shares.
 const PARTS: u32 = 40;
 
 /// Limits of the recipe search and the running search.
@@ -63,7 +61,7 @@ impl SearchPanel {
         self.search.start(request, move || context.request_repaint());
     }
 
-    /// Forgets the recipes found, and ends a search.
+    /// Forgets the found recipes and ends a search.
     pub(in crate::panels) fn forget(&mut self) {
         self.search = RecipeSearch::default();
     }
@@ -81,7 +79,7 @@ impl SearchPanel {
             limits.allowed.dedup();
         }
         limits.whole_parts = Some(self.parts);
-        // The minimum share must not exclude a pigment of a single part.
+        // The minimum share must allow a pigment with a single part.
         limits.least_share = limits.least_share.min(1.0 / f64::from(self.parts));
         limits.count = BEST;
         SearchRequest { library: Arc::clone(library), target, limits }
@@ -101,7 +99,6 @@ impl SearchPanel {
         conditions
     }
 
-    /// Draws limits, progress and the recipes found.
     pub(in crate::panels) fn show(
         &mut self,
         ui: &mut Ui,
@@ -134,7 +131,7 @@ impl SearchPanel {
         self.results(ui, cx);
     }
 
-    /// Draws the limits. Returns whether one was changed.
+    /// Draws the limits. Returns whether you changed one.
     fn limits(&mut self, ui: &mut Ui, painting: &PaintingState) -> bool {
         let before = (self.whole_library, self.both_lights, self.parts);
         ui.horizontal(|ui| {
@@ -197,17 +194,13 @@ impl SearchPanel {
     }
 }
 
-/// Size of the patch that compares two colours, in points.
 const PATCH: Vec2 = vec2(72.0, 40.0);
 
-/// A found recipe and the colour it is compared with.
+/// A found recipe, and the colour to compare it with.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FoundRecipe<'a> {
-    /// Rank of the recipe, from 1.
     pub(super) number: usize,
-    /// Library of its pigments.
     pub(super) library: &'a PigmentLibrary,
-    /// Recipe found by the search.
     pub(super) recipe: &'a RecipeMatch,
     /// White point of the search's light.
     pub(super) white: Xyz,
@@ -320,8 +313,8 @@ impl FoundRecipe<'_> {
         self.recipe.shares.pigments().filter(|&pigment| !slots.contains(&Some(pigment))).collect()
     }
 
-    /// Draws a button that adds `pigment` to the palette, or a menu of pigments to
-    /// replace if the palette is full.
+    /// Draws a button that adds `pigment` to the palette. If this is full, you choose a pigment to
+    /// replace in a menu.
     fn add_button(&self, ui: &mut Ui, cx: &mut PanelContext<'_>, pigment: PigmentId) {
         let name = &self.library[pigment].name;
         let on_palette: Vec<PigmentId> = cx.painting.slots.iter().copied().flatten().collect();

@@ -22,7 +22,7 @@ use crate::theme;
 /// A colour in one of three forms.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Color {
-    /// Screen colour in linear sRGB, to be matched in appearance under any light.
+    /// Screen colour in linear sRGB. Its appearance is matched under any light.
     Screen([f64; 3]),
     /// CIELAB relative to the light of the painting.
     Lab(Lab),
@@ -93,7 +93,6 @@ pub(super) fn screen_rgb(lab: Lab, white: Xyz) -> Rgb {
     RgbSpace::Srgb.encoded_from_xyz(lab.to_xyz(white), white, Adaptation::Bradford)
 }
 
-/// XYZ under `white` of a screen colour in linear sRGB.
 fn from_screen(linear: [f64; 3], white: Xyz) -> Xyz {
     RgbSpace::Srgb.xyz_from_encoded(Rgb(linear).encoded(), white, Adaptation::Bradford)
 }
@@ -103,14 +102,13 @@ pub(super) fn weights(grid: Grid, viewing: &Viewing) -> TristimulusWeights {
     viewing.weights(grid).expect("the tristimulus method fits every library grid")
 }
 
-/// Share of all pigment below which a pigment counts as a trace; chosen by eye.
+/// A pigment below this share of all pigment counts as a trace (chosen by eye).
 const TRACE: f64 = 0.005;
 
-/// Maximum sum of the whole parts of a recipe.
+/// Largest sum of the whole parts of a recipe.
 const MOST_PARTS: u32 = 20;
 
-/// Maximum error of whole parts, as a share of all pigment; otherwise percentages are
-/// shown.
+/// Largest error of whole parts, as a share of all pigment. If it is larger, we show percentages.
 const NEAR: f64 = 0.005;
 
 /// Paint of one layer at a picked place.
@@ -131,7 +129,7 @@ pub(in crate::panels) struct LayerPaint {
 }
 
 impl LayerPaint {
-    /// Describes the paint of a picked layer; `None` if it has none there.
+    /// The paint of a picked layer; `None` if there is none at this place.
     pub(in crate::panels) fn of(layer: &PickedLayer) -> Option<Self> {
         let mut amounts: BTreeMap<PigmentId, f64> = BTreeMap::new();
         for (slot, amount) in layer.slots.iter().zip(layer.amounts_mm) {
@@ -162,7 +160,7 @@ impl LayerPaint {
         })
     }
 
-    /// Returns amount (`6` or `61.3 %`) and name of each pigment.
+    /// Amount (e.g. `6` or `61.3 %`) and name of each pigment.
     pub(super) fn lines(&self, library: &PigmentLibrary) -> Vec<(String, String)> {
         self.shares
             .iter()
@@ -179,14 +177,18 @@ impl LayerPaint {
 
     /// Recipe in whole parts or in shares rounded to 0.0001, and the share of clear vehicle.
     pub(super) fn recipe(&self, library: &PigmentLibrary) -> (Recipe, f64) {
-        let part = |(at, (pigment, share)): (usize, &(PigmentId, f64))| {
-            let part = match &self.parts {
-                Some(parts) => f64::from(parts[at]),
-                None => (1e4 * share).round() / 1e4,
-            };
-            (library[*pigment].name.clone(), part)
-        };
-        let parts = self.shares.iter().enumerate().map(part).filter(|(_, part)| *part > 0.0);
+        let parts = self
+            .shares
+            .iter()
+            .enumerate()
+            .map(|(at, (pigment, share)): (usize, &(PigmentId, f64))| {
+                let part = match &self.parts {
+                    Some(parts) => f64::from(parts[at]),
+                    None => (1e4 * share).round() / 1e4,
+                };
+                (library[*pigment].name.clone(), part)
+            })
+            .filter(|(_, part)| *part > 0.0);
         (parts.collect(), self.vehicle.clamp(0.0, 1.0))
     }
 
@@ -225,7 +227,6 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let mut quoted = String::from('"');
     for letter in word.chars() {
@@ -244,8 +245,8 @@ pub(super) fn on_screen(rgb: Rgb) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// Draws a clickable patch with an accessible name. Several colours lie side by side
-/// without a gap for comparison.
+/// Draws a clickable patch with an accessible name. If there are several colours, they lie side by
+/// side without a gap, so that you can compare them.
 pub(in crate::panels) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colors: &[Rgb]) -> Response {
     let size = theme::at_least(ui, size);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -369,7 +370,7 @@ mod tests {
         let paint = LayerPaint::of(&layer(&[(0, 0.06), (3, 0.02)], 0.02)).unwrap();
         let names = [0, 3].map(|pigment| library.pigments[pigment].name.clone());
         let text = paint.mix_text(&library, &Medium::default()).unwrap();
-        // 0.08 mm of pigment at 50 per mm.
+        // This is 0.08 mm of pigment at 50 per mm.
         assert_eq!(text, format!("\"{}=3\" \"{}=1\" --thickness 4", names[0], names[1]));
         library.amounts = AmountKind::Absolute;
         let text = paint.mix_text(&library, &Medium::default()).unwrap();

@@ -31,14 +31,14 @@ pub struct Layers {
     order: Order,
 }
 
-/// Choice in the menu of a layer that the panel carries out after the row.
+/// Choice in the menu of a layer. The panel carries it out after the row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum MenuChoice {
     Rename,
     Exchange,
 }
 
-/// Dries the share of the canvas's wet paint that is set in the tools.
+/// Dries a share of the canvas's wet paint, as set in the tools.
 pub fn dry(cx: &mut PanelContext<'_>) {
     let fraction = cx.tools.dry_share;
     cx.act(Action::Dry { fraction });
@@ -120,7 +120,7 @@ impl Layers {
         }
     }
 
-    /// Renames the layer that is chosen alone with F2, unless some text is being edited.
+    /// If one layer is chosen and you are not editing text, F2 renames it.
     fn rename_by_key(&mut self, ui: &Ui, cx: &PanelContext<'_>) {
         let Some(id) = self.chosen.one().filter(|id| !self.naming.is_of(*id)) else { return };
         let typing = ui.ctx().text_edit_focused();
@@ -158,7 +158,6 @@ impl Layers {
 const EXCHANGE: &str =
     english("Replaces a pigment of this layer, as if painted with the other one");
 
-/// Fills the menu of the dry layer `index`.
 fn menu(ui: &mut Ui, cx: &mut PanelContext<'_>, index: usize) -> Option<MenuChoice> {
     let layers = &cx.painting.layers;
     let state = &layers[index];
@@ -214,7 +213,7 @@ fn states(layers: &[LayerState], ids: [LayerId; 2]) -> Option<[&LayerState; 2]> 
     Some([find(ids[0])?, find(ids[1])?])
 }
 
-/// Reason why two dry layers cannot be merged, if it is known before the paint is compared.
+/// Why two dry layers cannot be merged, if we know it before comparing the paint.
 fn merge_obstacle(a: &LayerState, b: &LayerState) -> Option<&'static str> {
     (a.visible != b.visible).then_some(tr("one of the two is hidden; show both, or hide both"))
 }
@@ -236,8 +235,8 @@ impl Chosen {
         self.0.contains(&layer)
     }
 
-    /// Chooses a layer by a click: only this one, or, with Ctrl, this one besides the others or no
-    /// longer.
+    /// Chooses a layer by a click. With Ctrl, this adds the layer to the others or removes it from
+    /// them.
     fn click(&mut self, layer: LayerId, modifiers: Modifiers) {
         if !modifiers.command {
             self.0 = vec![layer];
@@ -248,23 +247,22 @@ impl Chosen {
         }
     }
 
-    /// Drops layers that no longer exist.
     fn keep(&mut self, layers: &[LayerState]) {
         self.0.retain(|chosen| layers.iter().any(|layer| layer.id == *chosen));
     }
 
-    /// The chosen layer, if it is one alone.
+    /// The chosen layer, if there is just one.
     fn one(&self) -> Option<LayerId> {
         if let [one] = self.0[..] { Some(one) } else { None }
     }
 
-    /// Both chosen layers, if they are two.
+    /// Both chosen layers, if there are two.
     fn two(&self) -> Option<[LayerId; 2]> {
         self.0[..].try_into().ok()
     }
 }
 
-/// The row that is being dragged, and the rows of the frame.
+/// The row that you drag, and the rows of the frame.
 #[derive(Debug, Clone, Default)]
 struct Order {
     dragged: Option<LayerId>,
@@ -273,12 +271,10 @@ struct Order {
 }
 
 impl Order {
-    /// Whether this row is being dragged.
     fn is_dragged(&self, layer: LayerId) -> bool {
         self.dragged == Some(layer)
     }
 
-    /// Notes a row and whether it is being dragged.
     fn row(&mut self, layer: LayerId, response: &Response) {
         self.rows.push((layer, response.rect));
         if response.drag_started() {
@@ -286,8 +282,8 @@ impl Order {
         }
     }
 
-    /// Draws the line where the dragged row would be dropped, and moves its layer there when it is
-    /// released. Call it after all rows.
+    /// Draws the line at the place of the dragged row, and moves its layer there when you release
+    /// it. Call this after all rows.
     fn finish(&mut self, ui: &Ui, cx: &mut PanelContext<'_>) {
         let rows = std::mem::take(&mut self.rows);
         let Some(dragged) = self.dragged else { return };
@@ -322,24 +318,23 @@ impl Order {
     }
 }
 
-/// Index of the gap between rows that is nearest to `y`: 0 above the first.
+/// Index of the gap between rows that is nearest to `y`. 0 is above the first.
 fn gap(rows: &[(LayerId, Rect)], y: f32) -> usize {
     rows.iter().filter(|(_, row)| row.center().y < y).count()
 }
 
-/// Place from the lowest of the layer in row `from` (0 is the topmost) of `count` when it is dropped
-/// into a gap between rows.
+/// You drop the layer of row `from` (0 is the topmost) of `count` into a gap between rows. This is
+/// its new place, counted from the lowest.
 fn place(count: usize, from: usize, gap: usize) -> usize {
     let row = if gap > from { gap - 1 } else { gap };
     count - 1 - row
 }
 
-/// Draws the slider; `pending` is its value that the worker has not confirmed yet.
+/// Draws the slider. `pending` is a value that the worker has not confirmed yet.
 fn stiffness(ui: &mut Ui, cx: &mut PanelContext<'_>, pending: &mut PendingValue<f64>) {
     let now = ui.input(|input| input.time);
-    // Recorded values are rounded to six digits, so they may differ slightly.
-    let near = |a: &f64, b: &f64| (a - b).abs() < 1e-3;
-    let mut value = pending.shown(&cx.painting.medium.stiffness, near, now);
+    // Recorded values have six digits, so they may differ slightly.
+    let mut value = pending.shown(&cx.painting.medium.stiffness, |a, b| (a - b).abs() < 1e-3, now);
     let control = Slider::new(&mut value, 0.0..=1.0).fixed_decimals(2);
     let tip =
         tr("How stiff the wet paint is, on canvas and palette: 0 is stand oil, which levels \
@@ -372,7 +367,7 @@ mod tests {
 
     #[test]
     fn a_gap_above_or_below_the_dragged_row_leaves_it() {
-        // Three rows: the topmost layer has place 2.
+        // There are three rows, and the topmost layer has place 2.
         for from in 0..3 {
             let places = [0, 1, 2, 3].map(|gap| place(3, from, gap));
             let wanted = [[2, 2, 1, 0], [2, 1, 1, 0], [2, 1, 0, 0]][from];

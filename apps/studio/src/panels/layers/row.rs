@@ -20,13 +20,10 @@ use crate::panels::controls::{button_background, millimetres, patch, slider};
 use crate::panels::pigments::Catalogue;
 use crate::theme;
 
-/// Size of a thumbnail in points.
 const THUMBNAIL: [f32; 2] = [60.0, 44.0];
 
-/// Room for the dots on the button of the menu, in points.
 const DOTS: f32 = 16.0;
 
-/// State that the rows share.
 pub(super) struct RowParts<'a> {
     pub(super) naming: &'a mut Naming,
     pub(super) opacity: &'a mut Opacity,
@@ -34,22 +31,20 @@ pub(super) struct RowParts<'a> {
     pub(super) catalogue: &'a Catalogue,
 }
 
-/// How a row is shown.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RowLook {
     pub(super) chosen: bool,
     pub(super) dragged: bool,
 }
 
-/// A row that was drawn.
 pub(super) struct DrawnRow {
     /// The row itself, below its controls.
     pub(super) response: Response,
-    /// The name, if it is not being edited.
+    /// The name, unless you are editing it.
     pub(super) name: Option<Rect>,
 }
 
-/// Draws the row of a layer; `menu` fills its menu.
+/// Draws the row of a layer. `menu` fills its menu.
 pub(super) fn row(
     ui: &mut Ui,
     cx: &mut PanelContext<'_>,
@@ -70,7 +65,7 @@ pub(super) fn row(
             ui.set_opacity(0.5);
         }
         let frame = Frame::new().fill(fill).corner_radius(theme::CORNER_RADIUS);
-        // An edge, as the fill of chosen items would hide the rail of the slider.
+        // We draw an edge, because the fill of chosen items would hide the rail of the slider.
         let edge = match (look.chosen, background.has_focus()) {
             (true, _) => Stroke::new(1.5, colors.strong),
             (false, true) => Stroke::new(1.5, colors.faint),
@@ -136,7 +131,6 @@ fn header(
     line.inner
 }
 
-/// Draws the eye, which shows and hides the layer.
 fn visibility(ui: &mut Ui, cx: &mut PanelContext<'_>, state: &LayerState) {
     let response = eye(
         ui,
@@ -197,7 +191,6 @@ fn lid(lens: Rect, side: f32) -> Vec<Pos2> {
         .collect()
 }
 
-/// The name that is being edited, if one is.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Naming(Option<Edited>);
 
@@ -205,7 +198,7 @@ pub(super) struct Naming(Option<Edited>);
 struct Edited {
     layer: LayerId,
     text: String,
-    /// Whether the text field was not shown yet.
+    /// Whether we have not shown the text field yet.
     fresh: bool,
 }
 
@@ -216,12 +209,12 @@ impl Naming {
         self.0 = Some(Edited { layer: layer.id, text, fresh: true });
     }
 
-    /// Whether the name of this layer is being edited.
+    /// Whether you are editing the name of this layer.
     pub(super) fn is_of(&self, layer: LayerId) -> bool {
         self.0.as_ref().is_some_and(|edited| edited.layer == layer)
     }
 
-    /// Draws the text field. Enter and a click elsewhere set the name, Escape leaves it.
+    /// Draws the text field. Enter or a click elsewhere sets the name, Escape does not.
     pub(super) fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, layer: &LayerState) {
         let Some(edited) = self.0.as_mut().filter(|edited| edited.layer == layer.id) else {
             return;
@@ -251,16 +244,14 @@ impl Naming {
     }
 }
 
-/// Time after which an unconfirmed opacity is dropped, in seconds.
+/// We drop an unconfirmed opacity after this time, in seconds.
 const TIMEOUT_SECONDS: f64 = 1.0;
 
-/// State of the opacity controls.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Opacity {
     pending: Option<PendingOpacity>,
 }
 
-/// A requested opacity that is not confirmed yet.
 #[derive(Debug, Clone, Copy)]
 struct PendingOpacity {
     layer: LayerId,
@@ -270,7 +261,6 @@ struct PendingOpacity {
 }
 
 impl Opacity {
-    /// Draws the opacity slider of a layer.
     pub(super) fn slider(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, state: &LayerState) {
         let now = ui.input(|input| input.time);
         let layer = state.id;
@@ -321,7 +311,6 @@ pub(super) fn pigments(ui: &mut Ui, catalogue: &Catalogue, slots: &Slots) {
     });
 }
 
-/// A thumbnail on the screen, with its width and height in pixels there.
 type Scaled = (Arc<Thumbnail>, [usize; 2], TextureHandle);
 
 /// Textures of the thumbnails in use.
@@ -335,7 +324,7 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// Draws a thumbnail within `area` points, keeping its aspect ratio, pixel by pixel.
+    /// Draws a thumbnail within `area` points, with its aspect ratio, pixel by pixel.
     pub(super) fn show(&mut self, ui: &mut Ui, thumbnail: &Arc<Thumbnail>, area: Vec2) {
         let (rect, _) = ui.allocate_exact_size(area, Sense::hover());
         if thumbnail.width == 0 || thumbnail.height == 0 {
@@ -346,7 +335,7 @@ impl Thumbnails {
         let density = ui.pixels_per_point();
         let pixels = (size * scale * density).round().max(Vec2::splat(1.0));
         let place = Rect::from_center_size(rect.center(), pixels / density);
-        // On whole pixels, so that no filter blurs it.
+        // On whole pixels, no filter blurs it.
         let corner = (place.min * density).round() / density;
         let place = Rect::from_min_size(corner, pixels / density);
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
@@ -383,12 +372,16 @@ impl Thumbnails {
     }
 }
 
-/// The thumbnail with other columns and rows: each pixel is the mean of what it covers.
+/// The thumbnail with other columns and rows. Each pixel is the mean of the area that it covers.
 fn scaled(thumbnail: &Thumbnail, [width, height]: [usize; 2]) -> Vec<Color32> {
-    let color = |[red, green, blue, alpha]: [u8; 4]| {
-        Rgba::from(Color32::from_rgba_unmultiplied(red, green, blue, alpha))
-    };
-    let source: Vec<Rgba> = thumbnail.pixels.iter().copied().map(color).collect();
+    let source: Vec<Rgba> = thumbnail
+        .pixels
+        .iter()
+        .copied()
+        .map(|[red, green, blue, alpha]| {
+            Rgba::from(Color32::from_rgba_unmultiplied(red, green, blue, alpha))
+        })
+        .collect();
     let columns: Vec<_> = (0..width).map(|x| shares(x, width, thumbnail.width)).collect();
     let mut pixels = Vec::with_capacity(width * height);
     for y in 0..height {
@@ -406,8 +399,8 @@ fn scaled(thumbnail: &Thumbnail, [width, height]: [usize; 2]) -> Vec<Color32> {
     pixels
 }
 
-/// The pixels of `source` that pixel `index` of `count` covers, with the share of each; their sum
-/// is 1.
+/// The pixels of `source` that pixel `index` of `count` covers, with the share of each. The shares
+/// sum to 1.
 fn shares(index: usize, count: usize, source: usize) -> Vec<(usize, f32)> {
     let scale = source as f64 / count as f64;
     let from = index as f64 * scale;

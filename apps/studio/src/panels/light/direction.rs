@@ -1,5 +1,5 @@
 //! Two pads of the light panel: the light direction on a shaded hemisphere seen from above, and
-//! gloss with the exponent to the right and the strength upwards.
+//! gloss. In the gloss pad the exponent grows to the right and the strength upwards.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -26,8 +26,8 @@ const RINGS: usize = 14;
 /// Vertices of each ring.
 const SPOKES: usize = 48;
 
-/// Direction of the light: azimuth clockwise from the top of the canvas and elevation
-/// above it, in degrees.
+/// Direction of the light: azimuth clockwise from the top of the canvas and elevation above it, in
+/// degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::panels) struct Direction {
     pub(in crate::panels) azimuth_deg: f64,
@@ -42,8 +42,8 @@ impl Direction {
         [out * sin, -out * cos]
     }
 
-    /// Direction of a position on the unit disc; outside the disc the elevation is
-    /// minimal. At the centre, where the azimuth is undefined, it stays unchanged.
+    /// Direction of a position on the unit disc. Outside the disc the elevation is minimal. At the
+    /// centre the azimuth is undefined, so it stays unchanged.
     fn at(self, [x, y]: [f64; 2]) -> Self {
         let out = x.hypot(y);
         let elevation_deg = out.min(1.0).acos().to_degrees().max(LOWEST_DEG);
@@ -60,12 +60,11 @@ impl Direction {
     }
 }
 
-/// Rounds to a tenth of a degree.
 fn rounded(degrees: f64) -> f64 {
     (degrees * 10.0).round() / 10.0
 }
 
-/// Draws the hemisphere and updates `direction` from dragging and arrow keys. The share
+/// Draws the hemisphere and updates `direction` when you drag it or use arrow keys. The share
 /// `ambient` of the light, 0 to 1, is undirected.
 pub(in crate::panels) fn direction_control(
     ui: &mut Ui,
@@ -99,7 +98,7 @@ pub(in crate::panels) fn direction_control(
         ui.painter().circle_stroke(centre, radius, Stroke::new(1.0, theme::colors(ui.ctx()).line));
         let [x, y] = direction.on_disc();
         let handle = centre + radius * vec2(x as f32, y as f32);
-        // Dark on the light sphere in both themes.
+        // The light sphere needs a dark line in both themes.
         ui.painter().line_segment([centre, handle], Stroke::new(1.0, theme::DARK.bar));
         ui.painter().circle(
             handle,
@@ -119,7 +118,7 @@ pub(in crate::panels) fn direction_control(
     (response, edit)
 }
 
-/// Formats a direction such as 315 degrees, 50 degrees high.
+/// Direction as text, e.g. 315 degrees, 50 degrees high.
 pub(in crate::panels) fn direction_text(direction: Direction) -> String {
     let Direction { azimuth_deg, elevation_deg } = direction;
     tr_format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high", azimuth_deg, elevation_deg)
@@ -154,8 +153,7 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
     let mut mesh = Mesh::default();
     mesh.colored_vertex(centre, grey(0.0, 0.0));
     for ring in 1..=RINGS {
-        // Equal angles between the rings, so that the shading is as smooth at the rim as at
-        // the pole.
+        // Equal angles between the rings give a shading as smooth at the rim as at the pole.
         let out = (FRAC_PI_2 * ring as f64 / RINGS as f64).sin();
         for spoke in 0..SPOKES {
             let (sin, cos) = (TAU * spoke as f64 / SPOKES as f64).sin_cos();
@@ -165,10 +163,12 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
             mesh.colored_vertex(place, grey(u, v));
         }
     }
-    let vertex = |ring: usize, spoke: usize| match ring {
-        0 => 0,
-        _ => (1 + (ring - 1) * SPOKES + spoke % SPOKES) as u32,
-    };
+    fn vertex(ring: usize, spoke: usize) -> u32 {
+        match ring {
+            0 => 0,
+            _ => (1 + (ring - 1) * SPOKES + spoke % SPOKES) as u32,
+        }
+    }
     for ring in 0..RINGS {
         for spoke in 0..SPOKES {
             let outer = [vertex(ring + 1, spoke), vertex(ring + 1, spoke + 1)];
@@ -184,13 +184,13 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
 /// Strength at the upper edge, as a share of a perfect white.
 const STRONGEST: f32 = 1.0;
 
-/// Exponents at the left and right edges; the scale is logarithmic.
+/// Exponents at the left and right edges. The scale is logarithmic.
 const EXPONENTS: (f32, f32) = (2.0, 500.0);
 
 /// Mesh cells of the drawn highlight along each side.
 const CELLS: usize = 20;
 
-/// Draws a pad with an accessible name and updates `gloss` from dragging.
+/// Draws a pad with an accessible name and updates `gloss` when you drag it.
 pub(super) fn gloss_pad(
     ui: &mut Ui,
     name: &str,
@@ -234,7 +234,7 @@ pub(super) fn gloss_pad(
     (response, edit)
 }
 
-/// Formats a gloss: `strength 0.25, exponent 60`.
+/// Gloss as text, e.g. `strength 0.25, exponent 60`.
 pub(super) fn gloss_text(gloss: Gloss) -> String {
     tr_format!(
         "strength {strength:.2}, exponent {exponent:.0}",
@@ -248,7 +248,7 @@ fn gloss_at(pad: Rect, place: Pos2) -> Gloss {
     let up = remap_clamp(place.y, pad.y_range(), 1.0..=0.0);
     let exponent = lerp(EXPONENTS.0.ln()..=EXPONENTS.1.ln(), along).exp();
     let strength = STRONGEST * up;
-    // Rounded, because smaller differences are not visible.
+    // We round, because you would not see smaller differences.
     let digits = if exponent < 10.0 { 10.0 } else { 1.0 };
     Gloss {
         strength: (strength * 100.0).round() / 100.0,
@@ -270,8 +270,8 @@ fn highlight(rect: Rect, gloss: Gloss) -> Shape {
         for column in 0..=CELLS {
             let u = column as f32 / CELLS as f32;
             let v = row as f32 / CELLS as f32;
-            // The surface turns by 90 degrees from the upper to the lower edge: 0.785 is 45
-            // degrees in radians.
+            // The surface turns by 90 degrees from the upper to the lower edge: 0.785 is 45 degrees
+            // in radians.
             let across = (2.0 * u - 1.0) * rect.width() / rect.height();
             let away = vec2(across, 2.0 * v - 1.0).length().min(2.0);
             let shine = gloss.strength * (away * 0.785).cos().powf(gloss.exponent);

@@ -1,6 +1,5 @@
-//! Control of one illuminant: a list of the CIE illuminants with a search field, a slider of
-//! colour temperature (CIE daylight, or a black body below 4000 K), and a chart of the spectral
-//! power.
+//! Control of one illuminant: a list of the CIE illuminants with a search field, a slider of colour
+//! temperature (CIE daylight, or a black body below 4000 K), and a chart of the spectral power.
 
 use std::path::Path;
 
@@ -17,7 +16,6 @@ use crate::chart::{BAND_NM, Chart, Curve};
 use crate::language::{tr, tr_format};
 use crate::theme;
 
-/// Kind of light source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
     /// Daylight phases and their indoor versions.
@@ -26,16 +24,14 @@ pub(super) enum Kind {
     Incandescent,
     /// Fluorescent tubes of the FL series.
     Fluorescent,
-    /// High-pressure discharge lamps.
     Discharge,
     /// White LED lamps.
     Led,
-    /// Theoretical illuminants such as E.
+    /// Theoretical illuminants, e.g. E.
     Reference,
 }
 
 impl Kind {
-    /// Name shown in the list.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Daylight => "Daylight",
@@ -48,12 +44,10 @@ impl Kind {
     }
 }
 
-/// An illuminant of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ListedIlluminant {
     /// Name of the illuminant in `spectra`.
     pub(super) name: &'static str,
-    /// Kind of light source.
     pub(super) kind: Kind,
     /// Short description, from CIE 15:2018.
     pub(super) note: &'static str,
@@ -69,11 +63,12 @@ impl ListedIlluminant {
 
 /// All illuminants of `spectra`, grouped by kind, each group in the CIE's order.
 pub(super) fn listed_illuminants() -> Vec<ListedIlluminant> {
-    let lamp = |name: &'static str| {
-        let (kind, note) = description(name);
-        ListedIlluminant { name, kind, note }
-    };
-    let mut lamps: Vec<ListedIlluminant> = Illuminant::names().map(lamp).collect();
+    let mut lamps: Vec<ListedIlluminant> = Illuminant::names()
+        .map(|name: &'static str| {
+            let (kind, note) = description(name);
+            ListedIlluminant { name, kind, note }
+        })
+        .collect();
     lamps.sort_by_key(|lamp| lamp.kind);
     lamps
 }
@@ -121,7 +116,7 @@ fn description(name: &str) -> (Kind, &'static str) {
     }
 }
 
-/// Slider position for a light without a colour temperature, in kelvin.
+/// Slider position in kelvin for a light without a colour temperature.
 const USUAL_KELVIN: f64 = 6500.0;
 
 /// Controls that choose one illuminant.
@@ -135,7 +130,6 @@ pub(in crate::panels) struct IlluminantControl {
 }
 
 impl IlluminantControl {
-    /// Creates the controls with their accessible names.
     pub(in crate::panels) fn new(name: &'static str, temperature_name: &'static str) -> Self {
         Self {
             picker: Picker::new(name),
@@ -145,7 +139,7 @@ impl IlluminantControl {
         }
     }
 
-    /// Draws the controls. Returns the name of the illuminant that was chosen.
+    /// Draws the controls. Returns the name of the chosen illuminant.
     pub(in crate::panels) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         if self.known.0 != chosen {
             let light = light_from_text(chosen).ok();
@@ -157,13 +151,12 @@ impl IlluminantControl {
         picked.or(self.temperature.show(ui, tr(self.temperature_name), self.known.1))
     }
 
-    /// Name of the illuminant at the slider while it is being moved.
+    /// While you move the slider, this is the name of its illuminant.
     pub(in crate::panels) fn preview(&self) -> Option<String> {
         self.temperature.preview()
     }
 }
 
-/// Button that opens the list.
 #[derive(Debug)]
 pub(super) struct Picker {
     name: &'static str,
@@ -173,15 +166,14 @@ pub(super) struct Picker {
 }
 
 impl Picker {
-    /// Creates a picker with an accessible name.
     pub(super) fn new(name: &'static str) -> Self {
         let lamps = listed_illuminants();
         let highlight = Highlight::default();
         Self { name, lamps, search: String::new(), highlight }
     }
 
-    /// Draws the button with the chosen illuminant, and the list while it is open.
-    /// Returns the name of the illuminant that was picked.
+    /// Draws the button with the chosen illuminant, and the list while it is open. Returns the name
+    /// that you picked.
     pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         let text = short(chosen);
         let width = ui.available_width();
@@ -263,7 +255,7 @@ impl Picker {
         ScrollArea::vertical().max_height(360.0).show(ui, |ui| {
             let mut kind: Option<Kind> = None;
             for (line, lamp) in found.iter().enumerate() {
-                // What was searched for is in the order of its match, not of its kind.
+                // Search results are sorted by match and not by kind.
                 if self.search.trim().is_empty() && kind.replace(lamp.kind) != Some(lamp.kind) {
                     ui.add_space(3.0);
                     let name = RichText::new(lamp.kind.name()).small();
@@ -286,7 +278,6 @@ impl Picker {
     }
 }
 
-/// Draws a line of the list.
 fn entry(ui: &mut Ui, lamp: &ListedIlluminant, chosen: bool) -> Response {
     let colors = theme::colors(ui.ctx());
     let note_color = if chosen { colors.text } else { colors.faint };
@@ -321,24 +312,23 @@ const DAYLIGHT_FROM: f64 = 4000.0;
 /// Range of the slider, in kelvin.
 const KELVIN: (f64, f64) = (1500.0, 25000.0);
 
-/// Time after the last key press at which the temperature is applied, in seconds.
+/// The temperature is applied this many seconds after the last key press.
 const PAUSE: f64 = 0.5;
 
-/// The slider and its temperature that is not applied yet.
+/// The slider with a temperature that is not applied yet.
 #[derive(Debug, Default)]
 pub(super) struct Temperature {
     waiting: Option<(f64, Option<f64>)>,
 }
 
 impl Temperature {
-    /// Name in `spectra` of the light being set.
+    /// Name in `spectra` of the light that you are setting.
     pub(super) fn preview(&self) -> Option<String> {
         self.waiting.map(|(kelvin, _)| light(kelvin))
     }
 
-    /// Draws the slider; `kelvin` is the temperature of the current light. Returns the
-    /// name of the chosen light once the slider is released or no key was pressed for a
-    /// while.
+    /// Draws the slider. `kelvin` is the temperature of the current light. Returns the name of the
+    /// chosen light once you release the slider or press no key for a while.
     pub(super) fn show(&mut self, ui: &mut Ui, name: &str, kelvin: f64) -> Option<String> {
         let now = ui.input(|input| input.time);
         let mut value = self.waiting.map_or(kelvin, |(waiting, _)| waiting);
@@ -380,7 +370,7 @@ fn rounded(kelvin: f64) -> f64 {
     (kelvin / step).round() * step
 }
 
-/// Name of a light in `spectra`: `D5600K` for daylight, `3200K` for a black body.
+/// Name of a light in `spectra`, e.g. `D5600K` for daylight or `3200K` for a black body.
 fn light(kelvin: f64) -> String {
     if kelvin < DAYLIGHT_FROM { format!("{kelvin}K") } else { format!("D{kelvin}K") }
 }
@@ -395,8 +385,8 @@ const HIGH: f32 = 120.0;
 /// Height from which a panel is high, in points.
 const ROOMY: f32 = 520.0;
 
-/// Draws the current light with its quadrature wavelengths, and other lights in their
-/// colours. All curves are scaled to mean 1.
+/// Draws the current light with its quadrature wavelengths, and other lights in their colours. We
+/// scale all curves to mean 1.
 pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
     let mut curves: Vec<Curve> =
         others.iter().map(|(other, color)| curve(other, Some(*color))).collect();
@@ -404,7 +394,7 @@ pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illu
     let marks = &light.quadrature.rule.nodes_nm;
     let chart = Chart { curves: &curves, marks, quantity: tr("relative power"), max: None };
     let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
-    // In a low panel the chart leaves its room to the controls.
+    // In a low panel the controls need the room of the chart.
     let high = if ui.clip_rect().height() < ROOMY { LOW } else { HIGH };
     let size = vec2(ui.available_width(), high);
     chart.show(ui, size).on_hover_text(tr_format!(
@@ -415,9 +405,9 @@ pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illu
 
 fn curve(light: &Illuminant, color: Option<Color32>) -> Curve {
     let grid = light.power().grid();
-    let shown = |point: &(f64, f64)| BAND_NM.contains(&point.0);
     let values = light.power().values().iter().copied();
-    let mut points: Vec<(f64, f64)> = grid.wavelengths_nm().zip(values).filter(shown).collect();
+    let mut points: Vec<(f64, f64)> =
+        grid.wavelengths_nm().zip(values).filter(|point| BAND_NM.contains(&point.0)).collect();
     let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len().max(1) as f64;
     points = points.into_iter().step_by(STEP_NM).map(|(nm, power)| (nm, power / mean)).collect();
     Curve { name: light.name().to_owned(), points, color }
@@ -429,7 +419,6 @@ const WIDE: (f32, f32) = (78.0, 54.0);
 /// Widths of label and number in a narrow panel, in points.
 const NARROW: (f32, f32) = (54.0, 39.0);
 
-/// Adds `slider` over the available width, with its label.
 pub(super) fn labelled_slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Response {
     let width = ui.available_width();
     let (before, behind) = if width > 200.0 { WIDE } else { NARROW };
@@ -485,13 +474,13 @@ mod tests {
 
     #[test]
     fn the_search_matches_words_of_name_kind_and_note() {
-        let found = |search: &str| -> Vec<&str> {
+        fn found(search: &str) -> Vec<&'static str> {
             listed_illuminants()
                 .into_iter()
                 .filter(|lamp| lamp.matches(search))
                 .map(|lamp| lamp.name)
                 .collect()
-        };
+        }
         assert_eq!(found("window PANE"), ["ID50", "ID65"]);
         assert_eq!(found("violet"), ["LED-V1", "LED-V2"]);
         assert_eq!(found("led-rgb"), ["LED-RGB1"]);

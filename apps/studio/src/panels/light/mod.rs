@@ -23,7 +23,6 @@ use illuminants::labelled_slider;
 pub(super) use direction::{Direction, direction_control, direction_text};
 pub(super) use illuminants::{IlluminantControl, power_chart};
 
-/// Side of the direction control, in points.
 const DIRECTION_SIZE: f32 = 104.0;
 
 /// First alternative illuminant: A, the common tungsten bulb.
@@ -34,7 +33,6 @@ const TUNGSTEN: &str = "A";
 pub struct LightPanel {
     first: IlluminantControl,
     second: IlluminantControl,
-    /// Name of the previous illuminant.
     previous: String,
     /// Illuminant of the second light when it was last on.
     last_second: String,
@@ -118,8 +116,8 @@ impl LightPanel {
         self.adjust_both_lights(ui, cx, Edit::of(&response), lighting);
     }
 
-    /// Queues a change of `lighting`. The second light gets all of it but its illuminant once
-    /// the change is complete.
+    /// Queues a change of `lighting`. Once the change is complete, the second light gets all of it
+    /// but the illuminant.
     fn adjust_both_lights(
         &mut self,
         ui: &Ui,
@@ -135,7 +133,7 @@ impl LightPanel {
         }
     }
 
-    /// Switches to the previous illuminant; at first to illuminant A.
+    /// Switches to the previous illuminant. If there was none, this is A.
     pub fn switch_illuminant(&mut self, cx: &mut PanelContext<'_>) {
         let now = &cx.painting.lighting;
         let illuminant = std::mem::replace(&mut self.previous, now.illuminant.clone());
@@ -261,17 +259,16 @@ impl LightPanel {
 fn same_lighting(a: &Lighting, b: &Lighting) -> bool {
     let numbers =
         |l: &Lighting| [l.azimuth_deg, l.elevation_deg, l.ambient, l.relief, l.adaptation];
-    // Recorded lighting is rounded to six digits, so it may differ slightly.
-    let near = |(a, b): (f64, f64)| (a - b).abs() < 1e-3;
+    // Recorded lighting has six digits, so it may differ slightly.
     a.illuminant == b.illuminant
         && a.observer == b.observer
-        && numbers(a).into_iter().zip(numbers(b)).all(near)
+        && numbers(a).into_iter().zip(numbers(b)).all(|(a, b)| (a - b).abs() < 1e-3)
 }
 
 fn same_gloss(a: &(Gloss, Gloss), b: &(Gloss, Gloss)) -> bool {
-    let near = |a: Gloss, b: Gloss| {
+    fn near(a: Gloss, b: Gloss) -> bool {
         (a.strength - b.strength).abs() < 1e-3 && (a.exponent / b.exponent - 1.0).abs() < 1e-3
-    };
+    }
     near(a.0, b.0) && near(a.1, b.1)
 }
 
@@ -295,7 +292,6 @@ pub(super) struct White {
 }
 
 impl White {
-    /// Computes the white point of `light`.
     pub(super) fn of(light: &Arc<Light>) -> Self {
         let white = light.quadrature.rule.white;
         let xyy = white.to_xyy(white);
@@ -306,18 +302,18 @@ impl White {
         }
     }
 
-    /// Whether this was computed for the same `light` object.
+    /// Whether we computed this for the same `light` object.
     pub(super) fn is_of(&self, light: &Arc<Light>) -> bool {
         Arc::ptr_eq(&self.light, light)
     }
 
-    /// Formats the chromaticity: `x 0.3127  y 0.3290`.
+    /// Chromaticity as text, e.g. `x 0.3127  y 0.3290`.
     fn chromaticity_text(&self) -> String {
         let [x, y] = self.chromaticity;
         format!("x {x:.4}  y {y:.4}")
     }
 
-    /// Formats the temperature: `6504 K  Duv +0.0032`.
+    /// Temperature as text, e.g. `6504 K  Duv +0.0032`.
     fn temperature_text(&self) -> String {
         self.temperature.map_or_else(
             || tr("none: too far from any black body").to_owned(),

@@ -1,5 +1,5 @@
-//! The reference picture beside the canvas: its buttons, its view, and the lists of marked samples
-//! and guides below it.
+//! The reference picture beside the canvas: its buttons, its view, and the lists of samples and
+//! guides below it.
 
 mod picture;
 mod samples;
@@ -25,11 +25,11 @@ use state::screen_color;
 
 pub use state::Reference;
 
-/// Usual height of the list of what is drawn, in points.
+/// Height of the list, unless you drag it, in points.
 const LIST_HEIGHT: f32 = 190.0;
 
 impl Reference {
-    /// Draws the panel in the available space. A click stores the picked colour in the tools, or
+    /// Draws the panel in the available space. If you click, it picks a colour for the tools or
     /// draws, as the mode says.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         self.update();
@@ -59,8 +59,8 @@ impl Reference {
         response.on_hover_cursor(CursorIcon::Crosshair);
     }
 
-    /// Draws the list of what is drawn. Its height stays while lines are added, so that the picture
-    /// does not move.
+    /// Draws the list of samples or guides. Its height stays when you add lines, so that the
+    /// picture does not move.
     fn list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let room = ui.available_height();
         Panel::bottom("reference drawing")
@@ -111,8 +111,8 @@ impl Reference {
         });
     }
 
-    /// Pans with the middle or secondary button, or while the space bar is held; zooms with
-    /// the wheel or by pinching.
+    /// You pan with the middle or secondary button or with the space bar, and zoom with the wheel
+    /// or by pinching.
     fn navigate(&mut self, ui: &Ui, response: &Response) {
         let Some(size) = self.size() else { return };
         let panel = response.rect;
@@ -124,7 +124,7 @@ impl Reference {
         if other || (response.dragged() && space_held(ui)) {
             view = view.panned(response.drag_delta());
         }
-        // A line that is being drawn stays where it is.
+        // The line that you draw stays where it is.
         let drawing = !self.line.points().is_empty();
         if let Some(about) = response.hover_pos().filter(|_| !drawing) {
             let (scroll, pinch) =
@@ -155,7 +155,6 @@ impl Reference {
         ui.painter_at(panel).image(texture, rect, uv, Color32::WHITE);
     }
 
-    /// The texture of the picture as it is shown.
     fn texture(&mut self, context: &Context) -> Option<TextureId> {
         let picture = self.picture.as_ref()?;
         let texture = self.texture.get_or_insert_with(|| {
@@ -165,7 +164,6 @@ impl Reference {
         Some(texture.id())
     }
 
-    /// Draws the buttons for the picture, its view, and the use of the pointer.
     fn controls(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         ui.horizontal_wrapped(|ui| {
             let open = ui.button(tr("Open\u{2026}")).accessible_name(tr("Open picture"));
@@ -181,7 +179,7 @@ impl Reference {
             let close = ui.add_enabled(self.is_open(), Button::new(tr("Close")));
             let close = close.accessible_name(tr("Close picture"));
             if close.on_hover_text(tr("Closes the picture")).clicked() {
-                // Otherwise it is closed after a question.
+                // Otherwise we ask first.
                 if self.unsaved_drawings().is_empty() {
                     self.close();
                 }
@@ -214,7 +212,7 @@ impl Reference {
         self.over_controls(ui);
     }
 
-    /// The exposure of a picture whose values are those of a scene.
+    /// The exposure of a picture with scene-referred values.
     fn exposure_control(&mut self, ui: &mut Ui) {
         if !self.picture.as_ref().is_some_and(Picture::is_scene_linear) {
             return;
@@ -251,7 +249,6 @@ impl Reference {
         }
     }
 
-    /// Draws the list of samples with its buttons.
     fn sample_list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let (Some(path), Some(picture)) = (self.path.clone(), &self.picture) else { return };
         let size = picture.file_size();
@@ -307,7 +304,7 @@ impl Reference {
         });
     }
 
-    /// Draws the row of a sample. Returns whether it is to be removed.
+    /// Draws the row of a sample. Returns whether you remove it.
     fn sample_row(&mut self, ui: &mut Ui, index: usize, size: [usize; 2]) -> bool {
         let mark = &self.samples.marks()[index];
         let name = mark.name.clone();
@@ -331,7 +328,6 @@ impl Reference {
         .inner
     }
 
-    /// Draws the field in which a sample is renamed.
     fn name_field(&mut self, ui: &mut Ui, index: usize, name: &str, size: [usize; 2]) {
         let own = self.renaming.take_if(|(renamed, _)| *renamed == index);
         let mut typed = own.map_or_else(|| name.to_owned(), |(_, typed)| typed);
@@ -344,12 +340,11 @@ impl Reference {
         if field.has_focus() {
             self.renaming = Some((index, typed));
         } else if field.lost_focus() && typed.trim() != name {
-            // A name that another sample has is not taken.
+            // This refuses a name that another sample has.
             self.samples.rename(index, &typed, size);
         }
     }
 
-    /// Draws the list of guides with its buttons.
     fn guide_list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let (Some(path), Some(picture)) = (self.path.clone(), &self.picture) else { return };
         let size = picture.file_size();
@@ -401,7 +396,6 @@ impl Reference {
         });
     }
 
-    /// Draws the camera of a view of a model.
     fn camera_row(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
             let camera = self.combing.combed().camera;
@@ -435,7 +429,7 @@ impl Reference {
         });
     }
 
-    /// Draws the row of a guide. Returns whether it is to be removed.
+    /// Draws the row of a guide. Returns whether you remove it.
     fn guide_row(&mut self, ui: &mut Ui, index: usize) -> bool {
         let line = &self.combing.combed().lines[index];
         let lengths = line.windows(2).map(|ends| {
@@ -473,10 +467,10 @@ fn space_held(ui: &Ui) -> bool {
     ui.input(|input| input.key_down(Key::Space))
 }
 
-/// Width of the figure and the button at the right of a sample, in points.
+/// Width of number and button at the right of a sample, in points.
 const RIGHT: f32 = 104.0;
 
-/// Draws the colour of a sample as a button. Returns whether it was clicked.
+/// Draws the colour of a sample as a button. Returns whether you clicked it.
 fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
     let (rect, response) =
         ui.allocate_exact_size(theme::at_least(ui, vec2(20.0, 20.0)), Sense::click());
@@ -488,7 +482,7 @@ fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
     response.on_hover_text(tr("Selects the sample; Spacing is for the selected one")).clicked()
 }
 
-/// Command that takes samples of `picture` by the marks in a file.
+/// Command line that takes samples of `picture` at the marks in a file.
 fn sample_command(picture: &Path, marks: &Path) -> String {
     let samples = picture.with_extension("samples.exr");
     let sheet = picture.with_extension("samples.png");
@@ -496,8 +490,8 @@ fn sample_command(picture: &Path, marks: &Path) -> String {
     format!("impasto artmap sample {picture} --marks {marks} --output {samples} --sheet {sheet}")
 }
 
-/// Command that paints a picture along the guides in a file; with a camera a model, whose name is
-/// left open.
+/// Command line that paints a picture along the guides in a file. With a camera it paints a model,
+/// and you fill in the model's name.
 fn paint_command(picture: &Path, camera: Option<[f32; 3]>, guides: &Path) -> String {
     let painted = quoted(&picture.with_extension("painted.png"));
     let subject = match camera {
@@ -510,7 +504,6 @@ fn paint_command(picture: &Path, camera: Option<[f32; 3]>, guides: &Path) -> Str
     )
 }
 
-/// A path as a word of a shell.
 fn quoted(path: &Path) -> String {
     let text = path.to_string_lossy();
     if !text.is_empty()
@@ -523,7 +516,7 @@ fn quoted(path: &Path) -> String {
     format!("'{dash}{}'", text.replace('\'', "'\\''"))
 }
 
-/// Draws a command with a button that copies it; `tip` tells what it does.
+/// Draws a command line with a button that copies it. `tip` explains it.
 fn next_step(ui: &mut Ui, tip: &str, command: &str) {
     ui.horizontal(|ui| {
         if named_button(ui, tr("Copy"), tr("Copy command"), tr("Copies the command"), None) {
@@ -549,10 +542,15 @@ mod tests {
 
     #[test]
     fn guides_of_a_view_need_its_model_and_camera() {
-        let command = |camera| paint_command(Path::new("a.png"), camera, Path::new("g.toml"));
         let rest = "--style oil-flat --directions g.toml --picture a.painted.png";
-        assert_eq!(command(None), format!("impasto painterly a.png {rest}"));
+        assert_eq!(
+            paint_command(Path::new("a.png"), None, Path::new("g.toml")),
+            format!("impasto painterly a.png {rest}")
+        );
         let model = "impasto painterly MODEL --camera 30,20.5,30";
-        assert_eq!(command(Some([30.0, 20.5, 30.0])), format!("{model} {rest}"));
+        assert_eq!(
+            paint_command(Path::new("a.png"), Some([30.0, 20.5, 30.0]), Path::new("g.toml")),
+            format!("{model} {rest}")
+        );
     }
 }

@@ -1,7 +1,6 @@
 //! Tools of the pointer on the reference picture: drawing marks and guides, and picking colours.
-//!
-//! The picture can also lie over the canvas, to draw after. It is only shown: nothing of it is
-//! painted, saved or exported.
+//! | The picture can also lie over the canvas, so that you can draw after it. It is never painted,
+//! saved or exported.
 
 use eframe::egui::epaint::{Mesh, Vertex};
 use eframe::egui::{
@@ -19,7 +18,7 @@ use crate::language::{tr, tr_format};
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
 
-/// Side of a handle as it is drawn, in points. In touch mode it is pressed in a larger square.
+/// Side of a drawn handle, in points. In touch mode you press in a larger square.
 const HANDLE: f32 = 14.0;
 
 /// Corners of a picture in shares of its sides, clockwise.
@@ -32,7 +31,7 @@ impl Reference {
         self.over.shown && self.picture.is_some()
     }
 
-    /// Lays the picture over the canvas, or takes it away.
+    /// Lays the picture over the canvas, or removes it.
     pub fn toggle_over_canvas(&mut self) {
         self.over.shown ^= true;
         self.over.moving &= self.over.shown;
@@ -82,7 +81,7 @@ impl Reference {
         });
     }
 
-    /// Draws the picture over `canvas`, whose `response` moves it while that is on. Cells are
+    /// Draws the picture over `canvas`. While moving is on, `response` moves it. Cells are
     /// `cell_mm` wide.
     pub fn show_over(&mut self, ui: &Ui, canvas: &SurfaceView, response: &Response, cell_mm: f64) {
         if !self.is_over_canvas() {
@@ -149,7 +148,7 @@ impl Reference {
         moved
     }
 
-    /// Takes the pointer's movements over the picture in this frame.
+    /// Handles the pointer's movements over the picture in this frame.
     pub(super) fn sketch(&mut self, ui: &Ui, response: &Response, view: PictureView) {
         let Some(drawn) = self.line.update(ui, response) else { return };
         let Some(size) = self.picture.as_ref().map(|picture| picture.file_size()) else { return };
@@ -192,7 +191,7 @@ impl Reference {
         }
     }
 
-    /// A line from stroke to stroke, or clicks on both, are the distance of strokes.
+    /// You give the distance of strokes by a line from stroke to stroke, or by clicks on both.
     fn sketch_spacing(&mut self, drawn: Drawn, place: impl Fn(Pos2) -> [f64; 2], size: [usize; 2]) {
         let (from, to) = match drawn {
             Drawn::Line(points) => match points[..] {
@@ -202,9 +201,12 @@ impl Reference {
             Drawn::Click(point) => match self.first_place {
                 Some(first) => (first, place(point)),
                 None => {
-                    let inside = |(at, side): (f64, usize)| (0.0..side as f64).contains(&at);
                     let at = place(point);
-                    self.first_place = at.into_iter().zip(size).all(inside).then_some(at);
+                    self.first_place = at
+                        .into_iter()
+                        .zip(size)
+                        .all(|(at, side)| (0.0..side as f64).contains(&at))
+                        .then_some(at);
                     return;
                 }
             },
@@ -215,7 +217,6 @@ impl Reference {
         }
     }
 
-    /// Draws the lines of the mode over the picture.
     pub(super) fn draw_sketches(&self, ui: &Ui, panel: Rect, view: PictureView) {
         let point = |[x, y]: [f64; 2]| view.point(panel, vec2(x as f32, y as f32));
         let overlay = Overlay { painter: ui.painter_at(panel), point: &point, zoom: view.zoom };
@@ -248,8 +249,8 @@ impl Reference {
         }
     }
 
-    /// Picks the colour at the pointer when the primary button is released, and shows it beside the
-    /// pointer until then.
+    /// Shows the colour at the pointer while you hold the primary button, and picks it when you
+    /// release this.
     pub(super) fn pick(
         &self,
         ui: &Ui,
@@ -280,7 +281,6 @@ impl Reference {
     }
 }
 
-/// The canvas on the screen, in mm.
 struct OnCanvas {
     placement: Placement,
     cell_mm: f64,
@@ -331,14 +331,14 @@ fn draw_frame(painter: &Painter, ui: &Ui, corners: [Pos2; 4], turn: Pos2) {
     painter.circle(turn, 0.5 * HANDLE - 1.0, colors.panel, edge);
 }
 
-/// Distance in points within which a click selects a line.
+/// A click selects a line within this distance, in points.
 const REACH: f32 = 8.0;
 
-/// Least bend in pixels of the picture, and in points of the window, that a line keeps.
+/// A line keeps bends above this size, in pixels of the picture and in points of the window.
 const TOLERANCE_PX: f32 = 0.5;
 const TOLERANCE_POINTS: f32 = 0.75;
 
-/// Draws the colour beside the pointer, and the disc that is averaged.
+/// Draws the colour beside the pointer, and the disc that we average.
 fn loupe(ui: &Ui, panel: Rect, pointer: Pos2, reach: f32, linear: Rgb) {
     let [red, green, blue] = linear.encoded().to_bytes();
     let painter = ui.painter_at(panel);

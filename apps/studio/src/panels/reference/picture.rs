@@ -13,7 +13,7 @@ use strokes::Picture as Linear;
 use crate::files::{ReadPicture, on_screen, read_picture};
 use crate::language::tr;
 
-/// Maximum of the longer side in pixels; larger pictures are reduced.
+/// Longest side in pixels. We reduce larger pictures.
 const LONGEST: usize = 2048;
 
 /// A picture in linear sRGB, reduced if it is large. All places are in pixels of its file.
@@ -25,7 +25,7 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Reads a photograph, linear OpenEXR or painting, and reduces it in linear light if it is too
+    /// Reads a photograph, linear OpenEXR or painting. This reduces it in linear light if it is too
     /// large.
     fn open(path: &Path) -> Result<Self, String> {
         let read = read_picture(path, LONGEST, MEMORY_LIMIT);
@@ -42,12 +42,11 @@ impl Picture {
         self.file_size
     }
 
-    /// Width and height after reduction.
     fn size(&self) -> [usize; 2] {
         [self.linear.width(), self.linear.height()]
     }
 
-    /// Whether the values are those of a scene, so that an exposure decides what is white.
+    /// Whether the values are scene-referred, so that an exposure decides what is white.
     pub(super) fn is_scene_linear(&self) -> bool {
         self.scene_linear
     }
@@ -67,9 +66,9 @@ impl Picture {
         })
     }
 
-    /// Mean in linear sRGB, at an exposure in stops, of the pixels whose centres are within
-    /// `radius` of a position, all in pixels. Always includes the pixel at the position; `None`
-    /// outside the picture.
+    /// Mean in linear sRGB, at an exposure in stops, of the pixels with centres within `radius` of
+    /// a position, all in pixels. This always includes the pixel at the position. `None` outside
+    /// the picture.
     pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32, exposure: f32) -> Option<[f64; 3]> {
         let [width, height] = self.size();
         let reduction = |side: usize, own: usize| side as f32 / own as f32;
@@ -108,7 +107,7 @@ pub(super) struct PendingPicture {
 }
 
 impl PendingPicture {
-    /// Starts to read; the thread calls `wake` when it ends.
+    /// Starts to read. The thread calls `wake` at its end.
     pub(super) fn start(path: &Path, wake: impl FnOnce() + Send + 'static) -> Self {
         let (sender, receiver) = channel();
         let path = path.to_owned();
@@ -198,9 +197,7 @@ const LEAST_MM: f64 = 2.0;
 /// Middle, width and turn of a picture over the canvas.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct OverlayPlace {
-    /// Middle in mm from the upper left corner of the canvas.
     pub(super) center: [f64; 2],
-    /// Width of the picture in mm.
     pub(super) width_mm: f64,
     /// Clockwise turn in radians.
     pub(super) turn: f64,
@@ -215,7 +212,7 @@ pub(super) struct OverCanvas {
     pub(super) opacity: f32,
     /// Whether the pointer moves it instead of painting.
     pub(super) moving: bool,
-    /// Its place; fitted to the canvas before the painter moves it.
+    /// Its place. If you have not moved it, it is fitted to the canvas.
     pub(super) place: Option<OverlayPlace>,
 }
 
@@ -226,15 +223,15 @@ impl Default for OverCanvas {
 }
 
 impl OverlayPlace {
-    /// Fitted without stretching into a canvas of `canvas_mm`, in its middle. `aspect` is
-    /// the width of the picture over its height.
+    /// Fits the picture into the middle of a canvas of `canvas_mm`, without stretching. `aspect` is
+    /// its width divided by its height.
     pub(super) fn fitted(canvas_mm: [f64; 2], aspect: f64) -> Self {
         let [width, height] = canvas_mm;
         let center = [0.5 * width, 0.5 * height];
         Self { center, width_mm: width.min(height * aspect), turn: 0.0 }
     }
 
-    /// Place in mm of a point of the picture: shares of its width and height, from the upper
+    /// Place in mm of a point of the picture. Pass shares of its width and height, from the upper
     /// left corner.
     pub(super) fn point(&self, [across, down]: [f64; 2], aspect: f64) -> [f64; 2] {
         let x = (across - 0.5) * self.width_mm;
@@ -243,19 +240,18 @@ impl OverlayPlace {
         [self.center[0] + cos * x - sin * y, self.center[1] + sin * x + cos * y]
     }
 
-    /// Moved by `by` mm.
     pub(super) fn moved(self, by: [f64; 2]) -> Self {
         Self { center: [self.center[0] + by[0], self.center[1] + by[1]], ..self }
     }
 
-    /// Scaled about its middle so that a corner is as far from it as `to`.
+    /// Scales it about its middle. A corner is then as far from the middle as `to`.
     pub(super) fn scaled_to(self, to: [f64; 2], aspect: f64) -> Self {
         let reach = (to[0] - self.center[0]).hypot(to[1] - self.center[1]);
         let width_mm = 2.0 * reach / 1.0_f64.hypot(1.0 / aspect);
         Self { width_mm: width_mm.max(LEAST_MM), ..self }
     }
 
-    /// Turned about its middle so that its upper edge faces `to`.
+    /// Turns it about its middle. Its upper edge then faces `to`.
     pub(super) fn turned_to(self, to: [f64; 2]) -> Self {
         let x = to[0] - self.center[0];
         let y = to[1] - self.center[1];
@@ -263,7 +259,6 @@ impl OverlayPlace {
     }
 }
 
-/// The use of the primary button on the reference picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum ReferenceMode {
     /// Picks colours.
@@ -271,7 +266,6 @@ pub(super) enum ReferenceMode {
     Pick,
     /// Marks samples of brushwork.
     Mark,
-    /// Combs guides of strokes.
     Comb,
 }
 
@@ -279,7 +273,6 @@ impl ReferenceMode {
     /// All modes in the order of their buttons.
     pub(super) const ALL: [Self; 3] = [Self::Pick, Self::Mark, Self::Comb];
 
-    /// Text of the button.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Pick => tr("Pick colour"),
@@ -288,7 +281,6 @@ impl ReferenceMode {
         }
     }
 
-    /// Tooltip of the button.
     pub(super) fn description(self) -> &'static str {
         match self {
             Self::Pick => tr("A click picks a colour to match"),
@@ -319,7 +311,7 @@ mod place_tests {
     fn handles_stay_under_the_pointer() {
         let place = OverlayPlace::fitted([200.0, 100.0], 2.0).moved([10.0, -5.0]);
         assert_eq!(place.center, [110.0, 45.0]);
-        // A corner in the direction of the picture's own.
+        // A corner in the direction of the picture's own corner.
         let corner = [place.center[0] + 40.0, place.center[1] + 20.0];
         let scaled = place.scaled_to(corner, 2.0);
         assert!(near(scaled.point([1.0, 1.0], 2.0), corner), "{scaled:?}");

@@ -1,5 +1,5 @@
-//! Marks of samples and guides of strokes on the picture, as data with undo. Lines are traced by
-//! the pointer and simplified to few points.
+//! Marks of samples and guides of strokes on the picture, as data with undo. You trace lines with
+//! the pointer, and we simplify them to few points.
 
 use std::path::{Path, PathBuf};
 
@@ -8,44 +8,43 @@ use painterly::guides::Guides;
 
 use crate::files::{Drawing, DrawingKind, DrawnFile, Problem};
 
-/// The samples marked on the picture, and which is selected.
+/// The samples marked on the picture, and the selected one.
 #[derive(Debug, Default)]
 pub(super) struct SampleMarks {
     marks: Edited<Vec<Mark>>,
-    /// Index of the sample that a spacing belongs to.
+    /// The sample that a new spacing belongs to.
     pub(super) selected: usize,
-    /// Why the marks cannot be used.
+    /// Why you cannot use the marks.
     fault: Option<Problem>,
-    /// The file that they were read from or saved in.
     path: Option<PathBuf>,
 }
 
 impl SampleMarks {
-    /// The marks.
     pub(super) fn marks(&self) -> &[Mark] {
         self.marks.now()
     }
 
-    /// The fault of the marks, if they have one.
+    /// Why you cannot use the marks, if so.
     pub(super) fn fault(&self) -> Option<&Problem> {
         self.fault.as_ref()
     }
 
-    /// The file of the marks as they are; `None` before they are saved.
+    /// The file with these marks; `None` before you save them.
     pub(super) fn file(&self) -> Option<&Path> {
         self.path.as_deref().filter(|_| !self.marks.is_unsaved())
     }
 
-    /// Whether there is a mark to undo.
     pub(super) fn can_undo(&self) -> bool {
         self.marks.can_undo()
     }
 
     /// Adds a sample grown from a line, and selects it.
     pub(super) fn add(&mut self, line: Vec<[f64; 2]>, size: [usize; 2]) {
-        let taken = |name: &String| self.marks().iter().any(|mark| mark.name == *name);
         let names = (1..).map(|number| format!("sample {number}"));
-        let name = names.into_iter().find(|name| !taken(name)).unwrap_or_default();
+        let name = names
+            .into_iter()
+            .find(|name| !self.marks().iter().any(|mark| mark.name == *name))
+            .unwrap_or_default();
         let mark = Mark { name, area: MarkedArea::Scribble(line), spacing: None };
         self.marks.change(|marks| marks.push(mark));
         self.selected = self.marks().len() - 1;
@@ -63,7 +62,6 @@ impl SampleMarks {
         self.check(size);
     }
 
-    /// Removes a sample.
     pub(super) fn remove(&mut self, index: usize, size: [usize; 2]) {
         self.marks.change(|marks| {
             marks.remove(index);
@@ -74,7 +72,7 @@ impl SampleMarks {
         self.check(size);
     }
 
-    /// Renames a sample; whether the name is one that no other sample has.
+    /// Renames a sample. Returns whether the name is free.
     pub(super) fn rename(&mut self, index: usize, name: &str, size: [usize; 2]) -> bool {
         let name = name.trim();
         let mut others = self.marks().iter().enumerate().filter(|(at, _)| *at != index);
@@ -86,7 +84,7 @@ impl SampleMarks {
         true
     }
 
-    /// Undoes the last change; whether there was one.
+    /// Undoes the last change. Returns whether there was one.
     pub(super) fn undo(&mut self, size: [usize; 2]) -> bool {
         let undone = self.marks.undo();
         self.selected = self.selected.min(self.marks().len().saturating_sub(1));
@@ -94,15 +92,18 @@ impl SampleMarks {
         undone
     }
 
-    /// The sample whose line or rectangle is nearest to a place, within `reach` pixels.
+    /// The sample with the nearest line or rectangle, within `reach` pixels of a place.
     pub(super) fn nearest(&self, place: [f64; 2], reach: f64) -> Option<usize> {
-        let far = |mark: &Mark| {
-            let lines = outlines(&mark.area);
-            let segments = lines.iter().flat_map(|line| line.windows(2));
-            let distances = segments.map(|ends| distance(place, [ends[0], ends[1]]));
-            distances.fold(f64::INFINITY, f64::min)
-        };
-        let all = self.marks().iter().map(far).enumerate();
+        let all = self
+            .marks()
+            .iter()
+            .map(|mark| {
+                let lines = outlines(&mark.area);
+                let segments = lines.iter().flat_map(|line| line.windows(2));
+                let distances = segments.map(|ends| distance(place, [ends[0], ends[1]]));
+                distances.fold(f64::INFINITY, f64::min)
+            })
+            .enumerate();
         let nearest = all.min_by(|one, other| one.1.total_cmp(&other.1));
         nearest.filter(|(_, far)| *far <= reach).map(|(index, _)| index)
     }
@@ -114,14 +115,14 @@ impl SampleMarks {
         self.check(size);
     }
 
-    /// Shows marks that are in no file; `path` is suggested for them.
+    /// Shows marks that are in no file. `path` is suggested for them.
     pub(super) fn restore(&mut self, marks: Vec<Mark>, path: PathBuf, size: [usize; 2]) {
         self.open(Vec::new(), path, size);
         self.marks.adjust(|now| *now = marks);
         self.check(size);
     }
 
-    /// Takes note of marks that were saved.
+    /// Notes that these marks were saved.
     pub(super) fn saved(&mut self, marks: Vec<Mark>, path: PathBuf) {
         self.marks.saved(marks);
         self.path = Some(path);
@@ -133,17 +134,16 @@ impl SampleMarks {
         DrawnFile { drawing: Drawing::Marks(self.of(picture, &path)), path }
     }
 
-    /// The marks as a file, if they are in none.
+    /// The marks as a file, if they are not saved.
     pub(super) fn unsaved(&self, picture: &Path) -> Option<DrawnFile> {
         let lost = self.marks.is_unsaved() && !self.marks().is_empty();
         lost.then(|| self.drawn(picture))
     }
 
     fn of(&self, picture: &Path, path: &Path) -> Marks {
-        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
         Marks {
-            file: name(path).unwrap_or_default(),
-            painting: name(picture),
+            file: name_of(path).unwrap_or_default(),
+            painting: name_of(picture),
             samples: self.marks().to_vec(),
         }
     }
@@ -152,6 +152,11 @@ impl SampleMarks {
         let marks = self.of(Path::new(""), Path::new("marks"));
         self.fault = marks.check(width, height).err().map(|error| Problem::from_error(&error));
     }
+}
+
+/// The name of a file without its folder.
+fn name_of(path: &Path) -> Option<String> {
+    path.file_name().map(|name| name.to_string_lossy().into_owned())
 }
 
 /// The lines that show an area: a scribble, or the sides of a rectangle. Single pixels have none.
@@ -168,40 +173,36 @@ pub(super) fn outlines(area: &MarkedArea) -> Vec<Vec<[f64; 2]>> {
     }
 }
 
-/// The camera of a view of a model that is suggested: degrees around it, above the horizon, and of
+/// The camera that we suggest for a view of a model: degrees around it, above the horizon, and of
 /// the field of view.
 const USUAL_CAMERA: [f32; 3] = [30.0, 20.0, 30.0];
 
-/// Guides and the camera of the view that they are drawn on.
+/// Guides, and the camera if the picture is a view of a model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Combed {
-    /// Lines along which strokes run, in pixels of the picture.
+    /// Lines that strokes follow, in pixels of the picture.
     pub(super) lines: Vec<Vec<[f64; 2]>>,
     /// Camera of a view of a model.
     pub(super) camera: Option<[f32; 3]>,
 }
 
-/// The guides drawn on the picture, and which is selected.
+/// The guides drawn on the picture, and the selected one.
 #[derive(Debug, Default)]
 pub(super) struct Combing {
     combed: Edited<Combed>,
-    /// Index of the selected guide.
     pub(super) selected: usize,
     path: Option<PathBuf>,
 }
 
 impl Combing {
-    /// The guides.
     pub(super) fn combed(&self) -> &Combed {
         self.combed.now()
     }
 
-    /// The file of the guides as they are; `None` before they are saved.
     pub(super) fn file(&self) -> Option<&Path> {
         self.path.as_deref().filter(|_| !self.combed.is_unsaved())
     }
 
-    /// Whether there is a change to undo.
     pub(super) fn can_undo(&self) -> bool {
         self.combed.can_undo()
     }
@@ -212,7 +213,6 @@ impl Combing {
         self.selected = self.combed().lines.len() - 1;
     }
 
-    /// Removes a guide.
     pub(super) fn remove(&mut self, index: usize) {
         self.combed.change(|combed| {
             combed.lines.remove(index);
@@ -222,7 +222,7 @@ impl Combing {
         }
     }
 
-    /// Lets a guide run the other way.
+    /// Turns the direction of a guide around.
     pub(super) fn reverse(&mut self, index: usize) {
         self.combed.change(|combed| combed.lines[index].reverse());
     }
@@ -232,12 +232,11 @@ impl Combing {
         self.combed.change(|combed| combed.camera = is_view.then_some(USUAL_CAMERA));
     }
 
-    /// Sets the camera of a view of a model.
     pub(super) fn set_camera(&mut self, camera: [f32; 3]) {
         self.combed.adjust(|combed| combed.camera = Some(camera));
     }
 
-    /// Undoes the last change; whether there was one.
+    /// Undoes the last change. Returns whether there was one.
     pub(super) fn undo(&mut self) -> bool {
         let undone = self.combed.undo();
         self.selected = self.selected.min(self.combed().lines.len().saturating_sub(1));
@@ -246,11 +245,15 @@ impl Combing {
 
     /// The guide nearest to a place, within `reach` pixels.
     pub(super) fn nearest(&self, place: [f64; 2], reach: f64) -> Option<usize> {
-        let far = |line: &Vec<[f64; 2]>| {
-            let distances = line.windows(2).map(|ends| distance(place, [ends[0], ends[1]]));
-            distances.fold(f64::INFINITY, f64::min)
-        };
-        let all = self.combed().lines.iter().map(far).enumerate();
+        let all = self
+            .combed()
+            .lines
+            .iter()
+            .map(|line| {
+                let distances = line.windows(2).map(|ends| distance(place, [ends[0], ends[1]]));
+                distances.fold(f64::INFINITY, f64::min)
+            })
+            .enumerate();
         let nearest = all.min_by(|one, other| one.1.total_cmp(&other.1));
         nearest.filter(|(_, far)| *far <= reach).map(|(index, _)| index)
     }
@@ -261,13 +264,13 @@ impl Combing {
         (self.selected, self.path) = (0, Some(path));
     }
 
-    /// Shows guides that are in no file; `path` is suggested for them.
+    /// Shows guides that are in no file. `path` is suggested for them.
     pub(super) fn restore(&mut self, combed: Combed, path: PathBuf) {
         self.open(Combed::default(), path);
         self.combed.adjust(|now| *now = combed);
     }
 
-    /// Takes note of guides that were saved.
+    /// Notes that these guides were saved.
     pub(super) fn saved(&mut self, combed: Combed, path: PathBuf) {
         self.combed.saved(combed);
         self.path = Some(path);
@@ -276,11 +279,10 @@ impl Combing {
     /// The guides as a file for `picture` of this width and height.
     pub(super) fn drawn(&self, picture: &Path, size: [usize; 2]) -> DrawnFile {
         let path = self.path.clone().unwrap_or_else(|| DrawingKind::Guides.beside(picture));
-        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
         let Combed { lines, camera } = self.combed().clone();
         let guides = Guides {
-            file: name(&path).unwrap_or_default(),
-            picture: name(picture),
+            file: name_of(&path).unwrap_or_default(),
+            picture: name_of(picture),
             size_px: size.map(|side| u32::try_from(side).unwrap_or(u32::MAX)),
             camera,
             lines,
@@ -288,7 +290,7 @@ impl Combing {
         DrawnFile { drawing: Drawing::Guides(guides), path }
     }
 
-    /// The guides as a file, if they are in none.
+    /// The guides as a file, if they are not saved.
     pub(super) fn unsaved(&self, picture: &Path, size: [usize; 2]) -> Option<DrawnFile> {
         let lost = self.combed.is_unsaved() && !self.combed().lines.is_empty();
         lost.then(|| self.drawn(picture, size))
@@ -298,16 +300,16 @@ impl Combing {
 /// Places are rounded to this part of a pixel.
 const ROUNDED_TO: f64 = 0.1;
 
-/// The part of a traced line up to where it first leaves a picture of this width and height, in
-/// pixels, with points only where it bends by more than `tolerance` pixels. Fewer than two points
-/// if nothing of it is on the picture.
+/// The part of a traced line before it first leaves a picture of this width and height, in pixels.
+/// It has points only where the line bends by more than `tolerance` pixels. If nothing lies on the
+/// picture, this returns fewer than two points.
 pub(super) fn traced(points: &[[f64; 2]], size: [usize; 2], tolerance: f64) -> Vec<[f64; 2]> {
-    // The last pixel ends where no place is any more.
+    // A place exactly at the far edge would be outside the last pixel.
     let most = size.map(|side| side as f64 - ROUNDED_TO);
-    let rounded = |place: f64, most: f64| {
-        // Divided, because a tenth is not exact in binary.
+    fn rounded(place: f64, most: f64) -> f64 {
+        // We divide, because a tenth is not exact in binary.
         ((place / ROUNDED_TO).round() / ROUNDED_TO.recip()).clamp(0.0, most.max(0.0))
-    };
+    }
     let piece = first_piece(points, most);
     let mut line: Vec<[f64; 2]> = simplified(&piece, tolerance)
         .into_iter()
@@ -317,7 +319,7 @@ pub(super) fn traced(points: &[[f64; 2]], size: [usize; 2], tolerance: f64) -> V
     line
 }
 
-/// Points of a line from where it enters a rectangle of this size to where it leaves it.
+/// Points of a line between entering and leaving a rectangle of this size.
 fn first_piece(points: &[[f64; 2]], most: [f64; 2]) -> Vec<[f64; 2]> {
     let mut piece: Vec<[f64; 2]> = Vec::new();
     for ends in points.windows(2) {
@@ -338,8 +340,8 @@ fn first_piece(points: &[[f64; 2]], most: [f64; 2]) -> Vec<[f64; 2]> {
     piece
 }
 
-/// The part of a segment in a rectangle from the origin (Liang and Barsky, "A new concept and method
-/// for line clipping", 1984).
+/// The part of a segment inside a rectangle from the origin (Liang and Barsky, "A new concept and
+/// method for line clipping", 1984).
 fn inside(from: [f64; 2], to: [f64; 2], most: [f64; 2]) -> Option<[[f64; 2]; 2]> {
     let mut first = 0.0_f64;
     let mut last = 1.0_f64;
@@ -362,9 +364,9 @@ fn inside(from: [f64; 2], to: [f64; 2], most: [f64; 2]) -> Option<[[f64; 2]; 2]>
     (first <= last).then(|| [at(first), end])
 }
 
-/// The ends of a line and the points between that are farther than `tolerance` from the line without
-/// them (Douglas and Peucker, "Algorithms for the reduction of the number of points required to
-/// represent a digitized line", 1973).
+/// The ends of a line, and each point between that is farther than `tolerance` from the line
+/// without it (Douglas and Peucker, "Algorithms for the reduction of the number of points required
+/// to represent a digitized line", 1973).
 fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let mut kept = vec![false; points.len()];
@@ -391,10 +393,9 @@ pub(super) fn distance([x, y]: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
     (x - from[0] - share * right).hypot(y - from[1] - share * down)
 }
 
-/// Most states that undo returns to.
 const MOST_PAST: usize = 200;
 
-/// A value with its past states and the state that was last saved or opened.
+/// A value with its past states, and the state last saved or opened.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Edited<T> {
     now: T,
@@ -403,7 +404,6 @@ pub(super) struct Edited<T> {
 }
 
 impl<T: Clone + PartialEq> Edited<T> {
-    /// The current value.
     pub(super) fn now(&self) -> &T {
         &self.now
     }
@@ -429,7 +429,7 @@ impl<T: Clone + PartialEq> Edited<T> {
         !self.past.is_empty()
     }
 
-    /// Returns to the value before the last change; whether there was one.
+    /// Returns to the value before the last change. Returns whether there was one.
     pub(super) fn undo(&mut self) -> bool {
         let before = self.past.pop();
         let undone = before.is_some();
@@ -442,12 +442,12 @@ impl<T: Clone + PartialEq> Edited<T> {
         *self = Self { now: value.clone(), past: Vec::new(), saved: value };
     }
 
-    /// Takes note that `value` is in a file.
+    /// Notes that `value` is in a file.
     pub(super) fn saved(&mut self, value: T) {
         self.saved = value;
     }
 
-    /// Whether the value differs from what is in a file.
+    /// Whether the value differs from its file.
     pub(super) fn is_unsaved(&self) -> bool {
         self.now != self.saved
     }

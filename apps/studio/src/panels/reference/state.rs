@@ -32,20 +32,17 @@ pub struct Reference {
     pub(super) mode: ReferenceMode,
     pub(super) samples: SampleMarks,
     pub(super) combing: Combing,
-    /// Lines to be shown once the picture is read.
+    /// Lines that we show once the picture is read.
     pub(super) restoring: Vec<DrawnFile>,
     /// Whether the pointer marks the distance of strokes, not a sample.
     pub(super) spacing: bool,
-    /// First of the two places that are clicked for a distance of strokes.
+    /// The first of two places for a distance of strokes.
     pub(super) first_place: Option<[f64; 2]>,
     pub(super) line: PointerLine,
-    /// Index and new name of a sample while it is typed.
+    /// Index and new name of a sample while you type it.
     pub(super) renaming: Option<(usize, String)>,
-    /// Whether the pointer is over the picture.
     pub(super) hovered: bool,
-    /// How the picture lies over the canvas.
     pub(super) over: OverCanvas,
-    /// Exposure of a picture of a scene, in stops.
     pub(super) exposure: f32,
 }
 
@@ -83,8 +80,8 @@ impl Default for Reference {
 }
 
 impl Reference {
-    /// Starts to read a photograph, linear OpenEXR or painting on another thread, replacing the current picture and what is
-    /// drawn on it. An error is shown in the panel.
+    /// Starts to read a photograph, linear OpenEXR or painting on another thread. This replaces the
+    /// current picture and its drawings. The panel shows an error.
     pub fn open(&mut self, context: &Context, path: &Path) {
         let context = context.clone();
         let reading = PendingPicture::start(path, move || context.request_repaint());
@@ -106,13 +103,13 @@ impl Reference {
         self.path.is_some()
     }
 
-    /// Takes note that the panel is not shown in this frame.
+    /// Call this if the panel is not shown in this frame.
     pub fn hide(&mut self) {
         self.hovered = false;
         self.line.clear();
     }
 
-    /// Carries out a change. Returns what the painter should know of it.
+    /// Carries out a change. Returns a message for the painter, if any.
     pub fn apply(&mut self, change: ReferenceChange, context: &Context) -> Option<Problem> {
         match change {
             ReferenceChange::Open(path) => self.open(context, &path),
@@ -175,7 +172,7 @@ impl Reference {
         }
     }
 
-    /// Shows the lines that waited for the picture, as lines that are in no file.
+    /// Shows the lines that waited for the picture. They count as unsaved.
     pub(super) fn restore_drawings(&mut self) {
         let Some(size) = self.picture.as_ref().map(Picture::file_size) else { return };
         for DrawnFile { drawing, path } in std::mem::take(&mut self.restoring) {
@@ -189,7 +186,7 @@ impl Reference {
         }
     }
 
-    /// File of the picture, and all lines drawn on it, whether they are in a file or not.
+    /// File of the picture, and all its lines, saved or not.
     #[must_use]
     pub fn pinned(&self) -> Option<(&Path, Vec<DrawnFile>)> {
         let path = self.path.as_deref()?;
@@ -200,7 +197,7 @@ impl Reference {
         Some((path, marks.into_iter().chain(guides).collect()))
     }
 
-    /// The drawings that are in no file.
+    /// The unsaved drawings.
     #[must_use]
     pub fn unsaved_drawings(&self) -> Vec<DrawnFile> {
         let (Some(path), Some(picture)) = (&self.path, &self.picture) else { return Vec::new() };
@@ -208,7 +205,7 @@ impl Reference {
         marks.into_iter().chain(self.combing.unsaved(path, picture.file_size())).collect()
     }
 
-    /// Undoes the last line if the pointer is over a picture that is drawn on. Returns whether it
+    /// Undoes the last line if the pointer is over a picture that you draw on. Returns whether it
     /// is.
     pub fn undo_under_pointer(&mut self) -> bool {
         let draws = self.hovered && self.mode != ReferenceMode::Pick;
@@ -218,7 +215,7 @@ impl Reference {
         draws
     }
 
-    /// Undoes the last change of the drawing that the mode is for.
+    /// Undoes the last change of the drawing of this mode.
     pub(super) fn undo(&mut self) {
         (self.renaming, self.first_place) = (None, None);
         let Some(size) = self.picture.as_ref().map(Picture::file_size) else { return };
@@ -239,7 +236,7 @@ fn is_named(path: &str, name: &str) -> bool {
     Path::new(path).file_name().is_some_and(|own| own.to_string_lossy() == name)
 }
 
-/// Distance in points up to which a press and release is a click, not a line.
+/// Up to this distance in points, a press and release is a click, not a line.
 const CLICK_POINTS: f32 = 4.0;
 
 /// The points of the window that the pointer passed with the primary button held.
@@ -258,7 +255,7 @@ pub(super) enum Drawn {
 }
 
 impl PointerLine {
-    /// Takes the pointer events of this frame over an area. Returns a movement that has ended.
+    /// Reads the pointer events of this frame over an area. Returns a movement that has ended.
     pub(super) fn update(&mut self, ui: &Ui, area: &Response) -> Option<Drawn> {
         let own = area.is_pointer_button_down_on() || area.clicked() || area.drag_stopped();
         let mut ended = None;
@@ -288,12 +285,10 @@ impl PointerLine {
         ended
     }
 
-    /// Forgets the line.
     pub(super) fn clear(&mut self) {
         self.points.clear();
     }
 
-    /// The points so far.
     pub(super) fn points(&self) -> &[Pos2] {
         &self.points
     }
@@ -315,13 +310,13 @@ const RIM: f32 = 1.25;
 /// Half the width of the bars at both ends of a spacing, and of an arrow, in points.
 const BAR: f32 = 5.0;
 
-/// Colour of guides: white with a dark rim is seen on any picture.
+/// Colour of guides. You see white with a dark rim on any picture.
 const GUIDE: Color32 = Color32::WHITE;
 
-/// Most single pixels that are drawn of a mark.
+/// We draw at most this many single pixels of a mark.
 const MOST_PIXELS: usize = 4000;
 
-/// Colour of the mark of this index on the screen.
+/// Colour of the mark with this index.
 pub(super) fn screen_color(index: usize) -> Color32 {
     let [red, green, blue] = Rgb(color_of_mark(index).map(f64::from)).encoded().to_bytes();
     Color32::from_rgb(red, green, blue)
@@ -331,7 +326,7 @@ pub(super) fn screen_color(index: usize) -> Color32 {
 pub(super) struct Overlay<'a> {
     pub(super) painter: Painter,
     pub(super) point: &'a dyn Fn([f64; 2]) -> Pos2,
-    /// Points of the window to a pixel of the picture.
+    /// Points of the window per pixel of the picture.
     pub(super) zoom: f32,
 }
 
@@ -368,12 +363,14 @@ impl Overlay<'_> {
     /// Draws a guide with its number and arrows along it, thicker if it is selected.
     pub(super) fn guide(&self, number: usize, places: &[[f64; 2]], selected: bool) {
         let points = self.points(places);
-        let arrow = |(tip, along): (Pos2, Vec2)| {
-            let back = tip - 1.5 * BAR * along;
-            let side = BAR * along.rot90();
-            vec![back + side, tip, back - side]
-        };
-        let mut lines: Vec<Vec<Pos2>> = arrows(&points).into_iter().map(arrow).collect();
+        let mut lines: Vec<Vec<Pos2>> = arrows(&points)
+            .into_iter()
+            .map(|(tip, along)| {
+                let back = tip - 1.5 * BAR * along;
+                let side = BAR * along.rot90();
+                vec![back + side, tip, back - side]
+            })
+            .collect();
         let first = points.first().copied();
         lines.push(points);
         self.lines(&lines, GUIDE, selected);
@@ -392,7 +389,7 @@ impl Overlay<'_> {
         places.iter().map(|place| (self.point)(*place)).collect()
     }
 
-    /// Draws lines over one dark rim, so that none is cut by the rim of another.
+    /// Draws lines over one dark rim, so that no rim cuts another line.
     fn lines(&self, lines: &[Vec<Pos2>], color: Color32, thick: bool) {
         let width = if thick { 1.75 * LINE } else { LINE };
         for (width, color) in [(width + 2.0 * RIM, Color32::BLACK), (width, color)] {

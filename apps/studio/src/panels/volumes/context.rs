@@ -1,4 +1,4 @@
-//! Context in which a panel of a scene is drawn (its state, the tools, and a queue of requests),
+//! Context in which you draw a panel of a scene (its state, the tools, and a queue of requests),
 //! the time bar with its track of events, and the choosers of pigments and illuminants.
 
 use std::path::PathBuf;
@@ -8,7 +8,6 @@ use eframe::egui::{
     pos2, vec2,
 };
 use paint::document::Medium;
-use pigment::PigmentId;
 use session::volumes::{Grip, Here, Look, STEPS_A_SECOND, SceneState, SceneTool, VolumeCommand};
 use spectra::light_from_text;
 
@@ -23,7 +22,7 @@ use crate::{floating, theme};
 /// Tabs of the side panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SceneTab {
-    /// The picture that is shown.
+    /// The picture.
     #[default]
     View,
     /// The light.
@@ -32,14 +31,14 @@ pub enum SceneTab {
     Here,
     /// The list of events.
     Events,
-    /// Files that a scene makes.
+    /// Files made from a scene.
     Export,
 }
 
-/// Tools and panels as they are set.
+/// Tools and panels, as you set them.
 #[derive(Debug, Default)]
 pub struct SceneTools {
-    /// The tool in hand and how it is set.
+    /// The tool in hand and its settings.
     pub grip: Grip,
     /// The tab of the side panel.
     pub tab: SceneTab,
@@ -51,16 +50,16 @@ pub struct SceneTools {
     pub here: Option<Here>,
 }
 
-/// An action on files that menus and panels can request.
+/// An action on files that you can request in menus and panels.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SceneFileRequest {
-    /// Opens a scene; asks for its file if none is given.
+    /// Opens a scene. Without a path, this asks for its file.
     Open(Option<PathBuf>),
-    /// Fills the tubes from a library; asks for its file.
+    /// Asks for a library and fills the tubes from it.
     Library,
-    /// Writes a file; asks where.
+    /// Asks where to write a file, and writes it.
     Export(SceneExport),
-    /// Writes an export of the painting; asks which, and where.
+    /// Asks which export of the painting to write, and where.
     ExportOfPainting,
 }
 
@@ -80,7 +79,7 @@ pub struct SceneContext<'a> {
     pub state: &'a SceneState,
     /// Tools and panels.
     pub tools: &'a mut SceneTools,
-    /// Requests in order; the window carries them out after the frame.
+    /// Requests in order. The window carries them out after the frame.
     pub requests: &'a mut Vec<SceneRequest>,
 }
 
@@ -95,7 +94,7 @@ impl SceneContext<'_> {
         self.requests.push(SceneRequest::File(request));
     }
 
-    /// Queues a change of what is shown.
+    /// Queues a change of the picture.
     pub fn change_look(&mut self, change: impl FnOnce(&mut Look)) {
         let mut look = self.state.look;
         change(&mut look);
@@ -105,19 +104,16 @@ impl SceneContext<'_> {
     }
 }
 
-/// Height of the bar, in points; enough for buttons that are touched.
+/// Height of the bar, in points. It is enough for buttons in touch mode.
 pub const TIME_BAR_HEIGHT: f32 = 46.0;
 
-/// Side of its buttons, in points.
 const BUTTON: f32 = 28.0;
 
-/// Width of the text at its right, in points.
 const TEXT: f32 = 128.0;
 
 /// Shortest time that the track shows, in steps: 5 s.
 const SHORTEST: u64 = 5 * STEPS_A_SECOND;
 
-/// Signs on the buttons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sign {
     Start,
@@ -126,7 +122,7 @@ enum Sign {
     Step,
 }
 
-/// Seconds and hundredths of a number of steps, such as `3.25 s`.
+/// Seconds and hundredths of a number of steps, e.g. `3.25 s`.
 #[must_use]
 pub fn seconds_text(steps: u64) -> String {
     format!("{:.2} s", steps as f64 / STEPS_A_SECOND as f64)
@@ -137,8 +133,7 @@ pub fn show_time_bar(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let time = cx.state.time;
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let key = |ui: &Ui, name| hint(ui.ctx(), name);
-        let tip = format!("{}{}", tr("Goes to the start"), key(ui, "scene.start"));
+        let tip = format!("{}{}", tr("Goes to the start"), hint(ui.ctx(), "scene.start"));
         if sign_button(ui, Sign::Start, tr("From the start"), &tip) {
             cx.command(VolumeCommand::Seek(0));
         }
@@ -146,11 +141,11 @@ pub fn show_time_bar(ui: &mut Ui, cx: &mut SceneContext<'_>) {
             true => (Sign::Pause, tr("Pause"), tr("Stops time")),
             false => (Sign::Play, tr("Play"), tr("Lets time run")),
         };
-        let tip = format!("{tip}{}", key(ui, "scene.play"));
+        let tip = format!("{tip}{}", hint(ui.ctx(), "scene.play"));
         if sign_button(ui, sign, name, &tip) {
             cx.command(VolumeCommand::Play(!time.playing));
         }
-        let tip = format!("{}{}", tr("Takes one step of 1/120 s"), key(ui, "scene.step"));
+        let tip = format!("{}{}", tr("Takes one step of 1/120 s"), hint(ui.ctx(), "scene.step"));
         if sign_button(ui, Sign::Step, tr("Step"), &tip) {
             cx.command(VolumeCommand::StepOnce);
         }
@@ -169,7 +164,7 @@ pub fn show_time_bar(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     });
 }
 
-/// Draws a button with a sign. Returns whether it was clicked.
+/// Draws a button with a sign. Returns whether you clicked it.
 fn sign_button(ui: &mut Ui, sign: Sign, name: &str, tip: &str) -> bool {
     let (rect, response) =
         ui.allocate_exact_size(theme::at_least(ui, vec2(BUTTON, BUTTON)), Sense::click());
@@ -213,12 +208,12 @@ fn sign_button(ui: &mut Ui, sign: Sign, name: &str, tip: &str) -> bool {
     response.on_hover_text(tip).clicked()
 }
 
-/// Last moment of the track: there is always room to go on.
+/// Last moment of the track. There is always room to continue.
 fn length(state: &SceneState) -> u64 {
     state.time.end.max(SHORTEST)
 }
 
-/// Draws the track with its events, and goes to the moment that it is dragged to.
+/// Draws the track with its events. You drag on it to go to a moment.
 fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
     let time = cx.state.time;
     let length = length(cx.state);
@@ -270,7 +265,6 @@ fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
     response.on_hover_text(tr("Drag to go to a moment; the scene is replayed to the bit"));
 }
 
-/// Width of the contents, in points.
 const WIDTH: f32 = 400.0;
 
 /// State of the window.
@@ -282,7 +276,7 @@ pub struct TubeChooser {
     catalogue: CatalogueCache,
 }
 
-/// A choice of the painter.
+/// Your choice in the window.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum TubeChoice {
     /// A pigment for the tube with this number, by its name.
@@ -292,12 +286,11 @@ pub(super) enum TubeChoice {
 }
 
 impl TubeChooser {
-    /// Opens the window for a tube.
     pub(super) fn open(&mut self, tube: usize) {
         (self.tube, self.list) = (Some(tube), PigmentList::default());
     }
 
-    /// Draws the window if it is open. Returns what was chosen.
+    /// Draws the window if it is open. Returns your choice.
     pub(super) fn show(&mut self, context: &Context, state: &SceneState) -> Option<TubeChoice> {
         let tube = self.tube?;
         let name = &state.tubes.get(tube)?.name;
@@ -316,12 +309,11 @@ impl TubeChooser {
                     choice = Some(TubeChoice::Library);
                 }
             });
-            let held = |pigment: PigmentId| {
+            if let Some(pigment) = self.list.show(ui, &catalogue, scattering, |pigment| {
                 let name = catalogue.name(pigment);
                 let number = state.tubes.iter().position(|tube| tube.name == name)?;
                 Some(tr_format!("it is already in tube {number}", number = number + 1))
-            };
-            if let Some(pigment) = self.list.show(ui, &catalogue, scattering, held) {
+            }) {
                 choice = Some(TubeChoice::Pigment(tube, catalogue.name(pigment).to_owned()));
             }
         });
@@ -346,8 +338,8 @@ impl Default for SceneIlluminant {
 }
 
 impl SceneIlluminant {
-    /// Draws the choice of the illuminant, its power and its white. Returns the light that was
-    /// chosen.
+    /// Draws the choice of the illuminant, its power and its white. Returns the light that you
+    /// chose.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &SceneState) -> Option<String> {
         ui.label(tr("Light on pigments")).on_hover_text(tr(
             "Light on the pigments of glazes and of the exported painting; the subject's own \

@@ -1,5 +1,5 @@
 //! The panels of a scene of paint volumes: tubes, the tool in hand, picture, light, readings,
-//! events and exports. Each shows the state that the scene's worker last reported and queues
+//! events and exports. Each panel shows the state that the scene's worker last reported and queues
 //! requests.
 
 mod context;
@@ -34,10 +34,8 @@ pub use context::{
 };
 
 impl SceneTab {
-    /// All tabs in their order.
     const ALL: [Self; 5] = [Self::View, Self::Light, Self::Here, Self::Events, Self::Export];
 
-    /// Name and description.
     fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::View => (tr("View"), tr("The picture that is shown")),
@@ -69,7 +67,6 @@ pub fn show_side(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     });
 }
 
-/// Draws the row of tabs.
 fn tabs(ui: &mut Ui, chosen: &mut SceneTab) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
@@ -101,7 +98,6 @@ fn tabs(ui: &mut Ui, chosen: &mut SceneTab) {
     });
 }
 
-/// Choices in a row.
 const ROW: usize = 3;
 
 /// Draws the choice of the picture, the hatching, and what volumes show inside.
@@ -124,8 +120,10 @@ fn show_view(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let key = hint(ui.ctx(), "scene.inside");
     let has_tubes = !cx.state.tubes.is_empty();
     for row in Inside::choices(cx.state.by_region).chunks(ROW) {
-        let tip = |one| format!("{}{key}", inside_tip(one));
-        let choices = row.iter().map(|&one| (one, inside_name(one), tip(one))).collect();
+        let choices = row
+            .iter()
+            .map(|&one| (one, inside_name(one), format!("{}{key}", inside_tip(one))))
+            .collect();
         let chosen = ui.add_enabled_ui(has_tubes, |ui| choose(ui, choices, look.inside));
         if let Some(inside) = chosen.inner {
             cx.change_look(|look| look.inside = inside);
@@ -140,7 +138,7 @@ fn show_view(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     }
 }
 
-/// Draws a row of choices of equal width. Returns the one that was clicked.
+/// Draws a row of choices of equal width. Returns the clicked one.
 fn choose<T: Copy + PartialEq>(
     ui: &mut Ui,
     choices: Vec<(T, &'static str, String)>,
@@ -201,7 +199,8 @@ fn inside_tip(inside: Inside) -> &'static str {
     }
 }
 
-/// Draws the card beside `at`. Returns whether it stays: Escape and a click elsewhere close it.
+/// Draws the card beside `at`. Returns whether it stays open. Escape and a click elsewhere close
+/// it.
 pub fn show_here(context: &Context, at: Pos2, here: &Here, state: &SceneState) -> bool {
     let area = Area::new(Id::unique("here"))
         .order(Order::Foreground)
@@ -220,7 +219,6 @@ pub fn show_here(context: &Context, at: Pos2, here: &Here, state: &SceneState) -
     !elsewhere && !context.input(|input| input.key_pressed(Key::Escape))
 }
 
-/// Draws the panel with the last answer.
 fn show_readings(ui: &mut Ui, cx: &SceneContext<'_>) {
     let Some(here) = &cx.tools.here else {
         ui.weak(tr("Right-click the scene to tell which paint lies there, and its colour."));
@@ -241,7 +239,6 @@ fn show_readings(ui: &mut Ui, cx: &SceneContext<'_>) {
     ));
 }
 
-/// Draws colour, place, region and paint.
 fn found(ui: &mut Ui, here: &Here, library: &PigmentLibrary) {
     ui.horizontal_top(|ui| {
         let rgb = Rgb(here.srgb.map(|channel| f64::from(channel) / 255.0));
@@ -287,13 +284,11 @@ fn numbers(ui: &mut Ui, here: &Here) {
     });
 }
 
-/// Side of the direction control, in points.
 const SIZE: f32 = 128.0;
 
-/// Share of the light that comes from everywhere, as the control shows it.
+/// Share of the light that comes from all sides, as the control shows it.
 const AMBIENT: f64 = 0.1;
 
-/// Draws direction and illuminant of the light.
 fn show_light(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let light = &cx.state.look.light;
     let mut direction =
@@ -323,7 +318,6 @@ fn show_light(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     }
 }
 
-/// Draws the settings of the tool in hand.
 fn show_tool(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let grip = &mut cx.tools.grip;
     ui.horizontal(|ui| {
@@ -360,7 +354,7 @@ fn show_tool(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     percent(ui, tr("Strength"), tip, &mut grip.strength, 1.0..=100.0);
 }
 
-/// Effect of a tool in a few words.
+/// What a tool does, in a few words.
 fn about(tool: SceneTool) -> &'static str {
     match tool {
         SceneTool::Pour => tr("the tube in hand, where the pen is held"),
@@ -370,10 +364,9 @@ fn about(tool: SceneTool) -> &'static str {
     }
 }
 
-/// Tubes in a row.
 const TUBES_IN_ROW: usize = 4;
 
-/// Draws the tubes. A click takes one in hand.
+/// Draws the tubes. Click one to take it in hand.
 fn show_tubes(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let tubes = cx.state.tubes.clone();
     if tubes.is_empty() {
@@ -482,7 +475,6 @@ const fn file(export: SceneExport) -> SceneFileRequest {
     SceneFileRequest::Export(export)
 }
 
-/// Draws the buttons.
 fn show_export(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     for (name, tip, request) in LINES {
         let paints =
@@ -503,13 +495,12 @@ fn show_export(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     }
 }
 
-/// Height of a row, in points.
 const EVENTS_ROW: f32 = 22.0;
 
-/// Width of the button that removes an event, with its gap, in points.
+/// Width of the button that removes an event, with the gap, in points.
 const REMOVE: f32 = 28.0;
 
-/// Draws the list. A click goes to the moment at which an event begins.
+/// Draws the list. If you click an event, the scene goes to its start.
 fn show_events(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let events = Arc::clone(&cx.state.events);
     ui.horizontal(|ui| {

@@ -1,6 +1,5 @@
-//! Drawing aids as data: a ruler and a perspective guide that lead strokes, and symmetry that
-//! repeats them, with the lines that show them and the handles that move them. Positions are in mm
-//! of the canvas.
+//! Drawing aids as data. A ruler or a perspective guide leads strokes, and symmetry repeats them.
+//! Lines show the aids, and you move them by handles. Positions are in mm of the canvas.
 
 mod shapes;
 
@@ -23,15 +22,15 @@ pub enum GuideKind {
 /// A guide that leads strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Guide {
-    /// A ruler: each stroke keeps to it.
+    /// The ruler. Each stroke keeps to it.
     Ruler(Ruler),
-    /// Perspective: each stroke keeps to the line from its start to a vanishing point.
+    /// Perspective. Each stroke keeps to the line from its start to a vanishing point.
     Perspective(Perspective),
 }
 
 impl Guide {
-    /// The line or ellipse of a stroke that starts at `start`; for perspective also by its way to
-    /// `to`. `None` if there is none.
+    /// The line or ellipse of a stroke that starts at `start`. For perspective it depends on the
+    /// direction to `to` too. `None` if there is none.
     fn course(&self, start: Place, to: Place) -> Option<Course> {
         match self {
             Self::Ruler(ruler) => ruler.course(start),
@@ -40,13 +39,13 @@ impl Guide {
     }
 }
 
-/// The drawing aids of a painting: one guide at a time, and symmetry. All are off at first.
+/// The drawing aids of a painting: one guide at a time, and symmetry. They are off at first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct DrawingAids {
-    /// The guide that is shown.
+    /// The guide that you see.
     pub guide: Option<GuideKind>,
-    /// Whether the guide leads strokes; otherwise it is only shown.
+    /// Whether the guide leads strokes. If not, you only see it.
     pub snaps: bool,
     /// The ruler, shown or not.
     pub ruler: Ruler,
@@ -54,7 +53,7 @@ pub struct DrawingAids {
     pub perspective: Perspective,
     /// Symmetry, on or off.
     pub symmetry: Symmetry,
-    /// Width and height of the canvas that they are placed on, in mm.
+    /// Width and height of the canvas that the aids lie on, in mm.
     pub canvas_mm: [f64; 2],
 }
 
@@ -72,12 +71,12 @@ impl Default for DrawingAids {
 }
 
 impl DrawingAids {
-    /// Shows a guide in place of another one, or takes it away if it is shown.
+    /// Shows this guide instead of another one. If it is shown, this hides it.
     pub fn toggle(&mut self, kind: GuideKind) {
         self.guide = if self.guide == Some(kind) { None } else { Some(kind) };
     }
 
-    /// The guide that leads strokes, if one is shown and does.
+    /// The guide that leads strokes, if any.
     #[must_use]
     pub fn leading(&self) -> Option<Guide> {
         let guide = match self.guide? {
@@ -87,8 +86,8 @@ impl DrawingAids {
         self.snaps.then_some(guide)
     }
 
-    /// Puts all aids to their usual places on a canvas of this width and height in mm, unless they
-    /// are placed on one of this size.
+    /// Moves all aids to their usual places on a canvas of this width and height in mm. This does
+    /// nothing if the canvas had this size before.
     pub fn fit(&mut self, canvas_mm: [f64; 2]) {
         if self.canvas_mm != canvas_mm {
             self.canvas_mm = canvas_mm;
@@ -96,7 +95,7 @@ impl DrawingAids {
         }
     }
 
-    /// Puts all aids to their usual places on the canvas.
+    /// Moves all aids to their usual places on the canvas.
     pub fn put_back(&mut self) {
         let [width, height] = self.canvas_mm;
         self.ruler = Ruler::in_middle_of(self.canvas_mm, self.ruler.shape);
@@ -105,16 +104,16 @@ impl DrawingAids {
         self.symmetry.angle_deg = 0.0;
     }
 
-    /// Sets the number of vanishing points, 1 to 3, and puts them to their usual places.
+    /// Sets the number of vanishing points, 1 to 3, and moves them to their usual places.
     pub fn set_vanishing_points(&mut self, count: usize) {
         self.perspective = Perspective::in_middle_of(self.canvas_mm, count);
     }
 
-    /// Lines of all aids that are shown.
+    /// Lines of all aids that you see.
     #[must_use]
     pub fn lines(&self) -> AidLines {
         let mut lines = AidLines::default();
-        // Far enough to leave the canvas from every place on it.
+        // This is far enough to leave the canvas from every place on it.
         let far = 2.0 * length(self.canvas_mm);
         match self.guide {
             Some(GuideKind::Ruler) => self.ruler.lines(self.canvas_mm, far, &mut lines),
@@ -131,7 +130,7 @@ impl DrawingAids {
         lines
     }
 
-    /// Handles of all aids that are shown.
+    /// Handles of all aids that you see.
     #[must_use]
     pub fn handles(&self) -> Vec<AidHandle> {
         let mut handles = match (self.guide, self.ruler.shape) {
@@ -174,8 +173,8 @@ impl DrawingAids {
         }
     }
 
-    /// Moves a handle to a place in mm of the canvas, or as near as it may be: only vanishing
-    /// points leave the canvas.
+    /// Moves a handle to a place in mm of the canvas, or as near as it can be. Only vanishing
+    /// points can leave the canvas.
     pub fn move_to(&mut self, handle: AidHandle, to: [f64; 2]) {
         let [width, height] = self.canvas_mm;
         let inside = [to[0].clamp(0.0, width.max(0.0)), to[1].clamp(0.0, height.max(0.0))];
@@ -206,30 +205,31 @@ impl DrawingAids {
     }
 }
 
-/// A place on a surface, in mm.
 type Spot = (f64, f64);
 
-/// The way of one stroke along a guide.
+/// How a guide leads one stroke.
 #[derive(Debug, Clone)]
 pub(super) struct Lead {
     state: State,
-    /// The last place that was led.
     last: Option<Spot>,
 }
 
 #[derive(Debug, Clone)]
 enum State {
-    /// Nothing leads the stroke.
     Free,
-    /// The line follows from the start of the stroke and from the direction in which it goes.
-    Undecided { guide: Guide, start: Option<Spot>, decided_mm: f64 },
-    /// The stroke keeps to this.
+    /// We need the start and direction of the stroke to choose the line.
+    Undecided {
+        guide: Guide,
+        start: Option<Spot>,
+        decided_mm: f64,
+    },
+    /// The stroke keeps to this line.
     Along(Course),
 }
 
 impl Lead {
-    /// The lead of a stroke that has not begun. Perspective is decided once the pen is `decided_mm`
-    /// away from its start.
+    /// The lead of a stroke that has not begun. With perspective, we choose the line once the pen
+    /// is `decided_mm` away from the start.
     pub(super) fn new(guide: Option<Guide>, decided_mm: f64) -> Self {
         Self {
             state: guide.map_or(State::Free, |guide| State::Undecided {
@@ -241,23 +241,21 @@ impl Lead {
         }
     }
 
-    /// Whether the stroke goes where the pen does.
+    /// Whether the stroke follows the pen freely.
     pub(super) fn is_off(&self) -> bool {
         matches!(self.state, State::Free)
     }
 
-    /// Whether the line of the stroke is not decided yet.
     pub(super) fn is_open(&self) -> bool {
         matches!(self.state, State::Undecided { .. })
     }
 
-    /// The last place that was led; `None` before the first.
     pub(super) fn last(&self) -> Option<Spot> {
         self.last
     }
 
-    /// The place of the stroke for a place of the brush. While the line is not decided, that is the
-    /// place itself.
+    /// The place of the stroke for a place of the brush. While the line is undecided, both are the
+    /// same.
     pub(super) fn follow(&mut self, place: Spot) -> Spot {
         self.decide(place);
         let led = self.led(place);
@@ -265,7 +263,7 @@ impl Lead {
         led
     }
 
-    /// The place on the line of the stroke for a place, as [`Lead::follow`] without moving there.
+    /// Like [`Lead::follow`], but without moving there.
     pub(super) fn led(&self, place: Spot) -> Spot {
         match &self.state {
             State::Along(course) => course.led(place.into()).into(),
@@ -273,7 +271,7 @@ impl Lead {
         }
     }
 
-    /// Ends the wait for the direction of the stroke: one that is too short to have one is free.
+    /// Stops waiting for the direction of the stroke. A stroke too short to have one is free.
     pub(super) fn settle(&mut self) {
         if self.is_open() {
             self.state = State::Free;
@@ -293,21 +291,21 @@ impl Lead {
     }
 }
 
-/// Lines of the fan of one vanishing point.
+/// Number of lines of the fan of one vanishing point.
 const FAN: usize = 16;
 
-/// Lines beside a ruler of parallel lines, and ellipses around and in one, on each side.
+/// Number of parallel lines beside a ruler, and of ellipses around and in one, on each side.
 const BESIDE: i8 = 3;
 
-/// Pieces that an ellipse is drawn with.
+/// Number of pieces of an ellipse.
 const PIECES: usize = 96;
 
-/// Polylines that show the drawing aids, in mm of the canvas. They reach beyond it.
+/// Polylines that show the drawing aids, in mm of the canvas. They continue beyond it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AidLines {
     /// The ruler, the horizon and the axes of symmetry.
     pub main: Vec<Vec<[f64; 2]>>,
-    /// Fans of the vanishing points, parallel lines and ellipses of the same form.
+    /// Fans of the vanishing points, parallel lines, and ellipses of the same form.
     pub faint: Vec<Vec<[f64; 2]>>,
 }
 
@@ -339,7 +337,7 @@ impl Perspective {
     fn lines(&self, canvas: Place, far: f64, lines: &mut AidLines) {
         let at = self.in_use()[0];
         let along = self.horizon();
-        // The horizon crosses the canvas wherever its vanishing point is.
+        // The horizon crosses the canvas wherever the vanishing point lies.
         let reach = far + self.in_use().iter().map(|&point| length(way(at, point))).sum::<f64>();
         let reach = reach + length(way(at, [0.0; 2]));
         lines.main.push(vec![moved(at, along, -reach), moved(at, along, reach)]);
@@ -349,8 +347,8 @@ impl Perspective {
     }
 }
 
-/// Lines from a vanishing point over a canvas: at even angles between its corners, or all around a
-/// point on it.
+/// Lines from a vanishing point over a canvas. They lie at even angles between the corners, or all
+/// around if the point is on the canvas.
 fn fan(point: Place, [width, height]: Place) -> Vec<Vec<Place>> {
     let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
     let far = corners.map(|corner| length(way(point, corner))).into_iter().fold(0.0, f64::max);
@@ -379,7 +377,7 @@ fn fan(point: Place, [width, height]: Place) -> Vec<Vec<Place>> {
         .collect()
 }
 
-/// The outline of an ellipse whose half axes are scaled.
+/// The outline of an ellipse with scaled half axes.
 fn ellipse(middle: Place, axes: [Place; 2], scale: f64) -> Vec<Place> {
     (0..=PIECES)
         .map(|piece: usize| {
@@ -389,14 +387,13 @@ fn ellipse(middle: Place, axes: [Place; 2], scale: f64) -> Vec<Place> {
         .collect()
 }
 
-/// Angle to a multiple of 15 degrees within which an axis takes it, in degrees.
+/// An axis jumps to a multiple of 15 degrees within this angle, in degrees.
 const SNAP_DEG: f64 = 2.0;
 
-/// Step of these angles, in degrees.
 const STEP_DEG: f64 = 15.0;
 
-/// Distance of the handle that turns the symmetry from its centre, as a share of the shorter side
-/// of the canvas.
+/// Distance from the centre of the symmetry to the handle that turns it, as a share of the canvas's
+/// shorter side.
 const ARM: f64 = 0.3;
 
 /// A handle of the drawing aids.
@@ -404,17 +401,17 @@ const ARM: f64 = 0.3;
 pub enum AidHandle {
     /// One of the two ends of the straight ruler, 0 or 1.
     End(usize),
-    /// Middle of the ellipse, which moves all of it.
+    /// The middle of the ellipse. It moves all of it.
     Middle,
-    /// End of the half axis of the ellipse that turns it.
+    /// The end of one half axis. It turns the ellipse.
     Tip,
-    /// End of its other half axis.
+    /// The end of the other half axis.
     Side,
     /// A vanishing point, from 0.
     Vanishing(usize),
     /// Centre of the symmetry.
     Centre,
-    /// The place on its axis that turns it.
+    /// The place on the axis of symmetry that turns it.
     Axis,
 }
 
@@ -435,7 +432,6 @@ impl AidHandle {
     }
 }
 
-/// An angle in degrees, set to a multiple of 15 that is near.
 fn stepped(degrees: f64) -> f64 {
     let step = (degrees / STEP_DEG).round() * STEP_DEG;
     if (degrees - step).abs() < SNAP_DEG { step } else { degrees }
@@ -512,7 +508,7 @@ mod tests {
         assert!(lead.is_open());
         let (x, y) = lead.follow((48.0, 48.4));
         assert!(!lead.is_open() && (x - y).abs() < 1e-9, "{x} {y}");
-        // Later the stroke keeps to its line, whichever way the pen goes.
+        // Later the stroke keeps to its line, wherever the pen moves.
         let (x, y) = lead.follow((70.0, 30.0));
         assert!((x - 50.0).abs() < 1e-9 && (y - 50.0).abs() < 1e-9, "{x} {y}");
     }
@@ -532,7 +528,7 @@ mod tests {
         for point in [[-300.0, 40.0], [260.0, -20.0], [100.0, 4000.0]] {
             let rays = fan(point, canvas);
             assert_eq!(rays.len(), FAN + 1);
-            // The sides of every line on which corners lie: none is beyond the first and the last.
+            // All corners lie between the first and the last line.
             for (ray, wanted) in [(&rays[0], 1.0), (&rays[FAN], -1.0)] {
                 let along = unit(way(ray[0], ray[1])).unwrap();
                 let sides = [[0.0, 0.0], [200.0, 0.0], [200.0, 100.0], [0.0, 100.0]]
@@ -584,7 +580,7 @@ mod tests {
             assert_eq!(handles.len(), count, "{handles:?}");
             for handle in handles {
                 let before = aids.place_of(handle);
-                // Along the ray or the axis, as angle and width keep their direction.
+                // We move along the ray or the axis, because angle and width keep their direction.
                 let to = match handle {
                     AidHandle::Axis => [before[0] + 30.0, before[1] + 30.0],
                     AidHandle::Side => moved(before, way(aids.ruler.middle, before), 0.2),

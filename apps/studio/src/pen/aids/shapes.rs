@@ -1,38 +1,36 @@
 //! Geometry of the drawing aids: the line or ellipse that leads a stroke, rulers, perspective with
-//! one, two or three vanishing points, and symmetry.
+//! one to three vanishing points, and symmetry.
 
 use paint::pose::Sample;
 use serde::{Deserialize, Serialize};
 
-/// A place on the canvas or a way on it: right and down, in mm.
+/// A place on the canvas, or a movement on it: right and down, in mm.
 pub(super) type Place = [f64; 2];
 
-/// The place at this way from another one.
+/// A place moved by a multiple of a movement.
 pub(super) fn moved([x, y]: Place, [right, down]: Place, by: f64) -> Place {
     [x + right * by, y + down * by]
 }
 
-/// The way from one place to another.
+/// The movement from one place to another.
 pub(super) fn way([from_x, from_y]: Place, [to_x, to_y]: Place) -> Place {
     [to_x - from_x, to_y - from_y]
 }
 
-/// Scalar product of two ways.
 pub(super) fn dot(a: Place, b: Place) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// A way turned by a quarter, clockwise.
+/// A movement turned clockwise by a quarter.
 pub(super) fn across([right, down]: Place) -> Place {
     [-down, right]
 }
 
-/// Length of a way in mm.
 pub(super) fn length([right, down]: Place) -> f64 {
     right.hypot(down)
 }
 
-/// The direction of a way as a way of length 1; `None` for a way without length.
+/// The direction as a movement of length 1; `None` for a movement of length 0.
 pub(super) fn unit(of: Place) -> Option<Place> {
     let length = length(of);
     (length > 1e-9).then(|| of.map(|part| part / length))
@@ -49,28 +47,26 @@ pub(super) fn sin_cos(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// The line or ellipse that one stroke is led along.
+/// The line or ellipse that leads one stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Course {
     /// An endless straight line.
     Line {
-        /// A place on it.
         at: Place,
-        /// Its direction, of length 1.
+        /// Direction, of length 1.
         along: Place,
     },
     /// An ellipse, turned by any angle.
     Ellipse {
-        /// The middle of the ellipse.
         middle: Place,
-        /// The two half axes, upright on each other and not without length.
+        /// The two half axes, at right angles and longer than 0.
         axes: [Place; 2],
     },
 }
 
 impl Course {
-    /// The place of the course that belongs to a place: on a line the nearest one, on an ellipse the
-    /// one in the direction from its middle, which is the nearest on a circle.
+    /// The place on the course for a place of the pen. On a line this is the nearest one. On an
+    /// ellipse it lies in the same direction from the middle, which is the nearest one on a circle.
     pub(super) fn led(&self, place: Place) -> Place {
         match *self {
             Self::Line { at, along } => moved(at, along, dot(way(at, place), along)),
@@ -84,7 +80,7 @@ impl Course {
     }
 }
 
-/// A place in an ellipse, in shares of its half axes.
+/// A place in an ellipse, as shares of the half axes.
 pub(super) fn shares(middle: Place, axes: [Place; 2], place: Place) -> Place {
     axes.map(|axis| dot(way(middle, place), axis) / dot(axis, axis))
 }
@@ -100,7 +96,7 @@ pub enum RulerShape {
     Parallel,
     /// The ellipse around its middle.
     Ellipse,
-    /// The ellipse of the same middle and form through the start of the stroke.
+    /// An ellipse of the same middle and form, through the start of the stroke.
     Concentric,
 }
 
@@ -108,13 +104,13 @@ pub enum RulerShape {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Ruler {
-    /// Shape that strokes keep to.
+    /// Shape that strokes follow.
     pub shape: RulerShape,
     /// Two places on the straight line.
     pub ends: [[f64; 2]; 2],
     /// Middle of the ellipse.
     pub middle: [f64; 2],
-    /// End of one of the half axes of the ellipse.
+    /// End of one half axis of the ellipse.
     pub tip: [f64; 2],
     /// Length of the other half axis, in mm.
     pub half_width_mm: f64,
@@ -133,7 +129,6 @@ impl Ruler {
         }
     }
 
-    /// Both half axes of the ellipse; `None` if it has no extent.
     pub(super) fn axes(&self) -> Option<[Place; 2]> {
         let axis = way(self.middle, self.tip);
         let other = across(unit(axis)?).map(|part| part * self.half_width_mm);
@@ -158,18 +153,16 @@ impl Ruler {
         }
     }
 
-    /// The place of the ellipse at the end of its other half axis.
     pub(super) fn side(&self) -> Place {
         let other = self.axes().map_or([0.0; 2], |[_, other]| other);
         moved(self.middle, other, 1.0)
     }
 }
 
-/// Most vanishing points.
 const MOST: usize = 3;
 
-/// A vanishing point in homogeneous coordinates: right and down in mm, and 1; or a direction and 0
-/// for one at infinity, towards which all lines are parallel.
+/// A vanishing point in homogeneous coordinates: right and down in mm, and 1. At infinity it is a
+/// direction and 0, and all lines towards it are parallel.
 type Vanishing = [f64; 3];
 
 /// A perspective guide. Positions are in mm from the upper left corner of the canvas, and may lie
@@ -177,9 +170,9 @@ type Vanishing = [f64; 3];
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Perspective {
-    /// Number of vanishing points in use, 1 to 3; other numbers count as the nearest of these.
+    /// Number of vanishing points in use, 1 to 3. Any other number counts as the nearest of these.
     pub count: usize,
-    /// The vanishing points; the first two are on the horizon.
+    /// The vanishing points. The first two lie on the horizon.
     pub points: [[f64; 2]; MOST],
 }
 
@@ -206,7 +199,6 @@ impl Perspective {
         &self.points[..self.count.clamp(1, MOST)]
     }
 
-    /// Direction of the horizon, of length 1.
     pub(super) fn horizon(&self) -> Place {
         let along = match self.in_use() {
             [left, right, ..] => unit(way(*left, *right)),
@@ -215,8 +207,8 @@ impl Perspective {
         along.unwrap_or([1.0, 0.0])
     }
 
-    /// All points that lines run to. With fewer than three vanishing points, lines also stay upright
-    /// on the horizon, and with one also along it.
+    /// All points that lines run to. If you use fewer than three vanishing points, lines can also
+    /// be at right angles to the horizon, and with one point also parallel to it.
     fn vanishing(&self) -> Vec<Vanishing> {
         let mut all: Vec<Vanishing> = self.in_use().iter().map(|&[x, y]| [x, y, 1.0]).collect();
         let horizon = self.horizon();
@@ -225,8 +217,9 @@ impl Perspective {
         all
     }
 
-    /// The line of a stroke that starts at `start` and goes to `to` first: that to the vanishing
-    /// point whose direction, forth or back, is nearest. `None` for a stroke without length.
+    /// The line of a stroke that starts at `start` and first goes to `to`. It leads to the
+    /// vanishing point nearest in direction, forwards or backwards. `None` for a stroke without
+    /// length.
     pub(super) fn course(&self, start: Place, to: Place) -> Option<Course> {
         let heading = unit(way(start, to))?;
         let lines = self.vanishing().into_iter().filter_map(|point| towards(point, start));
@@ -248,14 +241,14 @@ pub(super) const ARMS: std::ops::RangeInclusive<u8> = 2..=12;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SymmetryKind {
-    /// Left and right of the axis are mirrored.
+    /// Mirrors left and right of the axis.
     #[default]
     Vertical,
-    /// Above and below the line across the axis are mirrored.
+    /// Mirrors above and below the line across the axis.
     Horizontal,
-    /// Both are mirrored.
+    /// Mirrors both ways.
     Both,
-    /// The stroke is turned about the centre.
+    /// Turns the stroke about the centre.
     Radial,
 }
 
@@ -267,11 +260,12 @@ pub struct Symmetry {
     pub on: bool,
     /// How strokes are repeated.
     pub kind: SymmetryKind,
-    /// Its centre, in mm from the upper left corner of the canvas.
+    /// Centre, in mm from the upper left corner of the canvas.
     pub centre: [f64; 2],
     /// Angle of the axis, in degrees clockwise from upright.
     pub angle_deg: f64,
-    /// Number of arms of a radial symmetry, 2 to 12; other numbers count as the nearest of these.
+    /// Number of arms of a radial symmetry, 2 to 12. Any other number counts as the nearest of
+    /// these.
     pub arms: u8,
 }
 
@@ -283,7 +277,7 @@ impl Default for Symmetry {
 }
 
 impl Symmetry {
-    /// The twins of a stroke, which are painted besides it.
+    /// The twins of a stroke, which are painted together with it.
     #[must_use]
     pub fn twins(&self) -> Vec<Twin> {
         let twin = |matrix| Twin { centre: self.centre, matrix };
@@ -321,14 +315,13 @@ impl Symmetry {
     }
 }
 
-/// The direction upwards, turned clockwise.
+/// The upward direction, turned clockwise.
 pub(super) fn upright_turned(degrees: f64) -> Place {
     let (sin, cos) = sin_cos(degrees);
     [sin, -cos]
 }
 
-/// A map of a stroke to one that is painted besides it: mirrored at a line through the centre, or
-/// turned about it.
+/// Maps a stroke to its twin: mirrored at a line through the centre, or turned about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twin {
     centre: Place,
@@ -337,13 +330,13 @@ pub struct Twin {
 }
 
 impl Twin {
-    /// The place in mm that belongs to a place in mm.
+    /// The place in mm of the twin.
     #[must_use]
     pub fn place(&self, place: [f64; 2]) -> [f64; 2] {
         moved(self.centre, self.way(way(self.centre, place)), 1.0)
     }
 
-    /// The sample that belongs to a sample: its place, and with it tilt and twist of the brush.
+    /// The sample of the twin: its place, and tilt and twist of the brush.
     #[must_use]
     pub fn sample(&self, sample: &Sample) -> Sample {
         let [x_mm, y_mm] = self.place([sample.x_mm, sample.y_mm]);
@@ -369,7 +362,6 @@ mod perspective_tests {
         Perspective { count, points: [[10.0, 40.0], [190.0, 40.0], [100.0, 300.0]] }
     }
 
-    /// The direction of the line of a stroke.
     fn along(guide: &Perspective, start: Place, to: Place) -> Place {
         let Some(Course::Line { at, along }) = guide.course(start, to) else { panic!("a line") };
         assert_eq!(at, start);
@@ -377,7 +369,7 @@ mod perspective_tests {
     }
 
     fn near(found: Place, wanted: Place) {
-        // Forth or back is the same line.
+        // Both directions give the same line.
         let [x, y] = wanted;
         assert!((found[0] * y - found[1] * x).abs() < 1e-9, "{found:?}, not {wanted:?}");
     }
@@ -385,7 +377,7 @@ mod perspective_tests {
     #[test]
     fn a_stroke_is_led_to_the_vanishing_point_of_the_nearest_direction() {
         let two = perspective(2);
-        // Roughly to the left point, away from it, and to the right one.
+        // These go roughly to the left point, away from it, and to the right one.
         near(along(&two, [100.0, 130.0], [98.0, 129.0]), [-1.0, -1.0]);
         near(along(&two, [100.0, 130.0], [102.0, 131.0]), [-1.0, -1.0]);
         near(along(&two, [100.0, 130.0], [103.0, 127.5]), [1.0, -1.0]);
@@ -401,7 +393,7 @@ mod perspective_tests {
             near(along(&perspective(1), start, up), [0.0, 1.0]);
             near(along(&perspective(1), start, [start[0] + 4.0, start[1] + 0.1]), [1.0, 0.0]);
         }
-        // A horizon that leans: upright on it.
+        // The horizon leans. This line is at right angles to it.
         let points = [[0.0, 0.0], [40.0, 30.0], [0.0, 0.0]];
         let leaning = Perspective { count: 2, points };
         near(along(&leaning, [50.0, 0.0], [47.0, 4.2]), [-0.6, 0.8]);
@@ -433,10 +425,10 @@ mod tests {
     #[test]
     fn a_place_is_led_to_the_foot_of_its_perpendicular() {
         let line = Course::Line { at: [2.0, 1.0], along: [0.6, 0.8] };
-        // 5 mm along the line and 3 mm across it.
+        // The place is 5 mm along the line and 3 mm beside it.
         near(line.led([2.0 + 3.0 - 2.4, 1.0 + 4.0 + 1.8]), [5.0, 5.0]);
         near(line.led([2.0, 1.0]), [2.0, 1.0]);
-        // Behind the place that the line is given by.
+        // This lies behind the first end of the line.
         near(line.led([2.0 - 6.0, 1.0 - 8.0]), [-4.0, -7.0]);
     }
 
@@ -484,7 +476,6 @@ mod tests {
 
     #[test]
     fn strokes_keep_to_the_ellipse_or_to_one_of_their_own() {
-        let out = |place: Place| length(shares([20.0, 10.0], [[6.0, 0.0], [0.0, 3.0]], place));
         for (shape, start, wanted) in [
             (RulerShape::Ellipse, [29.0, 10.0], 1.0),
             (RulerShape::Concentric, [29.0, 10.0], 1.5),
@@ -493,7 +484,11 @@ mod tests {
             let course = ruler(shape).course(start).unwrap();
             for place in [start, [21.0, 17.0], [12.0, 9.0]] {
                 let led = course.led(place);
-                assert!((out(led) - wanted).abs() < 1e-9, "{shape:?} {place:?}: {led:?}");
+                assert!(
+                    (length(shares([20.0, 10.0], [[6.0, 0.0], [0.0, 3.0]], led)) - wanted).abs()
+                        < 1e-9,
+                    "{shape:?} {place:?}: {led:?}"
+                );
             }
         }
     }
@@ -552,7 +547,7 @@ mod tests {
         assert_near(first, upright);
         assert_near(second, level);
         assert_near(third, [7.0, 8.0, -30.0, 10.0, -160.0]);
-        // Mirrored at the line from the lower left to the upper right, right becomes up.
+        // The mirror goes from the lower left to the upper right, so right becomes up.
         let [one] = &twins(SymmetryKind::Vertical, 45.0, 6)[..] else { panic!("one twin") };
         assert_near(one, [12.0, 3.0, 10.0, -30.0, -110.0]);
     }

@@ -23,7 +23,6 @@ use studio::theme;
 
 use crate::harness::keep;
 
-/// Paints a few strokes with the engine.
 pub(super) fn painted(title: &str) -> Document {
     let Origin::Blank { mut script, library } =
         blank_canvas(PigmentLibrary::van_gogh_oils(), 24.0, 16.0, 0.2)
@@ -59,7 +58,6 @@ pub(super) fn painted(title: &str) -> Document {
     painting.document().unwrap()
 }
 
-/// Opens a document on the CPU backend.
 pub(super) fn opened(document: Document) -> Painting {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     Painting::open(document, engine, 1 << 24).unwrap()
@@ -125,7 +123,7 @@ pub(super) struct Bench {
     requests: Vec<FileRequest>,
     /// Start of the recording, if it is not a blank canvas.
     pub(super) recorded: Option<StrokeScript>,
-    /// Whether answers with a snapshot wait until they are released.
+    /// Whether answers with a snapshot wait until you release them.
     pub(super) holds_snapshots: bool,
     /// Commands received, except requests for documents.
     pub(super) commands: Vec<Command>,
@@ -141,8 +139,9 @@ impl Bench {
             Files::new(ui.ctx(), self.home.clone(), self.preferences.clone())
         });
         let holds = self.holds_snapshots;
-        let held = |event: &Event| holds && matches!(event, Event::Snapshot(_));
-        for event in self.events.extract_if(.., |event| !held(event)) {
+        for event in
+            self.events.extract_if(.., |event| !(holds && matches!(event, Event::Snapshot(_))))
+        {
             files.handle_event(&event);
         }
         for request in self.requests.drain(..) {
@@ -268,7 +267,6 @@ pub(super) fn window(home: &Path, document: Document) -> Window {
     window
 }
 
-/// Draws frames until `done`, at most 30 s.
 pub(super) fn until(window: &mut Window, what: &str, mut done: impl FnMut(&mut Window) -> bool) {
     let start = Instant::now();
     while !done(window) {
@@ -305,14 +303,12 @@ pub(super) fn shows(window: &Window, label: &str) -> bool {
     window.query_all_by_label_contains(label).next().is_some()
 }
 
-/// Clicks the control with this label.
 pub(super) fn click(window: &mut Window, label: &str) {
     window.get_by_label(label).click();
-    // A dialog that it opens is laid out in the following frames.
+    // If this opens a dialog, the following frames lay it out.
     window.run_steps(4);
 }
 
-/// Replaces the text of the name field.
 pub(super) fn type_name(window: &mut Window, name: &str) {
     let field = window.get_all_by_role(eframe::egui::accesskit::Role::TextInput).last().unwrap();
     field.focus();
@@ -325,14 +321,14 @@ pub(super) fn type_name(window: &mut Window, name: &str) {
     window.step();
 }
 
-/// Renders the window if the environment variable `IMPASTO_PICTURES` is set, and keeps the picture.
+/// If you set the environment variable `IMPASTO_PICTURES`, this renders the window and keeps the
+/// picture.
 pub(super) fn picture(window: &mut Window, name: &str) {
     if std::env::var_os("IMPASTO_PICTURES").is_some() {
         keep(&window.render().unwrap(), &format!("files-{name}"));
     }
 }
 
-/// Reads a painting file.
 pub(super) fn document(path: &Path) -> Document {
     paint::file::read("test", &std::fs::read(path).unwrap()).unwrap()
 }

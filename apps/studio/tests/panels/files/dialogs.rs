@@ -16,7 +16,7 @@ use super::bench::{Window, ask, click, folder, painted, picture, shows, type_nam
 /// Chooses an entry of the list with this label.
 fn choose(window: &mut Window, list: &str, entry: &str) {
     click(window, list);
-    // It may be scrolled out of view.
+    // The entry may be out of view.
     window.get_by_label(entry).click_accesskit();
     window.run_steps(4);
 }
@@ -128,7 +128,7 @@ fn a_relief_is_chosen_from_a_picture_and_toned_with_an_own_film() {
     assert_eq!(toned.film.recipe.len(), 2, "{toned:?}");
 }
 
-/// Replaces the text of the field with this number among the text fields.
+/// Replaces the text of the text field with this number.
 fn type_into_field(window: &mut Window, number: usize, text: &str) {
     window.get_all_by_role(Role::TextInput).nth(number).unwrap().focus();
     window.step();
@@ -138,13 +138,13 @@ fn type_into_field(window: &mut Window, number: usize, text: &str) {
     window.step();
 }
 
-/// Presses Enter and draws what follows from it.
+/// Presses Enter and draws the following frames.
 fn enter(window: &mut Window, modifiers: Modifiers) {
     window.key_press_modifiers(modifiers, Key::Enter);
     window.run_steps(4);
 }
 
-/// Width in mm of the canvas that was begun, if one was.
+/// Width in mm of the new canvas, if one was begun.
 fn begun_width(window: &Window) -> Option<f64> {
     match &window.state().commands[..] {
         [] => None,
@@ -196,14 +196,14 @@ fn enter_in_a_number_field_ends_the_field_and_begins_no_painting() {
     let (folder, _) = folder();
     let mut window = window(folder.path(), painted("A"));
     ask(&mut window, FileRequest::New);
-    let width = |window: &mut Window, text: &str| {
+    fn width(window: &mut Window, text: &str) {
         window.get_all_by_role(Role::SpinButton).next().unwrap().click();
         window.run_steps(2);
         window.key_press_modifiers(Modifiers::COMMAND, Key::A);
         window.step();
         window.get_by(|node| node.is_focused()).type_text(text);
         window.step();
-    };
+    }
     width(&mut window, "64");
     enter(&mut window, Modifiers::NONE);
     assert!(window.state_mut().files().has_dialog(), "the dialog stays");
@@ -294,7 +294,7 @@ fn a_crop_opens_the_part_that_stays_as_an_unsaved_painting() {
     let whole = window.state().canvas.clone();
     ask(&mut window, FileRequest::Crop(rect));
     until(&mut window, "the part", |window| !window.state().commands.is_empty());
-    // The palette of the bench has paint, which must not be lost.
+    // The palette of the bench has paint, which must not get lost.
     let [Command::Open(Origin::Recovered { canvas, palette, .. })] = &window.state().commands[..]
     else {
         panic!("{:?}", window.state().commands)

@@ -245,7 +245,7 @@ fn preferences_apply_and_are_written() {
     assert!(read.replay_as_painted && !read.pen.follow, "one was ticked, one cleared");
 }
 
-/// A recording of two strokes of a second on the canvas of the bench.
+/// A recording of two strokes of one second on the bench's canvas.
 fn recorded(window: &Window) -> StrokeScript {
     let mut script = window.state().script();
     let spec = BrushSpec { shape: HeadShape::Round, size_mm: 3.0 };
@@ -298,11 +298,10 @@ fn a_timelapse_is_written_in_each_form() {
     let apng = apng.collect_frames().unwrap();
     assert_eq!(apng.len(), 3, "the start, and one after each stroke");
     assert_eq!(apng[2].delay().numer_denom_ms(), (2000, 1), "the end is held");
-    let differing = |a: usize, b: usize| {
-        let pairs = apng[a].buffer().pixels().zip(apng[b].buffer().pixels());
-        pairs.filter(|(a, b)| a != b).count()
-    };
-    assert!(differing(0, 1) > 200 && differing(1, 2) > 200, "each frame has one stroke more");
+    for (one, next) in [(0, 1), (1, 2)] {
+        let pairs = apng[one].buffer().pixels().zip(apng[next].buffer().pixels());
+        assert!(pairs.filter(|(a, b)| a != b).count() > 200, "each frame has one stroke more");
+    }
 
     export(&mut window, "Folder of PNG frames", "film");
     let frames = path("film.frames");
@@ -416,13 +415,13 @@ fn mixtures_go_to_other_programs_and_come_back() {
     assert_eq!(names(&mut window), ["red"], "colours are no mixtures");
 }
 
-/// Row of a file in the browser, which is a button; notices may name the file too.
+/// The row of a file in the browser. It is a button, while a notice may contain the same name as
+/// text.
 fn row<'a>(window: &'a Window, name: &'a str) -> Option<Node<'a>> {
     let mut named = window.query_all_by_label_contains(name);
     named.find(|node| node.accesskit_node().role() == Role::Button)
 }
 
-/// Chooses a file that the browser lists.
 fn choose(window: &mut Window, name: &str) {
     until(window, "the row", |window| row(window, name).is_some());
     row(window, name).unwrap().click();
@@ -431,7 +430,7 @@ fn choose(window: &mut Window, name: &str) {
     window.run_steps(4);
 }
 
-/// A window with a pinned picture of 600 x 400 pixels in a folder of its own.
+/// A window with a pinned picture of 600 x 400 pixels, in its own folder.
 fn pinned_window(name: &'static str) -> (StudioWindow, PathBuf, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("orchard.png");
@@ -454,7 +453,6 @@ fn pin(window: &mut StudioWindow, path: &Path) {
     });
 }
 
-/// Draws frames until `done`, at most 30 s.
 fn wait_until(
     window: &mut StudioWindow,
     what: &str,
@@ -484,7 +482,6 @@ fn draw(window: &mut StudioWindow, places: &[[f32; 2]]) {
     window.pen_stroke(&along);
 }
 
-/// Clicks the main button of the topmost dialog.
 fn click_last(window: &mut StudioWindow, label: &str) {
     let button = window.harness().get_all_by_label(label).last().unwrap();
     button.click();
@@ -543,7 +540,7 @@ fn undo_over_the_picture_takes_the_last_mark_away() {
     assert!(
         !shows_words(&mut window, "Delete sample 2") && shows_words(&mut window, "Delete sample 1")
     );
-    // Undo is for the painting again while the picture is hidden.
+    // While the picture is hidden, undo acts on the painting again.
     for key in [Key::Tab, Key::Z, Key::Tab] {
         let modifiers = if key == Key::Z { Modifiers::COMMAND } else { Modifiers::NONE };
         window.key(modifiers, key);

@@ -138,13 +138,12 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     first.state_mut().recorded = Some(script);
     change(&mut first);
     let sessions = folder.path().join("own").join("sessions");
-    let session = |_: &mut Window| {
+    until(&mut first, "an autosave", |_: &mut Window| {
         let mut sessions = std::fs::read_dir(&sessions).unwrap();
         let session = sessions.next().unwrap().unwrap().path();
         let mut inside = std::fs::read_dir(session).unwrap().map(|entry| entry.unwrap());
         inside.any(|entry| entry.file_name().to_string_lossy().starts_with("generation"))
-    };
-    until(&mut first, "an autosave", session);
+    });
     let picture_file = folder.path().join("orchard.png");
     image::RgbImage::new(4, 4).save(&picture_file).unwrap();
     let desk = Desk {
@@ -161,7 +160,7 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
         let texts = paths.filter_map(|path| std::fs::read_to_string(path).ok());
         texts.into_iter().any(|text| text.contains("orchard.png"))
     });
-    // Simulate a crash: the lock is released, the folder stays.
+    // This simulates a crash: the lock is released, the folder stays.
     drop(first);
 
     let mut second = window(folder.path(), painted("Another"));
@@ -184,8 +183,9 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     assert_eq!(found, desk);
     assert!(second.state_mut().files().take_desk().is_none(), "once");
     assert!(second.state_mut().files().has_unsaved_changes(), "the recovered painting is unsaved");
-    let sessions = |_: &mut Window| std::fs::read_dir(&sessions).unwrap().count() == 1;
-    until(&mut second, "its own autosave", sessions);
+    until(&mut second, "its own autosave", |_: &mut Window| {
+        std::fs::read_dir(&sessions).unwrap().count() == 1
+    });
     drop(second);
     let mut third = window(folder.path(), painted("Another"));
     assert!(shows(&third, "A study"), "it is offered again after a second crash");
@@ -196,7 +196,6 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "a regular exit leaves nothing");
 }
 
-/// All files below a folder.
 fn walk(folder: &Path) -> Vec<std::path::PathBuf> {
     let paths = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path());
     paths.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
@@ -323,7 +322,6 @@ fn opening_another_painting_asks_before_discarding_changes() {
     assert!(!window.state_mut().files().has_unsaved_changes(), "the painting equals its file");
 }
 
-/// Time limit of every wait.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn state(revision: u64) -> SceneState {
@@ -400,7 +398,7 @@ fn a_scene_left_by_a_crash_is_offered_and_recovered() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = scene_window(folder.path());
     autosaved(&mut first, "the script", folder.path());
-    // A crash: the window ends without finishing.
+    // This simulates a crash: the window ends without finishing.
     drop(first);
     let start = Instant::now();
     let scenes = Home::in_folder(folder.path()).scenes();

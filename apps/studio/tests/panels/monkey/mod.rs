@@ -1,6 +1,6 @@
-//! A monkey at the whole program: random actions, after each of which nothing may have failed, and
-//! at the end of which no paint may be lost. The recording is played again, action by action, and
-//! every quantum is followed.
+//! A monkey uses the whole program. After each random action nothing may have failed, and at the
+//! end no paint may be lost. We play the recording again, action by action, and follow every
+//! quantum of paint.
 
 mod paws;
 
@@ -26,7 +26,7 @@ use crate::harness::has_adapter;
 use crate::light::drop_file;
 use paws::{Control, Monkey, controls, lists_elsewhere, million_new_cells};
 
-/// Most cells of a new canvas, in millions: a larger one only takes time.
+/// Most cells of a new canvas, in millions. A larger one would just take time.
 const MOST_MILLION: f64 = 0.3;
 
 /// Texts to type into fields of any kind.
@@ -47,7 +47,6 @@ const TEXTS: [&str; 14] = [
     "a name that is much longer than any field of a panel is wide, and then some more of it",
 ];
 
-/// Keys that mean something in lists and fields.
 const KEYS: [Key; 12] = [
     Key::ArrowUp,
     Key::ArrowDown,
@@ -75,7 +74,6 @@ const TABS: [Tab; 8] = [
 ];
 
 impl Monkey {
-    /// Does one action and checks that nothing failed.
     fn act(&mut self) {
         let home = self.home().to_owned();
         if lists_elsewhere(&mut self.window, &home) {
@@ -120,7 +118,7 @@ impl Monkey {
         self.point_in(whole)
     }
 
-    /// A line of several legs over canvas or palette, or a scene.
+    /// Draws a line of several legs over canvas or palette, or in a scene.
     fn stroke(&mut self) {
         let surface = self.dice.of(&[SurfaceId::Canvas, SurfaceId::Canvas, SurfaceId::Palette]);
         let studio = self.window.studio();
@@ -129,7 +127,7 @@ impl Monkey {
             (SurfaceId::Canvas, _) => studio.canvas.rect(),
             (SurfaceId::Palette, _) => studio.palette.rect(),
         };
-        // Nothing is drawn yet of what was just opened.
+        // We have not drawn what was just opened.
         if !(room.is_finite() && room.is_positive()) {
             return;
         }
@@ -144,7 +142,7 @@ impl Monkey {
         self.drag(&along);
     }
 
-    /// A key of an entry, or the entry of its menu.
+    /// Presses the key of a menu entry, or clicks the entry.
     fn entry(&mut self) {
         if self.window.studio().shows_volumes {
             let entries: Vec<&SceneEntry> =
@@ -158,11 +156,11 @@ impl Monkey {
             );
             return;
         }
-        // The sample is played for seconds.
+        // The sample would play for seconds.
         let left_out = [Intent::Quit, Intent::Sample];
         let rare = [Intent::NewScene, Intent::OpenScene, Intent::ShowScene, Intent::ScrapePalette];
-        let fitting = |entry: &&Entry| !left_out.contains(&entry.intent);
-        let entries: Vec<&Entry> = entries().filter(fitting).collect();
+        let entries: Vec<&Entry> =
+            entries().filter(|entry| !left_out.contains(&entry.intent)).collect();
         let mut entry = self.dice.of(&entries);
         if rare.contains(&entry.intent) && self.dice.chance(60) {
             entry = self.dice.of(&entries);
@@ -181,7 +179,7 @@ impl Monkey {
         let bar = self.window.harness().query_all_by_label(menu).next().map(|node| node.rect());
         let Some(bar) = bar else { return };
         self.click_at(bar.center(), PointerButton::Primary);
-        // Its entries stand below its name.
+        // The entries stand below the menu's name.
         let below = self.window.harness().query_all_by_label(name).map(|node| node.rect());
         let entry = below.min_by_key(|rect| (rect.left() - bar.left()).abs() as u32);
         if let Some(entry) = entry {
@@ -194,7 +192,7 @@ impl Monkey {
         self.click_one(&found);
     }
 
-    /// Something of the layers: names, order, merging, opacity.
+    /// Clicks in the layers: names, order, merging, opacity.
     fn click_layer(&mut self) {
         self.window.studio_mut().panels.select(Tab::Layers);
         self.window.frame(Vec::new());
@@ -236,7 +234,7 @@ impl Monkey {
         self.click_at(pos, button);
     }
 
-    /// Drags a control, or any place such as the border of a panel.
+    /// Drags a control, or any other place, e.g. the border of a panel.
     fn drag_any(&mut self) {
         let found = controls(&mut self.window);
         let from = if found.is_empty() || self.dice.chance(30) {
@@ -307,7 +305,6 @@ impl Monkey {
         }
     }
 
-    /// Loads the brush from a tube, or squeezes one.
     fn tube(&mut self) {
         let mut found = controls(&mut self.window);
         found.retain(|control| control.name.starts_with("tube of "));
@@ -364,10 +361,9 @@ impl Monkey {
     }
 }
 
-/// Quanta of each slot and of the vehicle.
 type Quanta = [i128; SLOTS + 1];
 
-/// All wet paint of a session: on canvas, palette and brushes.
+/// All wet paint of a session: canvas, palette and brushes.
 fn wet(session: &mut PaintingSession) -> Quanta {
     let mut sums = [0; SLOTS + 1];
     let mut add = |totals: [u64; SLOTS + 1]| {
@@ -388,7 +384,6 @@ fn wet(session: &mut PaintingSession) -> Quanta {
     sums
 }
 
-/// All paint of the dry layers.
 fn dry(session: &mut PaintingSession) -> i128 {
     let (canvas, _) = session.documents().unwrap();
     let totals = canvas.dry.iter().flat_map(|layer| layer.paint.totals());
@@ -404,10 +399,10 @@ fn begun(
     let start = opened.map(|bytes| file::read("start", bytes).unwrap());
     let table = opened.filter(|_| script.table).and_then(|b| file::read_table("start", b).unwrap());
     let (canvas, palette, kept) = script.surfaces_with_table(library, start, table).unwrap();
-    let painting = |document: Document| {
+    fn painting(document: Document) -> Painting {
         let engine = PaintEngine::on_cpu(document.ground.height.clone());
         Painting::open(document, engine, 1 << 29).unwrap()
-    };
+    }
     let mut session = PaintingSession::new(painting(canvas), palette.map(painting)).unwrap();
     session.take_up(&kept).unwrap();
     session
@@ -418,7 +413,6 @@ fn check_action(action: &Action, outcome: &Outcome, before: (Quanta, i128), afte
     let kind = action.kind();
     let (wet, dry) = before;
     let (wet_after, dry_after) = after;
-    let sum = |quanta: Quanta| quanta.iter().sum::<i128>();
     match action {
         Action::Stroke(_) | Action::Cut(_) => {
             let taken = match outcome {
@@ -437,15 +431,19 @@ fn check_action(action: &Action, outcome: &Outcome, before: (Quanta, i128), afte
             assert!(wet.iter().zip(&wet_after).all(|(a, b)| a >= b), "{kind}: {action:?}");
             assert_eq!(dry, dry_after, "{kind}");
         }
-        Action::Dry { .. } => assert_eq!(sum(wet) + dry, sum(wet_after) + dry_after, "{kind}"),
+        Action::Dry { .. } => assert_eq!(
+            wet.iter().sum::<i128>() + dry,
+            wet_after.iter().sum::<i128>() + dry_after,
+            "{kind}"
+        ),
         Action::Merge { .. } => assert_eq!(wet, wet_after, "{kind}"),
         Action::Undo {} | Action::Redo {} | Action::Palette(_) | Action::Swap { .. } => {}
         _ => assert_eq!((wet, dry), (wet_after, dry_after), "{kind}: {action:?}"),
     }
 }
 
-/// Plays the recording at `script` again and compares the end with the painting at `saved`.
-/// `opened` is the file that the painting was opened from. Returns the number of actions.
+/// Plays the recording at `script` again and compares the end with the painting at `saved`, which
+/// was opened from `opened`. Returns the number of actions.
 fn replay(script: &Path, saved: &Path, library: &PigmentLibrary, opened: Option<&[u8]>) -> usize {
     let script = StrokeScript::from_json("recording", &std::fs::read(script).unwrap()).unwrap();
     let opened = opened.filter(|_| script.start.is_some());
@@ -482,8 +480,8 @@ fn replay(script: &Path, saved: &Path, library: &PigmentLibrary, opened: Option<
 }
 
 impl Monkey {
-    /// Saves the painting and its recording, and checks that the recording gives the painting to
-    /// the bit and loses no paint on the way. Returns the number of recorded actions.
+    /// Saves the painting and its recording. Checks that the recording gives the painting to the
+    /// bit and loses no paint. Returns the number of recorded actions.
     fn settle_accounts(&mut self) -> usize {
         for _ in 0..8 {
             self.press(Modifiers::NONE, Key::Escape);
@@ -495,7 +493,7 @@ impl Monkey {
         std::fs::create_dir_all(&folder).unwrap();
         self.window.studio_mut().files.preferences.last_folder = Some(folder);
         let painting = self.save(FileRequest::SaveAs, "end", "exr");
-        // The recording is asked for in the state of the file.
+        // We ask for the recording while it belongs to this file.
         let opened = self.window.studio().files.opened_content().map(<[u8]>::to_vec);
         let recording = self.save(FileRequest::SaveRecording, "recording", "json");
         self.check();
@@ -503,7 +501,6 @@ impl Monkey {
         replay(&recording, &painting, &library, opened.as_deref())
     }
 
-    /// Saves under a name in the folder that the dialog lists, and returns the path.
     fn save(&mut self, request: FileRequest, name: &str, ending: &str) -> PathBuf {
         let state = self.window.studio().painting().unwrap().clone();
         self.window.studio_mut().files.request(request, &state);
@@ -514,7 +511,7 @@ impl Monkey {
         self.press(Modifiers::NONE, Key::Enter);
         let file = format!("{name}.{ending}");
         loop {
-            // A painting with a file is saved beside it.
+            // If a painting has a file, the dialog lists the folder of this file.
             let folders = [self.home().join("end"), self.files()];
             let found = folders.iter().map(|folder| folder.join(&file)).find(|path| path.exists());
             if let Some(path) = found {
@@ -528,7 +525,7 @@ impl Monkey {
     }
 }
 
-/// Seeds of the long run, unless `IMPASTO_SEEDS` names others, separated by commas.
+/// Seeds of the long run. You can name others in `IMPASTO_SEEDS`, separated by commas.
 const SEEDS: [u64; 5] = [1, 2, 3, 4, 5];
 
 /// Number of actions of a long run.

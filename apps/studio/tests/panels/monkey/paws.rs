@@ -15,13 +15,12 @@ use egui_kittest::kittest::NodeT;
 
 use crate::harness::Window;
 
-/// Number of last actions that are told on a failure.
+/// If the monkey fails, it reports this many last actions.
 const TOLD: usize = 40;
 
-/// Panics of all threads, once [`Monkey::count_panics`] was called.
+/// Panics of all threads, once you call [`Monkey::count_panics`].
 static PANICS: AtomicUsize = AtomicUsize::new(0);
 
-/// A monkey at a window.
 pub(super) struct Monkey {
     pub(super) window: Window,
     pub(super) dice: Dice,
@@ -31,8 +30,8 @@ pub(super) struct Monkey {
 }
 
 impl Monkey {
-    /// A monkey whose choices follow from `seed`, before a window whose dialogs list a folder of
-    /// its home.
+    /// A monkey at a window. Its choices follow from `seed`, and its dialogs list a folder of its
+    /// home.
     pub(super) fn new(name: &'static str, seed: u64) -> Self {
         let mut window = Window::open(name);
         let files = window.folder().join("files");
@@ -45,7 +44,7 @@ impl Monkey {
         Self { window, dice: Dice::new(seed), seed, record: Vec::new(), panics }
     }
 
-    /// Counts the panics of all threads of this process from now on, so that none is missed.
+    /// Counts the panics of all threads of this process from now on, so that we miss none.
     pub(super) fn count_panics() {
         let before = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
@@ -54,17 +53,15 @@ impl Monkey {
         }));
     }
 
-    /// The folder of the monkey's files.
     pub(super) fn files(&self) -> PathBuf {
         self.window.folder().join("files")
     }
 
-    /// Home folder of the program.
     pub(super) fn home(&self) -> &Path {
         self.window.folder()
     }
 
-    /// Notes what is about to be done.
+    /// Notes the next action.
     pub(super) fn note(&mut self, what: String) {
         self.record.push(what);
     }
@@ -162,12 +159,12 @@ impl Dice {
         self.below(1 << 20) as f32 / (1 << 20) as f32
     }
 
-    /// Whether something happens that has a chance of `percent`.
+    /// Whether something with a chance of `percent` happens.
     pub(super) fn chance(&mut self, percent: usize) -> bool {
         self.below(100) < percent
     }
 
-    /// One of a list, which is not empty.
+    /// One of a list. This must not be empty.
     pub(super) fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
     }
@@ -189,11 +186,11 @@ const REFUSALS: [&str; 17] = [
     "on top of all layers",
     "a painting is being opened",
     "is not a valid file name",
-    // A brush that is made larger just after a change of the palette asks for the paint that it had.
+    // If you enlarge a brush just after a change of the palette, it asks for its former paint.
     "recipe: pigments of the palette",
-    // The panel shows a layer until the undo that was asked for before is done.
+    // The panel shows a layer until an earlier undo is done.
     "there is no layer ",
-    // Marks of samples that are dropped on the window are no scene.
+    // Marks of samples are not a scene, but the monkey may drop them on the window.
     "format takes \"paint-volumes\"",
 ];
 
@@ -202,7 +199,7 @@ pub(super) fn is_refusal(message: &str) -> bool {
     REFUSALS.iter().any(|part| message.contains(part))
 }
 
-/// Something with a name that can be clicked, dragged or typed into.
+/// Something with a name that you can click, drag or type into.
 #[derive(Debug, Clone)]
 pub(super) struct Control {
     pub(super) name: String,
@@ -211,18 +208,17 @@ pub(super) struct Control {
 }
 
 impl Control {
-    /// Whether text can be typed into it.
+    /// Whether you can type text into it.
     pub(super) fn takes_text(&self) -> bool {
         matches!(self.role, Role::TextInput | Role::MultilineTextInput | Role::SpinButton)
     }
 
-    /// Its middle.
     pub(super) fn middle(&self) -> Pos2 {
         self.rect.center()
     }
 }
 
-/// All controls whose middle is in the window.
+/// All controls with their middle in the window.
 pub(super) fn controls(window: &mut Window) -> Vec<Control> {
     let whole = window.whole();
     let root = window.harness().root();
@@ -239,7 +235,7 @@ pub(super) fn controls(window: &mut Window) -> Vec<Control> {
     found
 }
 
-/// Whether a dialog lists a folder that is not below `home`.
+/// Whether a dialog lists a folder outside `home`.
 pub(super) fn lists_elsewhere(window: &mut Window, home: &Path) -> bool {
     let root = window.harness().root();
     root.children_recursive().any(|node| {
@@ -250,7 +246,7 @@ pub(super) fn lists_elsewhere(window: &mut Window, home: &Path) -> bool {
     })
 }
 
-/// Cells of the canvas that the dialog of a new painting would begin, if it is open, in millions.
+/// Cells of the canvas in the dialog of a new painting, if it is open, in millions.
 pub(super) fn million_new_cells(window: &mut Window) -> Option<f64> {
     let root = window.harness().root();
     root.children_recursive().find_map(|node| {

@@ -1,5 +1,4 @@
-//! Files of scenes in the whole window: the File menu, the file dialog, dropped files, and
-//! exports.
+//! Files of scenes in the whole window: the File menu, the file dialog, dropped files, and exports.
 
 use std::path::{Path, PathBuf};
 
@@ -16,10 +15,9 @@ use super::{PATIENCE, pour, rest, scene, volumes, wait};
 use crate::harness::Window;
 use crate::light::drop_file;
 
-/// Corners of a square, which are in this order in all models.
+/// Corners of a square. All models have them in this order.
 const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Number of the triangles of each model.
 const TRIANGLES: usize = 2;
 
 fn lines<T>(rows: impl IntoIterator<Item = T>, line: impl Fn(T) -> String) -> String {
@@ -73,7 +71,6 @@ fn glb() -> Vec<u8> {
     glb
 }
 
-/// Writes a file in a folder.
 fn file(folder: &Path, name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, bytes).unwrap();
@@ -122,7 +119,7 @@ fn told(window: &mut Window, words: &str) {
         std::thread::sleep(Duration::from_millis(3));
         window.harness().step();
     }
-    // What has appeared is laid out in the following frames.
+    // New widgets are laid out in the following frames.
     window.harness().run_steps(3);
 }
 
@@ -135,7 +132,7 @@ fn choose(window: &mut Window, entry: &str) {
 /// Opens a file in the dialog that asks for one.
 fn open_in_dialog(window: &mut Window, name: &str) {
     told(window, name);
-    // A row names the size and the age of its file too.
+    // A row contains the size and the age of its file too.
     window.harness().get_all_by_label_contains(name).next().unwrap().click();
     window.harness().run_steps(3);
     window.click("Open");
@@ -210,7 +207,7 @@ fn the_file_menus_begin_open_and_leave_scenes_and_come_back_to_them() {
     assert!(window.studio().shows_volumes);
     assert_eq!(volumes(&window).state().unwrap().title, "village", "as it was");
     assert!(volumes(&window).pictures() >= pictures);
-    // From the scene, and from the easel.
+    // We open it once from the scene and once from the easel.
     choose(&mut window, "Open scene...");
     open_in_dialog(&mut window, "square.ply");
     assert_eq!(opened(&mut window, "square").triangles, TRIANGLES);
@@ -252,8 +249,8 @@ fn regions_that_show_different_things_keep_them_when_the_script_is_saved() {
     assert_eq!(saved.settings().unwrap().hatching.inside, 0.0, "the change is in it");
 }
 
-/// A small window with paint on the village, at rest, whose files go into `folder`. The volumes
-/// show this inside.
+/// A small, resting window with paint on the village. Its files go into `folder`, and its volumes
+/// show `inside`.
 fn poured(name: &'static str, folder: &Path, inside: Inside) -> Window {
     let mut window = Window::sized(name, vec2(900.0, 640.0), 1.0);
     let context = window.harness().ctx.clone();
@@ -273,15 +270,11 @@ fn poured(name: &'static str, folder: &Path, inside: Inside) -> Window {
     window
 }
 
-/// Gives a name in the dialog that asks for one, and waits for the file or folder that it makes.
+/// Types a name in the dialog, and waits for the file or folder that it makes.
 fn save(window: &mut Window, folder: &Path, name: &str) -> PathBuf {
-    let field = |window: &mut Window| {
-        window.harness().run_steps(2);
-        let fields = window.harness().get_all_by_role(Role::TextInput);
-        fields.last().unwrap().focus();
-        window.harness().step();
-    };
-    field(window);
+    window.harness().run_steps(2);
+    window.harness().get_all_by_role(Role::TextInput).last().unwrap().focus();
+    window.harness().step();
     window.harness().key_press_modifiers(Modifiers::COMMAND, Key::A);
     window.harness().step();
     let fields = window.harness().get_all_by_role(Role::TextInput);
@@ -317,14 +310,13 @@ fn the_picture_that_is_exported_is_the_one_that_is_seen() {
         .zip(&shown.pixels)
         .filter(|(own, shown)| (0..3).any(|channel| own.0[channel].abs_diff(shown[channel]) > 1));
     assert_eq!(off.count(), 0, "pixels differ");
-    // The other format that its tip names keeps its ending.
+    // The other format in the tooltip keeps its extension.
     let path = export(&mut window, "Picture...", folder.path(), "seen.exr");
     let bytes = std::fs::read(path).unwrap();
     let linear = graphics::exr_picture::linear_picture("seen.exr", &bytes).unwrap();
     assert_eq!((linear.width(), linear.height()), (shown_size(&window)[0], shown_size(&window)[1]));
 }
 
-/// Width and height of the picture in the window.
 fn shown_size(window: &Window) -> [usize; 2] {
     let shown = volumes(window).picture().unwrap();
     [shown.width, shown.height]
@@ -341,7 +333,7 @@ fn an_animation_is_exported_as_a_gif_or_an_animated_png() {
     assert!(decoder.is_apng().unwrap(), "it moves");
     let frames = image::AnimationDecoder::into_frames(decoder.apng().unwrap());
     let frames: Vec<_> = frames.collect_frames().unwrap();
-    // One for each 24th of a second, from the start on.
+    // There is one frame for each 24th of a second.
     assert_eq!(frames.len() as u64, last / 5 + 1);
     let [first, end] = [&frames[0], frames.last().unwrap()].map(|frame: &image::Frame| {
         frame

@@ -14,10 +14,8 @@ use web_time::{Duration, Instant};
 use super::harness::{Window, button};
 use super::light::drop_file;
 
-/// Time limit of every wait.
 pub(super) const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A window that shows a scene on the village.
 pub(super) fn scene(name: &'static str) -> Window {
     let mut window = Window::open(name);
     let context = window.harness().ctx.clone();
@@ -30,7 +28,6 @@ pub(super) fn volumes(window: &Window) -> &Volumes {
     window.studio().volumes.as_ref().unwrap()
 }
 
-/// Draws frames until `done`.
 pub(super) fn wait(window: &mut Window, what: &str, done: impl Fn(&Volumes) -> bool) {
     let start = Instant::now();
     while !done(volumes(window)) {
@@ -46,7 +43,7 @@ pub(super) fn at(window: &Window, x: f32, y: f32) -> Pos2 {
     rect.min + vec2(x, y) * rect.size()
 }
 
-/// Number of pixels of the last picture with a colour.
+/// Number of coloured pixels of the last picture.
 fn colored(volumes: &Volumes) -> usize {
     volumes.picture().map_or(0, |picture| {
         picture
@@ -59,7 +56,6 @@ fn colored(volumes: &Volumes) -> usize {
     })
 }
 
-/// A point of the window in the middle of the colour.
 fn in_color(window: &Window) -> Pos2 {
     let picture = volumes(window).picture().unwrap();
     let width = picture.width;
@@ -225,15 +221,15 @@ fn a_right_click_tells_what_is_there() {
     pour(&mut window);
     rest(&mut window);
     let pos = in_color(&window);
-    let right = |pressed| Event::PointerButton {
-        pos,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
     window.frame(vec![Event::PointerMoved(pos)]);
-    window.frame(vec![right(true)]);
-    window.frame(vec![right(false)]);
+    for pressed in [true, false] {
+        window.frame(vec![Event::PointerButton {
+            pos,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }]);
+    }
     wait(&mut window, "the answer", |volumes| volumes.here().is_some());
     let here = volumes(&window).here().unwrap().clone();
     assert!(here.place.is_some() && here.volumes > 0, "{here:?}");
@@ -244,7 +240,7 @@ fn a_right_click_tells_what_is_there() {
     assert!(height > 0.0 && height == paint.amounts_mm[0], "{here:?}");
     window.frame(Vec::new());
     window.save("volumes-card");
-    // The card and the panel tell CIELAB, recipe, height and region as the easel's eyedropper does.
+    // Card and panel show CIELAB, recipe, height and region as the easel's eyedropper does.
     let lab = here.lab.map(|value| format!("{value:.2}")).join(" ");
     let told = |window: &mut Window| {
         let mut found = |label: &str| window.harness().query_all_by_label(label).count();
@@ -307,9 +303,9 @@ fn the_light_on_pigments_is_chosen_in_the_panel() {
 #[test]
 fn tubes_take_pigments_of_the_library_and_of_another_that_is_dropped() {
     let mut window = scene("volumes-tubes");
-    let names = |volumes: &Volumes| -> Vec<String> {
+    fn names(volumes: &Volumes) -> Vec<String> {
         volumes.state().unwrap().tubes.iter().map(|tube| tube.name.clone()).collect()
-    };
+    }
     window.click("Tube...");
     window.save("volumes-chooser");
     window.click("Viridian");
@@ -351,7 +347,7 @@ fn the_dryer_dries_below_the_pen_and_its_key_dries_all() {
 fn the_pen_pushes_and_lifts_paint_and_the_list_takes_events_back() {
     let mut window = scene("volumes-push");
     pour(&mut window);
-    let drag = |window: &mut Window, label: &'static str, number: usize| {
+    fn drag(window: &mut Window, label: &'static str, number: usize) {
         let from = at(window, 0.5, 0.55);
         let to = at(window, 0.56, 0.58);
         window.frame(vec![Event::PointerMoved(from)]);
@@ -366,7 +362,7 @@ fn the_pen_pushes_and_lifts_paint_and_the_list_takes_events_back() {
             let event = state.events.get(number - 1);
             event.is_some_and(|event| event.label == label && event.to < state.time.step)
         });
-    };
+    }
     let tally = |window: &Window| volumes(window).state().unwrap().tally;
     let before = tally(&window);
     window.key(Modifiers::NONE, Key::W);
@@ -383,7 +379,7 @@ fn the_pen_pushes_and_lifts_paint_and_the_list_takes_events_back() {
     let tools: Vec<_> =
         volumes(&window).state().unwrap().events.iter().map(|own| own.tool).collect();
     assert_eq!(tools, [SceneTool::Pour, SceneTool::Push, SceneTool::Lift].map(Some));
-    // Each is removed by its button; the others stay.
+    // A button removes each event. The others stay.
     window.click("Events");
     window.save("volumes-events-list");
     window.click("Remove event 3");
