@@ -15,10 +15,10 @@ use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{MatchOptions, SearchControl};
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
-use calibrate::plan::{PlanError, PlanOptions, plan_until};
+use calibrate::plan::{PlanError, PlanRequest, plan_until};
 use calibrate::quadrature::{EffectiveQuadrature, MixtureSet, Quadrature, QuadratureFailure};
 use calibrate::validation::{ValidationPlan, leave_out};
-use calibrate::{FitOptions, FittingError, PigmentId, PreparedFit, Readings, ValidationOptions};
+use calibrate::{FitRequest, FittingError, PigmentId, PreparedFit, Readings, ValidationRequest};
 use documents::Cancellation;
 use documents::hint::{Explain, Fault};
 use spectra::optics::Surface;
@@ -328,7 +328,7 @@ fn is_cancelled(error: &FittingError) -> bool {
 #[test]
 fn a_fit_ends_at_the_stage_where_it_is_asked_to() {
     let readings = oils();
-    let prepared = PreparedFit::new(&readings, &FitOptions::default(), Watch::default()).unwrap();
+    let prepared = PreparedFit::new(&readings, &FitRequest::default(), Watch::default()).unwrap();
     let lasts: [fn(&FitStage) -> bool; 4] = [
         |stage| matches!(stage, FitStage::Programs { round: 2, .. }),
         |stage| matches!(stage, FitStage::Spectra { estimate: 1, round: 2 }),
@@ -352,7 +352,7 @@ fn a_fit_ends_at_the_stage_where_it_is_asked_to() {
 #[test]
 fn a_validation_ends_before_most_of_its_mixtures() {
     let readings = oils();
-    let options = ValidationOptions::default();
+    let options = ValidationRequest::default();
     let prepared = PreparedFit::new(&readings, &options.fit, Watch::default()).unwrap();
     let left_out = |stage: &FitStage| *stage == FitStage::LeftOut;
     let (stages, error) = until(left_out, |watch| prepared.validate(&options, watch));
@@ -368,7 +368,7 @@ fn the_choice_of_a_film_model_ends_before_most_of_its_fits() {
     let file = tempfile::NamedTempFile::with_suffix(".csv").unwrap();
     std::fs::write(file.path(), Watercolors::hard(1).csv()).unwrap();
     let readings = Readings::open(file.path()).unwrap();
-    let options = FitOptions { amounts: AmountKind::Absolute, ..FitOptions::default() };
+    let options = FitRequest { amounts: AmountKind::Absolute, ..FitRequest::default() };
     let (stages, error) = until(
         |stage| *stage == FitStage::FilmModel,
         |watch| PreparedFit::new(&readings, &options, watch),
@@ -385,7 +385,7 @@ fn quadratures_plans_and_recipes_end_too() {
     let failure = EffectiveQuadrature::of_until(&Viewing::default(), &oils, 8, &cancellation);
     let failure = failure.unwrap_err();
     assert!(matches!(failure, QuadratureFailure::Cancelled(_)) && failure.hint().is_some());
-    let options = PlanOptions { prior: Some(oils.clone()), ..PlanOptions::default() };
+    let options = PlanRequest { prior: Some(oils.clone()), ..PlanRequest::default() };
     let error = plan_until(&["Cobalt Blue", "Viridian"], "Zinc White", &options, &cancellation);
     let error = error.unwrap_err();
     assert!(matches!(error, PlanError::Cancelled(_)) && error.hint().is_some(), "{error:?}");

@@ -2,7 +2,7 @@
 
 use documents::hint::{Explain, Hint};
 
-pub(crate) use told::{Result, options, setting};
+pub(crate) use told::{Result, setting};
 
 /// Where the page has each setting that hints name. Others are options of the program alone.
 const CONTROLS: [(&str, &str); 29] = [
@@ -40,6 +40,11 @@ const CONTROLS: [(&str, &str); 29] = [
 /// A hint that names the controls of the page.
 pub(crate) fn hint_text(hint: &Hint) -> String {
     told::hint_text(hint, &CONTROLS)
+}
+
+/// A request that the page passes as JSON.
+pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
+    told::request(json, &CONTROLS)
 }
 
 /// Results whose errors reach the page.

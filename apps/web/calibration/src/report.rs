@@ -10,10 +10,9 @@ use calibrate::quadrature::QuadratureTrial;
 use reports::{STEPS, Subject, page_alone};
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told, options};
+use crate::failure::{Result, Told, request};
 use crate::library::Library;
 use crate::readings::Readings;
-use crate::viewing::ViewingNames;
 
 /// Numbers of wavelengths of the quadratures in a report.
 const COUNTS: std::ops::RangeInclusive<usize> = 3..=12;
@@ -22,7 +21,7 @@ const COUNTS: std::ops::RangeInclusive<usize> = 3..=12;
 impl Library {
     /// The report on the library alone, as one HTML page. The page hears each step.
     pub fn report(&self, viewing: &str) -> Result<String> {
-        let viewing = options::<ViewingNames>(viewing)?.viewing()?;
+        let viewing = request::<Viewing>(viewing)?;
         drawn(self.subject(&viewing)?)
     }
 
@@ -34,7 +33,7 @@ impl Library {
         validate: bool,
         viewing: &str,
     ) -> Result<String> {
-        let viewing = options::<ViewingNames>(viewing)?.viewing()?;
+        let viewing = request::<Viewing>(viewing)?;
         let library = &self.0;
         let mut subject = self.subject(&viewing)?;
         let comparable = Comparable::of(&readings.0.swatches().told()?, library).told()?;

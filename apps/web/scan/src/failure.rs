@@ -2,7 +2,7 @@
 
 use documents::hint::Explain;
 
-pub(crate) use told::{Result, options};
+pub(crate) use told::Result;
 
 /// Where the panel has each setting that hints name. Others are options of the program alone.
 const CONTROLS: [(&str, &str); 11] = [
@@ -18,6 +18,11 @@ const CONTROLS: [(&str, &str); 11] = [
     ("dark_reading", "\"Dark reading\""),
     ("tile", "\"Reflectance of the white\""),
 ];
+
+/// A request that the page passes as JSON.
+pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
+    told::request(json, &CONTROLS)
+}
 
 /// Results whose errors reach the page.
 pub(crate) trait Told<T> {

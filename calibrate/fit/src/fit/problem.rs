@@ -303,7 +303,7 @@ impl fmt::Display for FitStage {
 ///
 /// ```
 /// use calibrate::fit::Watch;
-/// use calibrate::{FitOptions, PreparedFit, Readings};
+/// use calibrate::{FitRequest, PreparedFit, Readings};
 /// use documents::Cancellation;
 /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.csv");
 ///
@@ -311,7 +311,7 @@ impl fmt::Display for FitStage {
 /// let cancellation = Cancellation::default();
 /// let told = |stage| eprintln!("{stage}");
 /// let watch = Watch::new(&told).until(&cancellation);
-/// let prepared = PreparedFit::new(&readings, &FitOptions::default(), watch)?;
+/// let prepared = PreparedFit::new(&readings, &FitRequest::default(), watch)?;
 /// // Another thread may ask for it at any time.
 /// cancellation.cancel();
 /// assert!(prepared.fit_watched(watch).is_err());

@@ -7,8 +7,9 @@
 
 mod paints;
 mod exchange;
+mod request;
 
-use documents::{Cancellation, Cancelled};
+use documents::{Cancellation, Cancelled, Task};
 use pigment::remark::Remark;
 use pigment::{PigmentId, PigmentLibrary, Recipe};
 use serde_json::{Map, Value, json};
@@ -17,6 +18,7 @@ use crate::fit::{ExpectedNoise, unidentified};
 
 pub use exchange::{Information, RelativeDeviation, candidates, optimal, usual, usual_count};
 pub use paints::{MeasurementForm, PaintSet, PlanError, Purpose, SwatchRecipe};
+pub use request::PlanRequest;
 
 /// Expected error of an instrument, as a standard deviation of reflectance.
 const INSTRUMENT_ERROR: f64 = 0.002;
@@ -24,32 +26,6 @@ const INSTRUMENT_ERROR: f64 = 0.002;
 const MIXING_ERROR: f64 = 0.01;
 /// Lower limit of that error, for a prior that reproduces its samples almost exactly (chosen by eye).
 const LEAST_MIXING_ERROR: f64 = 1e-4;
-
-/// Options of [`plan`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlanOptions {
-    /// Name of a black for shades. Default: no shades.
-    pub black: Option<String>,
-    /// Library of the same or similar paint, by which the swatches are chosen. Names of pigments may then be
-    /// abbreviated to their start. Default: none, which gives the usual design.
-    pub prior: Option<PigmentLibrary>,
-    /// Number of swatches. Default: enough for each paint's masstone, two tints of each paint but the white
-    /// and, for each colour, a shade (if there is a black) and a mixture with a neighbour.
-    pub swatches: Option<usize>,
-    /// Mass of paint in one swatch, in grams. Default: 10.
-    pub grams: f64,
-    /// Step of the balance in grams. No part is smaller than fifty steps. Default: 0.01.
-    pub balance: f64,
-    /// Expected noise of a swatch's reflectance, used with a prior. Default: 0.002 for the instrument; for
-    /// weighing and mixing, the rms error of the prior's own fit, or 0.01 if the prior has no evidence.
-    pub noise: Option<ExpectedNoise>,
-}
-
-impl Default for PlanOptions {
-    fn default() -> Self {
-        Self { black: None, prior: None, swatches: None, grams: 10.0, balance: 0.01, noise: None }
-    }
-}
 
 /// One swatch of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,9 +68,9 @@ pub struct Plan {
 /// pigment.
 ///
 /// ```
-/// use calibrate::plan::{MeasurementForm, PlanOptions};
+/// use calibrate::plan::{MeasurementForm, PlanRequest};
 ///
-/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &PlanOptions::default())?;
+/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &PlanRequest::default())?;
 /// assert_eq!(plan.swatches[0].name, "01 Titanium White masstone");
 /// let csv = plan.form(&MeasurementForm::default());
 /// assert!(csv.starts_with(b"sample,film,backing,replicate,Titanium White,Cobalt Blue,400"));
@@ -106,9 +82,24 @@ pub struct Plan {
 pub fn plan<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
-    options: &PlanOptions,
+    options: &PlanRequest,
 ) -> Result<Plan, PlanError> {
-    plan_until(pigments, white, options, &Cancellation::default())
+    options.run(pigments, white, &Task::default())
+}
+
+impl PlanRequest {
+    /// Plans like [`plan`]; `task` may end the work, which takes minutes for many swatches of many paints.
+    ///
+    /// # Errors
+    /// [`PlanError`] as for [`plan`], or if `task` was cancelled.
+    pub fn run<N: AsRef<str>>(
+        &self,
+        pigments: &[N],
+        white: &str,
+        task: &Task,
+    ) -> Result<Plan, PlanError> {
+        plan_until(pigments, white, self, task.cancellation())
+    }
 }
 
 /// Plans like [`plan`], until `cancellation` ends it: many swatches of many paints take minutes.
@@ -118,7 +109,7 @@ pub fn plan<N: AsRef<str>>(
 pub fn plan_until<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
-    options: &PlanOptions,
+    options: &PlanRequest,
     cancellation: &Cancellation,
 ) -> Result<Plan, PlanError> {
     if let Some(noise) = options.noise.filter(|noise| !noise.is_possible()) {
@@ -177,7 +168,7 @@ impl Plan {
 fn paint_set<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
-    options: &PlanOptions,
+    options: &PlanRequest,
 ) -> Result<PaintSet, PlanError> {
     let full = |name: &str| -> Result<String, PlanError> {
         Ok(match &options.prior {

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 
 use calibrate::fit::Watch;
 use calibrate::observation::BelowSurface;
-use calibrate::{FitOptions, FittingError, LeftOut, PreparedFit, Readings, Residuals};
+use calibrate::{FitRequest, FittingError, LeftOut, PreparedFit, Readings, Residuals};
 use pigment::library::PigmentLibrary;
 
 use crate::films::settings::{MapSettings, ModelError, PigmentGroup};
@@ -278,7 +278,7 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     let below_surface = Some(BelowSurface::Floor);
     PreparedFit::new(
         readings,
-        &FitOptions { below_surface, ..FitOptions::default() },
+        &FitRequest { below_surface, ..FitRequest::default() },
         Watch::default(),
     )
 }
