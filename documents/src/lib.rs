@@ -8,6 +8,7 @@
 //! | find the name that was meant | [`did_you_mean`] |
 //! | declare settings, presets and their files | [`mod@settings`] |
 //! | read TOML and JSON with lines in errors | [`text::Source`] |
+//! | read the options of a job | [`request::request_from_json`] |
 //!
 //! Every other crate may use this one. It uses none of them.
 
@@ -19,6 +20,7 @@ mod task;
 mod wording;
 pub mod file;
 pub mod text;
+pub mod request;
 pub mod settings;
 
 pub use task::{Cancellation, Cancelled, Progress, Steps, Task};

@@ -63,4 +63,4 @@ pub use spectrum::{
     Absorption, IrregularSpectrum, IrregularSpectrumError, Power, Quantity, Reflectance, Response,
     Scattering, Spectrum, SpectrumError,
 };
-pub use viewing::{TristimulusWeights, Viewing, ViewingError};
+pub use viewing::{TristimulusWeights, Viewing, ViewingError, ViewingNames};

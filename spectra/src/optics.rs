@@ -8,7 +8,11 @@
 //! according to the authors' erratum), and the textbook form fails at K = 0 and for thick films.
 //! The form that we use has no special cases, see `Layer::new`.
 
+use std::str::FromStr;
+
 use documents::hint::Explain;
+use documents::request::RequestError;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Reflectance and transmittance of a film without a backing, each 0 to 1.
@@ -221,7 +225,7 @@ impl FilmOptics {
 }
 
 /// Whether readings contain the specular reflection at the surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Specular {
     /// Included: a sphere instrument with a closed gloss trap (SCI, d/8:i).
@@ -306,6 +310,24 @@ impl Surface {
             return Err(SurfaceError::BelowFloor { measured, floor: self.floor() });
         }
         Ok(above / ((1.0 - self.k1) * (1.0 - self.k2) + self.k2 * above))
+    }
+}
+
+impl FromStr for Surface {
+    type Err = RequestError;
+
+    /// Reads `K1,K2` or `none`; the readings include the specular reflection.
+    fn from_str(text: &str) -> Result<Self, RequestError> {
+        if text == "none" {
+            return Ok(Self::NONE);
+        }
+        let number = |part: &str| part.trim().parse::<f64>().ok();
+        let numbers = text.split_once(',').and_then(|(k1, k2)| number(k1).zip(number(k2)));
+        let Some((k1, k2)) = numbers else {
+            let reason = format!("takes K1,K2 or none, found `{text}`");
+            return Err(RequestError::value(reason, "try [saunderson=0.03,0.6]"));
+        };
+        Self::new(k1, k2, Specular::Included).map_err(|error| RequestError::of(&error))
     }
 }
 

@@ -1,6 +1,9 @@
 //! The conditions under which colours are computed, and tristimulus values from spectra.
 
 use documents::hint::Explain;
+use documents::request::{RequestError, refused};
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::color::{ColorValues, Xyz};
 use crate::grid::Grid;
@@ -58,6 +61,50 @@ impl Viewing {
         reflectance: &Spectrum<Reflectance>,
     ) -> Result<ColorValues, InterpolateError> {
         Ok(self.weights(reflectance.grid())?.color(reflectance.values()))
+    }
+}
+
+/// Names of a light and an observer, as people write them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ViewingNames {
+    /// Light: a CIE illuminant (D65, A, FL11, LED-B3 ..), a black body (5600K), daylight (D5600K),
+    /// or a lamp's file: an instrument's (FILE#NAME for one of several spectra), or lines `nm,power`
+    ///
+    /// The power may have any unit. Negative noise down to -1 % of the peak counts as 0.
+    pub illuminant: String,
+    /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
+    pub observer: String,
+}
+
+impl Default for ViewingNames {
+    fn default() -> Self {
+        Self { illuminant: "D65".to_owned(), observer: Observer::default().name().to_owned() }
+    }
+}
+
+impl Serialize for Viewing {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let illuminant = self.illuminant.name().to_owned();
+        let observer = self.observer.name().to_owned();
+        ViewingNames { illuminant, observer }.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Viewing {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let ViewingNames { illuminant, observer } = ViewingNames::deserialize(deserializer)?;
+        Self::named(illuminant.trim(), &observer).map_err(|error| refused(RequestError::of(&error)))
+    }
+}
+
+impl JsonSchema for Viewing {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Viewing".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        ViewingNames::json_schema(generator)
     }
 }
 

@@ -5,6 +5,7 @@ use std::fmt;
 use std::io::{self, ErrorKind, Write};
 
 use documents::hint::{Explain, Fault, Hint};
+use documents::request::RequestError;
 
 /// Result of a verb or of one of its steps.
 pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
@@ -36,6 +37,12 @@ impl Failure {
     /// exit status 2.
     pub(crate) fn usage(message: impl Into<String>, hint: impl Into<String>) -> Self {
         Self::with_hint(message, hint, USAGE)
+    }
+
+    /// The failure for a value that a request does not take, with the `option` of its key: exit status 2.
+    pub(crate) fn of_request(error: &RequestError, option: impl Fn(&str) -> String) -> Self {
+        let messages = vec![error.message(option)];
+        Self { messages, hint: error.hint(), status: USAGE, pipe_closed: false }
     }
 
     /// The failure as one of the command, whatever its cause: for the value of an option.

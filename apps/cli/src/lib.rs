@@ -4,6 +4,7 @@
 //! Exit status: 0 done, 1 the data are faulty or a check failed, 2 the command could not run
 //! (a wrong option, an unreadable file, a missing device), 128 + n ended by signal n.
 mod failure;
+mod request_options;
 mod console;
 mod progress;
 mod csv_rows;

@@ -18,17 +18,20 @@ use calibrate::measurement::{
     AveragedSpectra, AveragedSpectrum, Film, MeasurementTable, Scale, ScaleChoice,
 };
 use calibrate::visible_band::check_visible_band;
-use clap::Args;
 use clap::builder::PossibleValuesParser;
+use clap::{Arg, Args};
 use documents::counted_as;
 use documents::file::{is_standard_input, is_there};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::request_options::{CommandLine, RequestOptions};
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::instrument::split_file_and_name;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
-use spectra::{Grid, Observer, Reflectance, Spectrum, TristimulusWeights, light_from_text};
+use spectra::{
+    Grid, Observer, Reflectance, Spectrum, TristimulusWeights, ViewingNames, light_from_text,
+};
 
 /// Options for how measurement files are read.
 #[derive(Debug, Clone, Default, Args)]
@@ -138,22 +141,18 @@ pub(crate) fn remark_repeated(paths: &[PathBuf], console: &mut Console<'_>) -> R
 }
 
 /// Options for the light and the observer.
-#[derive(Debug, Clone, Args)]
-pub(crate) struct ViewingOptions {
-    /// Light: a CIE illuminant (D65, A, FL11, LED-B3 ..), a black body (5600K), daylight (D5600K),
-    /// or a lamp's file: an instrument's (FILE#NAME for one of several spectra), or lines `nm,power`
-    ///
-    /// The power may have any unit. Negative noise down to -1 % of the peak counts as 0.
-    #[arg(long, value_name = "LIGHT", default_value = "D65")]
-    illuminant: String,
-    /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
-    #[arg(long, value_name = "NAME", default_value = "1931-2")]
-    observer: String,
+pub(crate) type ViewingOptions = RequestOptions<ViewingNames>;
+
+impl CommandLine for ViewingNames {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        option.value_name(if key == "illuminant" { "LIGHT" } else { "NAME" })
+    }
 }
 
 impl ViewingOptions {
     pub(crate) fn viewing(&self) -> Result<Viewing> {
-        viewing(&self.illuminant, &self.observer)
+        let ViewingNames { illuminant, observer } = self.request()?;
+        viewing(&illuminant, &observer)
     }
 }
 

@@ -7,6 +7,7 @@
 use calibrate::Backing;
 use clap::{Args, ValueEnum};
 use documents::name_list;
+use documents::request::RequestError;
 use spectra::optics::{Specular, Surface};
 use spectra::{Grid, GridError, Reflectance, Spectrum};
 
@@ -35,21 +36,17 @@ pub(crate) struct SurfaceOptions {
 impl SurfaceOptions {
     /// Surface given by `--saunderson`; `None` if the option is absent.
     pub(crate) fn surface(&self) -> Result<Option<Surface>> {
-        let invalid = |text: &str| {
-            Failure::usage(
-                format!("--saunderson takes K1,K2 or none, found `{text}`"),
-                "try --saunderson 0.03,0.6",
-            )
-        };
-        Ok(match self.saunderson.as_deref() {
-            None => None,
-            Some("none") => Some(Surface::NONE),
-            Some(text) => {
-                let (k1, k2) = text.split_once(',').ok_or_else(|| invalid(text))?;
-                let number = |part: &str| part.trim().parse().map_err(|_| invalid(text));
-                Some(Surface::new(number(k1)?, number(k2)?, self.specular())?)
-            }
-        })
+        let surface = self.saunderson.as_deref().map(|text| {
+            let refused = |error: RequestError| {
+                Failure::of_request(&error.at("saunderson"), |key| format!("--{key}"))
+            };
+            let surface = text.parse::<Surface>().map_err(refused)?;
+            Ok(match text {
+                "none" => surface,
+                _ => Surface { specular: self.specular(), ..surface },
+            })
+        });
+        surface.transpose()
     }
 
     /// Surface given by `--saunderson`; if it is absent, that of most paints.

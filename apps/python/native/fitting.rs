@@ -2,13 +2,9 @@
 
 use std::sync::Arc;
 
-use calibrate::fit::{Method, Smoothness};
-use calibrate::library::AmountKind;
-use calibrate::observation::BelowSurface;
-use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions};
-use documents::hint::Fault;
+use calibrate::{FitRequest, FitValidation, PreparedFit, ValidationRequest};
+use documents::request::request_from_json;
 use pyo3::prelude::*;
-use spectra::optics::{Specular, Surface};
 
 use crate::failure::{Exception, Raised};
 use crate::json::{RemarkTuple, remarks};
@@ -91,89 +87,22 @@ impl Validation {
     }
 }
 
-/// Options of a fit, as the public Python functions pass them.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Options<'py> {
-    amounts: String,
-    method: String,
-    reference: Option<String>,
-    surface: Option<(f64, f64)>,
-    specular: bool,
-    below_surface: Option<String>,
-    smoothness: Option<f64>,
-    unevenness: Option<f64>,
-    exclude: Vec<String>,
-    light: PyRef<'py, Light>,
-    observer: String,
-    title: Option<String>,
-    licence: Option<String>,
-    source: Option<String>,
-}
-
-impl Options<'_> {
-    fn options(&self, py: Python<'_>) -> PyResult<FitOptions> {
-        let specular = if self.specular { Specular::Included } else { Specular::Excluded };
-        let surface = self.surface.map(|(k1, k2)| Surface::new(k1, k2, specular)).transpose();
-        Ok(FitOptions {
-            amounts: chosen(
-                py,
-                ("amounts", &self.amounts),
-                &[("relative", AmountKind::Relative), ("absolute", AmountKind::Absolute)],
-            )?,
-            method: chosen(
-                py,
-                ("method", &self.method),
-                &[("qp", Method::Qp), ("weighted", Method::Weighted), ("refined", Method::Refined)],
-            )?,
-            reference: self.reference.clone(),
-            surface: surface.raised(py, Exception::Fit)?,
-            specular,
-            below_surface: match &self.below_surface {
-                None => None,
-                Some(text) => Some(chosen(
-                    py,
-                    ("below_surface", text),
-                    &[("refuse", BelowSurface::Refuse), ("floor", BelowSurface::Floor)],
-                )?),
-            },
-            smoothness: self.smoothness.map_or(Smoothness::default(), Smoothness::Fixed),
-            unevenness: self.unevenness,
-            exclude: self.exclude.clone(),
-            viewing: viewing(py, &self.light, &self.observer)?,
-            title: self.title.clone(),
-            licence: self.licence.clone(),
-            source: self.source.clone(),
-        })
-    }
-}
-
-fn chosen<T: Clone>(
-    py: Python<'_>,
-    (setting, name): (&str, &str),
-    values: &[(&str, T)],
-) -> PyResult<T> {
-    let found = values.iter().find(|(known, _)| *known == name);
-    found.map(|(_, value)| value.clone()).ok_or_else(|| {
-        let known: Vec<&str> = values.iter().map(|(known, _)| *known).collect();
-        let message = format!("unknown {setting} `{name}`");
-        let hint = format!("{setting} is one of {}", known.join(", "));
-        Exception::Fit.with(py, Fault::Setting, &message, Some(&hint))
-    })
-}
-
 /// Fits K and S of every pigment.
 #[pyfunction]
 pub(crate) fn fit(
     py: Python<'_>,
     readings: &Readings,
-    options: Options<'_>,
+    request: &str,
+    light: &Light,
+    observer: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Fit> {
-    let options = options.options(py)?;
+    let request: FitRequest = request_from_json(request).raised(py, Exception::Fit)?;
+    // The light may be a spectrum, which has no name that JSON could hold.
+    let request = FitRequest { viewing: viewing(py, light, observer)?, ..request };
     let readings = readings.0.clone();
     let done = run(py, progress, move |task| {
-        let prepared = PreparedFit::new(&readings, &options, task)?;
+        let prepared = PreparedFit::new(&readings, &request, task)?;
         let mut fit = prepared.fit(task)?;
         fit.remarks.splice(0..0, prepared.remarks);
         Ok::<_, calibrate::FittingError>(fit)
@@ -186,15 +115,17 @@ pub(crate) fn fit(
 pub(crate) fn validate(
     py: Python<'_>,
     readings: &Readings,
-    options: Options<'_>,
-    folds: Option<usize>,
-    with: Vec<String>,
+    request: &str,
+    light: &Light,
+    observer: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Validation> {
-    let options = ValidationOptions { fit: options.options(py)?, folds, with };
+    let request: ValidationRequest = request_from_json(request).raised(py, Exception::Fit)?;
+    let fit = FitRequest { viewing: viewing(py, light, observer)?, ..request.fit };
+    let request = ValidationRequest { fit, ..request };
     let readings = readings.0.clone();
     let done = run(py, progress, move |task| {
-        PreparedFit::new(&readings, &options.fit, task)?.validate(&options, task)
+        PreparedFit::new(&readings, &request.fit, task)?.validate(&request, task)
     })?;
     done.map(Validation).raised(py, Exception::Fit)
 }

@@ -103,7 +103,7 @@ def test_a_plan_with_impossible_numbers_is_refused(oils: im.Library) -> None:
     with pytest.raises(im.Error, match="2 to 5001 wavelengths"):
         im.plan(["Viridian"], "Zinc White", grid=(400, infinite, 10))
     for noise in ((0.0, 0.0), (float("nan"), 0.01), (0.0, infinite), (-0.1, 0.2)):
-        with pytest.raises(im.FitError, match="expected noise") as error:
+        with pytest.raises(im.FitError, match="noise takes CONSTANT,EVEN") as error:
             im.plan(["Viridian"], "Zinc White", prior=oils, noise=noise)
         assert error.value.hint
 

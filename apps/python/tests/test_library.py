@@ -91,7 +91,7 @@ def test_a_target_that_is_no_colour_is_told(oils: im.Library) -> None:
     with pytest.raises(im.RecipeError, match="teal") as error:
         oils.match("teal")
     assert error.value.hint
-    with pytest.raises(im.RecipeError, match="`by` is one of color"):
+    with pytest.raises(im.RecipeError, match="unknown word `eye`"):
         oils.match("#4a7d8c", by="eye")
     with pytest.raises(im.Error, match="list of names"):
         oils.match("#4a7d8c", only="Viridian")

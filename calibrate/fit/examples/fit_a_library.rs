@@ -4,13 +4,13 @@
 use std::error::Error;
 use std::io::Write;
 
-use calibrate::{FitOptions, Readings};
+use calibrate::{FitRequest, Readings};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let oils = concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.csv");
     let mut arguments = std::env::args().skip(1);
     let readings = Readings::open(arguments.next().unwrap_or_else(|| oils.to_owned()))?;
-    let fit = calibrate::fit(&readings, &FitOptions::default())?;
+    let fit = calibrate::fit(&readings, &FitRequest::default())?;
 
     let mut out = std::io::stdout().lock();
     for remark in readings.remarks.iter().chain(&fit.remarks) {

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use documents::Task;
-use documents::counted;
 use documents::hint::{Explain, Fault, Hint};
+use documents::{Task, counted};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
@@ -14,61 +13,19 @@ use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
 use crate::calibration::{Calibration, CalibrationError, calibrate};
-use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness};
+use crate::fit::{Condition, FitSettings, Method, RefinedState};
 use crate::measurement::{MeasurementError, k1_below};
 use crate::observation::{BelowSurface, Observation, check_backings, least_reading};
 use crate::readings::Readings;
 use crate::report::ErrorReport;
+use crate::request::{FitRequest, Provenance};
 use crate::swatch::SwatchSet;
-
-/// Options of [`fit`].
-///
-/// ```
-/// use calibrate::FitOptions;
-/// use calibrate::fit::Method;
-///
-/// let options = FitOptions { method: Method::Weighted, ..FitOptions::default() };
-/// assert!(options.reference.is_none());
-/// ```
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct FitOptions {
-    /// Meaning of the amounts in recipes: shares of a mixture, or amounts on a fixed area of a known
-    /// backing.
-    pub amounts: AmountKind,
-    /// Method of the fit. Absolute amounts always take `refined`.
-    pub method: Method,
-    /// Name of the white with S = 1. Default: the pigment called white that occurs in most samples.
-    pub reference: Option<String>,
-    /// Surface of the films. Default: k2 = 0.6 and k1 = 0.03, or less where a reading is lower; for
-    /// absolute amounts k1 = 0 and the k2 that predicts unseen films best.
-    pub surface: Option<Surface>,
-    /// Whether the readings contain the mirror reflection, where no `surface` says so.
-    pub specular: Specular,
-    /// Treatment of readings below k1. Default: refuse where `surface` is given; else none is below,
-    /// because k1 is lowered. If given without `surface`, k1 stays 0.03.
-    pub below_surface: Option<BelowSurface>,
-    /// Smoothness of K and S over wavelength.
-    pub smoothness: Smoothness,
-    /// Unevenness of films of absolute amounts, as the standard deviation of log thickness, 0 to 2.
-    /// Default: the value that predicts unseen films best.
-    pub unevenness: Option<f64>,
-    /// Names of the samples to leave out.
-    pub exclude: Vec<String>,
-    /// Light and observer of the colour errors. K and S do not depend on them.
-    pub viewing: Viewing,
-    /// Title of the library. Default: name of the first file.
-    pub title: Option<String>,
-    /// Licence of the library. Default: `not stated`.
-    pub licence: Option<String>,
-    /// Origin of the measurements. Default: `not stated`.
-    pub source: Option<String>,
-}
 
 /// Fits K and S of every pigment to measured swatches.
 ///
 /// ```no_run
 /// let readings = calibrate::Readings::open("swatches.csv")?;
-/// let fit = calibrate::fit(&readings, &calibrate::FitOptions::default())?;
+/// let fit = calibrate::fit(&readings, &calibrate::FitRequest::default())?;
 /// println!("{}", fit.report());
 /// for warning in fit.warnings() {
 ///     eprintln!("warning: {warning}");
@@ -80,12 +37,22 @@ pub struct FitOptions {
 /// # Errors
 /// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, or the
 /// fit fails.
-pub fn fit(readings: &Readings, options: &FitOptions) -> Result<Fit, FittingError> {
-    let task = Task::default();
-    let prepared = PreparedFit::new(readings, options, &task)?;
-    let mut fit = prepared.fit(&task)?;
-    fit.remarks.splice(0..0, prepared.remarks);
-    Ok(fit)
+pub fn fit(readings: &Readings, options: &FitRequest) -> Result<Fit, FittingError> {
+    options.run(readings, &Task::default())
+}
+
+impl FitRequest {
+    /// Fits K and S of every pigment. You see the stages in `task` and may cancel it.
+    ///
+    /// # Errors
+    /// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, the
+    /// fit fails, or `task` was cancelled.
+    pub fn run(&self, readings: &Readings, task: &Task) -> Result<Fit, FittingError> {
+        let prepared = PreparedFit::new(readings, self, task)?;
+        let mut fit = prepared.fit(task)?;
+        fit.remarks.splice(0..0, prepared.remarks);
+        Ok(fit)
+    }
 }
 
 /// A fitted library, with what a user should know about the fit.
@@ -176,19 +143,20 @@ impl PreparedFit {
     /// `task` was cancelled.
     pub fn new(
         readings: &Readings,
-        options: &FitOptions,
+        options: &FitRequest,
         task: &Task,
     ) -> Result<Self, FittingError> {
         let mut remarks = Vec::from_iter(check_visible_band(readings.table.grid)?);
         let set = without_excluded(readings.swatches()?, &options.exclude)?;
-        let below_surface = options.below_surface.unwrap_or(match options.surface {
+        let stated_surface = options.stated_surface();
+        let below_surface = options.below_surface.unwrap_or(match stated_surface {
             Some(_) => BelowSurface::Refuse,
             None => BelowSurface::Floor,
         });
         check_backings(&set)?;
-        if options.surface.is_none() || below_surface == BelowSurface::Floor {
+        if stated_surface.is_none() || below_surface == BelowSurface::Floor {
             let usual = Surface::of_most_paints(options.specular);
-            let Surface { k1, k2, .. } = options.surface.unwrap_or(usual);
+            let Surface { k1, k2, .. } = stated_surface.unwrap_or(usual);
             check_above_surface(&set, k1, k2).map_err(CalibrationError::from)?;
         }
         let model = match options.amounts {
@@ -198,7 +166,7 @@ impl PreparedFit {
                 let note = Remark::note(format!("reference white: {name}"));
                 remarks.push(note);
                 // Who says how readings below k1 are treated means the usual k1.
-                let surface = match (options.surface, options.below_surface) {
+                let surface = match (stated_surface, options.below_surface) {
                     (Some(surface), _) => surface,
                     (None, Some(_)) => Surface::of_most_paints(options.specular),
                     (None, None) => {
@@ -216,6 +184,7 @@ impl PreparedFit {
                 FilmModel::Absolute(film_model(&set, options, task, &mut remarks)?)
             }
         };
+        let Provenance { title, licence, source } = &options.provenance;
         let first = readings.inputs.first().map_or("", |input| input.path.as_str());
         Ok(Self {
             set,
@@ -229,9 +198,9 @@ impl PreparedFit {
             remarks,
             viewing: options.viewing.clone(),
             inputs: readings.inputs.clone(),
-            title: options.title.clone().unwrap_or_else(|| stem(first)),
-            licence: stated(&options.licence),
-            source: stated(&options.source),
+            title: title.clone().unwrap_or_else(|| stem(first)),
+            licence: licence.clone(),
+            source: source.clone(),
         })
     }
 
@@ -244,13 +213,13 @@ impl PreparedFit {
     /// Fits the library and reports the stages of the fit to `task`. The remarks are the fit's own.
     ///
     /// ```
-    /// use calibrate::{FitOptions, PreparedFit, Readings};
+    /// use calibrate::{FitRequest, PreparedFit, Readings};
     /// use documents::Task;
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.csv");
     ///
     /// let readings = Readings::open(path)?;
     /// let task = Task::observed(|progress| eprintln!("{}", progress.stage));
-    /// let prepared = PreparedFit::new(&readings, &FitOptions::default(), &task)?;
+    /// let prepared = PreparedFit::new(&readings, &FitRequest::default(), &task)?;
     /// // Another thread may cancel at any time.
     /// task.cancel();
     /// assert!(prepared.fit(&task).is_err());
@@ -276,10 +245,6 @@ impl PreparedFit {
         let remarks = remarks(&observations, condition.as_ref());
         Ok(Fit { library, remarks, observations, condition, state })
     }
-}
-
-fn stated(text: &Option<String>) -> String {
-    text.clone().unwrap_or_else(|| "not stated".into())
 }
 
 fn without_excluded(set: SwatchSet, exclude: &[String]) -> Result<SwatchSet, FittingError> {
@@ -316,14 +281,15 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
 /// The film model of absolute amounts: as stated, else chosen by cross-validation.
 fn film_model(
     set: &SwatchSet,
-    options: &FitOptions,
+    options: &FitRequest,
     task: &Task,
     remarks: &mut Vec<Remark>,
 ) -> Result<UnevenFilm, FittingError> {
     let plain = Surface { k1: 0.0, k2: 0.0, specular: options.specular };
-    if options.surface.is_some() || options.unevenness.is_some() {
+    let stated_surface = options.stated_surface();
+    if stated_surface.is_some() || options.unevenness.is_some() {
         return Ok(UnevenFilm {
-            surface: options.surface.unwrap_or(plain),
+            surface: stated_surface.unwrap_or(plain),
             unevenness: options.unevenness.unwrap_or(0.0),
         });
     }
@@ -553,10 +519,11 @@ impl Explain for FittingError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fitting::{FilmModel, FitOptions, PreparedFit, fit};
+    use crate::fitting::{FilmModel, PreparedFit, fit};
     use crate::observation::BelowSurface;
     use crate::readings::Readings;
-    use crate::validation::{ValidationOptions, validate};
+    use crate::request::ValidationRequest;
+    use crate::validation::validate;
     use documents::hint::Explain;
     use pigment::evaluate::delta_e;
 
@@ -574,12 +541,12 @@ mod tests {
         Readings::from_csv("matte.csv", text.as_bytes()).unwrap()
     }
 
-    fn floored() -> FitOptions {
+    fn floored() -> FitRequest {
         let below_surface = Some(BelowSurface::Floor);
-        FitOptions {
+        FitRequest {
             surface: Some(Surface::of_most_paints(Specular::Included)),
             below_surface,
-            ..FitOptions::default()
+            ..FitRequest::default()
         }
     }
 
@@ -600,7 +567,7 @@ mod tests {
             assert!(truth > 2.0, "the surface reflects more than was read: {truth}");
             assert!((told.delta_e - truth).abs() < 1e-3, "{sample}: {} for {truth}", told.delta_e);
         }
-        let left_out = ValidationOptions { fit: options, ..ValidationOptions::default() };
+        let left_out = ValidationRequest { fit: options, ..ValidationRequest::default() };
         let worst = validate(&readings, &left_out).unwrap().errors.delta_e.max;
         assert!(worst > 2.0, "{worst}");
     }
@@ -608,7 +575,7 @@ mod tests {
     #[test]
     fn a_k1_that_nobody_stated_stays_below_every_reading() {
         let readings = matte(1.0);
-        let fitted = fit(&readings, &FitOptions::default()).unwrap();
+        let fitted = fit(&readings, &FitRequest::default()).unwrap();
         let least = least_reading(&readings.swatches().unwrap());
         assert!(fitted.library.saunderson.k1 < least, "{:?}", fitted.library.saunderson);
         let told = fitted.remarks.iter().find(|remark| remark.text.starts_with("k1 = "));
@@ -622,7 +589,7 @@ mod tests {
         reflectances.for_each(|value| *value = value.max(0.04));
         for (readings, below_surface) in [(&lighter, None), (&readings, Some(BelowSurface::Floor))]
         {
-            let options = FitOptions { below_surface, ..FitOptions::default() };
+            let options = FitRequest { below_surface, ..FitRequest::default() };
             let prepared = PreparedFit::new(readings, &options, &Task::default()).unwrap();
             let FilmModel::Relative { surface, .. } = prepared.model else { panic!("relative") };
             assert_eq!(surface.k1, 0.03);
@@ -632,7 +599,7 @@ mod tests {
     #[test]
     fn readings_mostly_below_k1_are_refused_with_a_way_out() {
         let readings = matte(0.01);
-        for options in [FitOptions::default(), floored()] {
+        for options in [FitRequest::default(), floored()] {
             let error = fit(&readings, &options).unwrap_err();
             let said = error.to_string();
             assert!(said.contains("matte.csv, row 2") && said.contains("80 of 80"), "{said}");

@@ -9,10 +9,10 @@
 //! ```
 //! # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../measurements/van-gogh-oils.csv");
 //! use calibrate::fit::Method;
-//! use calibrate::{FitOptions, Readings};
+//! use calibrate::{FitRequest, Readings};
 //!
 //! let readings = Readings::open(path)?;
-//! let options = FitOptions { method: Method::Weighted, ..FitOptions::default() };
+//! let options = FitRequest { method: Method::Weighted, ..FitRequest::default() };
 //! let fit = calibrate::fit(&readings, &options)?;
 //! println!("{}", fit.report().with_samples(10));
 //! assert_eq!(fit.library.reference.as_deref(), Some("Zinc White"));
@@ -44,6 +44,7 @@ pub mod observation;
 pub mod fit;
 mod residuals;
 pub mod report;
+mod request;
 pub mod calibration;
 pub mod absolute;
 pub mod fitting;
@@ -52,9 +53,10 @@ pub mod comparison;
 pub mod plan;
 pub mod synthetic;
 
-pub use fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, fit};
+pub use fitting::{FilmModel, Fit, FittingError, PreparedFit, fit};
 pub use plan::plan;
 pub use readings::{ReadingFormat, ReadingOptions, Readings, ReadingsError};
 pub use report::{ErrorReport, shares_of_squares};
+pub use request::{FitRequest, Provenance, ValidationRequest};
 pub use residuals::{LeftOutMixture, Residuals, ResidualsError};
-pub use validation::{FitValidation, LeftOut, ValidationOptions, validate};
+pub use validation::{FitValidation, LeftOut, validate};

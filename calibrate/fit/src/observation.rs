@@ -356,9 +356,10 @@ fn darker(bright: &SwatchFilm, dark: &SwatchFilm) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use crate::fitting::{FitOptions, fit};
+    use crate::fitting::fit;
     use crate::library::AmountKind;
     use crate::readings::Readings;
+    use crate::request::FitRequest;
     use documents::hint::Explain;
 
     /// Thin films of a white and a red over two cards. The films of sample b have the names in `b`.
@@ -377,7 +378,7 @@ mod tests {
     #[test]
     fn a_film_darker_over_the_brighter_card_is_refused() {
         for amounts in [AmountKind::Relative, AmountKind::Absolute] {
-            let options = FitOptions { amounts, ..FitOptions::default() };
+            let options = FitRequest { amounts, ..FitRequest::default() };
             assert!(fit(&thin(["white", "black"]), &options).is_ok(), "{amounts:?}");
             let exchanged = thin(["black", "white"]);
             let error = fit(&exchanged, &options).unwrap_err();
@@ -387,7 +388,7 @@ mod tests {
             }
             let hint = error.hint().unwrap().to_string();
             assert!(hint.contains("exchanged") && hint.contains("exclude"), "{hint}");
-            let without = FitOptions { exclude: vec!["b".to_owned()], ..options };
+            let without = FitRequest { exclude: vec!["b".to_owned()], ..options };
             assert!(fit(&exchanged, &without).is_ok(), "{amounts:?}");
         }
     }

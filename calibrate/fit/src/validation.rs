@@ -15,10 +15,11 @@ use crate::fit::{
     FitError, FitSettings, Problem, RefinedState, Refinement, Unidentified, fit_finite,
     unidentified,
 };
-use crate::fitting::{FilmModel, Fit, FitOptions, FittingError, PreparedFit, index_of};
+use crate::fitting::{FilmModel, Fit, FittingError, PreparedFit, index_of};
 use crate::observation::{Observation, observations};
 use crate::readings::Readings;
 use crate::report::{ErrorReport, Scores, shares_of_squares};
+use crate::request::ValidationRequest;
 use crate::residuals::{LeftOutMixture, Residuals};
 use crate::swatch::SwatchSet;
 use pigment::evaluate::{Summary, Viewing, delta_e};
@@ -390,18 +391,6 @@ impl Refit {
 /// Pigments that a report names for their part of the error.
 const NAMED_PIGMENTS: usize = 4;
 
-/// Options of [`validate`].
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ValidationOptions {
-    /// Options of the fits.
-    pub fit: FitOptions,
-    /// Number of seeded groups that are left out in turn, 2 and up. Default: each mixture by itself;
-    /// for absolute amounts 10 groups.
-    pub folds: Option<usize>,
-    /// Names of pigments; only mixtures with one of them are left out. Default: all mixtures.
-    pub with: Vec<String>,
-}
-
 /// A measured mixture, and a library that was fitted to all other samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
@@ -489,10 +478,10 @@ impl FitValidation {
 /// mixtures that a fit has not seen.
 ///
 /// ```no_run
-/// use calibrate::{Readings, ValidationOptions};
+/// use calibrate::{Readings, ValidationRequest};
 ///
 /// let readings = Readings::open("swatches.csv")?;
-/// let validation = calibrate::validate(&readings, &ValidationOptions::default())?;
+/// let validation = calibrate::validate(&readings, &ValidationRequest::default())?;
 /// println!("{}", validation.report());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -501,10 +490,20 @@ impl FitValidation {
 /// [`FittingError`] as for [`crate::fit()`], or if no mixture can be left out.
 pub fn validate(
     readings: &Readings,
-    options: &ValidationOptions,
+    options: &ValidationRequest,
 ) -> Result<FitValidation, FittingError> {
-    let task = Task::default();
-    PreparedFit::new(readings, &options.fit, &task)?.validate(options, &task)
+    options.run(readings, &Task::default())
+}
+
+impl ValidationRequest {
+    /// Predicts each mixture without its own measurement. You see the stages of the first fit in
+    /// `task`, then each mixture, and may cancel it.
+    ///
+    /// # Errors
+    /// [`FittingError`] as for [`validate`], or if `task` was cancelled.
+    pub fn run(&self, readings: &Readings, task: &Task) -> Result<FitValidation, FittingError> {
+        PreparedFit::new(readings, &self.fit, task)?.validate(self, task)
+    }
 }
 
 impl PreparedFit {
@@ -512,7 +511,7 @@ impl PreparedFit {
     ///
     /// # Errors
     /// [`FittingError`] if a name of `options` is unknown, or options exclude each other.
-    pub fn mixtures(&self, options: &ValidationOptions) -> Result<usize, FittingError> {
+    pub fn mixtures(&self, options: &ValidationRequest) -> Result<usize, FittingError> {
         let chosen = self.chosen(options)?;
         let amounts = self.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
         Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
@@ -525,7 +524,7 @@ impl PreparedFit {
     /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
     pub fn validate(
         &self,
-        options: &ValidationOptions,
+        options: &ValidationRequest,
         task: &Task,
     ) -> Result<FitValidation, FittingError> {
         self.validate_fit(self.fit(task)?, options, task)
@@ -538,7 +537,7 @@ impl PreparedFit {
     pub fn validate_fit(
         &self,
         fit: Fit,
-        options: &ValidationOptions,
+        options: &ValidationRequest,
         task: &Task,
     ) -> Result<FitValidation, FittingError> {
         if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
@@ -630,7 +629,7 @@ impl PreparedFit {
         part
     }
 
-    fn chosen(&self, options: &ValidationOptions) -> Result<ChosenPigments, FittingError> {
+    fn chosen(&self, options: &ValidationRequest) -> Result<ChosenPigments, FittingError> {
         if !options.with.is_empty() && matches!(self.model, FilmModel::Absolute(_)) {
             return Err(FittingError::AbsoluteWith);
         }

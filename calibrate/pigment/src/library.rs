@@ -8,6 +8,7 @@ use std::path::Path;
 use documents::file::{FileError, read, write_whole};
 use documents::hint::Explain;
 use documents::{counted, did_you_mean};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
@@ -230,14 +231,17 @@ impl IndexMut<PigmentId> for PigmentLibrary {
 }
 
 /// Meaning of the amounts in a recipe.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AmountKind {
-    /// Shares of a mixture, of which only the ratios count. K and S are relative to the S of the
-    /// reference white.
+    /// Shares of a mixture, for films that hide or are read over two backings
+    ///
+    /// Only the ratios of the shares count. K and S are relative to the S of the reference white.
     #[default]
     Relative,
-    /// Amounts on a fixed area. K and S are per unit of amount.
+    /// Amounts (mL, g) spread on a fixed area of a known backing
+    ///
+    /// K and S are per unit of amount.
     Absolute,
 }
 
@@ -378,14 +382,14 @@ pub struct FitSettings {
 }
 
 /// Method by which K and S are found. The crate `calibrate` describes each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// The quadratic program as published (Baxter, Wendt and Lin 2004, section 5.2).
+    /// The published quadratic program, unweighted (Baxter, Wendt and Lin 2004)
     Qp,
-    /// The quadratic program with rows weighted into errors of reflectance.
+    /// The quadratic program, its rows weighted to approximate errors of reflectance
     Weighted,
-    /// Nonlinear refinement in measured reflectance, started from `Weighted`.
+    /// Robust nonlinear refinement of `weighted`, in measured reflectance
     #[default]
     Refined,
 }
@@ -405,13 +409,17 @@ pub enum Smoothness {
 }
 
 /// Treatment of a reading below the surface's own reflection k1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum BelowSurface {
-    /// Return an error that names sample and wavelength: k1 is too high for this paint.
+    /// Fail with an error that names sample and wavelength
+    ///
+    /// The surface's k1 is too high for this paint.
     #[default]
     Refuse,
-    /// Replace it with an internal reflectance of 0.001, which stands for black.
+    /// Treat the reading as black
+    ///
+    /// Its internal reflectance becomes 0.001.
     Floor,
 }
 

@@ -13,10 +13,10 @@ use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{MatchError, MatchOptions};
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
-use calibrate::plan::{PlanError, PlanOptions};
+use calibrate::plan::{PlanError, PlanRequest};
 use calibrate::quadrature::{EffectiveQuadrature, MixtureSet, Quadrature, QuadratureFailure};
 use calibrate::validation::{ValidationPlan, leave_out};
-use calibrate::{FitOptions, FittingError, PigmentId, PreparedFit, Readings, ValidationOptions};
+use calibrate::{FitRequest, FittingError, PigmentId, PreparedFit, Readings, ValidationRequest};
 use documents::hint::{Explain, Fault};
 use documents::{Cancellation, Cancelled, Task};
 use spectra::optics::Surface;
@@ -341,7 +341,7 @@ fn is_cancelled(error: &FittingError) -> bool {
 #[test]
 fn a_fit_ends_at_the_stage_where_it_is_asked_to() {
     let readings = oils();
-    let prepared = PreparedFit::new(&readings, &FitOptions::default(), &Task::default()).unwrap();
+    let prepared = PreparedFit::new(&readings, &FitRequest::default(), &Task::default()).unwrap();
     let lasts = [
         "quadratic programs, round 2 of ",
         "refinement by spectra, estimate 1, round 2",
@@ -364,7 +364,7 @@ fn a_fit_ends_at_the_stage_where_it_is_asked_to() {
 #[test]
 fn a_validation_ends_before_most_of_its_mixtures() {
     let readings = oils();
-    let options = ValidationOptions::default();
+    let options = ValidationRequest::default();
     let prepared = PreparedFit::new(&readings, &options.fit, &Task::default()).unwrap();
     let left_out = "mixture left out";
     let (stages, error) = until(left_out, |task| prepared.validate(&options, task));
@@ -380,7 +380,7 @@ fn the_choice_of_a_film_model_ends_before_most_of_its_fits() {
     let file = tempfile::NamedTempFile::with_suffix(".csv").unwrap();
     std::fs::write(file.path(), Watercolors::hard(1).csv()).unwrap();
     let readings = Readings::open(file.path()).unwrap();
-    let options = FitOptions { amounts: AmountKind::Absolute, ..FitOptions::default() };
+    let options = FitRequest { amounts: AmountKind::Absolute, ..FitRequest::default() };
     let (stages, error) =
         until("choice of the film model", |task| PreparedFit::new(&readings, &options, task));
     assert!(is_cancelled(&error), "{error:?}");
@@ -395,7 +395,7 @@ fn quadratures_plans_and_recipes_end_too() {
     let failure = EffectiveQuadrature::of(&Viewing::default(), &oils, 8, &task);
     let failure = failure.unwrap_err();
     assert!(matches!(failure, QuadratureFailure::Cancelled(_)) && failure.hint().is_some());
-    let options = PlanOptions { prior: Some(oils.clone()), ..PlanOptions::default() };
+    let options = PlanRequest { prior: Some(oils.clone()), ..PlanRequest::default() };
     let error = calibrate::plan(&["Cobalt Blue", "Viridian"], "Zinc White", &options, &task);
     let error = error.unwrap_err();
     assert!(matches!(error, PlanError::Cancelled(_)) && error.hint().is_some(), "{error:?}");

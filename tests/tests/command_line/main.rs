@@ -6,6 +6,7 @@ mod artmap;
 mod errors;
 mod matching;
 mod painterly;
+mod requests;
 mod stencil;
 mod verbs;
 mod vocabulary;

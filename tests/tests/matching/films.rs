@@ -4,7 +4,7 @@
 use calibrate::evaluate::lab;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
-    Batch, ColorTarget, CorrectionOptions, FilmKind, MatchError, MatchRequest, Metric, RecipeMatch,
+    Batch, ColorTarget, CorrectRequest, FilmKind, MatchError, MatchRequest, Metric, RecipeMatch,
     SpectrumWeights, Thickness, recipes,
 };
 use calibrate::{Recipe, Viewing};
@@ -199,7 +199,7 @@ fn the_real_pot_matches_after_the_correction() {
     let batch = batch(&truth, &weighed);
     let before = apart(&standard, &batch.reflectance);
     let target = ColorTarget::measured("standard", standard.clone());
-    let options = CorrectionOptions::default();
+    let options = CorrectRequest::default();
     let library = oils();
     let found = library.corrections_for(&target, &batch, &options).unwrap();
     assert!(found.reaches && before > 4.0, "{before}");
@@ -221,7 +221,7 @@ fn the_least_addition_comes_first_and_no_smaller_one_is_near() {
     let weighed = [("Zinc White", 80.0), ("Cobalt Blue", 12.0), ("Chrome Yellow", 5.0)];
     let batch = batch(library, &weighed);
     let target = ColorTarget::measured("standard", standard.clone());
-    let options = CorrectionOptions { at_most: 1, count: 11, ..CorrectionOptions::default() };
+    let options = CorrectRequest { at_most: 1, count: 11, ..CorrectRequest::default() };
     let found = library.corrections_for(&target, &batch, &options).unwrap();
     assert!(found.corrections.is_sorted_by(|a, b| a.grams <= b.grams));
     let best = &found.corrections[0];
@@ -246,18 +246,18 @@ fn stock_and_limits_hold() {
     let target = ColorTarget::measured("standard", measured(library, &RECIPE));
     let weighed = [("Zinc White", 80.0), ("Cobalt Blue", 9.0), ("Chrome Yellow", 5.0)];
     let batch = batch(library, &weighed);
-    let free = CorrectionOptions { only: vec!["Cobalt Blue".into()], ..Default::default() };
+    let free = CorrectRequest { only: vec!["Cobalt Blue".into()], ..Default::default() };
     let needed = library.corrections_for(&target, &batch, &free).unwrap();
     assert!(needed.reaches);
     let needed = needed.corrections[0].grams;
     let short =
-        CorrectionOptions { stock: vec![("Cobalt Blue".into(), needed / 2.0)], ..free.clone() };
+        CorrectRequest { stock: vec![("Cobalt Blue".into(), needed / 2.0)], ..free.clone() };
     let found = library.corrections_for(&target, &batch, &short).unwrap();
     assert!(!found.reaches && found.corrections[0].distance > 0.5);
     let (id, grams) = found.corrections[0].additions[0];
     assert!((grams - needed / 2.0).abs() < 0.01 * needed, "{grams} of {needed}");
     assert_eq!(found.corrections[0].out_of_stock, [id]);
-    let little = CorrectionOptions { most_grams: Some(needed / 4.0), ..free.clone() };
+    let little = CorrectRequest { most_grams: Some(needed / 4.0), ..free.clone() };
     let found = library.corrections_for(&target, &batch, &little).unwrap();
     assert!(!found.reaches && found.corrections[0].grams <= needed / 4.0 * (1.0 + 1e-9));
     let near = Batch { reflectance: measured(library, &RECIPE), ..batch.clone() };
@@ -270,17 +270,17 @@ fn batches_that_cannot_be_corrected_are_refused() {
     let library = &oils();
     let target = ColorTarget::measured("standard", measured(library, &RECIPE));
     let batch = batch(library, &RECIPE);
-    let refused = |batch: &Batch, options: &CorrectionOptions| {
+    let refused = |batch: &Batch, options: &CorrectRequest| {
         library.corrections_for(&target, batch, options).unwrap_err()
     };
-    let usual = CorrectionOptions::default();
+    let usual = CorrectRequest::default();
     let unknown = Batch { made: vec![("Cobalt Green".into(), 1.0)], ..batch.clone() };
     assert!(matches!(refused(&unknown, &usual), MatchError::Recipe(_)));
     for grams in [0.0, -1.0, f64::NAN] {
         let wrong = Batch { grams, ..batch.clone() };
         assert!(matches!(refused(&wrong, &usual), MatchError::Number { .. }), "{grams}");
     }
-    let none = CorrectionOptions { at_most: 0, ..usual.clone() };
+    let none = CorrectRequest { at_most: 0, ..usual.clone() };
     assert!(matches!(refused(&batch, &none), MatchError::Number { .. }));
     let absolute = PigmentLibrary { amounts: AmountKind::Absolute, ..library.clone() };
     let error = absolute.corrections_for(&target, &batch, &usual).unwrap_err();
@@ -294,7 +294,7 @@ fn a_batch_is_corrected_by_its_spectrum() {
     let weighed = [("Zinc White", 80.0), ("Cobalt Blue", 12.0), ("Chrome Yellow", 5.0)];
     let batch = batch(library, &weighed);
     let target = ColorTarget::measured("standard", standard.clone());
-    let options = CorrectionOptions {
+    let options = CorrectRequest {
         metric: Metric::Spectrum(SpectrumWeights::Even),
         only: vec!["Cobalt Blue".into()],
         tolerance: 0.01,

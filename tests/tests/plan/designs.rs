@@ -7,7 +7,7 @@ use calibrate::fit::{
 use calibrate::library::PigmentLibrary;
 use calibrate::observation::{BLACK, Hiding, Observation};
 use calibrate::plan::{
-    Information, PaintSet, PlanError, PlanOptions, SwatchRecipe, candidates, optimal, usual,
+    Information, PaintSet, PlanError, PlanRequest, SwatchRecipe, candidates, optimal, usual,
 };
 use calibrate::{PigmentId, Recipe};
 use documents::Task;
@@ -213,7 +213,7 @@ fn impossible_noise_is_refused_before_the_search() {
     let impossible = [(f64::NAN, 0.0), (0.0, 0.0), (-0.1, 0.01), (0.0, 1e300), (5e-324, 0.0)];
     for (constant, even) in impossible {
         let noise = Some(ExpectedNoise { constant, even });
-        let options = PlanOptions { prior: Some(oils()), noise, ..PlanOptions::default() };
+        let options = PlanRequest { prior: Some(oils()), noise, ..PlanRequest::default() };
         let error =
             calibrate::plan(&["Viridian"], "Zinc White", &options, &Task::default()).unwrap_err();
         assert!(matches!(error, PlanError::Noise { .. }), "{constant}, {even}: {error}");

@@ -3,21 +3,21 @@
 use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    Batch, ColorTarget, Correction, CorrectionOptions, Corrections, TargetColor, USUAL_CORRECTION,
+    Batch, ColorTarget, CorrectRequest, Correction, Corrections, Metric, TargetColor,
 };
-use clap::Args;
+use clap::{Arg, Args};
 use documents::{counted, name_list};
 use serde_json::{Map, Value, json};
 use spectra::color::Lab;
 use spectra::{Reflectance, Spectrum};
 
-use super::recipe_search::MatchBy;
 use crate::console::Console;
 use crate::csv_rows;
 use crate::failure::{Failure, Result};
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::waited;
 use crate::readings::{ReadingOptions, condition, srgb, targets};
+use crate::request_options::{CommandLine, RequestOptions, without_value};
 
 /// Most names that an error lists.
 const NAMES: usize = 8;
@@ -38,39 +38,15 @@ pub(crate) struct Correct {
     /// of the batch, FILE or FILE#SAMPLE
     #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]
     words: Vec<String>,
-    /// Match the color under the lights, or the spectrum of a measured standard
-    #[arg(long, value_enum, default_value = "color")]
-    by: MatchBy,
+    #[command(flatten)]
+    request: RequestOptions<CorrectRequest>,
     /// Grams (or parts) of a pigment that are in the pot (may be repeated)
-    #[arg(long, value_name = "PIGMENT=GRAMS", required = true, num_args = 1..)]
+    // After the first option of the request.
+    #[arg(long, value_name = "PIGMENT=GRAMS", required = true, num_args = 1.., display_order = 0)]
     made: Vec<String>,
     /// Grams of paint in the pot [default: the sum of --made]
-    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true, display_order = 1)]
     grams: Option<f64>,
-    /// Grams of a pigment in stock (may be repeated); others have no limit
-    #[arg(long, value_name = "PIGMENT=GRAMS", num_args = 1..)]
-    stock: Vec<String>,
-    /// Add only these pigments (may be repeated) [default: all whose S is known]
-    #[arg(long, value_name = "PIGMENT")]
-    only: Vec<String>,
-    /// A pigment that is not added (may be repeated)
-    #[arg(long, value_name = "PIGMENT")]
-    without: Vec<String>,
-    /// Maximum number of pigments to add, 1 to 7
-    #[arg(long, value_name = "K", default_value_t = 3)]
-    at_most: usize,
-    /// Least grams of a pigment that can be weighed [default: a thousandth of the batch]
-    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
-    least: Option<f64>,
-    /// Most grams to add in all [default: as much as the batch]
-    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
-    most: Option<f64>,
-    /// Difference from the target that is near enough, in CIEDE2000 or, by spectrum, % of reflectance
-    #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true, default_value_t = USUAL_CORRECTION)]
-    tolerance: f64,
-    /// Number of corrections to show
-    #[arg(long, value_name = "N", default_value_t = 5)]
-    count: usize,
     /// Light, as in `color`, with its weight where there are several (may be repeated)
     #[arg(long, value_name = "LIGHT[=WEIGHT]", default_value = "D65")]
     illuminant: Vec<String>,
@@ -85,6 +61,22 @@ pub(crate) struct Correct {
     /// Print the corrections, a row for each pigment of one, as CSV
     #[arg(long, conflicts_with = "json")]
     csv: bool,
+}
+
+impl CommandLine for CorrectRequest {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            "by" => without_value(option, Metric::Cie1976.name()),
+            "stock" => option.value_name("PIGMENT=GRAMS").num_args(1..),
+            "only" | "without" => option.value_name("PIGMENT"),
+            "at_most" => option.value_name("K"),
+            "least_grams" => option.long("least").value_name("GRAMS"),
+            "most_grams" => option.long("most").value_name("GRAMS"),
+            "tolerance" => option.value_name("DELTA_E"),
+            "count" => option.value_name("N"),
+            _ => option,
+        }
+    }
 }
 
 impl Correct {
@@ -102,18 +94,10 @@ impl Correct {
         let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
         let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
         let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
-        let options = CorrectionOptions {
-            metric: self.by.metric(),
-            conditions: conditions.collect::<Result<_>>()?,
-            only: self.only.clone(),
-            without: self.without.clone(),
-            at_most: self.at_most,
-            stock: amounts("--stock", &self.stock)?,
-            least_grams: self.least,
-            most_grams: self.most,
-            tolerance: self.tolerance,
-            count: self.count,
-        };
+        let conditions = conditions.collect::<Result<_>>()?;
+        let mut request = self.request.clone();
+        let stock = amounts("--stock", &request.take("stock"))?;
+        let options = CorrectRequest { conditions, stock, ..request.request()? };
         let found = waited("searching corrections", console, || {
             library.corrections_for(&target, &batch, &options)
         })?;
@@ -175,7 +159,7 @@ fn amounts(option: &str, texts: &[String]) -> Result<Vec<(String, f64)>> {
 /// Names and settings that all corrections of a run share.
 struct Report<'a> {
     library: &'a PigmentLibrary,
-    options: &'a CorrectionOptions,
+    options: &'a CorrectRequest,
     grams: f64,
 }
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::observation::BelowSurface;
-use calibrate::{Fit, FitOptions, Readings};
+use calibrate::{Fit, FitRequest, Provenance, Readings};
 use clap::Args;
 use spectra::optics::{Specular, Surface};
 
@@ -88,16 +88,18 @@ impl Demo {
 /// Fits the shipped measurements of Van Gogh's oils.
 fn fit_oils() -> Result<Fit> {
     let readings = Readings::from_csv(NAME, OILS)?;
-    let options = FitOptions {
+    let options = FitRequest {
         // The published readings of three samples lie below the usual k1, at which the library that
         // ships was made.
         surface: Some(Surface::of_most_paints(Specular::Included)),
         below_surface: Some(BelowSurface::Floor),
         reference: Some("Zinc White".to_owned()),
-        title: Some("Van Gogh's oils".to_owned()),
-        licence: Some("CC0 1.0".to_owned()),
-        source: Some("Geldof, Proano Gaibor, Ligterink, Hendriks, Kirchner, Heritage Science 6:17 (2018), doi 10.1186/s40494-018-0181-6".to_owned()),
-        ..FitOptions::default()
+        provenance: Provenance {
+            title: Some("Van Gogh's oils".to_owned()),
+            licence: "CC0 1.0".to_owned(),
+            source: "Geldof, Proano Gaibor, Ligterink, Hendriks, Kirchner, Heritage Science 6:17 (2018), doi 10.1186/s40494-018-0181-6".to_owned(),
+        },
+        ..FitRequest::default()
     };
     Ok(calibrate::fit(&readings, &options)?)
 }

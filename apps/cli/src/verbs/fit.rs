@@ -8,11 +8,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{Method, Smoothness};
 use calibrate::library::{AmountKind, SampleEvidence};
-use calibrate::observation::BelowSurface;
-use calibrate::{Fit as CalibrationOptionsFit, FitOptions, PreparedFit, Readings};
-use clap::{Args, ValueEnum};
+use calibrate::{Fit as CalibrationOptionsFit, FitRequest, PreparedFit, Provenance, Readings};
+use clap::{Arg, ArgAction, Args};
 use serde_json::{Map, Value, json};
 use spectra::instrument::split_file_and_name;
 
@@ -21,7 +19,7 @@ use crate::failure::{Failure, Result};
 use crate::output::Output;
 use crate::progress::{Progress, Waiting};
 use crate::readings::{ReadingOptions, ViewingOptions, measurements};
-use crate::surface::SurfaceOptions;
+use crate::request_options::{CommandLine, RequestOptions, without_value_help};
 
 /// Fit K and S of every pigment to measured mixtures, and write the library
 ///
@@ -35,15 +33,8 @@ pub(crate) struct Fit {
     /// The library file to write (JSON); without it only errors are printed
     #[arg(short, long, value_name = "LIBRARY")]
     output: Option<PathBuf>,
-    /// Title of the library [default: the first file's name]
-    #[arg(long)]
-    title: Option<String>,
-    /// Licence of the library
-    #[arg(long, default_value = "not stated")]
-    licence: String,
-    /// Source of the measurements
-    #[arg(long, default_value = "not stated")]
-    source: String,
+    #[command(flatten)]
+    provenance: RequestOptions<Provenance>,
     /// Fit to one half of the mixtures alone: every second, from the first (0) or the second (1) on, with all
     /// films of one pigment. What a painting of the one library looks like to the other shows how far it can be
     /// believed
@@ -63,17 +54,16 @@ pub(crate) struct Fit {
 impl Fit {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
-        let mut options = self.options.fit_options(self.viewing.viewing()?)?;
-        options.title = self.title;
-        options.licence = Some(self.licence);
-        options.source = Some(self.source);
+        let provenance = self.provenance.request()?;
+        let request = self.options.request(self.viewing.viewing()?)?;
+        let request = FitRequest { provenance, ..request };
         let output = self
             .output
             .as_deref()
             .map(|path| Output::open(path, &self.options.files()))
             .transpose()?;
         let readings = self.options.readings(console)?;
-        let mut prepared = prepare_fit(&readings, &options, console)?;
+        let mut prepared = prepare_fit(&readings, &request, console)?;
         if let Some(half) = self.half {
             prepared = prepared.half(usize::from(half));
         }
@@ -99,30 +89,28 @@ impl Fit {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum MethodName {
-    /// The published quadratic program, unweighted (Baxter, Wendt and Lin 2004)
-    Qp,
-    /// The quadratic program, its rows weighted to approximate errors of reflectance
-    Weighted,
-    /// Robust nonlinear refinement of `weighted`, in measured reflectance
-    Refined,
+impl CommandLine for FitRequest {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            // It was the option of a white reading once: a file is still taken for one.
+            "reference" => {
+                let white = option.long("white").alias("reference").value_name("PIGMENT");
+                white.action(ArgAction::Append)
+            }
+            "surface" => option.long("saunderson").value_name("K1,K2"),
+            "specular" => without_value_help(option),
+            "smoothness" => option.value_name("WEIGHT"),
+            "unevenness" => option.value_name("DEVIATION"),
+            "exclude" => option.value_name("SAMPLE"),
+            _ => option,
+        }
+    }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Amounts {
-    /// Shares of a mixture, for films that hide or are read over two backings
-    Relative,
-    /// Amounts (mL, g) spread on a fixed area of a known backing
-    Absolute,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Below {
-    /// Fail with an error that names sample and wavelength
-    Refuse,
-    /// Treat the reading as black
-    Floor,
+impl CommandLine for Provenance {
+    fn adapted(_key: &str, option: Arg) -> Arg {
+        option
+    }
 }
 
 /// Measurement files and settings of the fit.
@@ -144,31 +132,8 @@ pub(super) struct CalibrationOptions {
     /// [default: every column that is not known as something else and holds amounts]
     #[arg(long, value_name = "NAME")]
     pigments: Vec<String>,
-    /// Method of the fit
-    #[arg(long, value_enum, default_value = "refined")]
-    method: MethodName,
-    /// Meaning of the amounts
-    #[arg(long, value_enum, default_value = "relative")]
-    amounts: Amounts,
-    /// The white whose S is 1 [default: the pigment called white that occurs in most samples]
-    // It was the option of a white reading once: a file is still taken for one.
-    #[arg(long, alias = "reference", value_name = "PIGMENT")]
-    white: Vec<String>,
     #[command(flatten)]
-    surface: SurfaceOptions,
-    /// Treatment of a reading below k1 [default: refuse]; without --saunderson, k1 stays 0.03
-    #[arg(long, value_enum)]
-    below_surface: Option<Below>,
-    /// Smoothness of K and S over wavelength: auto, none, or a weight such as 10
-    #[arg(long, value_name = "WEIGHT", default_value = "auto", allow_hyphen_values = true)]
-    smoothness: String,
-    /// Unevenness of films of absolute amounts: auto, or the standard deviation of log thickness
-    /// such as 0.25
-    #[arg(long, value_name = "DEVIATION", default_value = "auto", allow_hyphen_values = true)]
-    unevenness: String,
-    /// A sample to leave out (may be repeated)
-    #[arg(long, value_name = "SAMPLE")]
-    exclude: Vec<String>,
+    fit: RequestOptions<FitRequest>,
     #[command(flatten)]
     reading: ReadingOptions,
 }
@@ -182,19 +147,7 @@ impl CalibrationOptions {
 
     /// The file of a white reading by the option that named it before.
     fn old_white_reading(&self) -> Option<String> {
-        self.white.iter().find(|text| is_reading(text)).cloned()
-    }
-
-    /// The pigment whose S is 1, if one is named.
-    fn reference(&self) -> Result<Option<String>> {
-        let mut named = self.white.iter().filter(|text| !is_reading(text));
-        match (named.next(), named.next()) {
-            (Some(first), Some(second)) => Err(Failure::usage(
-                format!("--white takes one pigment, found `{first}` and `{second}`"),
-                "leave one of them out",
-            )),
-            (first, _) => Ok(first.cloned()),
-        }
+        self.fit.clone().take("reference").into_iter().find(|text| is_reading(text))
     }
 
     /// Reads the measurement files and prints remarks on them.
@@ -208,53 +161,26 @@ impl CalibrationOptions {
         measurements(&self.files, self.recipes.as_deref(), &self.pigments, &reading, console)
     }
 
-    /// Options of the fit; colour errors are computed under `viewing`.
-    pub(super) fn fit_options(&self, viewing: Viewing) -> Result<FitOptions> {
-        Ok(FitOptions {
-            amounts: match self.amounts {
-                Amounts::Relative => AmountKind::Relative,
-                Amounts::Absolute => AmountKind::Absolute,
-            },
-            method: match self.method {
-                MethodName::Qp => Method::Qp,
-                MethodName::Weighted => Method::Weighted,
-                MethodName::Refined => Method::Refined,
-            },
-            reference: self.reference()?,
-            surface: self.surface.surface()?,
-            specular: self.surface.specular(),
-            below_surface: self.below_surface.map(|below| match below {
-                Below::Refuse => BelowSurface::Refuse,
-                Below::Floor => BelowSurface::Floor,
-            }),
-            smoothness: self.smoothness()?,
-            unevenness: self.unevenness()?,
-            exclude: self.exclude.clone(),
-            viewing,
-            ..FitOptions::default()
-        })
-    }
-
-    fn smoothness(&self) -> Result<Smoothness> {
-        Ok(match self.smoothness.as_str() {
-            "auto" => Smoothness::Auto,
-            "none" => Smoothness::None,
-            text => Smoothness::Fixed(at_least_zero("--smoothness", text)?),
-        })
-    }
-
-    fn unevenness(&self) -> Result<Option<f64>> {
-        Ok(match self.unevenness.as_str() {
-            "auto" => None,
-            text => Some(at_least_zero("--unevenness", text)?),
-        })
+    /// The request; colour errors are computed under `viewing`.
+    pub(super) fn request(&self, viewing: Viewing) -> Result<FitRequest> {
+        let mut options = self.fit.clone();
+        let whites = options.take("reference");
+        let mut named = whites.into_iter().filter(|text| !is_reading(text));
+        let reference = named.next();
+        if let (Some(first), Some(second)) = (&reference, named.next()) {
+            return Err(Failure::usage(
+                format!("--white takes one pigment, found `{first}` and `{second}`"),
+                "leave one of them out",
+            ));
+        }
+        Ok(FitRequest { reference, viewing, ..options.request()? })
     }
 }
 
 /// Chooses the options of a fit that were left open, and prints the choices.
 pub(super) fn prepare_fit(
     readings: &Readings,
-    options: &FitOptions,
+    options: &FitRequest,
     console: &mut Console<'_>,
 ) -> Result<PreparedFit> {
     let chooses_model = options.amounts == AmountKind::Absolute
@@ -276,16 +202,6 @@ pub(super) fn fit_of_all(
 ) -> Result<CalibrationOptionsFit> {
     let waiting = Waiting::new("fitting", console.shows_progress());
     Ok(prepared.fit(&waiting.task("fitting"))?)
-}
-
-/// Parses a finite number of 0 and up.
-fn at_least_zero(option: &str, text: &str) -> Result<f64> {
-    text.parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0).ok_or_else(|| {
-        Failure::usage(
-            format!("{option} takes a word or a number not below 0, found `{text}`"),
-            format!("try {option} auto"),
-        )
-    })
 }
 
 /// Whether the value of `--white` is the file of a reading, FILE or FILE#NAME, and no pigment.

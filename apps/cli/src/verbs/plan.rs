@@ -4,10 +4,9 @@
 
 use std::path::PathBuf;
 
-use calibrate::fit::ExpectedNoise;
-use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanOptions};
+use calibrate::plan::{Forecast, MeasurementForm, PaintSet, Plan as PlanReportPlan, PlanRequest};
 use calibrate::{PigmentId, Recipe};
-use clap::Args;
+use clap::{Arg, Args};
 use documents::Task;
 use spectra::Grid;
 
@@ -17,6 +16,7 @@ use crate::library_choice::split;
 use crate::output::Output;
 use crate::progress::waited;
 use crate::readings::library;
+use crate::request_options::{CommandLine, RequestOptions};
 use crate::surface::{grid, numbers};
 
 /// Maximum number of wavelengths of a measurement file.
@@ -39,28 +39,11 @@ pub(crate) struct Plan {
     /// The white for tints, whose S is the unit
     #[arg(long, value_name = "NAME")]
     white: String,
-    /// A black, for shades
-    #[arg(long, value_name = "NAME")]
-    black: Option<String>,
+    #[command(flatten)]
+    request: RequestOptions<PlanRequest>,
     /// The library, as it was named before
     #[arg(long, value_name = "LIBRARY", hide = true)]
     prior: Option<PathBuf>,
-    /// Number of swatches [default: masstones, two tints each, a shade each with a black, and one
-    /// cross each]
-    #[arg(long, value_name = "N")]
-    swatches: Option<usize>,
-    /// Grams of paint per swatch
-    #[arg(long, value_name = "G", default_value_t = 10.0, allow_hyphen_values = true)]
-    grams: f64,
-    /// Smallest step of the balance in grams; no part is smaller than fifty steps, so that each is
-    /// weighed to 1 %
-    #[arg(long, value_name = "G", default_value_t = 0.01, allow_hyphen_values = true)]
-    balance: f64,
-    /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: that of the
-    /// instrument, and that of weighing, mixing and film, which is perceptually uniform [default:
-    /// 0.002 and the residual of the prior's own fit, else 0.01]
-    #[arg(long, value_name = "CONSTANT,EVEN", allow_hyphen_values = true)]
-    noise: Option<String>,
     /// Readings of each film and card in the file
     #[arg(long, value_name = "N", default_value_t = 2)]
     replicates: usize,
@@ -78,10 +61,21 @@ pub(crate) struct Plan {
     csv: bool,
 }
 
+impl CommandLine for PlanRequest {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            "black" => option.value_name("NAME"),
+            "swatches" => option.value_name("N"),
+            "noise" => option.value_name("CONSTANT,EVEN").allow_hyphen_values(true),
+            _ => option.value_name("G"),
+        }
+    }
+}
+
 impl Plan {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let form = MeasurementForm { grid: self.grid()?, replicates: self.replicates()? };
-        let noise = self.noise()?;
+        let request = self.request.request()?;
         let (first, pigments) = split(&self.words, true);
         let path = match (first, &self.prior) {
             (Some(first), Some(prior)) => {
@@ -94,7 +88,7 @@ impl Plan {
         if pigments.is_empty() {
             return Err(Failure::usage("no pigment is named", "name those to plan for"));
         }
-        if self.noise.is_some() && path.is_none() {
+        if request.noise.is_some() && path.is_none() {
             return Err(Failure::usage(
                 "--noise is for swatches that a library chooses",
                 "name a library of similar paint first, or leave --noise out",
@@ -114,15 +108,8 @@ impl Plan {
         };
         let output = self.output.as_ref().map(open).transpose()?;
         let prior = path.as_deref().map(library).transpose()?;
-        let options = PlanOptions {
-            black: self.black.clone(),
-            prior,
-            swatches: self.swatches,
-            grams: self.grams,
-            balance: self.balance,
-            noise,
-        };
-        let planned = || calibrate::plan(pigments, &self.white, &options, &Task::default());
+        let request = PlanRequest { prior, ..request };
+        let planned = || calibrate::plan(pigments, &self.white, &request, &Task::default());
         let plan = waited("choosing swatches", console, planned)?;
         console.remarks(&plan.remarks)?;
         if let Some(output) = output {
@@ -185,19 +172,6 @@ impl Plan {
             return Err(out_of_range());
         }
         Ok(grid)
-    }
-
-    fn noise(&self) -> Result<Option<ExpectedNoise>> {
-        let Some(text) = &self.noise else { return Ok(None) };
-        match numbers(text) {
-            Some([constant, even]) if (ExpectedNoise { constant, even }).is_possible() => {
-                Ok(Some(ExpectedNoise { constant, even }))
-            }
-            _ => Err(Failure::usage(
-                format!("--noise takes CONSTANT,EVEN, each 0 to 1 and one above 0, found `{text}`"),
-                "try --noise 0.002,0.01",
-            )),
-        }
     }
 }
 

@@ -1,7 +1,5 @@
 //! `impasto match`: finds recipes for a target colour or spectrum.
 //!
-//! The choice of what recipes and corrections are matched by.
-//!
 //! Report of the recipes that `match` found: text and rows.
 //!
 //! Columns of figures in the table of recipes: differences under each light, metamerism, reflectance.
@@ -10,9 +8,9 @@ use calibrate::IlluminantChange;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
     AmountLimit, MatchOptions, Metric, RecipeMatch, RecipeMatches, RecipeSearch, RequiredName,
-    SpectrumWeights, Thickness, ToleranceOrigin,
+    SpectrumWeights, ToleranceOrigin, parse_share,
 };
-use clap::{Args, ValueEnum};
+use clap::{Arg, Args};
 use documents::Task;
 use serde_json::{Map, Value, json};
 use spectra::color::{Lab, Rgb, RgbSpace};
@@ -24,6 +22,7 @@ use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::palette::prices;
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, condition, srgb, targets};
+use crate::request_options::{CommandLine, RequestOptions, without_value};
 use crate::surface::ground;
 
 /// Find recipes for a colour or a measured spectrum
@@ -43,53 +42,8 @@ pub(crate) struct Match {
     /// the Van Gogh oils that ship], then target colours, one or more
     #[arg(required = true, value_name = "[LIBRARY] TARGET")]
     words: Vec<String>,
-    /// Match the color under the lights, or the spectrum of a measured target
-    #[arg(long, value_enum, default_value = "color")]
-    by: MatchBy,
-    /// Use only these pigments (may be repeated) [default: all whose S is known]
-    #[arg(long, value_name = "PIGMENT")]
-    only: Vec<String>,
-    /// A pigment that every recipe must contain, with a share if that is fixed (may be repeated)
-    #[arg(long, value_name = "PIGMENT[=SHARE]")]
-    with: Vec<String>,
-    /// A pigment that no recipe may contain (may be repeated)
-    #[arg(long, value_name = "PIGMENT")]
-    without: Vec<String>,
-    /// Maximum number of pigments of a recipe, 1 to 8
-    #[arg(long, value_name = "K", default_value_t = 4)]
-    at_most: usize,
-    /// Minimum share of each pigment of a recipe, such as 0.02 or 1/50, about the least that a
-    /// palette knife can cut off
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, default_value = "1/50")]
-    least: String,
-    /// Give recipes in whole parts whose sum is at most N
-    #[arg(long, value_name = "N")]
-    parts: Option<u32>,
-    /// Total mass of the mixture in grams; amounts are then by mass
-    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
-    grams: Option<f64>,
-    /// Price of one gram (or one unit of absolute amounts), NAME=PRICE, in any currency (may be
-    /// repeated), or a CSV with the columns pigment and price
-    #[arg(long, value_name = "PRICE")]
-    cost: Vec<String>,
-    /// Difference within which recipes count as equally near, in CIEDE2000 [default: the mean error of
-    /// the library's fit, or 0.05 if it records none]; by spectrum in % of reflectance [default: 0.2]
-    #[arg(long, value_name = "DIFFERENCE", allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Allow absolute amounts outside the range that was measured of each pigment
-    #[arg(long)]
-    beyond_measured: bool,
-    /// Number of recipes to show for each target
-    #[arg(long, value_name = "N", default_value_t = 5)]
-    count: usize,
-    /// Thickness of the film, or LEAST:MOST to let the search choose; 1 is where the reference white
-    /// has S d = 1 (for absolute amounts, all amounts together) [default: hiding; for absolute
-    /// amounts from nearly clear to nearly hiding]
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    thickness: Option<String>,
-    /// Measured reflectance of the ground, as in `mix` [default: white]
-    #[arg(long, value_name = "GROUND", allow_hyphen_values = true)]
-    over: Option<String>,
+    #[command(flatten)]
+    request: RequestOptions<MatchOptions>,
     /// Light, as in `color`, with its weight where there are several (may be repeated) [default: D65;
     /// by spectrum, where lights only tell the differences, D65, A and FL11]
     #[arg(long, value_name = "LIGHT[=WEIGHT]")]
@@ -105,6 +59,25 @@ pub(crate) struct Match {
     /// Print the recipes, a row for each pigment of one, as CSV
     #[arg(long, conflicts_with = "json")]
     csv: bool,
+}
+
+impl CommandLine for MatchOptions {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        match key {
+            "by" => without_value(option, Metric::Cie1976.name()),
+            "only" | "without" => option.value_name("PIGMENT"),
+            "with" => option.value_name("PIGMENT[=SHARE]"),
+            "at_most" => option.value_name("K"),
+            "least_share" => option.long("least").value_name("SHARE").default_value("1/50"),
+            "whole_parts" => option.long("parts").value_name("N"),
+            "prices" => option.long("cost").value_name("PRICE"),
+            "tolerance" => option.value_name("DIFFERENCE"),
+            "count" => option.value_name("N"),
+            "thickness" => option.value_name("T"),
+            "over" => option.value_name("GROUND"),
+            _ => option,
+        }
+    }
 }
 
 impl Match {
@@ -124,7 +97,7 @@ impl Match {
         for text in texts {
             all_targets.extend(targets(text, &self.reading, console)?);
         }
-        let report = RecipeReport { library: &library, search: &search, grams: self.grams };
+        let report = RecipeReport { library: &library, search: &search, grams: options.grams };
         let progress = Progress::new(all_targets.len(), "matching", console.shows_progress());
         let mut found = Vec::new();
         for target in &all_targets {
@@ -138,7 +111,7 @@ impl Match {
         }
         if self.json {
             let list: Vec<Value> =
-                found.iter().map(|one| search.to_json(one, self.grams)).collect();
+                found.iter().map(|one| search.to_json(one, options.grams)).collect();
             return console.json(&Value::from(list));
         }
         for (index, matches) in found.iter().enumerate() {
@@ -152,61 +125,39 @@ impl Match {
 
     /// Options of the search; reads the files that they name.
     fn options(&self, library: &PigmentLibrary, console: &mut Console<'_>) -> Result<MatchOptions> {
-        if let Some(grams) = self.grams.filter(|grams| !(*grams > 0.0 && *grams < 1e9)) {
+        let mut request = self.request.clone();
+        let with = request.take("with");
+        let costs = request.take("prices");
+        let over = request.take("over");
+        let request = request.request()?;
+        if let Some(grams) = request.grams.filter(|grams| !(*grams > 0.0 && *grams < 1e9)) {
             return Err(Failure::usage(
                 format!("--grams must be above 0, found `{grams}`"),
                 "try --grams 40",
             ));
         }
-        if self.grams.is_some() && library.amounts == AmountKind::Absolute {
+        if request.grams.is_some() && library.amounts == AmountKind::Absolute {
             return Err(Failure::usage(
                 "--grams shares out a mixture, but this library's amounts are absolute",
                 "leave it out: the recipe gives each amount on the library's area",
             ));
         }
-        let usual: &[&str] = match (self.illuminant.is_empty(), self.by) {
+        let usual: &[&str] = match (self.illuminant.is_empty(), request.metric) {
             (false, _) => &[],
-            (true, MatchBy::Color) => &["D65"],
-            (true, MatchBy::Spectrum | MatchBy::WeightedSpectrum) => &["D65", "A", "FL11"],
+            (true, Metric::Spectrum(_)) => &["D65", "A", "FL11"],
+            (true, Metric::Ciede2000 | Metric::Cie1976) => &["D65"],
         };
         let lights = self.illuminant.iter().map(String::as_str).chain(usual.iter().copied());
         let conditions = lights.map(|text| condition(text, &self.observer));
-        let with = self.with.iter().map(|text| required(text, library));
+        let with = with.iter().map(|text| required(text, library));
         Ok(MatchOptions {
-            metric: self.by.metric(),
             conditions: conditions.collect::<Result<_>>()?,
-            thickness: self.thickness.as_deref().map(thickness).transpose()?,
-            over: self.over.as_deref().map(|text| ground(text, console)).transpose()?,
-            only: self.only.clone(),
+            over: over.first().map(|text| ground(text, console)).transpose()?,
             with: with.collect::<Result<_>>()?,
-            without: self.without.clone(),
-            at_most: self.at_most,
-            least_share: share("--least", &self.least)?,
-            whole_parts: self.parts,
-            prices: prices(&self.cost)?,
-            tolerance: self.tolerance,
-            beyond_measured: self.beyond_measured,
-            count: self.count,
+            prices: prices(&costs)?,
+            ..request
         })
     }
-}
-
-/// Parses a thickness `T` or `LEAST:MOST`.
-fn thickness(text: &str) -> Result<Thickness> {
-    let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= 1e9);
-    let thickness = match text.split_once(':') {
-        Some((least, most)) => number(least)
-            .zip(number(most))
-            .filter(|(least, most)| least < most)
-            .map(|(least, most)| Thickness::Between(least, most)),
-        None => number(text).map(Thickness::Fixed),
-    };
-    thickness.ok_or_else(|| {
-        Failure::usage(
-            format!("--thickness takes T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
-            "try --thickness 1 or --thickness 0.2:3",
-        )
-    })
 }
 
 /// Parses `PIGMENT` or `PIGMENT=SHARE`.
@@ -216,49 +167,10 @@ fn required(text: &str, library: &PigmentLibrary) -> Result<RequiredName> {
         Some((name, fixed)) if library.find(text).is_err() => (name, Some(fixed)),
         _ => (text, None),
     };
-    let share = fixed.map(|fixed| share("--with", fixed)).transpose()?;
+    let share = fixed.map(|fixed| parse_share(fixed, "with")).transpose();
+    let share =
+        share.map_err(|error| Failure::of_request(&error.at("with"), |_| "--with".into()))?;
     Ok(RequiredName { name: name.to_owned(), share })
-}
-
-/// Parses a share from 0 to 1, written as a number or as a fraction such as 1/50.
-fn share(option: &str, text: &str) -> Result<f64> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let value = match text.split_once('/') {
-        Some((numerator, denominator)) => {
-            number(numerator).zip(number(denominator)).map(|(n, d)| n / d)
-        }
-        None => number(text),
-    };
-    value.filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| {
-        Failure::usage(
-            format!("{option} takes a share from 0 to 1, found `{text}`"),
-            format!(
-                "try {option} {}0.25 or a fraction such as 1/4",
-                if option == "--with" { "NAME=" } else { "" }
-            ),
-        )
-    })
-}
-
-/// Measures by which recipes are matched.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum MatchBy {
-    /// CIEDE2000 under the lights
-    Color,
-    /// Root mean square of the differences of reflectance, each wavelength equally
-    Spectrum,
-    /// Root mean square too, each wavelength as much as the observer sees of it under the lights
-    WeightedSpectrum,
-}
-
-impl MatchBy {
-    pub(super) fn metric(self) -> Metric {
-        match self {
-            Self::Color => Metric::Ciede2000,
-            Self::Spectrum => Metric::Spectrum(SpectrumWeights::Even),
-            Self::WeightedSpectrum => Metric::Spectrum(SpectrumWeights::Observer),
-        }
-    }
 }
 
 /// Library and settings that all recipes of a run share.

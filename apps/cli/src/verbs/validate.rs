@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
-use calibrate::{FittingError, ValidationOptions};
-use clap::Args;
+use calibrate::{FittingError, ValidationRequest};
+use clap::{Arg, Args};
 use serde_json::json;
 
 use super::fit;
@@ -16,6 +16,7 @@ use crate::failure::{Failure, Result};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::readings::ViewingOptions;
+use crate::request_options::{CommandLine, RequestOptions};
 
 /// Leave each mixture out in turn, refit, and predict it
 ///
@@ -25,12 +26,8 @@ use crate::readings::ViewingOptions;
 pub(crate) struct Validate {
     #[command(flatten)]
     options: CalibrationOptions,
-    /// Leave out mixtures in this many seeded groups instead of one at a time [absolute amounts: 10]
-    #[arg(long, value_name = "N")]
-    folds: Option<usize>,
-    /// Leave out only mixtures with this pigment (may be repeated)
-    #[arg(long = "with", value_name = "PIGMENT")]
-    with: Vec<String>,
+    #[command(flatten)]
+    validation: RequestOptions<ValidationRequest>,
     /// Write measured and predicted reflectances of the mixtures as JSON, for `impasto map --residuals`
     ///
     /// Films that hide, at each wavelength, with the settings of the fit and the hashes of the files. By
@@ -48,17 +45,22 @@ pub(crate) struct Validate {
     csv: bool,
 }
 
+impl CommandLine for ValidationRequest {
+    fn adapted(key: &str, option: Arg) -> Arg {
+        option.value_name(if key == "folds" { "N" } else { "PIGMENT" })
+    }
+}
+
 impl Validate {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
-        if self.folds.is_some_and(|folds| folds < 2) {
+        let options = ValidationRequest {
+            fit: self.options.request(self.viewing.viewing()?)?,
+            ..self.validation.request()?
+        };
+        if options.folds.is_some_and(|folds| folds < 2) {
             return Err(Failure::usage("--folds needs at least 2 groups", "try --folds 10"));
         }
-        let options = ValidationOptions {
-            fit: self.options.fit_options(self.viewing.viewing()?)?,
-            folds: self.folds,
-            with: self.with,
-        };
         if self.residuals.is_some() && options.fit.amounts == AmountKind::Absolute {
             return Err(FittingError::AbsoluteResiduals.into());
         }

@@ -155,27 +155,29 @@ def xyz(
 ) -> tuple[Floats, tuple[float, float, float]]: ...
 def rgb(xyz: Floats, white: tuple[float, float, float]) -> tuple[Floats, Floats]: ...
 def delta_e(first: Floats, second: Floats, cie1976: bool) -> Floats: ...
-def fit(readings: Readings, options: dict[str, Any], progress: _Progress) -> Fit: ...
+def fit(
+    readings: Readings, request: str, light: Light, observer: str, progress: _Progress
+) -> Fit: ...
 def validate(
-    readings: Readings,
-    options: dict[str, Any],
-    folds: int | None,
-    using: list[str],
-    progress: _Progress,
+    readings: Readings, request: str, light: Light, observer: str, progress: _Progress
 ) -> Validation: ...
 def recipes_for(
-    library: Library, targets: list[Any], options: dict[str, Any], progress: _Progress
-) -> list[tuple[str, _Remarks]]: ...
-def plan(pigments: list[str], white: str, options: dict[str, Any]) -> tuple[str, bytes, _Remarks]: ...
-def quadrature(
-    library: Library | None,
-    method: str,
-    nodes: int,
-    light: Light,
+    library: Library,
+    targets: list[Any],
+    request: str,
+    lights: list[tuple[Light, float]],
     observer: str,
-    mixtures: int,
-    seed: int,
-) -> str: ...
+    over: Any,
+    progress: _Progress,
+) -> list[tuple[str, _Remarks]]: ...
+def plan(
+    pigments: list[str],
+    white: str,
+    request: str,
+    prior: Library | None,
+    form: tuple[_Grid, int],
+) -> tuple[str, bytes, _Remarks]: ...
+def quadrature(library: Library | None, request: str, light: Light, observer: str) -> str: ...
 def report(
     library: Library,
     readings: Readings | None,

@@ -158,8 +158,8 @@ def fit(
 
     Raises `FitError`; findings about the data are told as `FindingWarning`.
     """
-    options = _options(locals())
-    result = Fit(_native.fit(readings._native, options, progress))
+    request = json.dumps(_request(locals()))
+    result = Fit(_native.fit(readings._native, request, light_of(illuminant), observer, progress))
     warn(result.warnings)
     return result
 
@@ -187,28 +187,23 @@ def validate(
     `folds` leaves out seeded groups instead; `using` names pigments, only mixtures with one of them are
     left out. `progress` is called with each stage of the fit, and after each mixture.
     """
-    options = _options(locals())
-    native = _native.validate(readings._native, options, folds, list(using), progress)
-    result = Validation(native)
+    request = json.dumps({"fit": _request(locals()), "folds": folds, "with": list(using)})
+    light = light_of(illuminant)
+    result = Validation(_native.validate(readings._native, request, light, observer, progress))
     warn(result.warnings)
     return result
 
 
-def _options(given: dict[str, Any]) -> dict[str, Any]:
+def _request(given: dict[str, Any]) -> dict[str, Any]:
+    """The keys of `FitRequest` (docs/schema/requests.json) for the arguments of `fit`."""
     surface = given["surface"]
-    return {
-        "amounts": given["amounts"],
-        "method": given["method"],
-        "reference": given["reference"],
-        "surface": None if surface is None else (surface.k1, surface.k2),
-        "specular": given["specular"],
-        "below_surface": given["below_surface"],
-        "smoothness": given["smoothness"],
-        "unevenness": given["unevenness"],
+    keys = ["amounts", "method", "reference", "below_surface"]
+    request = {key: given[key] for key in keys} | {
+        "surface": None if surface is None else f"{surface.k1},{surface.k2}",
+        "specular": "included" if given["specular"] else "excluded",
         "exclude": list(given["exclude"]),
-        "light": light_of(given["illuminant"]),
-        "observer": given["observer"],
-        "title": given.get("title"),
-        "licence": given.get("licence"),
-        "source": given.get("source"),
+        "provenance": {key: given.get(key) for key in ["title", "licence", "source"]},
     }
+    for key in ["smoothness", "unevenness"]:
+        request[key] = None if given[key] is None else str(given[key])
+    return request

@@ -118,33 +118,40 @@ def match(library: Library, target: Any, **options: Any) -> Match | list[Match]:
     using = options["using"]
     if not isinstance(using, Mapping):
         using = dict.fromkeys(using)
-    thickness = options["thickness"]
-    if isinstance(thickness, (int, float)):
-        thickness = (thickness, thickness)
     targets, single = _targets(target, options["wavelengths"])
-    native = {
-        "by": options["by"],
-        "lights": [(light_of(light), float(weight)) for light, weight in lights.items()],
-        "observer": options["observer"],
-        "thickness": thickness,
-        "over": ground_of(options["over"]),
+    thickness = options["thickness"]
+    prices = options["prices"] or {}
+    request = {
+        key: options[key]
+        for key in ["by", "at_most", "whole_parts", "tolerance", "beyond_measured", "count"]
+    } | {
+        "least_share": str(options["least_share"]),
+        "thickness": thickness if thickness is None else _range(thickness),
         "only": _names("only", options["only"]),
-        "with": list(using.items()),
+        "with": [{"name": name, "share": share} for name, share in using.items()],
         "without": _names("without", options["without"]),
-        "at_most": options["at_most"],
-        "least_share": options["least_share"],
-        "whole_parts": options["whole_parts"],
-        "prices": list((options["prices"] or {}).items()),
-        "tolerance": options["tolerance"],
-        "beyond_measured": options["beyond_measured"],
-        "count": options["count"],
+        "prices": [f"{name}={price}" for name, price in prices.items()],
     }
-    found = _native.recipes_for(library._native, targets, native, options["progress"])
+    found = _native.recipes_for(
+        library._native,
+        targets,
+        json.dumps(request),
+        [(light_of(light), float(weight)) for light, weight in lights.items()],
+        options["observer"],
+        ground_of(options["over"]),
+        options["progress"],
+    )
     matches = []
     for text, remarks in found:
         warn(warnings_of(remarks))
         matches.append(Match(json.loads(text), library))
     return matches[0] if single else matches
+
+
+def _range(thickness: float | tuple[float, float]) -> str:
+    ends = thickness if isinstance(thickness, (tuple, list)) else (thickness, thickness)
+    least, most = (str(float(end)) for end in ends)
+    return least if least == most else f"{least}:{most}"
 
 
 def _names(setting: str, names: Sequence[str]) -> list[str]:

@@ -90,16 +90,15 @@ def plan(
     count = round(steps) + 1 if steps <= 5001 else 0
     if not 2 <= count <= 5001 or not 1 <= replicates <= 100:
         raise Error("a form has 2 to 5001 wavelengths and 1 to 100 readings of each film")
-    options = {
+    request = {
         "black": black,
-        "prior": None if prior is None else prior._native,
         "swatches": swatches,
         "grams": grams,
         "balance": balance,
-        "noise": noise,
-        "grid": (first, step, count),
-        "replicates": replicates,
+        "noise": None if noise is None else ",".join(str(error) for error in noise),
     }
-    about, form, remarks = _native.plan(list(pigments), white, options)
+    native = None if prior is None else prior._native
+    form_of = ((first, step, count), replicates)
+    about, form, remarks = _native.plan(list(pigments), white, json.dumps(request), native, form_of)
     warn(warnings_of(remarks))
     return Plan(json.loads(about), bytes(form))

@@ -41,10 +41,9 @@ class Quadrature:
     ) -> Quadrature:
         """Chooses wavelengths by `gauss`, `moments`, `library` (the default with a library) or
         `effective`, and tests them on random mixtures of the library."""
-        method = method or ("moments" if library is None else "library")
         native = None if library is None else library._native
-        light = light_of(illuminant)
-        text = _native.quadrature(native, method, nodes, light, observer, mixtures, seed)
+        request = {"method": method, "nodes": nodes, "mixtures": mixtures, "seed": seed}
+        text = _native.quadrature(native, json.dumps(request), light_of(illuminant), observer)
         about = json.loads(text)
         return cls(np.array(about["nodes_nm"]), np.array(about["weights"]), about)
 

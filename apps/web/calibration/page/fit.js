@@ -94,22 +94,23 @@ async function readFilesTold() {
 function surface() {
   const text = $("o-surface").value.trim();
   if (text === "") return null;
-  if (text === "none") return [0, 0];
+  if (text === "none") return text;
   const parts = text.split(/[;,\s]+/).map(Number);
   if (parts.length === 2 && parts.every(Number.isFinite)) return parts;
   throw { message: `Surface is k1,k2, found \`${text}\``, hint: "try 0.03,0.6, or none" };
 }
 
-function fitOptions() {
+// The keys of `FitRequest` (docs/schema/requests.json); the library chooses where a value is null.
+function fitRequest() {
   const text = (id) => $(id).value.trim();
   return {
     amounts: text("o-amounts"), method: text("o-method"), reference: text("o-reference") || null,
-    surface: surface(), specular: text("o-specular") === "true",
+    surface: surface(), specular: text("o-specular"),
     below_surface: text("o-below") || null,
     smoothness: number($("o-smoothness"), "Smoothness"),
     unevenness: number($("o-unevenness"), "Unevenness"),
     exclude: names(text("o-exclude")), viewing: viewing(),
-    title: text("o-title") || null, licence: text("o-licence") || "not stated", source: text("o-source") || "not stated",
+    provenance: { title: text("o-title") || null, licence: text("o-licence") || null, source: text("o-source") || null },
   };
 }
 
@@ -118,7 +119,7 @@ async function fit() {
   await reading;
   if (!shelf.readings) return;
   const done = await work("fitting", async (stage) => {
-    const options = JSON.stringify(fitOptions());
+    const options = JSON.stringify(fitRequest());
     const begun = performance.now();
     const found = await long.call("fit", [options, JSON.stringify(viewing())], stage);
     const seconds = (performance.now() - begun) / 1000;

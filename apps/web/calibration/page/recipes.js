@@ -57,15 +57,16 @@ async function open(file) {
   say(`${told.targets.length} colours of ${file.name}`);
 }
 
+// The keys of `MatchRequest` (docs/schema/requests.json); the library chooses where a value is null.
 function options() {
   const whole = (id, label, least) => wholeNumber($(id), label, least);
   const over = $("r-over").value;
   return {
-    viewing: viewing(), thickness: number($("r-thickness"), "Thickness"), over: over === "" ? null : Number(over),
+    conditions: [{ viewing: viewing() }], thickness: number($("r-thickness"), "Thickness"), over: over === "" ? null : Number(over),
     only: names($("r-only").value), with: names($("r-with").value), without: names($("r-without").value),
-    at_most: whole("r-most", "Pigments at most", 1) ?? 4, least_share: number($("r-least"), "Least share") ?? 0.02,
+    at_most: whole("r-most", "Pigments at most", 1), least_share: number($("r-least"), "Least share"),
     whole_parts: whole("r-parts", "Whole parts", 1), tolerance: number($("r-tolerance"), "Tolerance"),
-    beyond_measured: $("r-beyond").checked, count: whole("r-count", "Recipes to show", 1) ?? 5,
+    beyond_measured: $("r-beyond").checked, count: whole("r-count", "Recipes to show", 1),
   };
 }
 

@@ -16,7 +16,7 @@ const listeners = [];
 // Calls `listener` whenever the library or the light changes.
 export const onChange = (listener) => listeners.push(listener);
 
-export const viewing = () => ({ light: $("light").value, observer: $("observer").value });
+export const viewing = () => ({ illuminant: $("light").value, observer: $("observer").value });
 
 // Shows a refusal; a cancellation is none.
 export function refuse(error) {

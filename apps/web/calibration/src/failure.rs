@@ -2,7 +2,7 @@
 
 use documents::hint::{Explain, Hint};
 
-pub(crate) use told::{Result, options, setting};
+pub(crate) use told::{Result, setting};
 
 /// For each setting that hints name, where the page has it. Other settings are options of the
 /// program.
@@ -42,7 +42,12 @@ pub(crate) fn hint_text(hint: &Hint) -> String {
     told::hint_text(hint, &CONTROLS)
 }
 
-/// Passes the error of a result to the page.
+/// A request that the page passes as JSON.
+pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
+    told::request(json, &CONTROLS)
+}
+
+/// Results whose errors reach the page.
 pub(crate) trait Told<T> {
     fn told(self) -> Result<T>;
 }

@@ -3,7 +3,6 @@
 
 mod failure;
 mod remarks;
-mod viewing;
 mod files;
 mod counts;
 mod readings;

@@ -2,14 +2,13 @@
 
 use calibrate::curation::Swatches;
 use calibrate::library::AmountKind;
-use calibrate::{Backing, FilmOver, MixtureColor, PigmentLibrary};
+use calibrate::{Backing, FilmOver, MixtureColor, PigmentLibrary, Viewing};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told, options, setting};
+use crate::failure::{Result, Told, request, setting};
 use crate::remarks::remarks;
-use crate::viewing::ViewingNames;
 
 /// A library of calibrated pigments.
 #[wasm_bindgen]
@@ -23,7 +22,7 @@ struct Mixture {
     /// A film that hides has no thickness.
     thickness: Option<f64>,
     over: f64,
-    viewing: ViewingNames,
+    viewing: Viewing,
 }
 
 #[wasm_bindgen]
@@ -47,7 +46,7 @@ impl Library {
     /// All but the curves, as JSON, with the colour of each pigment by itself under a light.
     pub fn about(&self, viewing: &str) -> Result<String> {
         let library = &self.0;
-        let viewing = options::<ViewingNames>(viewing)?.viewing()?;
+        let viewing = request::<Viewing>(viewing)?;
         let swatches = Swatches::new(library, &viewing, &[]).told()?;
         let pigments = library.pigments.iter().map(|pigment| {
             let swatch = swatches.swatches.iter().find(|swatch| swatch.pigment == pigment.name);
@@ -82,8 +81,7 @@ impl Library {
 
     /// Colour of a mixture as JSON, with the keys of `impasto mix --json`, and `remarks`.
     pub fn mix(&self, mixture: &str) -> Result<String> {
-        let Mixture { parts, thickness, over, viewing } = options(mixture)?;
-        let viewing = viewing.viewing()?;
+        let Mixture { parts, thickness, over, viewing } = request(mixture)?;
         let color = if thickness.is_none() && self.0.amounts == AmountKind::Relative {
             self.0.color(parts, &viewing)
         } else {

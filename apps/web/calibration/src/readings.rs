@@ -8,7 +8,7 @@ use serde_json::json;
 use wasm_bindgen::prelude::*;
 
 use crate::counts::{GivenFiles, References};
-use crate::failure::{Result, Told, options, setting};
+use crate::failure::{Result, Told, request, setting};
 use crate::files::files;
 use crate::remarks::remarks;
 
@@ -24,7 +24,7 @@ struct Options {
 
 impl Options {
     fn read(json: &str) -> Result<ReadingOptions> {
-        let Self { format, percent, transmittance, pigments, references } = options(json)?;
+        let Self { format, percent, transmittance, pigments, references } = request(json)?;
         let format = format.map(|name| {
             ReadingFormat::named(&name).ok_or_else(|| {
                 let known: Vec<&str> = ReadingFormat::names().collect();

@@ -7,10 +7,9 @@ use calibrate::quadrature::QuadratureTrial;
 use reports::{Subject, page_alone};
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told, options};
+use crate::failure::{Result, Told, request};
 use crate::library::Library;
 use crate::readings::Readings;
-use crate::viewing::ViewingNames;
 
 /// How many wavelengths the quadratures in a report have.
 const COUNTS: std::ops::RangeInclusive<usize> = 3..=12;
@@ -19,7 +18,7 @@ const COUNTS: std::ops::RangeInclusive<usize> = 3..=12;
 impl Library {
     /// The report on the library alone, as one HTML page. The page hears each step.
     pub fn report(&self, viewing: &str) -> Result<String> {
-        let viewing = options::<ViewingNames>(viewing)?.viewing()?;
+        let viewing = request::<Viewing>(viewing)?;
         drawn(self.subject(&viewing)?)
     }
 
@@ -31,7 +30,7 @@ impl Library {
         validate: bool,
         viewing: &str,
     ) -> Result<String> {
-        let viewing = options::<ViewingNames>(viewing)?.viewing()?;
+        let viewing = request::<Viewing>(viewing)?;
         let library = &self.0;
         let mut subject = self.subject(&viewing)?;
         let comparable = Comparable::of(&readings.0.swatches().told()?, library).told()?;

@@ -2,7 +2,7 @@
 
 use documents::hint::Explain;
 
-pub(crate) use told::{Result, options};
+pub(crate) use told::Result;
 
 /// For each setting that hints name, where the panel has it. Other settings are options of the
 /// program.
@@ -20,7 +20,12 @@ const CONTROLS: [(&str, &str); 11] = [
     ("tile", "\"Reflectance of the white\""),
 ];
 
-/// Passes the error of a result to the page.
+/// A request that the page passes as JSON.
+pub(crate) fn request<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
+    told::request(json, &CONTROLS)
+}
+
+/// Results whose errors reach the page.
 pub(crate) trait Told<T> {
     fn told(self) -> Result<T>;
 }

@@ -8,7 +8,7 @@ use serde_json::json;
 use told::stage;
 use wasm_bindgen::prelude::*;
 
-use crate::failure::{Result, Told, options};
+use crate::failure::{Result, Told, request};
 use crate::mapped::Mapped;
 use crate::options::{MapOptions, ReadingOptions};
 use crate::slices::scan_files;
@@ -38,7 +38,7 @@ impl Scan {
     /// Opens the scan of the worker's files with these names and sizes.
     #[wasm_bindgen(constructor)]
     pub fn open(names: Vec<String>, sizes: &[f64], reading: &str) -> Result<Scan> {
-        let reading: ReadingOptions = options(reading)?;
+        let reading: ReadingOptions = request(reading)?;
         let files = scan_files(names, sizes);
         let options = reading.cube_options();
         let cube = Cube::of_files(&files, &options).told()?;
@@ -59,7 +59,7 @@ impl Scan {
 
     /// Surveys and maps the scan with the library in the file `name`. Reports progress to the page.
     pub fn map(&mut self, name: &str, library: &[u8], options_json: &str) -> Result<Mapped> {
-        let chosen: MapOptions = options(options_json)?;
+        let chosen: MapOptions = request(options_json)?;
         let library = PigmentLibrary::from_json(name, &String::from_utf8_lossy(library)).told()?;
         // Frees the memory of an earlier run first.
         self.surveyed = None;

@@ -5,5 +5,5 @@
 mod refusal;
 mod stages;
 
-pub use refusal::{Controls, Result, hint_text, options, refusal, setting};
+pub use refusal::{Controls, Result, hint_text, refusal, request, setting};
 pub use stages::{begin, stage, task, task_in_percent};

@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use documents::hint::{Explain, Fault, Hint};
+use documents::request::request_from_json;
 use serde_json::json;
 use wasm_bindgen::JsValue;
 
@@ -68,11 +69,10 @@ fn told(failure: &serde_json::Value) -> JsValue {
     JsValue::from_str(&failure.to_string())
 }
 
-/// Options that the page passes as JSON.
+/// A request that the page passes as JSON.
 ///
 /// # Errors
-/// The refusal of text that is none of this type.
-pub fn options<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
-    serde_json::from_str(json)
-        .map_err(|error| setting(&format!("options of the page: {error}"), "load the page again"))
+/// The refusal of a key that does not exist, or of a value that its key does not take.
+pub fn request<T: serde::de::DeserializeOwned>(json: &str, controls: &Controls) -> Result<T> {
+    request_from_json(json).map_err(|error| refusal(&error, controls))
 }

@@ -7,6 +7,7 @@
 
 mod paints;
 mod exchange;
+mod request;
 
 use documents::{Cancelled, Task};
 use pigment::remark::Remark;
@@ -17,6 +18,7 @@ use crate::fit::{ExpectedNoise, unidentified};
 
 pub use exchange::{Information, RelativeDeviation, candidates, optimal, usual, usual_count};
 pub use paints::{MeasurementForm, PaintSet, PlanError, Purpose, SwatchRecipe};
+pub use request::PlanRequest;
 
 /// Expected error of an instrument, as a standard deviation of reflectance.
 const INSTRUMENT_ERROR: f64 = 0.002;
@@ -24,32 +26,6 @@ const INSTRUMENT_ERROR: f64 = 0.002;
 const MIXING_ERROR: f64 = 0.01;
 /// Lower limit of that error, for a prior that reproduces its samples almost exactly (chosen by eye).
 const LEAST_MIXING_ERROR: f64 = 1e-4;
-
-/// Options of [`plan`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlanOptions {
-    /// Name of a black for shades. Default: no shades.
-    pub black: Option<String>,
-    /// Library of the same or similar paint, by which the swatches are chosen. Names of pigments may then be
-    /// abbreviated to their start. Default: none, which gives the usual design.
-    pub prior: Option<PigmentLibrary>,
-    /// Number of swatches. Default: enough for each paint's masstone, two tints of each paint but the white
-    /// and, for each colour, a shade (if there is a black) and a mixture with a neighbour.
-    pub swatches: Option<usize>,
-    /// Mass of paint in one swatch, in grams. Default: 10.
-    pub grams: f64,
-    /// Step of the balance in grams. No part is smaller than fifty steps. Default: 0.01.
-    pub balance: f64,
-    /// Expected noise of a swatch's reflectance, used with a prior. Default: 0.002 for the instrument; for
-    /// weighing and mixing, the rms error of the prior's own fit, or 0.01 if the prior has no evidence.
-    pub noise: Option<ExpectedNoise>,
-}
-
-impl Default for PlanOptions {
-    fn default() -> Self {
-        Self { black: None, prior: None, swatches: None, grams: 10.0, balance: 0.01, noise: None }
-    }
-}
 
 /// One swatch of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,11 +68,11 @@ pub struct Plan {
 /// pigment.
 ///
 /// ```
-/// use calibrate::plan::{MeasurementForm, PlanOptions};
+/// use calibrate::plan::{MeasurementForm, PlanRequest};
 /// use documents::Task;
 ///
-/// let options = PlanOptions::default();
-/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &options, &Task::default())?;
+/// let request = PlanRequest::default();
+/// let plan = calibrate::plan(&["Cobalt Blue"], "Titanium White", &request, &Task::default())?;
 /// assert_eq!(plan.swatches[0].name, "01 Titanium White masstone");
 /// let csv = plan.form(&MeasurementForm::default());
 /// assert!(csv.starts_with(b"sample,film,backing,replicate,Titanium White,Cobalt Blue,400"));
@@ -110,7 +86,7 @@ pub struct Plan {
 pub fn plan<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
-    options: &PlanOptions,
+    options: &PlanRequest,
     task: &Task,
 ) -> Result<Plan, PlanError> {
     if let Some(noise) = options.noise.filter(|noise| !noise.is_possible()) {
@@ -168,7 +144,7 @@ impl Plan {
 fn paint_set<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
-    options: &PlanOptions,
+    options: &PlanRequest,
 ) -> Result<PaintSet, PlanError> {
     let full = |name: &str| -> Result<String, PlanError> {
         Ok(match &options.prior {

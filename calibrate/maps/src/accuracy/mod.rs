@@ -10,7 +10,7 @@
 mod trials;
 
 use calibrate::observation::BelowSurface;
-use calibrate::{FitOptions, FittingError, LeftOut, PreparedFit, Readings, Residuals};
+use calibrate::{FitRequest, FittingError, LeftOut, PreparedFit, Readings, Residuals};
 use documents::Task;
 use pigment::library::PigmentLibrary;
 
@@ -288,7 +288,7 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     let below_surface = Some(BelowSurface::Floor);
     PreparedFit::new(
         readings,
-        &FitOptions { below_surface, ..FitOptions::default() },
+        &FitRequest { below_surface, ..FitRequest::default() },
         &Task::default(),
     )
 }

@@ -10,6 +10,8 @@
 
 use documents::Task;
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::optics::absorption_over_scattering;
 use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
@@ -42,44 +44,47 @@ pub struct Batch {
     pub reflectance: Spectrum<Reflectance>,
 }
 
-/// Options of [`PigmentLibrary::corrections_for`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct CorrectionOptions {
-    /// Measure of the difference from the target. Default: CIEDE2000.
+/// Options of [`PigmentLibrary::corrections_for`], which every program fills in its own way. Comments of the
+/// fields are the help texts of the command line and the descriptions of the schema.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CorrectRequest {
+    /// Match the color under the lights, or the spectrum of a measured standard
+    #[serde(rename = "by")]
     pub metric: Metric,
-    /// Lights under which the paint is judged. Default: D65 for the CIE 1931 observer.
-    pub conditions: Vec<ViewingCondition>,
-    /// Names of the pigments that may be added. Empty: all pigments with known S.
-    pub only: Vec<String>,
-    /// Names of pigments that must not be added.
-    pub without: Vec<String>,
-    /// Most pigments to add, 1 to 7. Default: 3.
-    pub at_most: usize,
-    /// Grams of pigments in stock, by name. Pigments that are not named have no limit.
+    /// Grams of a pigment in stock (may be repeated); others have no limit
     pub stock: Vec<(String, f64)>,
-    /// Least grams that can be weighed, above 0. Default: a thousandth of the batch.
+    /// Add only these pigments (may be repeated) [default: all whose S is known]
+    pub only: Vec<String>,
+    /// A pigment that is not added (may be repeated)
+    pub without: Vec<String>,
+    /// Maximum number of pigments to add, 1 to 7
+    pub at_most: usize,
+    /// Least grams of a pigment that can be weighed [default: a thousandth of the batch]
     pub least_grams: Option<f64>,
-    /// Most grams to add in all, above 0. Default: as much as the batch.
+    /// Most grams to add in all [default: as much as the batch]
     pub most_grams: Option<f64>,
-    /// Difference from the target that is near enough, above 0, in the unit of the metric. Default: 0.5.
+    /// Difference from the target that is near enough, in CIEDE2000 or, by spectrum, % of reflectance
     pub tolerance: f64,
-    /// Number of corrections to return, 1 and up. Default: 5.
+    /// Number of corrections to show
     pub count: usize,
+    /// Lights under which the paint is judged, with their weights
+    pub conditions: Vec<ViewingCondition>,
 }
 
-impl Default for CorrectionOptions {
+impl Default for CorrectRequest {
     fn default() -> Self {
         Self {
             metric: Metric::default(),
-            conditions: vec![ViewingCondition::default()],
+            stock: Vec::new(),
             only: Vec::new(),
             without: Vec::new(),
             at_most: 3,
-            stock: Vec::new(),
             least_grams: None,
             most_grams: None,
             tolerance: USUAL_CORRECTION,
             count: 5,
+            conditions: vec![ViewingCondition::default()],
         }
     }
 }
@@ -135,7 +140,7 @@ impl PigmentLibrary {
     /// first.
     ///
     /// ```
-    /// use pigment::matching::{Batch, CorrectionOptions};
+    /// use pigment::matching::{Batch, CorrectRequest};
     /// use pigment::{ColorTarget, PigmentLibrary, Viewing};
     ///
     /// let oils = PigmentLibrary::van_gogh_oils();
@@ -147,7 +152,7 @@ impl PigmentLibrary {
     ///     grams: 500.0,
     ///     reflectance: paint(9.0)?.reflectance,
     /// };
-    /// let found = oils.corrections_for(&standard, &batch, &CorrectionOptions::default())?;
+    /// let found = oils.corrections_for(&standard, &batch, &CorrectRequest::default())?;
     /// let least = &found.corrections[0];
     /// assert!(found.reaches && least.distance <= 0.5 && least.grams < 25.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -159,7 +164,7 @@ impl PigmentLibrary {
         &self,
         target: &ColorTarget,
         batch: &Batch,
-        options: &CorrectionOptions,
+        options: &CorrectRequest,
     ) -> Result<Corrections, MatchError> {
         options.check(self, batch)?;
         let mut remarks: Vec<Remark> =
@@ -258,7 +263,7 @@ fn differences(found: &[Lab], wanted: &[Lab]) -> Vec<f64> {
     wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
 }
 
-impl CorrectionOptions {
+impl CorrectRequest {
     fn check(&self, library: &PigmentLibrary, batch: &Batch) -> Result<(), MatchError> {
         if library.amounts == AmountKind::Absolute {
             return Err(MatchError::AbsoluteBatch);

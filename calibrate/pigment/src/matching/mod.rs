@@ -15,9 +15,9 @@ mod recipe_search;
 mod correction;
 
 pub use super::least_squares::{Bounds, Cost, MAX_PIGMENTS, UNKNOWNS, descend_within_bounds};
-pub use correction::{Batch, Correction, CorrectionOptions, Corrections, USUAL_CORRECTION};
+pub use correction::{Batch, CorrectRequest, Correction, Corrections, USUAL_CORRECTION};
 pub use options::{
-    MatchOptions, PriceError, PriceList, RequiredName, ToleranceOrigin, parse_price,
+    MatchOptions, PriceError, PriceList, RequiredName, ToleranceOrigin, parse_price, parse_share,
 };
 pub use ranking::{AmountLimit, RecipeMatch, few_parts, recipes};
 pub use recipe_search::{RecipeMatches, RecipeSearch};

@@ -5,6 +5,11 @@ use std::path::Path;
 
 use documents::file::{FileError, read};
 use documents::hint::Explain;
+use documents::request::{RequestError, from_text, refused};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::ser::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::json;
 use spectra::csv_table::RowNumbers;
 
 use super::request::{
@@ -12,18 +17,42 @@ use super::request::{
     USUAL_TOLERANCE,
 };
 use super::target::{Metric, ViewingCondition};
-use crate::color::Backing;
+use crate::color::{Backing, BackingError, THICKEST};
 use crate::evaluate::{Remark, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// A pigment that every recipe must contain, by name.
-#[derive(Debug, Clone, PartialEq)]
+/// A pigment that every recipe must contain, by name. JSON may hold the name alone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "RequiredForm")]
 pub struct RequiredName {
     /// Name of the pigment.
     pub name: String,
     /// Fixed share of the whole, above 0 and up to 1. `None` if the search chooses it.
     pub share: Option<f64>,
+}
+
+/// A required pigment in JSON.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum RequiredForm {
+    /// Its name; the search chooses the share.
+    Name(String),
+    /// Its name and share.
+    Shared {
+        name: String,
+        #[serde(default)]
+        share: Option<f64>,
+    },
+}
+
+impl From<RequiredForm> for RequiredName {
+    fn from(form: RequiredForm) -> Self {
+        match form {
+            RequiredForm::Name(name) => Self { name, share: None },
+            RequiredForm::Shared { name, share } => Self { name, share },
+        }
+    }
 }
 
 /// Origin of the tolerance of a search.
@@ -49,7 +78,8 @@ impl ToleranceOrigin {
     }
 }
 
-/// Options of [`PigmentLibrary::recipes_for`].
+/// Options of [`PigmentLibrary::recipes_for`], which every program fills in its own way. Comments of the fields
+/// are the help texts of the command line and the descriptions of the schema.
 ///
 /// ```
 /// use pigment::MatchOptions;
@@ -57,59 +87,74 @@ impl ToleranceOrigin {
 /// let options = MatchOptions { at_most: 3, whole_parts: Some(12), ..MatchOptions::default() };
 /// assert_eq!(options.count, 5);
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(rename = "MatchRequest")]
 pub struct MatchOptions {
-    /// Measure of the difference from the target. Default: CIEDE2000.
+    /// Match the color under the lights, or the spectrum of a measured target
+    #[serde(rename = "by")]
     pub metric: Metric,
-    /// Lights under which recipes are judged, each once. When matching by spectrum, lights under which
-    /// differences are reported. Default: D65 for the CIE 1931 observer.
-    pub conditions: Vec<ViewingCondition>,
-    /// Thickness of the film. By default it hides. For absolute amounts the search chooses a thickness
-    /// from nearly clear to nearly hiding.
-    pub thickness: Option<Thickness>,
-    /// Bare ground under a film that does not hide. Default: a perfect white.
-    pub over: Option<Backing>,
-    /// Names of the pigments that may take part. Empty: all pigments with known S.
+    /// Use only these pigments (may be repeated) [default: all whose S is known]
     pub only: Vec<String>,
-    /// Pigments that must take part.
+    /// A pigment that every recipe must contain, with a share if that is fixed (may be repeated)
     pub with: Vec<RequiredName>,
-    /// Names of pigments that must not take part.
+    /// A pigment that no recipe may contain (may be repeated)
     pub without: Vec<String>,
-    /// Most pigments of one recipe, 1 to 8. Default: 4.
+    /// Maximum number of pigments of a recipe, 1 to 8
     pub at_most: usize,
-    /// Least share of a pigment that takes part, 0 to below 1. Default: 1/50.
+    /// Minimum share of each pigment of a recipe, such as 0.02 or 1/50, about the least that a
+    /// palette knife can cut off
+    #[serde(deserialize_with = "read_share")]
+    #[schemars(schema_with = "text_or_number")]
     pub least_share: f64,
-    /// Most parts of a recipe in whole parts, 1 to 1000. Default: shares of any size.
+    /// Give recipes in whole parts whose sum is at most N
     pub whole_parts: Option<u32>,
-    /// Prices of pigments. If there are any, each pigment that may take part needs one.
+    /// Total mass of the mixture in grams; amounts are then by mass
+    pub grams: Option<f64>,
+    /// Price of one gram (or one unit of absolute amounts), NAME=PRICE, in any currency (may be
+    /// repeated), or a CSV with the columns pigment and price
+    #[schemars(with = "Vec<String>")]
     pub prices: PriceList,
-    /// Difference within which recipes count as equally near, 0 to 1000, in the unit of the metric. Default:
-    /// the mean error of the library's fit ([`PigmentLibrary::mean_error`]) in CIEDE2000, or 0.05 if it
-    /// records none. By spectrum 0.2 % of reflectance.
+    /// Difference within which recipes count as equally near, in CIEDE2000 [default: the mean error of
+    /// the library's fit, or 0.05 if it records none]; by spectrum in % of reflectance [default: 0.2]
     pub tolerance: Option<f64>,
-    /// Whether absolute amounts may lie outside the range that was measured of each pigment. Default: no.
+    /// Allow absolute amounts outside the range that was measured of each pigment
     pub beyond_measured: bool,
-    /// Number of recipes to return, 1 and up. Default: 5.
+    /// Number of recipes to show for each target
     pub count: usize,
+    /// Thickness of the film, or LEAST:MOST to let the search choose; 1 is where the reference white
+    /// has S d = 1 (for absolute amounts, all amounts together) [default: hiding; for absolute
+    /// amounts from nearly clear to nearly hiding]
+    #[serde(serialize_with = "write_thickness", deserialize_with = "read_thickness")]
+    #[schemars(schema_with = "text_or_numbers")]
+    pub thickness: Option<Thickness>,
+    /// Measured reflectance of the ground, as in `mix` [default: white]
+    #[serde(serialize_with = "write_ground", deserialize_with = "read_ground")]
+    #[schemars(schema_with = "text_or_number")]
+    pub over: Option<Backing>,
+    /// Lights under which recipes are judged, each once, with their weights. When matching by spectrum they
+    /// only tell the differences.
+    pub conditions: Vec<ViewingCondition>,
 }
 
 impl Default for MatchOptions {
     fn default() -> Self {
         Self {
             metric: Metric::default(),
-            conditions: vec![ViewingCondition::default()],
-            thickness: None,
-            over: None,
             only: Vec::new(),
             with: Vec::new(),
             without: Vec::new(),
             at_most: 4,
             least_share: 0.02,
             whole_parts: None,
+            grams: None,
             prices: PriceList::default(),
             tolerance: None,
             beyond_measured: false,
             count: 5,
+            thickness: None,
+            over: None,
+            conditions: vec![ViewingCondition::default()],
         }
     }
 }
@@ -250,7 +295,90 @@ pub(super) fn find_all(
     names.iter().map(|name| Ok(library.find(name)?)).collect()
 }
 
-/// Prices of one unit of amount (for example a gram) of pigments by name, in any currency.
+/// Reads a share from 0 to 1, written as a number or as a fraction such as 1/50.
+///
+/// # Errors
+/// [`RequestError`] for any other text. Its hint is for the key `setting`.
+pub fn parse_share(text: &str, setting: &str) -> Result<f64, RequestError> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = match text.split_once('/') {
+        Some((numerator, denominator)) => {
+            number(numerator).zip(number(denominator)).map(|(n, d)| n / d)
+        }
+        None => number(text),
+    };
+    value.filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| {
+        let example = if setting == "with" { "NAME=" } else { "" };
+        RequestError::value(
+            format!("takes a share from 0 to 1, found `{text}`"),
+            format!("try [{setting}={example}0.25] or a fraction such as 1/4"),
+        )
+    })
+}
+
+fn read_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    from_text(deserializer, |text| parse_share(text, "least"))
+}
+
+fn write_thickness<S: Serializer>(
+    thickness: &Option<Thickness>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match thickness {
+        None => serializer.serialize_none(),
+        Some(Thickness::Fixed(thickness)) => serializer.serialize_f64(*thickness),
+        Some(Thickness::Between(least, most)) => [least, most].serialize(serializer),
+    }
+}
+
+fn read_thickness<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Thickness>, D::Error> {
+    from_text(deserializer, |text| {
+        let number = |text: &str| text.parse::<f64>().ok().filter(|t| *t > 0.0 && *t <= THICKEST);
+        let thickness = match text.split_once([':', ',']) {
+            Some((least, most)) => number(least)
+                .zip(number(most))
+                .filter(|(least, most)| least < most)
+                .map(|(least, most)| Thickness::Between(least, most)),
+            None => number(text).map(Thickness::Fixed),
+        };
+        let refused = || {
+            RequestError::value(
+                format!("takes T or LEAST:MOST, above 0 and up to 1e9, found `{text}`"),
+                "try [thickness=1] or [thickness=0.2:3]",
+            )
+        };
+        thickness.ok_or_else(refused).map(Some)
+    })
+}
+
+fn write_ground<S: Serializer>(over: &Option<Backing>, serializer: S) -> Result<S::Ok, S::Error> {
+    match over {
+        None => serializer.serialize_none(),
+        Some(Backing::Even(reflectance)) => serializer.serialize_f64(*reflectance),
+        Some(Backing::Measured(_)) => Err(S::Error::custom("a measured ground has no text")),
+    }
+}
+
+fn read_ground<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Backing>, D::Error> {
+    from_text(deserializer, |text| {
+        text.parse().map(Some).map_err(|error: BackingError| RequestError::of(&error))
+    })
+}
+
+fn text_or_number(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }] })
+}
+
+fn text_or_numbers(_: &mut SchemaGenerator) -> Schema {
+    let two =
+        json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+    json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }, two] })
+}
+
+/// Prices of one unit of amount (for example a gram) of pigments by name, in any currency. JSON holds texts
+/// `NAME=PRICE`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PriceList {
     entries: Vec<Entry>,
@@ -264,7 +392,33 @@ struct Entry {
     place: Option<String>,
 }
 
+impl Serialize for PriceList {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let text = |entry: &Entry| format!("{}={}", entry.pigment, entry.price);
+        serializer.collect_seq(self.entries.iter().map(text))
+    }
+}
+
+impl<'de> Deserialize<'de> for PriceList {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut prices = Self::default();
+        for text in Vec::<String>::deserialize(deserializer)? {
+            prices.add_text(&text).map_err(|error| refused(RequestError::of(&error)))?;
+        }
+        Ok(prices)
+    }
+}
+
 impl PriceList {
+    /// Adds a price that stands as `NAME=PRICE`.
+    ///
+    /// # Errors
+    /// [`PriceError`] for any other text.
+    pub fn add_text(&mut self, text: &str) -> Result<(), PriceError> {
+        let (name, price) = text.rsplit_once('=').unwrap_or((text, ""));
+        self.set(name, parse_price(price, text)?)
+    }
+
     /// Whether the list holds no price.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -3,6 +3,8 @@
 
 use std::str::FromStr;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use spectra::color::{ColorCode, ColorCodeError, Lab, Rgb};
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
@@ -223,7 +225,8 @@ fn visual_weights(
 }
 
 /// A light and an observer under which a recipe is judged.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct ViewingCondition {
     /// Light and observer.
     pub viewing: Viewing,
@@ -240,7 +243,8 @@ impl Default for ViewingCondition {
 }
 
 /// Measure of the difference between a recipe and its target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "MetricName", into = "MetricName")]
 pub enum Metric {
     /// CIEDE2000, which is valid for differences up to about 5.
     #[default]
@@ -261,6 +265,42 @@ pub enum SpectrumWeights {
     Even,
     /// By the sum of its weights for X, Y and Z under the lights.
     Observer,
+}
+
+/// A measure as people write it.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum MetricName {
+    /// CIEDE2000 under the lights
+    Color,
+    /// CIE 1976 under the lights
+    Cie1976,
+    /// Root mean square of the differences of reflectance, each wavelength equally
+    Spectrum,
+    /// Root mean square too, each wavelength as much as the observer sees of it under the lights
+    WeightedSpectrum,
+}
+
+impl From<MetricName> for Metric {
+    fn from(name: MetricName) -> Self {
+        match name {
+            MetricName::Color => Self::Ciede2000,
+            MetricName::Cie1976 => Self::Cie1976,
+            MetricName::Spectrum => Self::Spectrum(SpectrumWeights::Even),
+            MetricName::WeightedSpectrum => Self::Spectrum(SpectrumWeights::Observer),
+        }
+    }
+}
+
+impl From<Metric> for MetricName {
+    fn from(metric: Metric) -> Self {
+        match metric {
+            Metric::Ciede2000 => Self::Color,
+            Metric::Cie1976 => Self::Cie1976,
+            Metric::Spectrum(SpectrumWeights::Even) => Self::Spectrum,
+            Metric::Spectrum(SpectrumWeights::Observer) => Self::WeightedSpectrum,
+        }
+    }
 }
 
 impl Metric {

@@ -17,7 +17,9 @@ mod rule;
 mod effective;
 mod fitted;
 mod effective_fit;
+mod request;
 
 pub use effective::{EffectiveQuadrature, FilmSet};
 pub use fitted::{QuadratureMethod, QuadratureTrial};
+pub use request::{QuadratureChoice, QuadratureOutcome, QuadratureRequest};
 pub use rule::{GaussRule, MixtureSet, Quadrature, QuadratureError, QuadratureFailure};

@@ -208,6 +208,14 @@ pub enum QuadratureFailure {
         /// Number of nodes that was requested.
         count: usize,
     },
+    /// A method fits wavelengths to a library, and there is none.
+    #[error("the method `{method}` needs a pigment library")]
+    #[hint("name the [library], or choose [method=moments]")]
+    #[fault(Setting)]
+    NoLibrary {
+        /// Name of the method.
+        method: &'static str,
+    },
     /// The fit was asked to end before its time.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

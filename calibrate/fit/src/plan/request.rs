@@ -1,0 +1,78 @@
+//! Which swatches to plan: the options of a plan, which every program fills in its own way.
+//!
+//! Comments of the fields are the help texts of the command line and the descriptions of the schema.
+
+use documents::request::{RequestError, from_text};
+use pigment::PigmentLibrary;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::fit::ExpectedNoise;
+
+/// Options of [`plan`](super::plan). [`Self::run`] plans.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlanRequest {
+    /// A black, for shades
+    pub black: Option<String>,
+    /// Number of swatches [default: masstones, two tints each, a shade each with a black, and one
+    /// cross each]
+    pub swatches: Option<usize>,
+    /// Grams of paint per swatch
+    pub grams: f64,
+    /// Smallest step of the balance in grams; no part is smaller than fifty steps, so that each is
+    /// weighed to 1 %
+    pub balance: f64,
+    /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: that of the
+    /// instrument, and that of weighing, mixing and film, which is perceptually uniform [default:
+    /// 0.002 and the residual of the prior's own fit, else 0.01]
+    #[serde(serialize_with = "write_noise", deserialize_with = "read_noise")]
+    #[schemars(schema_with = "noise_schema")]
+    pub noise: Option<ExpectedNoise>,
+    /// Library of the same or similar paint, by which the swatches are chosen. Names of pigments may then
+    /// be abbreviated to their start. Without one the design is the usual one.
+    #[serde(skip)]
+    pub prior: Option<PigmentLibrary>,
+}
+
+impl Default for PlanRequest {
+    fn default() -> Self {
+        Self { black: None, swatches: None, grams: 10.0, balance: 0.01, noise: None, prior: None }
+    }
+}
+
+fn write_noise<S: Serializer>(
+    noise: &Option<ExpectedNoise>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    noise.map(|noise| [noise.constant, noise.even]).serialize(serializer)
+}
+
+fn read_noise<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<ExpectedNoise>, D::Error> {
+    from_text(deserializer, |text| {
+        let number = |part: &str| part.trim().parse::<f64>().ok();
+        let numbers = text.split_once(',').and_then(|(first, second)| {
+            let constant = number(first)?;
+            let even = number(second)?;
+            Some(ExpectedNoise { constant, even })
+        });
+        let noise = numbers.filter(ExpectedNoise::is_possible).ok_or_else(|| {
+            let wanted = "each 0 to 1 and one above 0";
+            let reason = format!("takes CONSTANT,EVEN, {wanted}, found `{text}`");
+            RequestError::value(reason, "try [noise=0.002,0.01]")
+        });
+        noise.map(Some)
+    })
+}
+
+fn noise_schema(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "anyOf": [
+            { "type": "string" },
+            { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 },
+            { "type": "null" },
+        ]
+    })
+}

@@ -1,0 +1,69 @@
+//! Requests: the schema of all of them is docs/schema/requests.json, and their keys are options.
+
+use calibrate::matching::{CorrectRequest, MatchOptions};
+use calibrate::plan::PlanRequest;
+use calibrate::quadrature::QuadratureRequest;
+use calibrate::{FitRequest, ValidationRequest};
+use schemars::SchemaGenerator;
+use schemars::generate::SchemaSettings;
+use serde_json::json;
+use suite::program::{impasto, repository};
+
+/// The schema of every request that programs pass.
+fn schema() -> String {
+    let mut generator: SchemaGenerator = SchemaSettings::draft2020_12().into_generator();
+    generator.subschema_for::<FitRequest>();
+    generator.subschema_for::<ValidationRequest>();
+    generator.subschema_for::<PlanRequest>();
+    generator.subschema_for::<MatchOptions>();
+    generator.subschema_for::<CorrectRequest>();
+    generator.subschema_for::<QuadratureRequest>();
+    let schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Requests of impasto",
+        "$defs": generator.take_definitions(true),
+    });
+    format!("{schema:#}\n")
+}
+
+#[test]
+fn schema_of_requests_is_committed() {
+    let path = repository("docs/schema/requests.json");
+    let schema = schema();
+    if std::env::var_os("IMPASTO_ACCEPT_SCHEMA").is_some_and(|value| value == "1") {
+        std::fs::write(&path, &schema).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap();
+    let mut lines = committed.lines().zip(schema.lines()).enumerate();
+    let first = lines.find(|(_, (committed, now))| committed != now);
+    assert!(
+        committed == schema,
+        "docs/schema/requests.json differs: {first:?}\nif this is meant, run again with IMPASTO_ACCEPT_SCHEMA=1"
+    );
+}
+
+#[test]
+fn a_value_that_an_option_does_not_take_is_refused_with_a_way_out() {
+    let oils = repository("measurements/van-gogh-oils.csv");
+    for (option, value, message, hint) in [
+        ("--smoothness", "-1", "takes a word or a number not below 0, found `-1`", "auto"),
+        ("--unevenness", "much", "takes a word or a number not below 0, found `much`", "auto"),
+        ("--saunderson", "0.03", "takes K1,K2 or none, found `0.03`", "0.03,0.6"),
+    ] {
+        let run = impasto(&["fit", &oils, option, value]);
+        let wanted = format!("error: {option} {message}\nhint: try {option} {hint}\n");
+        assert_eq!((run.status, run.err.as_str()), (2, wanted.as_str()), "{option} {value}");
+    }
+}
+
+#[test]
+fn help_names_other_keys_by_their_options() {
+    let run = impasto(&["fit", "--help"]);
+    assert!(run.out.contains("without --saunderson, k1 stays 0.03"), "{}", run.out);
+    assert!(run.out.contains("[possible values: included, excluded]"), "{}", run.out);
+    assert!(
+        run.out.contains("- refined:  Robust nonlinear refinement of `weighted`"),
+        "{}",
+        run.out
+    );
+}
