@@ -121,6 +121,21 @@ pub fn plan<N: AsRef<str>>(
     Ok(Plan { paints, swatches, forecast, remarks })
 }
 
+impl PlanRequest {
+    /// Plans as [`plan`] does.
+    ///
+    /// # Errors
+    /// [`PlanError`] as for [`plan`].
+    pub fn run<N: AsRef<str>>(
+        &self,
+        pigments: &[N],
+        white: &str,
+        task: &Task,
+    ) -> Result<Plan, PlanError> {
+        plan(pigments, white, self, task)
+    }
+}
+
 impl Plan {
     /// Mass of each paint that all swatches need together, in grams, in the order of the paints' names.
     #[must_use]
