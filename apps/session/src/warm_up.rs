@@ -4,7 +4,7 @@
 //! these strokes, the first second of the first stroke is painted by slow functions.
 
 use paint::brush::HeadShape;
-use paint::canvas::Canvas;
+use paint::document::Canvas;
 use paint::ground::GroundSpec;
 use paint::pose::Sample;
 use paint::session::{PaintingSession, SessionError};

@@ -73,8 +73,3 @@ pub use painting::OpenStroke;
 pub use pose::Sample;
 pub use session::PaintingSession;
 pub use strokes::{BrushSpec, StrokeScript};
-
-/// The modules `canvas`, `palette` and `dry_layer` became parts of others. Their paths stay.
-pub use document as canvas;
-pub use document as palette;
-pub use layer as dry_layer;

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use graphics::tile::Rect;
 
 use super::brush::{Head, Relief};
@@ -77,19 +77,22 @@ pub const MOST_SUBSTEPS: u64 = 10_000_000;
 const FARTHEST: f64 = 1e9;
 
 /// Why samples cannot be painted. Samples are counted from 0, the first of the stroke.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum StrokeError {
     /// The stroke has no sample.
     #[error("a stroke without samples")]
+    #[hint("give at least one sample")]
     Empty,
     /// The width of a cell is not above 0.
     #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    #[hint("give the width of a cell in mm, such as 0.1")]
     Cell {
         /// Width of a cell in mm.
         cell_mm: f64,
     },
     /// A number is infinite or NaN.
     #[error("sample {sample}: {field} is no number: `{found}`")]
+    #[hint("leave the sample out")]
     NoNumber {
         /// Index of the sample.
         sample: usize,
@@ -100,6 +103,9 @@ pub enum StrokeError {
     },
     /// A number is out of range.
     #[error("sample {sample}: {field} is from {lowest} to {highest}: `{found}`")]
+    #[hint(if *field == "pressure", "divide by the pen's highest pressure")]
+    #[hint(if field.ends_with("_mm"), "places are in mm from the canvas's corner")]
+    #[hint("tilts are degrees from upright")]
     Range {
         /// Index of the sample.
         sample: usize,
@@ -114,6 +120,7 @@ pub enum StrokeError {
     },
     /// A sample is earlier than the one before it.
     #[error("sample {sample}: seconds fall, from {before} to `{found}`")]
+    #[hint("sort the samples by time")]
     Backwards {
         /// Index of the sample.
         sample: usize,
@@ -124,32 +131,15 @@ pub enum StrokeError {
     },
     /// The stroke needs more than [`MOST_SUBSTEPS`] sub-steps.
     #[error("the stroke takes up to {substeps:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
+    #[hint("places are in mm; cut the stroke in pieces")]
     TooLong {
         /// Upper bound of the sub-steps that the stroke would take.
         substeps: f64,
     },
     /// A sample came after the brush was lifted.
     #[error("the brush was lifted, so the stroke takes no more samples")]
+    #[hint("begin another stroke")]
     Lifted,
-}
-
-impl Explain for StrokeError {
-    fn hint(&self) -> Option<Hint> {
-        let hint = match self {
-            Self::Empty => "give at least one sample",
-            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
-            Self::NoNumber { .. } => "leave the sample out",
-            Self::Range { field: "pressure", .. } => "divide by the pen's highest pressure",
-            Self::Range { field: "x_mm" | "y_mm", .. } => {
-                "places are in mm from the canvas's corner"
-            }
-            Self::Range { .. } => "tilts are degrees from upright",
-            Self::Backwards { .. } => "sort the samples by time",
-            Self::TooLong { .. } => "places are in mm; cut the stroke in pieces",
-            Self::Lifted => "begin another stroke",
-        };
-        Some(Hint::new(hint))
-    }
 }
 
 /// Maximum change of pressure in a sub-step, 0 to 1 (chosen by eye).

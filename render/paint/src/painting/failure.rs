@@ -5,17 +5,18 @@ use crate::layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
 use documents::counted;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::gpu::DeviceError;
 
 /// Why a painting refuses an action. Nothing is changed then, unless the device failed.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PaintingError {
     /// The graphics device failed.
     #[error(transparent)]
     Engine(#[from] DeviceError),
     /// The light is unknown or has no wavelengths in common with the library.
     #[error(transparent)]
+    #[fault(Input)]
     Light(#[from] PaintLightError),
     /// A brush head cannot have this size.
     #[error(transparent)]
@@ -51,6 +52,7 @@ pub enum PaintingError {
     },
     /// A place lies beside the canvas.
     #[error("there is no canvas {x_mm} mm from its left and `{y_mm}` mm from its upper edge")]
+    #[hint("places are in mm from the canvas's corner")]
     OffCanvas {
         /// Distance from the left edge in mm.
         x_mm: f64,
@@ -59,6 +61,7 @@ pub enum PaintingError {
     },
     /// The paint at a place is too high for a heap on it.
     #[error("the paint {x_mm} mm from the left and `{y_mm}` mm from the top is too high for more")]
+    #[hint("squeeze beside it, or spread it first")]
     NoRoom {
         /// Distance from the left edge in mm.
         x_mm: f64,
@@ -89,6 +92,7 @@ pub enum PaintingError {
     },
     /// A brush cannot hold that much more paint.
     #[error("the brush holds {most_mm:.2} mm more at most, found `{amount_mm}`")]
+    #[hint("wipe or wash the brush first")]
     Overloaded {
         /// Height of the paint to load, in mm.
         amount_mm: f64,
@@ -97,12 +101,14 @@ pub enum PaintingError {
     },
     /// A pigment cannot leave the palette while it is wet on the canvas or on a brush.
     #[error("{pigment} is still wet, so it cannot leave the palette")]
+    #[hint("dry the painting and wash the brushes first")]
     StillWet {
         /// Name of the pigment.
         pigment: String,
     },
     /// A layer would need more pigments than it has slots.
     #[error("a layer holds 8 pigments, found `{found}`")]
+    #[hint("dry the painting, then go on with another palette")]
     TooManyPigments {
         /// Number of pigments.
         found: usize,
@@ -115,18 +121,21 @@ pub enum PaintingError {
     },
     /// The layer contains the pigment already.
     #[error("the layer has {pigment} already")]
+    #[hint("a layer holds each pigment once: choose one that it lacks")]
     AlreadyThere {
         /// Name of the pigment.
         pigment: String,
     },
     /// The pigment is not on the palette now.
     #[error("{pigment} is not on the palette now")]
+    #[hint("put it there with a palette action, or undo less")]
     OffPalette {
         /// Name of the pigment.
         pigment: String,
     },
     /// The wet layer has no opacity.
     #[error("wet paint has no opacity of its own")]
+    #[hint("dry it first")]
     WetOpacity,
     /// An opacity lies outside 0 to 1000.
     #[error("an opacity is 0 to 1000, found `{value}`")]
@@ -136,6 +145,7 @@ pub enum PaintingError {
     },
     /// Ground and dry paint are as high as the arithmetic allows.
     #[error("the paint is piled as high as it can be, 256 cell widths, at column {x}, row `{y}`")]
+    #[hint("paint thinner, or with larger cells")]
     TooHigh {
         /// Column of the cell, from 0.
         x: usize,
@@ -144,12 +154,14 @@ pub enum PaintingError {
     },
     /// Only dry layers can be named, hidden, moved and merged.
     #[error("wet paint lies on top of all layers and has no {what} of its own")]
+    #[hint("dry it first")]
     WetLayer {
         /// Name of the property.
         what: &'static str,
     },
     /// A layer cannot have this name.
     #[error("a layer has {wanted}")]
+    #[hint("shorten the name")]
     LayerName {
         /// Description of the names allowed.
         wanted: &'static str,
@@ -159,12 +171,15 @@ pub enum PaintingError {
     SameLayer,
     /// The lowest dry layer is to be merged with the one below.
     #[error("there is no dry layer below this one")]
+    #[hint("name the other layer with `with`")]
     NothingBelow,
     /// Of two layers to merge one is hidden.
     #[error("one of the two layers is hidden")]
+    #[hint("show both, or hide both")]
     UnlikeVisibility,
     /// A film between two layers to merge overlaps both.
     #[error("`{label}` lies between the two layers and overlaps both")]
+    #[hint("move that layer above or below both, or merge it as well")]
     FilmBetween {
         /// Name of that layer.
         label: String,
@@ -174,6 +189,7 @@ pub enum PaintingError {
         "a layer holds 8 pigments, these two have {}: {}",
         pigments.len(), pigments.join(", ")
     )]
+    #[hint("keep them apart, or exchange a pigment of one layer for one of the other's")]
     MergedPigments {
         /// Names of the pigments of both.
         pigments: Vec<String>,
@@ -201,6 +217,7 @@ pub enum PaintingError {
     #[error(
         "merging these layers would move a colour by {delta_e:.2} CIEDE2000 (at column {x}, row {y})"
     )]
+    #[hint("keep them apart; layers are unlimited")]
     MergeShows {
         /// Largest colour difference in CIEDE2000.
         delta_e: f64,
@@ -209,58 +226,6 @@ pub enum PaintingError {
         /// Row of that cell, from 0.
         y: usize,
     },
-}
-
-impl Explain for PaintingError {
-    fn hint(&self) -> Option<Hint> {
-        let hint = match self {
-            Self::Engine(error) => return error.hint(),
-            Self::Light(error) => return error.hint(),
-            Self::Brush(error) => return error.hint(),
-            Self::Stroke(error) => return error.hint(),
-            Self::Tool(error) => return error.hint(),
-            Self::TooHigh { .. } => "paint thinner, or with larger cells",
-            Self::StillWet { .. } => "dry the painting and wash the brushes first",
-            Self::TooManyPigments { .. } => "dry the painting, then go on with another palette",
-            Self::MergeShows { .. } => "keep them apart; layers are unlimited",
-            Self::AlreadyThere { .. } => {
-                "a layer holds each pigment once: choose one that it lacks"
-            }
-            Self::OffCanvas { .. } => "places are in mm from the canvas's corner",
-            Self::NoRoom { .. } => "squeeze beside it, or spread it first",
-            Self::WetOpacity => "dry it first",
-            Self::OffPalette { .. } => "put it there with a palette action, or undo less",
-            Self::WetLayer { .. } => "dry it first",
-            Self::LayerName { .. } => "shorten the name",
-            Self::NothingBelow => "name the other layer with `with`",
-            Self::UnlikeVisibility => "show both, or hide both",
-            Self::FilmBetween { .. } => "move that layer above or below both, or merge it as well",
-            Self::MergedPigments { .. } => {
-                "keep them apart, or exchange a pigment of one layer for one of the other's"
-            }
-            Self::Overloaded { .. } => "wipe or wash the brush first",
-            Self::NoMixture
-            | Self::Share { .. }
-            | Self::Amount { .. }
-            | Self::Volume { .. }
-            | Self::Gloss { .. }
-            | Self::Stiffness { .. }
-            | Self::EmptySlot { .. }
-            | Self::NotThere { .. }
-            | Self::Opacity { .. }
-            | Self::NoLayer { .. }
-            | Self::UnknownLayer { .. }
-            | Self::SameLayer => return None,
-        };
-        Some(Hint::new(hint))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Engine(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 fn listed(known: &[String]) -> String {

@@ -114,8 +114,9 @@ impl fmt::Display for ValueLocation {
 }
 
 /// A value that is out of range or does not fit the rest of the script.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[error("{location}: {wanted}, found `{found}`")]
+#[hint(with = hint.clone())]
 pub struct InvalidValue {
     /// Location of the value.
     pub location: ValueLocation,
@@ -127,17 +128,12 @@ pub struct InvalidValue {
     pub hint: Option<Hint>,
 }
 
-impl Explain for InvalidValue {
-    fn hint(&self) -> Option<Hint> {
-        self.hint.clone()
-    }
-}
-
 /// Why a script cannot be read or played.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ScriptError {
     /// The file is longer than [`MAX_FILE_BYTES`].
     #[error("{file}: a script has at most {limit} bytes, found `{bytes}`")]
+    #[hint("record fewer samples a second, or several scripts")]
     TooLong {
         /// Name of the file.
         file: String,
@@ -148,6 +144,7 @@ pub enum ScriptError {
     },
     /// The file is not UTF-8.
     #[error("{file}: line {line}: no UTF-8, found byte `0x{byte:02x}`")]
+    #[hint("save the script as UTF-8")]
     Encoding {
         /// Name of the file.
         file: String,
@@ -178,6 +175,7 @@ pub enum ScriptError {
     },
     /// The script has a version that this program does not know.
     #[error("{file}: this program reads strokes up to version {newest}, found `{found}`")]
+    #[hint("a newer impasto may read it")]
     Version {
         /// Name of the file.
         file: String,
@@ -188,6 +186,7 @@ pub enum ScriptError {
     },
     /// A value of a file is invalid.
     #[error("{file}: {invalid}")]
+    #[hint(inner = invalid)]
     Value {
         /// Name of the file.
         file: String,
@@ -197,20 +196,6 @@ pub enum ScriptError {
     /// A value of a script in memory is invalid.
     #[error(transparent)]
     Invalid(#[from] Box<InvalidValue>),
-}
-
-impl Explain for ScriptError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::TooLong { .. } => {
-                Some(Hint::new("record fewer samples a second, or several scripts"))
-            }
-            Self::Encoding { .. } => Some(Hint::new("save the script as UTF-8")),
-            Self::Version { .. } => Some(Hint::new("a newer impasto may read it")),
-            Self::Value { invalid, .. } | Self::Invalid(invalid) => invalid.hint(),
-            Self::Syntax { .. } | Self::Format { .. } => None,
-        }
-    }
 }
 
 #[cfg(test)]

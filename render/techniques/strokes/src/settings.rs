@@ -2,7 +2,7 @@
 //! them: brushes from coarse to fine, and rules for each of them.
 
 use documents::hint::Explain;
-use paint::canvas::Canvas;
+use paint::document::Canvas;
 use paint::ground::GroundKind;
 use paint::strokes::MAX_CELLS;
 use serde::{Deserialize, Serialize};

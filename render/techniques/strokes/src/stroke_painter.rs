@@ -6,13 +6,12 @@ use graphics::export::{ExportError, png8};
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, DeviceError};
 use graphics::picture::{Photograph, Picture};
-use paint::document::{Lighting, Medium, Slots};
+use paint::document::{Lighting, Medium, PaletteError, Slots, palette_slots};
 use paint::engine::PaintEngine;
 use paint::export::{NamedFile, PigmentMap, pigment_maps};
 use paint::ground::{ColorPrimer, Ground, GroundError, Primer};
 use paint::light::{Light, PaintLightError};
 use paint::painting::{Painting, PaintingError};
-use paint::palette::{PaletteError, palette_slots};
 use paint::separation::{
     ColorErrors, FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings,
     choose_palette, rebuild_picture,

@@ -150,11 +150,10 @@ mod tests {
     };
     use documents::hint::Explain;
     use paint::amount::{mm_from_quanta, quanta_from_mm};
-    use paint::document::Document;
+    use paint::document::{Document, palette_slots};
     use paint::engine::PaintEngine;
     use paint::ground::GroundKind;
     use paint::painting::{LayerRef, Painting};
-    use paint::palette::palette_slots;
     use paint::scene::SpectralDocument;
     use paint::separation::SeparationSettings;
     use pigment::{Backing, FilmOver, PigmentLibrary};
