@@ -13,11 +13,11 @@ use std::sync::Arc;
 
 use paint::amount::mm_from_quanta;
 use paint::document::{LayerId, Slots};
-use paint::layer::SLOTS;
+use paint::layer::{DryLayerState, SLOTS};
 use paint::light::Light;
 use paint::mask::Mask;
-use paint::painting::{DryLayerState, Painting, PaintingError, TipLoad};
-use paint::session::{PaintingSession, SessionError};
+use paint::painting::{Painting, PaintingError, TipLoad};
+use paint::session::PaintingSession;
 use paint::strokes::{BrushSpec, SurfaceId};
 use pigment::PigmentId;
 use pigment::curves::Curves;
@@ -98,12 +98,12 @@ impl Reporter {
     /// Remembers the pigments of a brush that begins its first stroke since it was loaded.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
+    /// [`PaintingError`] if the device was lost.
     pub(super) fn stroke_begins(
         &mut self,
         session: &mut PaintingSession,
         name: &str,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), PaintingError> {
         if !self.clean.contains_key(name) {
             let head = self.load(session, name)?.head;
             self.clean.insert(name.to_owned(), std::array::from_fn(|slot| head[slot] > 0.0));
@@ -114,12 +114,12 @@ impl Reporter {
     /// Whether a brush that ends a stroke has picked up other pigments than it began with.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
+    /// [`PaintingError`] if the device was lost.
     pub(super) fn is_dirty_after_stroke(
         &mut self,
         session: &mut PaintingSession,
         name: &str,
-    ) -> Result<bool, SessionError> {
+    ) -> Result<bool, PaintingError> {
         self.brushes.remove(name);
         let Some(had) = self.clean.get(name).copied() else { return Ok(false) };
         let tip = self.load(session, name)?.tip;
@@ -133,7 +133,7 @@ impl Reporter {
         &mut self,
         session: &mut PaintingSession,
         name: &str,
-    ) -> Result<BrushLoad, SessionError> {
+    ) -> Result<BrushLoad, PaintingError> {
         if let Some(load) = self.brushes.get(name) {
             return Ok(*load);
         }
@@ -145,13 +145,13 @@ impl Reporter {
     /// The whole state as it is now.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
+    /// [`PaintingError`] if the device was lost.
     pub(super) fn state(
         &mut self,
         prepared: &mut PreparedPainting,
         status: &WorkerStatus,
         bytes: &SrgbBytes,
-    ) -> Result<PaintingState, SessionError> {
+    ) -> Result<PaintingState, PaintingError> {
         let PreparedPainting { session, library, ground, .. } = prepared;
         let light: Arc<Light> = Arc::clone(session.canvas().light());
         if !self.colors.is_for(library, &light) {
@@ -199,7 +199,7 @@ impl Reporter {
         &mut self,
         session: &mut PaintingSession,
         films: &FilmSetting,
-    ) -> Result<Vec<BrushState>, SessionError> {
+    ) -> Result<Vec<BrushState>, PaintingError> {
         let slots = session.canvas().state().slots;
         let specs: Vec<(String, BrushSpec)> =
             session.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
@@ -233,7 +233,7 @@ impl Reporter {
 }
 
 /// Paint on a brush.
-fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, SessionError> {
+fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, PaintingError> {
     let clean =
         BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1], most_load_mm: f64::INFINITY };
     let Some(paint) = session.brush_paint(name)? else { return Ok(clean) };

@@ -36,7 +36,7 @@ pub fn substeps(
         return Err(StrokeError::Empty);
     }
     let mut path = Path::new(cell_mm, size_mm)?;
-    path.push(samples)?;
+    samples.iter().try_for_each(|sample| path.push(sample))?;
     path.finish();
     Ok(path)
 }
@@ -339,8 +339,7 @@ impl Path {
         })
     }
 
-    /// Appends samples. If one is refused, the path keeps those before it, and others can be
-    /// appended after them.
+    /// Appends a sample. If it is refused, others can be appended instead.
     ///
     /// # Errors
     /// [`StrokeError`] for an impossible sample, and for a path of more than
@@ -348,12 +347,8 @@ impl Path {
     ///
     /// # Panics
     /// If the path is finished.
-    pub fn push(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
+    pub fn push(&mut self, sample: &Sample) -> Result<(), StrokeError> {
         assert!(!self.finished, "a path takes no samples after it is finished");
-        samples.iter().try_for_each(|sample| self.push_one(sample))
-    }
-
-    fn push_one(&mut self, sample: &Sample) -> Result<(), StrokeError> {
         self.check(sample)?;
         let pose = sample.pose(self.cell_mm);
         let [before, from, to] = self.recent;
@@ -388,10 +383,10 @@ impl Path {
         self.finished = true;
     }
 
-    /// Number of samples.
+    /// Whether the path was finished.
     #[must_use]
-    pub fn samples(&self) -> usize {
-        self.samples
+    pub fn is_finished(&self) -> bool {
+        self.finished
     }
 
     /// Number of samples that the returned poses have reached.
@@ -637,7 +632,7 @@ mod tests {
             let mut lagged = 0;
             while !rest.is_empty() {
                 let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
-                path.push(now).unwrap();
+                now.iter().for_each(|sample| path.push(sample).unwrap());
                 rest = later;
                 let least = path.waiting();
                 let most = random.random_range(0..40);
@@ -646,8 +641,8 @@ mod tests {
                 assert_eq!(least > 0 && most > 0, pieces.len() > before, "seed {seed}");
                 assert!(pieces.len() - before <= least, "seed {seed}: {least} at most");
                 let reached = path.reached();
-                assert!(reached <= path.samples(), "seed {seed}");
-                lagged = lagged.max(path.samples() - reached);
+                assert!(reached <= path.samples, "seed {seed}");
+                lagged = lagged.max(path.samples - reached);
             }
             path.finish();
             pieces.extend(path.by_ref());
@@ -666,19 +661,19 @@ mod tests {
     fn a_refused_sample_leaves_the_path_where_it_was() {
         let good = [SAMPLE, at(0.1, 7.0, 5.0), at(0.2, 9.0, 6.0)];
         let mut path = Path::new(0.1, SIZE_MM).unwrap();
-        path.push(&good[..2]).unwrap();
+        good[..2].iter().for_each(|sample| path.push(sample).unwrap());
         for bad in [
             Sample { pressure: -0.1, ..good[2] },
             Sample { y_mm: f64::NAN, ..good[2] },
             Sample { seconds: 0.05, ..good[2] },
             Sample { x_mm: 1.1e6, ..good[2] },
         ] {
-            let error = path.push(&[bad]).unwrap_err();
+            let error = path.push(&bad).unwrap_err();
             let place = matches!(error, StrokeError::TooLong { .. })
                 || error.to_string().starts_with("sample 2: ");
             assert!(place, "{error}");
         }
-        path.push(&good[2..]).unwrap();
+        path.push(&good[2]).unwrap();
         path.finish();
         assert_eq!(path.collect::<Vec<_>>(), poses(&good));
     }

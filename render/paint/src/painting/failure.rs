@@ -1,14 +1,16 @@
-//! Errors of a painting.
+//! Errors of paintings and of their sessions.
 
 use crate::brush::{BrushError, ToolError};
+use crate::file::PaintingFileError;
 use crate::layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
+use crate::strokes::{InvalidValue, ScriptError, ScriptStartError};
 use documents::counted;
 use documents::hint::Explain;
 use graphics::gpu::DeviceError;
 
-/// Why a painting refuses an action. Nothing is changed then, unless the device failed.
+/// Why a painting or its session refuses an action. Nothing is changed then, unless the device failed.
 #[derive(Debug, thiserror::Error, Explain)]
 pub enum PaintingError {
     /// The graphics device failed.
@@ -27,29 +29,17 @@ pub enum PaintingError {
     /// A number of a tool is out of range.
     #[error(transparent)]
     Tool(#[from] ToolError),
+    /// A number is out of range.
+    #[error("{what}, found `{value}`")]
+    Range {
+        /// Description of the range.
+        what: &'static str,
+        /// Value of the number.
+        value: f64,
+    },
     /// A recipe has no parts above 0, or a negative part.
     #[error("a recipe needs parts above 0, none below, unless it is vehicle alone")]
     NoMixture,
-    /// A share lies outside 0 to 1.
-    #[error("{what} is a share of 0 to 1, found `{value}`")]
-    Share {
-        /// Name of the quantity.
-        what: &'static str,
-        /// Value of the quantity.
-        value: f64,
-    },
-    /// An amount of paint on a brush is negative or not a number.
-    #[error("an amount of paint is 0 mm or more, found `{value}`")]
-    Amount {
-        /// The amount in mm.
-        value: f64,
-    },
-    /// A volume of paint is not above 0, or more than a litre.
-    #[error("a volume of paint is above 0 mm3 and at most a litre, 1000000 mm3, found `{value}`")]
-    Volume {
-        /// The volume in mm3.
-        value: f64,
-    },
     /// A place lies beside the canvas.
     #[error("there is no canvas {x_mm} mm from its left and `{y_mm}` mm from its upper edge")]
     #[hint("places are in mm from the canvas's corner")]
@@ -67,22 +57,6 @@ pub enum PaintingError {
         x_mm: f64,
         /// Distance from the upper edge in mm.
         y_mm: f64,
-    },
-    /// A gloss is out of range.
-    #[error(
-        "a gloss has a strength of 0 to 100 and an exponent of 0 to 1e6, found `{strength}` and `{exponent}`"
-    )]
-    Gloss {
-        /// Strength of the highlight.
-        strength: f32,
-        /// Exponent of the highlight.
-        exponent: f32,
-    },
-    /// A stiffness is out of range.
-    #[error("the stiffness of paint is 0 to 1, found `{stiffness}`")]
-    Stiffness {
-        /// The stiffness.
-        stiffness: f64,
     },
     /// A recipe has parts of a slot without pigment.
     #[error("no pigment is squeezed out in slot {slot}")]
@@ -137,12 +111,6 @@ pub enum PaintingError {
     #[error("wet paint has no opacity of its own")]
     #[hint("dry it first")]
     WetOpacity,
-    /// An opacity lies outside 0 to 1000.
-    #[error("an opacity is 0 to 1000, found `{value}`")]
-    Opacity {
-        /// Opacity that was requested.
-        value: f64,
-    },
     /// Ground and dry paint are as high as the arithmetic allows.
     #[error("the paint is piled as high as it can be, 256 cell widths, at column {x}, row `{y}`")]
     #[hint("paint thinner, or with larger cells")]
@@ -158,13 +126,6 @@ pub enum PaintingError {
     WetLayer {
         /// Name of the property.
         what: &'static str,
-    },
-    /// A layer cannot have this name.
-    #[error("a layer has {wanted}")]
-    #[hint("shorten the name")]
-    LayerName {
-        /// Description of the names allowed.
-        wanted: &'static str,
     },
     /// One layer was named twice for a merge.
     #[error("a layer merges with another one, not with itself")]
@@ -225,6 +186,47 @@ pub enum PaintingError {
         x: usize,
         /// Row of that cell, from 0.
         y: usize,
+    },
+    /// A number of an action is out of range, or a name is unknown.
+    #[error(transparent)]
+    Invalid(#[from] Box<InvalidValue>),
+    /// The header of a recording is invalid.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A canvas cannot be made.
+    #[error(transparent)]
+    Start(#[from] ScriptStartError),
+    /// The painting cannot be saved.
+    #[error(transparent)]
+    File(#[from] PaintingFileError),
+    /// Canvas and palette do not go together.
+    #[error("canvas and palette have different {what}")]
+    #[hint("set the palette up after the canvas")]
+    Unlike {
+        /// Name of what differs.
+        what: &'static str,
+    },
+    /// The action saves a file. Sessions do not write files, their owner does.
+    #[error("a session saves nothing")]
+    #[hint("write the documents of the session")]
+    Save,
+    /// There is no open stroke, or it was lifted.
+    #[error("no stroke is open")]
+    #[hint("set the brush down first")]
+    NoStroke,
+    /// An action other than light, gloss and opacity was adjusted.
+    #[error("`{kind}` cannot be adjusted bit by bit")]
+    #[hint("light, gloss, stiffness and opacity can be")]
+    NoControl {
+        /// Key of the action in a script.
+        kind: &'static str,
+    },
+    /// The action needs a session: it uses brushes by name, undoes, or saves.
+    #[error("`{kind}` is an action of a session")]
+    #[hint("apply it to the session of the painting")]
+    NoSession {
+        /// Key of the action in a script.
+        kind: &'static str,
     },
 }
 

@@ -56,10 +56,11 @@ use documents::hint::{Explain, Hint};
 
 pub use crate::brush::StrokeTool;
 pub use crate::document::Canvas;
-pub use crate::painting::{LayerRef, MaskChange};
+pub use crate::layer::LayerRef;
 pub use crate::stroke::SampleDecimals;
 pub use action::{
-    Action, ActionPigments, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke, SurfaceId,
+    Action, ActionPigments, Load, MaskChange, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke,
+    SurfaceId,
 };
 pub(super) use script::action_line;
 pub use script::{BrushSpec, KeptBrush, SideTable, StrokeScript};
@@ -67,6 +68,7 @@ pub(super) use start::{PigmentNames, pigment_names};
 pub use start::{Resolved, ScriptLibrary, ScriptStartError};
 pub(super) use table::{
     ActionLimits, CheckContext, check_brush, check_sample, check_size, check_tool, six_digits,
+    unknown_brush,
 };
 
 /// Most cells of a canvas: 8192 x 8192. Painting takes about 90 bytes per cell, plus 36

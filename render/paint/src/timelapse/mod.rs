@@ -23,7 +23,7 @@ use sha2::{Digest, Sha256};
 use crate::file::PaintingFileError;
 use crate::painting::PaintingError;
 use crate::pose::Sample;
-use crate::session::{PaintingSession, SessionError};
+use crate::session::PaintingSession;
 use crate::strokes::{Action, ScriptError, Squeeze, Stroke, StrokeScript, SurfaceId};
 
 /// Most frames of a timelapse.
@@ -375,7 +375,7 @@ impl<P: FnMut(usize, Frame) -> Result<(), TimelapseError>> Taking<'_, P> {
         index: usize,
         stroke: &Stroke,
     ) -> Result<(), TimelapseError> {
-        let failed = |error: SessionError| {
+        let failed = |error: PaintingError| {
             let error = Box::new(error);
             TimelapseError::Action { index, kind: "stroke", error }
         };
@@ -524,7 +524,7 @@ pub enum TimelapseError {
         kind: &'static str,
         /// Error of the session.
         #[source]
-        error: Box<SessionError>,
+        error: Box<PaintingError>,
     },
     /// A picture cannot be computed.
     #[error(transparent)]

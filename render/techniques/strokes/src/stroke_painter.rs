@@ -16,7 +16,7 @@ use paint::separation::{
     ColorErrors, FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings,
     choose_palette, rebuild_picture,
 };
-use paint::session::{PaintingSession, SessionError};
+use paint::session::PaintingSession;
 use paint::strokes::{PaletteSpec, Resolved, ScriptError, StrokeScript};
 use pigment::PigmentLibrary;
 use pigment::library::to_text;
@@ -246,12 +246,9 @@ pub enum StrokePainterError {
     /// The device cannot be used.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// The painting cannot be opened, or its picture cannot be computed.
+    /// The painting cannot be opened, its picture computed, or its session set up.
     #[error(transparent)]
     Painting(#[from] PaintingError),
-    /// The session cannot be set up.
-    #[error(transparent)]
-    Session(#[from] SessionError),
     /// The painting cannot go on.
     #[error(transparent)]
     Strokes(#[from] PainterError),

@@ -153,7 +153,8 @@ mod tests {
     use paint::document::{Document, palette_slots};
     use paint::engine::PaintEngine;
     use paint::ground::GroundKind;
-    use paint::painting::{LayerRef, Painting};
+    use paint::layer::LayerRef;
+    use paint::painting::Painting;
     use paint::scene::SpectralDocument;
     use paint::separation::SeparationSettings;
     use pigment::{Backing, FilmOver, PigmentLibrary};
