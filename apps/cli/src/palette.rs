@@ -7,8 +7,7 @@ use std::path::Path;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{PriceList, parse_price};
 use documents::file::is_there;
-use paint::document::Slots;
-use paint::palette::palette_slots;
+use paint::document::{Slots, palette_slots};
 
 use crate::failure::{Failure, Result};
 

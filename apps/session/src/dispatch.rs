@@ -7,14 +7,15 @@ use documents::hint::Hint;
 use graphics::tile::Rect;
 use paint::amount::mm_from_quanta;
 use paint::layer::{Layer, SLOTS};
-use paint::painting::{OpenStroke, Painting, PaintingError};
-use paint::session::{Outcome, PaintingSession, SessionError};
-use paint::strokes::{Action, Load, SampleDecimals, Squeeze, StrokeTool, SurfaceId};
+use paint::painting::{Painting, PaintingError};
+use paint::session::{Outcome, PaintingSession};
+use paint::strokes::{Action, Load, SampleDecimals, Squeeze, Stroke, StrokeTool, SurfaceId};
+use web_time::Instant;
 
 use super::command::{Command, PenSample};
 use super::event::{Event, KeptPainting, Picked, PickedLayer, Snapshot};
 use super::meter::tally;
-use super::outbox::{StrokeTiming, is_lifted, waiting_substeps};
+use super::outbox::{is_lifted, waiting_substeps};
 use super::report::WorkerStatus;
 use super::state::PaintingState;
 use super::worker::{OpenPainting, WorkerLoop};
@@ -24,13 +25,13 @@ const PALETTE: &str = "every session of the worker has a palette";
 
 impl WorkerLoop<'_> {
     /// Paints a slice of a stroke, or executes the next command.
-    pub(super) fn work(&mut self) -> Result<(), SessionError> {
+    pub(super) fn work(&mut self) -> Result<(), PaintingError> {
         if self.playing.is_some() {
             for question in self.inbox.take_questions() {
                 self.answer(question)?;
             }
             self.play()
-        } else if self.stroke.is_some() {
+        } else if self.stroke().is_some() {
             self.paint()
         } else if let Some(command) = self.inbox.next() {
             self.execute(command)
@@ -40,8 +41,8 @@ impl WorkerLoop<'_> {
     }
 
     /// Continues the open stroke: adds all samples that arrived, then answers a question or paints
-    /// a slice. Lifts the brush before any other command.
-    fn paint(&mut self) -> Result<(), SessionError> {
+    /// a slice. Any other command lifts the brush first.
+    fn paint(&mut self) -> Result<(), PaintingError> {
         while let Some(Command::PenMove(samples)) =
             self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
         {
@@ -62,42 +63,54 @@ impl WorkerLoop<'_> {
         self.paint_slice()
     }
 
-    fn extend(&mut self, samples: &[PenSample]) -> Result<(), SessionError> {
-        let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
+    fn extend(&mut self, samples: &[PenSample]) -> Result<(), PaintingError> {
+        let Some(open) = &mut self.open else { return Ok(()) };
         let session = &mut open.prepared.session;
         if is_lifted(session) {
             return Ok(());
         }
         for PenSample { sample, arrived } in samples {
-            if let Err(error) = stroke.extend(session, sample, *arrived)
-                && !std::mem::replace(&mut stroke.refused, true)
-            {
-                let hint = Some(Hint::new("the stroke goes on without it"));
-                (self.send)(Event::Message { text: error.to_string(), hint, failed: true });
+            match session.extend(&[*sample]) {
+                Ok(()) => self.outbox.add_sample(*arrived),
+                Err(error) if !std::mem::replace(&mut self.sample_refused, true) => {
+                    let hint = Some(Hint::new("the stroke goes on without it"));
+                    (self.send)(Event::Message { text: error.to_string(), hint, failed: true });
+                }
+                Err(_) => {}
             }
         }
         session.advance(0).map(|_| ())
     }
 
     /// Lifts the brush of the open stroke, if one is open.
-    pub(super) fn lift(&mut self) -> Result<(), SessionError> {
-        match (&self.stroke, &mut self.open) {
-            (Some(_), Some(open)) => open.prepared.session.lift(),
+    pub(super) fn lift(&mut self) -> Result<(), PaintingError> {
+        match &mut self.open {
+            Some(open) if open.session().open_stroke().is_some() => open.prepared.session.lift(),
             _ => Ok(()),
         }
     }
 
-    /// Paints a slice of the open stroke, and closes the stroke once all of it is painted.
-    pub(super) fn paint_slice(&mut self) -> Result<(), SessionError> {
-        let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
+    /// Paints a slice of the open stroke, about 8 ms of work. Closes the stroke once all is
+    /// painted.
+    pub(super) fn paint_slice(&mut self) -> Result<(), PaintingError> {
+        let Some(open) = &mut self.open else { return Ok(()) };
         let session = &mut open.prepared.session;
-        let painted = stroke.paint_slice(session, &mut self.meter, &mut self.outbox)?;
-        self.picture_stale |= painted;
-        self.revision += u64::from(painted);
-        if is_lifted(session) && waiting_substeps(session) == 0 {
-            let brush = session.open_stroke().map(|(_, brush)| brush.to_owned());
-            let tool = session.stroke_progress().map_or(StrokeTool::Paint, OpenStroke::tool);
-            self.stroke = None;
+        if session.open_stroke().is_none() {
+            return Ok(());
+        }
+        let known = session.advance(0)?;
+        let start = Instant::now();
+        let waiting = session.advance(self.meter.slice())?;
+        let now = Instant::now();
+        self.meter.add_slice(now, known - waiting, now - start);
+        let Some(stroke) = session.open_stroke() else { return Ok(()) };
+        self.outbox.follow(stroke);
+        self.picture_stale |= known > waiting;
+        self.revision += u64::from(known > waiting);
+        if stroke.is_lifted() && waiting == 0 {
+            let Stroke { brush, tool, .. } = stroke.stroke();
+            let brush = brush.clone();
+            let tool = *tool;
             let report = session.end_stroke()?;
             if let (Some(report), false) = (report, tool.is_paint()) {
                 // In a replay this message would come after every stroke.
@@ -105,9 +118,8 @@ impl WorkerLoop<'_> {
                     let (text, hint) = tally(tool, &report.taken, session.canvas());
                     (self.send)(Event::Message { text, hint, failed: false });
                 }
-                brush.iter().for_each(|brush| open.reporter.tool_ended(brush));
-            } else if let Some(brush) = brush
-                && open.reporter.is_dirty_after_stroke(session, &brush)?
+                open.reporter.tool_ended(&brush);
+            } else if open.reporter.is_dirty_after_stroke(session, &brush)?
                 && !std::mem::replace(&mut self.dirty_told, true)
             {
                 (self.send)(Event::DirtyBrush(brush));
@@ -117,8 +129,8 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// Executes a command while no stroke is open and no replay runs.
-    fn execute(&mut self, command: Command) -> Result<(), SessionError> {
+    /// Executes one command while no stroke is open and nothing is played.
+    fn execute(&mut self, command: Command) -> Result<(), PaintingError> {
         match command {
             Command::Open(origin) => self.open(origin),
             Command::Replay { script, library, pace } => self.replay(*script, &library, pace),
@@ -142,22 +154,25 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
+    fn stroke_began(&mut self) {
+        self.outbox.begin_stroke();
+        self.sample_refused = false;
+        self.state_stale = true;
+    }
+
     /// Executes a command that needs a painting.
-    fn execute_on_painting(&mut self, command: Command) -> Result<(), SessionError> {
+    fn execute_on_painting(&mut self, command: Command) -> Result<(), PaintingError> {
         match command {
             Command::ToolDown { tool, surface, brush } => {
                 self.session().begin_stroke_as(tool, surface, &brush, SampleDecimals::PEN)?;
-                self.stroke = Some(StrokeTiming::default());
-                self.state_stale = true;
+                self.stroke_began();
                 Ok(())
             }
             Command::PenDown { surface, brush, decimals } => {
-                self.session().begin_rounded_stroke(surface, &brush, decimals)?;
+                self.session().begin_stroke_as(StrokeTool::Paint, surface, &brush, decimals)?;
+                self.stroke_began();
                 let OpenPainting { prepared, reporter, .. } = self.open_mut();
-                reporter.stroke_begins(&mut prepared.session, &brush)?;
-                self.stroke = Some(StrokeTiming::default());
-                self.state_stale = true;
-                Ok(())
+                reporter.stroke_begins(&mut prepared.session, &brush)
             }
             Command::SetBrush { name, spec } => {
                 self.session().set_brush(&name, &spec)?;
@@ -213,8 +228,8 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Undoes or repeats a whole group if `action` would undo or repeat one of its strokes.
-    fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, SessionError> {
+    /// Undoes or repeats a whole group of strokes, if the action would do that to one of them.
+    fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, PaintingError> {
         let OpenPainting { prepared, groups, .. } = self.open_mut();
         let session = &mut prepared.session;
         let numbers = session.history_numbers();
@@ -230,7 +245,7 @@ impl WorkerLoop<'_> {
         Ok(Some(Outcome::Done))
     }
 
-    fn apply(&mut self, action: &Action) -> Result<(), SessionError> {
+    fn apply(&mut self, action: &Action) -> Result<(), PaintingError> {
         let outcome = match self.step_over_group(action)? {
             Some(outcome) => outcome,
             None => self.session().apply(action)?,
@@ -259,7 +274,7 @@ impl WorkerLoop<'_> {
         brush: String,
         picked: &Picked,
         amount_mm: f64,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), PaintingError> {
         let library = Arc::clone(&self.open_mut().prepared.library);
         let wet = picked.layers.last();
         let amounts = wet.map_or([0.0; SLOTS + 1], |wet| wet.amounts_mm);
@@ -279,7 +294,7 @@ impl WorkerLoop<'_> {
     }
 
     /// Executes a command that changes no paint.
-    pub(super) fn answer(&mut self, question: Command) -> Result<(), SessionError> {
+    pub(super) fn answer(&mut self, question: Command) -> Result<(), PaintingError> {
         if self.open.is_none() {
             return Ok(());
         }
@@ -335,7 +350,7 @@ impl WorkerLoop<'_> {
     }
 
     /// Canvas and palette as they are now.
-    fn snapshot(&mut self, number: u64) -> Result<Snapshot, SessionError> {
+    fn snapshot(&mut self, number: u64) -> Result<Snapshot, PaintingError> {
         let revision = self.revision;
         let (canvas, palette) = self.session().documents()?;
         let canvas = Arc::new(canvas);
@@ -346,15 +361,15 @@ impl WorkerLoop<'_> {
         Ok(snapshot)
     }
 
-    /// Everything about the painting except its pixels.
-    pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, SessionError> {
+    /// State of the painting besides its pixels.
+    pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, PaintingError> {
         let Some(OpenPainting { prepared, reporter, shots, .. }) = &mut self.open else {
             return Ok(None);
         };
         shots.follow(&prepared.session.history_numbers());
         let history_shots = shots.report();
         let revision = self.revision;
-        let stroke_open = self.stroke.is_some();
+        let stroke_open = prepared.session.open_stroke().is_some();
         let status = WorkerStatus { revision, stroke_open, history_shots };
         Ok(Some(Arc::new(reporter.state(prepared, &status, self.outbox.bytes())?)))
     }

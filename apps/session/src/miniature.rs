@@ -9,8 +9,8 @@ use graphics::field::Field;
 use graphics::tile::{Rect, TILE, TileSet};
 use paint::document::{Document, DryLayer};
 use paint::ground::Ground;
-use paint::layer::Layer;
-use paint::painting::{DryLayerState, Painting};
+use paint::layer::{DryLayerState, Layer};
+use paint::painting::Painting;
 use paint::scene;
 
 use super::srgb::{SrgbBytes, runs};

@@ -1,7 +1,7 @@
 //! Opens paintings, plays recordings, and recovers the painting when the graphics device is lost.
 
 use documents::hint::{Explain, Hint};
-use paint::session::SessionError;
+use paint::painting::PaintingError;
 use paint::strokes::StrokeScript;
 use pigment::library::PigmentLibrary;
 use web_time::Instant;
@@ -55,7 +55,6 @@ impl WorkerLoop<'_> {
         self.open =
             Some(OpenPainting { prepared, reporter, shots, groups, recording_stop_reported });
         self.shot_revision = None;
-        self.stroke = None;
         self.kept = None;
         self.revision += 1;
         self.outbox.clear();
@@ -85,20 +84,22 @@ impl WorkerLoop<'_> {
 
     /// Takes the next step of the replay: adds samples and paints a slice, applies an action,
     /// waits, or ends the replay.
-    pub(super) fn play(&mut self) -> Result<(), SessionError> {
+    pub(super) fn play(&mut self) -> Result<(), PaintingError> {
         let (Some(playing), Some(open)) = (&mut self.playing, &mut self.open) else {
             return Ok(());
         };
         let session = &mut open.prepared.session;
-        let step = match &mut self.stroke {
-            Some(stroke) => playing.add_samples(session, stroke),
-            None => playing.next_action(session, &mut self.stroke),
+        let step = if session.open_stroke().is_some() {
+            playing.add_samples(session, &mut self.outbox)
+        } else {
+            self.outbox.begin_stroke();
+            playing.next_action(session)
         };
         self.pause = None;
         match step {
             Ok(Step::Paint) => {
                 self.paint_slice()?;
-                if self.stroke.is_none()
+                if self.stroke().is_none()
                     && let Some(playing) = &mut self.playing
                 {
                     playing.next += 1;
@@ -133,8 +134,8 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Ends the replay, and reports how far it came and what you can do.
-    fn end_replay(&mut self, ending: Ending) -> Result<(), SessionError> {
+    /// Ends the replay, and says how far it came and what to do.
+    fn end_replay(&mut self, ending: Ending) -> Result<(), PaintingError> {
         self.pause = None;
         let Some(playing) = self.playing.take() else { return Ok(()) };
         // Some samples of the open stroke were added already: paint them.
@@ -170,7 +171,7 @@ impl WorkerLoop<'_> {
     /// Opens the last snapshot on the processor after the device was lost. Without a snapshot the
     /// painting is gone, and this reports it.
     pub(super) fn recover(&mut self) {
-        (self.open, self.stroke, self.playing, self.pause) = (None, None, None, None);
+        (self.open, self.playing, self.pause) = (None, None, None);
         self.backend.fall_back();
         let Some(Snapshot { canvas, palette, .. }) = self.kept.take() else {
             let hint = "open the painting again; what was saved by itself can be recovered";
@@ -195,7 +196,6 @@ mod tests {
     use super::super::prepare::blank_canvas;
     use super::*;
     use graphics::gpu::{BackendChoice, DeviceError};
-    use paint::painting::PaintingError;
     use paint::strokes::{Action, Squeeze, SurfaceId};
     use pigment::library::PigmentLibrary;
     use std::cell::RefCell;
@@ -230,7 +230,7 @@ mod tests {
         worker.kept = saved.then(|| snapshot.clone());
         events.borrow_mut().clear();
         let gone = DeviceError::Lost { reason: "it was pulled out".to_owned() };
-        worker.report_failure(&SessionError::Painting(PaintingError::Engine(gone)));
+        worker.report_failure(&PaintingError::Engine(gone));
         let found = worker.open.as_mut().map(|open| open.prepared.session.documents().unwrap());
         if let Some((canvas, palette)) = found {
             assert!(canvas == *snapshot.canvas, "the canvas as it was saved");

@@ -1,14 +1,13 @@
-//! Sends pictures to the front end, but never more than it can take, paints the open stroke in
-//! slices, and measures the latency of its samples.
+//! Sends pictures to the front end, never more than it receives, and measures the latency of
+//! samples.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use graphics::tile::{Rect, TileSet};
 use paint::painting::{OpenStroke, Painting, PaintingError};
-use paint::pose::Sample;
-use paint::session::{PaintingSession, SessionError};
-use paint::strokes::SurfaceId;
+use paint::session::PaintingSession;
+use paint::strokes::{Stroke, SurfaceId};
 use web_time::{Duration, Instant};
 
 use super::event::{Event, HeadOnCanvas};
@@ -75,7 +74,9 @@ pub(super) struct Outbox {
     /// Parts that were sent but not confirmed.
     unconfirmed: usize,
     next: Instant,
-    /// When the samples arrived that are painted, but with tiles that are not all sent yet.
+    /// Arrival times of the samples of the open stroke that the paint has not reached.
+    unpainted: VecDeque<Instant>,
+    /// Arrival times of the samples that are painted and whose tiles are not all sent yet.
     arrived: VecDeque<Instant>,
     /// If this is true, the paint is behind the pen and goes before pictures.
     pub(super) paint_is_behind: bool,
@@ -97,6 +98,7 @@ impl Outbox {
             small: None,
             unconfirmed: 0,
             next: Instant::now(),
+            unpainted: VecDeque::new(),
             arrived: VecDeque::new(),
             paint_is_behind: false,
         }
@@ -120,9 +122,21 @@ impl Outbox {
         self.unconfirmed = self.unconfirmed.saturating_sub(parts);
     }
 
-    /// Adds a sample that is painted now, by the time of its arrival.
-    pub(super) fn add_reached(&mut self, arrived: Instant) {
-        self.arrived.push_back(arrived);
+    /// Adds a sample of the open stroke, by its arrival time.
+    pub(super) fn add_sample(&mut self, arrived: Instant) {
+        self.unpainted.push_back(arrived);
+    }
+
+    /// Counts the samples that the paint of the open stroke has reached.
+    pub(super) fn follow(&mut self, stroke: &OpenStroke) {
+        let ahead = stroke.stroke().samples.len() - stroke.reached();
+        let reached = self.unpainted.len().saturating_sub(ahead);
+        self.arrived.extend(self.unpainted.drain(..reached));
+    }
+
+    /// Forgets the samples of an earlier stroke.
+    pub(super) fn begin_stroke(&mut self) {
+        self.unpainted.clear();
     }
 
     /// Whether pictures may be rendered and sent now.
@@ -216,74 +230,20 @@ fn take_first_tiles(set: &mut TileSet, most: usize) -> TileSet {
     first
 }
 
-/// When the samples of the open stroke arrived, and how much of it is painted. The session holds
-/// the stroke itself ([`PaintingSession::stroke_progress`]).
-#[derive(Debug, Default)]
-pub(super) struct StrokeTiming {
-    /// When the samples that are not painted yet arrived.
-    arrived: VecDeque<Instant>,
-    /// How many samples are painted.
-    reached: usize,
-    painted: usize,
-    pub(super) refused: bool,
-}
-
-impl StrokeTiming {
-    /// Adds a sample to the open stroke. An impossible sample is an error, and the stroke goes on
-    /// without it.
-    pub(super) fn extend(
-        &mut self,
-        session: &mut PaintingSession,
-        sample: &Sample,
-        arrived: Instant,
-    ) -> Result<(), SessionError> {
-        session.extend(&[*sample])?;
-        self.arrived.push_back(arrived);
-        Ok(())
-    }
-
-    /// Paints one slice of the open stroke, about 8 ms of work. Returns whether there was work.
-    pub(super) fn paint_slice(
-        &mut self,
-        session: &mut PaintingSession,
-        meter: &mut Meter,
-        outbox: &mut Outbox,
-    ) -> Result<bool, SessionError> {
-        let known = session.advance(0)?;
-        let start = Instant::now();
-        let waiting = session.advance(meter.slice())?;
-        let now = Instant::now();
-        let painted = known - waiting;
-        meter.add_slice(now, painted, now - start);
-        self.painted += painted;
-        let reached = session.stroke_progress().map_or(0, OpenStroke::reached);
-        for arrived in self.arrived.drain(..(reached - self.reached).min(self.arrived.len())) {
-            outbox.add_reached(arrived);
-        }
-        self.reached = reached;
-        Ok(painted > 0)
-    }
-
-    /// Mean number of sub-steps per sample of this stroke so far.
-    pub(super) fn substeps_per_sample(&self, session: &PaintingSession) -> f64 {
-        let samples = self.reached + self.arrived.len();
-        (self.painted + waiting_substeps(session)) as f64 / samples.max(1) as f64
-    }
-}
-
-/// Sub-steps of the open stroke that follow from its samples and wait to be painted.
+/// Number of sub-steps of the open stroke that follow from its samples and are not painted yet.
 pub(super) fn waiting_substeps(session: &PaintingSession) -> usize {
-    session.stroke_progress().map_or(0, OpenStroke::waiting)
+    session.open_stroke().map_or(0, OpenStroke::waiting)
 }
 
 /// Whether the brush of the open stroke was lifted.
 pub(super) fn is_lifted(session: &PaintingSession) -> bool {
-    session.stroke_progress().is_some_and(OpenStroke::is_lifted)
+    session.open_stroke().is_some_and(OpenStroke::is_lifted)
 }
 
 /// How the head of the open stroke is bent now.
 pub(super) fn head_on_canvas(session: &PaintingSession) -> Option<HeadOnCanvas> {
-    let (surface, brush) = session.open_stroke()?;
+    let Stroke { on: surface, brush, .. } = session.open_stroke()?.stroke();
+    let surface = *surface;
     let id = session.brush_id_on(brush, surface)?;
     let mesh = session.painting(surface)?.head(id).mesh()?;
     Some(HeadOnCanvas { surface, around: mesh.around, along: mesh.along, vertices: mesh.vertices })

@@ -11,7 +11,7 @@ use paint::file::{self, PaintingFileError};
 use paint::ground::{GroundKind, GroundSpec};
 use paint::light::Light;
 use paint::painting::{Painting, PaintingError};
-use paint::session::{KeptSession, PaintingSession, SessionError};
+use paint::session::{KeptSession, PaintingSession};
 use paint::strokes::{
     Action, BrushSpec, Canvas, KeptBrush, Load, PaletteSpec, ScriptStartError, SideTable,
     StrokeScript,
@@ -36,8 +36,6 @@ pub(super) enum OpenError {
     ScriptStart(#[from] ScriptStartError),
     #[error(transparent)]
     Painting(#[from] PaintingError),
-    #[error(transparent)]
-    Session(#[from] SessionError),
     #[error("the painting that the script continues: {path}: {reason}")]
     Start { path: String, reason: String },
     #[error("the painting that the script continues: {0}")]
@@ -49,7 +47,6 @@ impl Explain for OpenError {
         match self {
             Self::ScriptStart(error) => error.hint(),
             Self::Painting(error) => error.hint(),
-            Self::Session(error) => error.hint(),
             Self::Start { .. } => Some(Hint::new("put it back where the script names it")),
             Self::StartFile(error) => error.hint(),
         }

@@ -4,13 +4,14 @@
 //! [`PaintingSession::history_numbers`](paint::session::PaintingSession::history_numbers). These
 //! rise and are never used twice.
 
-use paint::session::{PaintingSession, SessionError};
+use paint::painting::PaintingError;
+use paint::session::PaintingSession;
 use paint::strokes::{Action, SampleDecimals, Stroke, StrokeScript};
 use web_time::{Duration, Instant};
 
 use super::command::Pace;
 use super::event::Event;
-use super::outbox::{StrokeTiming, waiting_substeps};
+use super::outbox::{Outbox, waiting_substeps};
 
 /// Most samples that one step of a fast replay adds. If you cancel a replay, the samples that were
 /// added are still painted, so this limits the delay.
@@ -60,17 +61,18 @@ impl Replay {
     }
 
     /// Applies the next action, or begins its stroke.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the session refuses the action.
     pub(super) fn next_action(
         &mut self,
         session: &mut PaintingSession,
-        open: &mut Option<StrokeTiming>,
-    ) -> Result<Step, SessionError> {
+    ) -> Result<Step, PaintingError> {
         let Some(action) = self.script.actions.get(self.next) else { return Ok(Step::End) };
         match action {
             Action::Stroke(stroke) => {
                 let decimals = SampleDecimals::RECORDING;
                 session.begin_stroke_as(stroke.tool, stroke.on, &stroke.brush, decimals)?;
-                *open = Some(StrokeTiming::default());
                 (self.added, self.start) = (0, Instant::now());
                 return Ok(Step::Paint);
             }
@@ -83,12 +85,15 @@ impl Replay {
         Ok(Step::Next)
     }
 
-    /// Adds the samples that are due to the open stroke. Impossible samples are an error.
+    /// Adds the samples that are due to the open stroke.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for an impossible sample.
     pub(super) fn add_samples(
         &mut self,
         session: &mut PaintingSession,
-        timing: &mut StrokeTiming,
-    ) -> Result<Step, SessionError> {
+        outbox: &mut Outbox,
+    ) -> Result<Step, PaintingError> {
         let Some(Action::Stroke(Stroke { samples, .. })) = self.script.actions.get(self.next)
         else {
             return Ok(Step::End);
@@ -111,7 +116,8 @@ impl Replay {
                     due
                 }
             };
-            timing.extend(session, sample, arrived)?;
+            session.extend(&[*sample])?;
+            outbox.add_sample(arrived);
             self.added += 1;
         }
         if self.added == samples.len() {

@@ -7,11 +7,11 @@ use std::sync::Arc;
 
 use paint::amount::mm_from_quanta;
 use paint::document::{LayerId, Slots};
-use paint::layer::SLOTS;
+use paint::layer::{DryLayerState, SLOTS};
 use paint::light::Light;
 use paint::mask::Mask;
-use paint::painting::{DryLayerState, Painting, PaintingError, TipLoad};
-use paint::session::{PaintingSession, SessionError};
+use paint::painting::{Painting, PaintingError, TipLoad};
+use paint::session::PaintingSession;
 use paint::strokes::{BrushSpec, SurfaceId};
 use pigment::PigmentId;
 use pigment::curves::Curves;
@@ -85,12 +85,15 @@ impl Reporter {
         self.clean.clear();
     }
 
-    /// Remembers the pigments of a brush before its first stroke since it was loaded.
+    /// Remembers the pigments of a brush that begins its first stroke since it was loaded.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
     pub(super) fn stroke_begins(
         &mut self,
         session: &mut PaintingSession,
         name: &str,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), PaintingError> {
         if !self.clean.contains_key(name) {
             let head = self.load(session, name)?.head;
             self.clean.insert(name.to_owned(), std::array::from_fn(|slot| head[slot] > 0.0));
@@ -98,12 +101,15 @@ impl Reporter {
         Ok(())
     }
 
-    /// Whether a brush has other pigments after a stroke than when it began.
+    /// Whether a brush that ends a stroke has picked up other pigments than it began with.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
     pub(super) fn is_dirty_after_stroke(
         &mut self,
         session: &mut PaintingSession,
         name: &str,
-    ) -> Result<bool, SessionError> {
+    ) -> Result<bool, PaintingError> {
         self.brushes.remove(name);
         let Some(had) = self.clean.get(name).copied() else { return Ok(false) };
         let tip = self.load(session, name)?.tip;
@@ -117,7 +123,7 @@ impl Reporter {
         &mut self,
         session: &mut PaintingSession,
         name: &str,
-    ) -> Result<BrushLoad, SessionError> {
+    ) -> Result<BrushLoad, PaintingError> {
         if let Some(load) = self.brushes.get(name) {
             return Ok(*load);
         }
@@ -127,12 +133,15 @@ impl Reporter {
     }
 
     /// The whole state as it is now.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
     pub(super) fn state(
         &mut self,
         prepared: &mut PreparedPainting,
         status: &WorkerStatus,
         bytes: &SrgbBytes,
-    ) -> Result<PaintingState, SessionError> {
+    ) -> Result<PaintingState, PaintingError> {
         let PreparedPainting { session, library, ground, .. } = prepared;
         let light: Arc<Light> = Arc::clone(session.canvas().light());
         if !self.colors.is_for(library, &light) {
@@ -180,7 +189,7 @@ impl Reporter {
         &mut self,
         session: &mut PaintingSession,
         films: &FilmSetting,
-    ) -> Result<Vec<BrushState>, SessionError> {
+    ) -> Result<Vec<BrushState>, PaintingError> {
         let slots = session.canvas().state().slots;
         let specs: Vec<(String, BrushSpec)> =
             session.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
@@ -215,7 +224,8 @@ impl Reporter {
     }
 }
 
-fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, SessionError> {
+/// Paint on a brush.
+fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, PaintingError> {
     let clean =
         BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1], most_load_mm: f64::INFINITY };
     let Some(paint) = session.brush_paint(name)? else { return Ok(clean) };

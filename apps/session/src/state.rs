@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use paint::document::{LayerId, Lighting, Medium, Slots};
-use paint::dry_layer::layer_label;
+use paint::layer::layer_label;
 use paint::light::Light;
 use paint::strokes::BrushSpec;
 use pigment::library::PigmentLibrary;

@@ -4,10 +4,11 @@
 //! Without these strokes, slow functions would paint the first second of the first stroke.
 
 use paint::brush::HeadShape;
-use paint::canvas::Canvas;
+use paint::document::Canvas;
 use paint::ground::GroundSpec;
+use paint::painting::PaintingError;
 use paint::pose::Sample;
-use paint::session::{PaintingSession, SessionError};
+use paint::session::PaintingSession;
 use paint::strokes::BrushSpec;
 use pigment::library::PigmentLibrary;
 
@@ -56,7 +57,7 @@ impl WarmUp {
         true
     }
 
-    fn paint(&mut self) -> Result<(), SessionError> {
+    fn paint(&mut self) -> Result<(), PaintingError> {
         let Some(session) = &mut self.session else {
             self.session = Some(Self::begin()?);
             return Ok(());
@@ -72,7 +73,7 @@ impl WarmUp {
         Ok(())
     }
 
-    fn begin() -> Result<PaintingSession, SessionError> {
+    fn begin() -> Result<PaintingSession, PaintingError> {
         let (width_mm, height_mm) = SIZE_MM;
         let ground = GroundSpec::default();
         let canvas = Canvas { width_mm, height_mm, cell_mm: CELL_MM, ground };

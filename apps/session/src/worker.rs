@@ -4,15 +4,15 @@ use web_time::{Duration, Instant};
 
 use documents::hint::{Explain, Hint};
 use graphics::gpu::DeviceError;
-use paint::painting::PaintingError;
-use paint::session::{PaintingSession, SessionError};
+use paint::painting::{OpenStroke, PaintingError};
+use paint::session::PaintingSession;
 
 use super::backend::Backend;
 use super::event::{Event, Snapshot};
 use super::inbox::{Inbox, Wait};
 use super::meter::Meter;
 use super::miniature::Shots;
-use super::outbox::{Outbox, StrokeTiming, head_on_canvas, is_lifted, waiting_substeps};
+use super::outbox::{Outbox, head_on_canvas, is_lifted, waiting_substeps};
 use super::prepare::PreparedPainting;
 use super::replay::{Groups, Replay};
 use super::report::Reporter;
@@ -38,8 +38,8 @@ pub(super) struct WorkerLoop<'a> {
     pub(super) backend: Backend,
     pub(super) undo_bytes: u64,
     pub(super) open: Option<OpenPainting>,
-    /// Timing of the open stroke, if one is open.
-    pub(super) stroke: Option<StrokeTiming>,
+    /// Whether a sample of the open stroke was refused.
+    pub(super) sample_refused: bool,
     pub(super) playing: Option<Replay>,
     /// When a replay at the pace of the painter continues. It is `None` if it need not wait.
     pub(super) pause: Option<Instant>,
@@ -94,7 +94,7 @@ impl<'a> WorkerLoop<'a> {
             backend,
             undo_bytes,
             open: None,
-            stroke: None,
+            sample_refused: false,
             playing: None,
             pause: None,
             kept: None,
@@ -111,6 +111,12 @@ impl<'a> WorkerLoop<'a> {
         }
     }
 
+    /// The open stroke, if one is open.
+    pub(super) fn stroke(&self) -> Option<&OpenStroke> {
+        self.open.as_ref()?.session().open_stroke()
+    }
+
+    /// Works until the command to quit.
     pub(super) fn run(mut self) {
         loop {
             self.inbox.receive(self.wait_time());
@@ -169,19 +175,19 @@ impl<'a> WorkerLoop<'a> {
             self.pause,
             self.outbox.due().filter(|_| shows),
             self.state_stale.then_some(self.state_due),
-            self.performance_due().filter(|_| self.stroke.is_some() || !self.meter.is_idle()),
+            self.performance_due().filter(|_| self.stroke().is_some() || !self.meter.is_idle()),
         ];
         times.into_iter().flatten().min().map_or(Wait::Forever, Wait::Until)
     }
 
-    /// Takes a picture for the history if an action has ended. In a replay, actions end faster than
-    /// anyone looks, so this takes few.
-    fn take_shot(&mut self) -> Result<(), SessionError> {
+    /// Takes a picture for the history if an action has ended. Replays end actions faster than
+    /// anyone looks; they take few.
+    fn take_shot(&mut self) -> Result<(), PaintingError> {
         let Some(OpenPainting { prepared, shots, .. }) = &mut self.open else { return Ok(()) };
         let session = &mut prepared.session;
         let now = Instant::now();
         let hurries = self.playing.is_some() && now < self.shot_due;
-        if self.stroke.is_some() || hurries || self.shot_revision == Some(self.revision) {
+        if session.open_stroke().is_some() || hurries || self.shot_revision == Some(self.revision) {
             return Ok(());
         }
         self.shot_revision = Some(self.revision);
@@ -195,8 +201,8 @@ impl<'a> WorkerLoop<'a> {
         Ok(())
     }
 
-    /// Renders and sends the changed parts of the pictures, and the head.
-    fn send_pictures(&mut self) -> Result<(), SessionError> {
+    /// Renders and sends the changed parts of the pictures, and the head with them.
+    fn send_pictures(&mut self) -> Result<(), PaintingError> {
         let Some(open) = &mut self.open else { return Ok(()) };
         let session = &mut open.prepared.session;
         if self.outbox.is_due(Instant::now()) && (self.picture_stale || self.outbox.is_behind()) {
@@ -207,7 +213,7 @@ impl<'a> WorkerLoop<'a> {
                 self.head_shown = true;
             }
         }
-        if self.head_shown && self.stroke.is_none() {
+        if self.head_shown && session.open_stroke().is_none() {
             self.head_shown = false;
             (self.send)(Event::Head(None));
         }
@@ -215,7 +221,7 @@ impl<'a> WorkerLoop<'a> {
     }
 
     /// Sends the state if it changed. While idle, summarizes a dry layer.
-    fn send_state(&mut self) -> Result<(), SessionError> {
+    fn send_state(&mut self) -> Result<(), PaintingError> {
         if self.state_stale && Instant::now() >= self.state_due {
             self.state_stale = false;
             if let Some(state) = self.state()? {
@@ -223,7 +229,7 @@ impl<'a> WorkerLoop<'a> {
             }
             self.state_due = Instant::now() + STATE_INTERVAL;
         }
-        let busy = self.stroke.is_some() || self.playing.is_some() || !self.inbox.is_empty();
+        let busy = self.stroke().is_some() || self.playing.is_some() || !self.inbox.is_empty();
         if let Some(OpenPainting { prepared, reporter, .. }) = &mut self.open
             && !busy
             && reporter.layers.is_behind()
@@ -255,14 +261,10 @@ impl<'a> WorkerLoop<'a> {
         if self.performance_due().is_some_and(|due| now < due) {
             return;
         }
-        let behind = match (&self.stroke, &self.open) {
-            (Some(stroke), Some(open)) => {
-                let per_sample = stroke.substeps_per_sample(open.session());
-                let unread = (self.inbox.samples() as f64 * per_sample) as usize;
-                waiting_substeps(open.session()) + unread
-            }
-            _ => 0,
-        };
+        let behind = self.stroke().map_or(0, |stroke| {
+            let unread = self.inbox.samples() as f64 * stroke.substeps_per_sample();
+            stroke.waiting() + unread as usize
+        });
         let performance = self.meter.performance(now, behind);
         self.outbox.paint_is_behind = performance.paint_is_behind;
         if performance != self.performance {
@@ -273,7 +275,7 @@ impl<'a> WorkerLoop<'a> {
     }
 
     fn performance_due(&self) -> Option<Instant> {
-        let open = self.stroke.is_some();
+        let open = self.stroke().is_some();
         let interval = if open { STROKE_REPORT_INTERVAL } else { IDLE_REPORT_INTERVAL };
         Some(self.performance_sent? + interval)
     }
@@ -284,12 +286,10 @@ impl<'a> WorkerLoop<'a> {
 
     /// Sends the message of an error. The painting has not changed, unless the device was lost:
     /// then it is recovered on the processor.
-    pub(super) fn report_failure(&mut self, error: &SessionError) {
+    pub(super) fn report_failure(&mut self, error: &PaintingError) {
         self.send_message(error.to_string(), error.hint(), true);
         self.state_stale = true;
-        if let SessionError::Painting(PaintingError::Engine(
-            DeviceError::Lost { .. } | DeviceError::Refused { .. },
-        )) = error
+        if let PaintingError::Engine(DeviceError::Lost { .. } | DeviceError::Refused { .. }) = error
         {
             self.recover();
         }

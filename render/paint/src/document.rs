@@ -1,7 +1,7 @@
 //! A painting at rest: everything that its file stores, its canvas and palette, and a part of it
 //! cut out as a painting.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::tile::Rect;
 use pigment::RecipeError;
 use pigment::library::PigmentLibrary;
@@ -277,16 +277,19 @@ pub fn palette_slots(names: &[String], library: &PigmentLibrary) -> Result<Slots
 }
 
 /// The names do not make a palette.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum PaletteError {
     /// There are more pigments than slots.
     #[error("a palette has at most {SLOTS} pigments, found `{count}`")]
+    #[hint("leave [palette] out to have the best eight chosen")]
     TooMany {
         /// Number of names.
         count: usize,
     },
     /// Two names mean the same pigment.
     #[error("a palette takes each pigment once, found `{name}` again")]
+    #[hint("leave the second out")]
     Repeated {
         /// The second name, as it was given.
         name: String,
@@ -294,25 +297,6 @@ pub enum PaletteError {
     /// The library has no pigment of this name, or several.
     #[error(transparent)]
     Pigment(#[from] RecipeError),
-}
-
-impl Explain for PaletteError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::TooMany { .. } => {
-                Some(Hint::new("leave [palette] out to have the best eight chosen"))
-            }
-            Self::Repeated { .. } => Some(Hint::new("leave the second out")),
-            Self::Pigment(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::TooMany { .. } | Self::Repeated { .. } => Fault::Setting,
-            Self::Pigment(error) => error.fault(),
-        }
-    }
 }
 
 impl Document {

@@ -27,7 +27,7 @@
 //!
 //! [`PaintingSession`] is the main entry point: it takes pigments and brushes by name, undoes
 //! actions and records them.
-//! [`OpenStroke`] paints a stroke whose samples arrive one by one. [`StrokeScript`] is a
+//! [`OpenStroke`] is a stroke whose samples arrive one by one. [`StrokeScript`] is a
 //! file of strokes, and [`document::Document`] a painting at rest.
 //!
 //! Follows Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for Paint" (NPAR
@@ -59,9 +59,9 @@ pub mod brush;
 pub mod stroke;
 pub mod history;
 pub mod scene;
-pub mod painting;
 pub mod strokes;
 pub mod file;
+pub mod painting;
 pub mod session;
 pub mod export;
 pub mod timelapse;
@@ -74,8 +74,3 @@ pub use painting::OpenStroke;
 pub use pose::Sample;
 pub use session::PaintingSession;
 pub use strokes::{BrushSpec, StrokeScript};
-
-/// The modules `canvas`, `palette` and `dry_layer` became parts of others. Their paths stay.
-pub use document as canvas;
-pub use document as palette;
-pub use layer as dry_layer;

@@ -7,7 +7,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use documents::Task;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::lanes::{greater, lesser, multiply_add};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
@@ -151,33 +151,21 @@ fn rgb_from_nodes(quadrature: &Quadrature, degree: f64) -> [[f64; 3]; NODES] {
 }
 
 /// A light cannot be used for painting.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum PaintLightError {
     /// The name of the illuminant is unknown, or its file is invalid.
     #[error(transparent)]
+    #[fault(Setting)]
     Light(#[from] LightError),
     /// The name of the observer is unknown.
     #[error(transparent)]
+    #[fault(Setting)]
     Observer(#[from] ObserverError),
     /// The light has too few usable wavelengths, for example a laser.
     #[error(transparent)]
+    #[hint("painting needs a light that the observer sees at {NODES} wavelengths or more")]
+    #[fault(Setting)]
     Quadrature(#[from] QuadratureFailure),
-}
-
-impl Explain for PaintLightError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Light(error) => error.hint(),
-            Self::Observer(error) => error.hint(),
-            Self::Quadrature(_) => Some(Hint::new(format!(
-                "painting needs a light that the observer sees at {NODES} wavelengths or more"
-            ))),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }
 
 /// Two paints of a library under one light. K and S at the light's wavelengths are

@@ -5,7 +5,7 @@
 //! wavelength is in f64. It is the reference for the eight wavelengths of the engine, and serves
 //! spectral files and the eyedropper.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
@@ -193,21 +193,13 @@ fn tops(document: &Document, layers: usize) -> Tops {
 pub struct PixelsPerCell(u8);
 
 /// A number of pixels along a cell is out of range.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 #[error("a cell has 1 to {} pixels along its width, found `{found}`", PixelsPerCell::MOST)]
+#[hint("2 hides the cells on most screens")]
+#[fault(Setting)]
 pub struct PixelsPerCellError {
     /// The number that was asked for.
     pub found: u8,
-}
-
-impl Explain for PixelsPerCellError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("2 hides the cells on most screens"))
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }
 
 impl Default for PixelsPerCell {

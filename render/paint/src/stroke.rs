@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use graphics::tile::Rect;
 
 use super::brush::{Head, Relief};
@@ -36,7 +36,7 @@ pub fn substeps(
         return Err(StrokeError::Empty);
     }
     let mut path = Path::new(cell_mm, size_mm)?;
-    path.push(samples)?;
+    samples.iter().try_for_each(|sample| path.push(sample))?;
     path.finish();
     Ok(path)
 }
@@ -77,19 +77,22 @@ pub const MOST_SUBSTEPS: u64 = 10_000_000;
 const FARTHEST: f64 = 1e9;
 
 /// Why samples cannot be painted. Samples are counted from 0, the first of the stroke.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum StrokeError {
     /// The stroke has no sample.
     #[error("a stroke without samples")]
+    #[hint("give at least one sample")]
     Empty,
     /// The width of a cell is not above 0.
     #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    #[hint("give the width of a cell in mm, such as 0.1")]
     Cell {
         /// Width of a cell in mm.
         cell_mm: f64,
     },
     /// A number is infinite or NaN.
     #[error("sample {sample}: {field} is no number: `{found}`")]
+    #[hint("leave the sample out")]
     NoNumber {
         /// Index of the sample.
         sample: usize,
@@ -100,6 +103,9 @@ pub enum StrokeError {
     },
     /// A number is out of range.
     #[error("sample {sample}: {field} is from {lowest} to {highest}: `{found}`")]
+    #[hint(if *field == "pressure", "divide by the pen's highest pressure")]
+    #[hint(if field.ends_with("_mm"), "places are in mm from the canvas's corner")]
+    #[hint("tilts are degrees from upright")]
     Range {
         /// Index of the sample.
         sample: usize,
@@ -114,6 +120,7 @@ pub enum StrokeError {
     },
     /// A sample is earlier than the one before it.
     #[error("sample {sample}: seconds fall, from {before} to `{found}`")]
+    #[hint("sort the samples by time")]
     Backwards {
         /// Index of the sample.
         sample: usize,
@@ -124,32 +131,15 @@ pub enum StrokeError {
     },
     /// The stroke needs more than [`MOST_SUBSTEPS`] sub-steps.
     #[error("the stroke takes up to {substeps:.0} sub-steps, at most {MOST_SUBSTEPS} are allowed")]
+    #[hint("places are in mm; cut the stroke in pieces")]
     TooLong {
         /// Upper bound of the sub-steps that the stroke would take.
         substeps: f64,
     },
     /// A sample came after the brush was lifted.
     #[error("the brush was lifted, so the stroke takes no more samples")]
+    #[hint("begin another stroke")]
     Lifted,
-}
-
-impl Explain for StrokeError {
-    fn hint(&self) -> Option<Hint> {
-        let hint = match self {
-            Self::Empty => "give at least one sample",
-            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
-            Self::NoNumber { .. } => "leave the sample out",
-            Self::Range { field: "pressure", .. } => "divide by the pen's highest pressure",
-            Self::Range { field: "x_mm" | "y_mm", .. } => {
-                "places are in mm from the canvas's corner"
-            }
-            Self::Range { .. } => "tilts are degrees from upright",
-            Self::Backwards { .. } => "sort the samples by time",
-            Self::TooLong { .. } => "places are in mm; cut the stroke in pieces",
-            Self::Lifted => "begin another stroke",
-        };
-        Some(Hint::new(hint))
-    }
 }
 
 /// Maximum change of pressure in a sub-step, 0 to 1 (chosen by eye).
@@ -349,8 +339,7 @@ impl Path {
         })
     }
 
-    /// Appends samples. If one is refused, the path keeps those before it, and others can be
-    /// appended after them.
+    /// Appends a sample. If it is refused, others can be appended instead.
     ///
     /// # Errors
     /// [`StrokeError`] for an impossible sample, and for a path of more than
@@ -358,12 +347,8 @@ impl Path {
     ///
     /// # Panics
     /// If the path is finished.
-    pub fn push(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
+    pub fn push(&mut self, sample: &Sample) -> Result<(), StrokeError> {
         assert!(!self.finished, "a path takes no samples after it is finished");
-        samples.iter().try_for_each(|sample| self.push_one(sample))
-    }
-
-    fn push_one(&mut self, sample: &Sample) -> Result<(), StrokeError> {
         self.check(sample)?;
         let pose = sample.pose(self.cell_mm);
         let [before, from, to] = self.recent;
@@ -398,10 +383,10 @@ impl Path {
         self.finished = true;
     }
 
-    /// Number of samples.
+    /// Whether the path was finished.
     #[must_use]
-    pub fn samples(&self) -> usize {
-        self.samples
+    pub fn is_finished(&self) -> bool {
+        self.finished
     }
 
     /// Number of samples that the returned poses have reached.
@@ -647,7 +632,7 @@ mod tests {
             let mut lagged = 0;
             while !rest.is_empty() {
                 let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
-                path.push(now).unwrap();
+                now.iter().for_each(|sample| path.push(sample).unwrap());
                 rest = later;
                 let least = path.waiting();
                 let most = random.random_range(0..40);
@@ -656,8 +641,8 @@ mod tests {
                 assert_eq!(least > 0 && most > 0, pieces.len() > before, "seed {seed}");
                 assert!(pieces.len() - before <= least, "seed {seed}: {least} at most");
                 let reached = path.reached();
-                assert!(reached <= path.samples(), "seed {seed}");
-                lagged = lagged.max(path.samples() - reached);
+                assert!(reached <= path.samples, "seed {seed}");
+                lagged = lagged.max(path.samples - reached);
             }
             path.finish();
             pieces.extend(path.by_ref());
@@ -676,19 +661,19 @@ mod tests {
     fn a_refused_sample_leaves_the_path_where_it_was() {
         let good = [SAMPLE, at(0.1, 7.0, 5.0), at(0.2, 9.0, 6.0)];
         let mut path = Path::new(0.1, SIZE_MM).unwrap();
-        path.push(&good[..2]).unwrap();
+        good[..2].iter().for_each(|sample| path.push(sample).unwrap());
         for bad in [
             Sample { pressure: -0.1, ..good[2] },
             Sample { y_mm: f64::NAN, ..good[2] },
             Sample { seconds: 0.05, ..good[2] },
             Sample { x_mm: 1.1e6, ..good[2] },
         ] {
-            let error = path.push(&[bad]).unwrap_err();
+            let error = path.push(&bad).unwrap_err();
             let place = matches!(error, StrokeError::TooLong { .. })
                 || error.to_string().starts_with("sample 2: ");
             assert!(place, "{error}");
         }
-        path.push(&good[2..]).unwrap();
+        path.push(&good[2]).unwrap();
         path.finish();
         assert_eq!(path.collect::<Vec<_>>(), poses(&good));
     }

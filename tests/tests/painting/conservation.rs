@@ -9,8 +9,8 @@ use paint::amount::{MAX_COLUMN, mm_from_quanta};
 use paint::brush::HeadShape;
 use paint::document::{Document, Lighting, Slots};
 use paint::engine::BrushId;
-use paint::layer::{Layer, SLOTS};
-use paint::painting::{LayerRef, Painting, PaintingError, UNDO_BYTES};
+use paint::layer::{Layer, LayerRef, SLOTS};
+use paint::painting::{Painting, PaintingError, UNDO_BYTES};
 use paint::scene::SpectralDocument;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -298,7 +298,7 @@ fn a_layer_of_no_opacity_is_as_good_as_not_there() {
         assert!(off[off.len() - 1] > 5.0, "{:?}", off.last());
         for wrong in [f64::NAN, -0.1, 1001.0] {
             let error = painting.set_opacity(LayerRef::Dry(0), wrong).unwrap_err();
-            assert!(matches!(error, PaintingError::Opacity { .. }), "{error}");
+            assert!(matches!(error, PaintingError::Range { .. }), "{error}");
         }
     }
 }

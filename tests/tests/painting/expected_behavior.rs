@@ -10,10 +10,11 @@ use paint::brush::HeadShape;
 use paint::document::Lighting;
 use paint::engine::BrushId;
 use paint::history::TILE_BYTES;
-use paint::layer::{Layer, SLOTS};
+use paint::layer::{Layer, LayerRef, SLOTS};
 use paint::optics::Gloss;
-use paint::painting::{LayerRef, Painting, PaintingError};
+use paint::painting::{Painting, PaintingError};
 use paint::pose::Sample;
+use paint::strokes::Action;
 use spectra::color::Lab;
 
 use super::studio::{
@@ -400,7 +401,7 @@ fn a_slider_that_is_dragged_is_one_action_and_shows_every_state() {
             painting.relight(Lighting { azimuth_deg, ..Lighting::default() }).unwrap();
             seen.push(painting.picture().unwrap());
             let shine = Gloss { strength: 0.3 * share as f32, exponent: 30.0 };
-            painting.set_gloss(shine, shine).unwrap();
+            painting.apply(&Action::Gloss { wet: shine, dry: shine }).unwrap();
             seen.push(painting.picture().unwrap());
         }
         assert!(painting.set_opacity(LayerRef::Dry(0), -1.0).is_err(), "an opacity below 0");
@@ -442,7 +443,7 @@ fn gloss_changes_what_shines_is_kept_by_the_file_and_undone() {
         let medium = painting.medium().clone();
         let wet = Gloss { strength: 0.9, exponent: 90.0 };
         let dry = medium.dry;
-        painting.set_gloss(wet, dry).unwrap();
+        painting.apply(&Action::Gloss { wet, dry }).unwrap();
         assert!(painting.picture().unwrap() != before, "the gloss changed nothing");
         let found = painting.document().unwrap().medium;
         assert_eq!((found.wet, found.dry), (wet, dry));
@@ -451,8 +452,9 @@ fn gloss_changes_what_shines_is_kept_by_the_file_and_undone() {
         assert!(painting.picture().unwrap() == before, "undo");
         assert_eq!(painting.medium(), &medium);
         for strength in [-0.1, f32::NAN, 1e3] {
-            let error = painting.set_gloss(wet, Gloss { strength, ..dry }).unwrap_err();
-            assert!(matches!(error, PaintingError::Gloss { .. }), "{error}");
+            let dry = Gloss { strength, ..dry };
+            let error = painting.apply(&Action::Gloss { wet, dry }).unwrap_err();
+            assert!(matches!(error, PaintingError::Invalid(_)), "{error}");
         }
         assert_eq!(painting.medium(), &medium);
     }

@@ -8,7 +8,7 @@ use paint::history::TILE_BYTES;
 use paint::layer::SLOTS;
 use paint::optics::Gloss;
 use paint::painting::PaintingError;
-use paint::session::{Outcome, PaintingSession, SessionError};
+use paint::session::{Outcome, PaintingSession};
 use paint::strokes::{Action, LayerRef, PaletteSpec, SurfaceId};
 
 use super::studio::{
@@ -126,7 +126,7 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
     for mut session in sessions() {
         let without_red = Action::Palette(PaletteSpec::from_names(PALETTE[..3].iter().copied()));
         let refused = |session: &mut PaintingSession| match session.apply(&without_red) {
-            Err(SessionError::Painting(PaintingError::StillWet { pigment })) => Some(pigment),
+            Err(PaintingError::StillWet { pigment }) => Some(pigment),
             _ => None,
         };
         let red = "Vermilion";
@@ -150,7 +150,7 @@ fn pigments_that_are_wet_anywhere_stay_on_both_palettes() {
         assert!(!palette.contains(&Some(pigment(red))));
         assert!(matches!(
             session.apply(&squeeze(SurfaceId::Palette, red, (9.0, 7.0))),
-            Err(SessionError::Painting(PaintingError::OffPalette { .. }))
+            Err(PaintingError::OffPalette { .. })
         ));
     }
 }
@@ -245,7 +245,7 @@ fn a_slider_is_one_action_and_another_one_is_another() {
         assert!(whole(&mut session) == after);
         assert!(matches!(
             session.adjust(&Action::Dry { fraction: 0.5 }),
-            Err(SessionError::NoControl { kind: "dry" })
+            Err(PaintingError::NoControl { kind: "dry" })
         ));
         session.end_adjustment();
         assert_eq!(session.history().0, labels, "nothing was adjusted");
@@ -261,24 +261,25 @@ fn what_is_open_ends_before_anything_else() {
         let mut random = seeded(4);
         session.begin_stroke(SurfaceId::Palette, "knife").unwrap();
         session.extend(&wander(&mut random, 5)).unwrap();
-        assert_eq!(session.open_stroke(), Some((SurfaceId::Palette, "knife")));
+        let open = session.open_stroke().expect("a stroke is open").stroke();
+        assert_eq!((open.on, open.brush.as_str()), (SurfaceId::Palette, "knife"));
         let (_, palette) = session.documents().unwrap();
         assert_eq!(palette.unwrap().wet.totals(), [0; SLOTS + 1], "nothing was painted yet");
         session.apply(&Action::Dry { fraction: 0.5 }).unwrap();
-        assert_eq!(session.open_stroke(), None);
+        assert!(session.open_stroke().is_none());
         assert_eq!(session.history().0, ["stroke on the palette, knife"], "no wet paint to dry");
         // A stroke without samples is not a step of the history.
         session.begin_stroke(SurfaceId::Canvas, "flat").unwrap();
         assert_eq!(session.advance(100).unwrap(), 0);
         assert_eq!(session.end_stroke().unwrap(), None);
-        assert!(matches!(session.end_stroke(), Err(SessionError::NoStroke)));
-        assert!(matches!(session.extend(&wander(&mut random, 1)), Err(SessionError::NoStroke)));
+        assert!(matches!(session.end_stroke(), Err(PaintingError::NoStroke)));
+        assert!(matches!(session.extend(&wander(&mut random, 1)), Err(PaintingError::NoStroke)));
         assert_eq!(session.history().1, 1);
         session.begin_stroke(SurfaceId::Canvas, "flat").unwrap();
         let samples = wander(&mut random, 4);
         session.extend(&samples).unwrap();
         session.lift().unwrap();
-        assert!(matches!(session.extend(&samples), Err(SessionError::NoStroke)), "after lifting");
+        assert!(matches!(session.extend(&samples), Err(PaintingError::NoStroke)), "after lifting");
         assert!(session.undo().unwrap(), "the stroke that was open");
         assert_eq!(session.history(), (vec!["stroke on the palette, knife", "stroke, flat"], 1));
     }

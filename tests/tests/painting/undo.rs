@@ -15,12 +15,13 @@ use paint::brush::{HeadShape, HeadShape as PiecesHeadShape};
 use paint::document::{Document, Lighting};
 use paint::engine::{BrushId, BrushId as PiecesBrushId, PaintEngine};
 use paint::history::TILE_BYTES;
-use paint::layer::{Layer, Layer as PiecesLayer};
+use paint::layer::{Layer, Layer as PiecesLayer, LayerRef};
 use paint::light::Light;
 use paint::optics::Gloss;
-use paint::painting::{LayerRef, Painting, PaintingError, UNDO_BYTES};
+use paint::painting::{Painting, PaintingError, UNDO_BYTES};
 use paint::pose::Sample;
 use paint::stroke::StrokeError;
+use paint::strokes::{Action, StrokeTool};
 
 /// A painting, the paint on each of its brushes, and its picture.
 type Whole = (Document, Vec<Layer>, Field<[f32; 4]>);
@@ -73,7 +74,8 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
         }
         12 => {
             let shine = Gloss { strength: random.random_range(0.0..0.5), exponent: 30.0 };
-            painting.set_gloss(shine, Gloss { strength: 0.1, ..shine }).unwrap();
+            let dry = Gloss { strength: 0.1, ..shine };
+            painting.apply(&Action::Gloss { wet: shine, dry }).unwrap();
             true
         }
         5 if layers > 1 => {
@@ -82,18 +84,20 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
         }
         13 if layers > 0 => {
             let layer = painting.state().dry[random.random_range(0..layers)].id;
-            painting.name_layer(LayerRef::Id(layer), ["sky", "sea"][layers % 2]).unwrap();
+            let name = ["sky", "sea"][layers % 2].to_owned();
+            painting.apply(&Action::Name { layer: LayerRef::Id(layer), name }).unwrap();
             true
         }
         14 if layers > 0 => {
             let layer = LayerRef::Dry(random.random_range(0..layers));
-            painting.show_layer(layer, random.random_bool(0.5)).unwrap();
+            let value = random.random_bool(0.5);
+            painting.apply(&Action::Visible { layer, value }).unwrap();
             true
         }
         15 if layers > 1 => {
             let layer = random.random_range(0..layers);
             let to = random.random_range(0..layers);
-            painting.move_layer(LayerRef::Dry(layer), to).unwrap()
+            painting.apply(&Action::Order { layer: LayerRef::Dry(layer), to }).unwrap()
         }
         _ => {
             let brush = random.random_range(0..2);
@@ -251,7 +255,7 @@ fn in_pieces(
     samples: &[Sample],
     random: &mut ChaCha8Rng,
 ) -> (u64, u64, bool) {
-    let mut stroke = painting.begin_stroke(brush).unwrap();
+    let mut stroke = painting.begin_stroke(StrokeTool::Paint, brush).unwrap();
     let mut rest = samples;
     while !rest.is_empty() {
         let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
@@ -320,7 +324,7 @@ fn a_refused_sample_leaves_the_stroke_as_far_as_it_was() {
             assert_eq!(loaded(&mut cut, PiecesHeadShape::Round, 4.0, BLUE, 0.4), brush);
             let clean = paint(&mut cut, 1);
             whole.stroke(brush, &samples[..3]).unwrap();
-            let mut stroke = cut.begin_stroke(brush).unwrap();
+            let mut stroke = cut.begin_stroke(StrokeTool::Paint, brush).unwrap();
             stroke.extend(&samples[..2]).unwrap();
             stroke.advance(&mut cut, 20).unwrap();
             // The sample before the refused one is accepted, but not the one after it.
@@ -344,12 +348,12 @@ fn a_stroke_without_samples_is_no_action() {
         let brush = loaded(&mut painting, PiecesHeadShape::Round, 4.0, BLUE, 0.4);
         let error = painting.stroke(brush, &[]).unwrap_err();
         assert!(matches!(error, PaintingError::Stroke(StrokeError::Empty)), "{error}");
-        let mut stroke = painting.begin_stroke(brush).unwrap();
+        let mut stroke = painting.begin_stroke(StrokeTool::Paint, brush).unwrap();
         assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0);
         assert_eq!(stroke.finish(&mut painting).unwrap().substeps, 0);
         assert!(!painting.undo().unwrap(), "something to undo");
         // A stroke of a single sample paints a dab when it ends.
-        let mut stroke = painting.begin_stroke(brush).unwrap();
+        let mut stroke = painting.begin_stroke(StrokeTool::Paint, brush).unwrap();
         stroke.extend(&along(&[(9.0, 9.0)], 0.6)).unwrap();
         assert_eq!(stroke.advance(&mut painting, 10).unwrap(), 0, "no dab before the end");
         assert!(stroke.finish(&mut painting).unwrap().substeps > 3, "a dab");
@@ -366,7 +370,7 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
     painting.hover(brush, &samples[0]);
     let hovering = painting.head(brush).mesh().unwrap();
     assert!(painting.wet().unwrap().totals()[BLUE] == 0, "hovering left paint");
-    let mut stroke = painting.begin_stroke(brush).unwrap();
+    let mut stroke = painting.begin_stroke(StrokeTool::Paint, brush).unwrap();
     stroke.extend(&samples).unwrap();
     stroke.lift();
     stroke.advance(&mut painting, 32).unwrap();
@@ -384,6 +388,6 @@ fn a_brush_hovers_between_strokes_and_bends_within_them() {
 fn other_actions_wait_for_the_stroke_to_end() {
     let mut painting = on_both(&bare(40, 40)).remove(0);
     let brush = loaded(&mut painting, PiecesHeadShape::Round, 4.0, BLUE, 0.4);
-    let _stroke = painting.begin_stroke(brush).unwrap();
+    let _stroke = painting.begin_stroke(StrokeTool::Paint, brush).unwrap();
     let _ = painting.undo();
 }

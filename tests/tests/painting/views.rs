@@ -10,8 +10,10 @@ use image::ImageDecoder;
 use paint::brush::HeadShape;
 use paint::document::Lighting;
 use paint::file;
-use paint::painting::{LayerRef, MERGE_TOLERANCE, Painting, PaintingError};
+use paint::layer::LayerRef;
+use paint::painting::{MERGE_TOLERANCE, Painting, PaintingError};
 use paint::scene::SpectralDocument;
+use paint::strokes::StrokeTool;
 use spectra::color::{Adaptation, Rgb, RgbSpace};
 
 use super::studio::{
@@ -86,7 +88,7 @@ fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
         check(&mut painting, 15, "nothing");
         painting.stroke(brush, &along(&[(3.0, 4.0), (12.0, 5.0)], 0.5)).unwrap();
         check(&mut painting, 6, "a stroke");
-        let mut stroke = painting.begin_stroke(blue).unwrap();
+        let mut stroke = painting.begin_stroke(StrokeTool::Paint, blue).unwrap();
         stroke.extend(&along(&[(40.0, 26.0), (56.0, 30.0), (58.0, 34.0)], 0.5)).unwrap();
         assert!(stroke.advance(&mut painting, 30).unwrap() > 0, "a stroke of 30 sub-steps");
         check(&mut painting, 6, "half a stroke");

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use paint::document::{Document, Lighting};
+use paint::layer::{DryLayerState, LayerRef};
 use paint::light::Light;
-use paint::painting::{DryLayerState, LayerRef, Painting};
+use paint::painting::Painting;
 use serde_json::json;
 
 use crate::console::Console;

@@ -4,6 +4,7 @@ use std::io::BufRead;
 use std::process::{Command, Stdio};
 
 use paint::brush::HeadShape;
+use paint::engine::BrushId;
 use paint::layer::{Cell, Layer};
 use paint::session::{KeptHead, RecordingTail};
 use paint::strokes::{Action, BrushSpec, PerSurface, StrokeScript, SurfaceId};
@@ -187,7 +188,7 @@ fn painting(from: usize, count: usize) -> KeptPainting {
         spec: BrushSpec { shape: HeadShape::Round, size_mm: 4.0 },
         named: true,
         at: SurfaceId::Palette,
-        numbers: PerSurface { canvas: None, palette: Some(0) },
+        ids: PerSurface { canvas: None, palette: Some(BrushId(0)) },
         paint: Some(paint),
     };
     let tail = RecordingTail { header: header(), from, actions: dry(count), open: None };

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use documents::file::disk;
 use documents::file::disk::{File, OpenOptions};
 use graphics::tile::Rect;
+use paint::engine::BrushId;
 use paint::layer::{Cell, Layer, SLOTS};
 use paint::mask::Mask;
 use paint::session::{KeptHead, KeptSession, RecordingTail};
@@ -77,9 +78,9 @@ pub(super) fn describe(
         Place { width, height, start, bytes: count }
     };
     let brushes = brushes.iter().map(|brush| {
-        let KeptHead { name, recorded, spec, named, at, numbers, paint } = brush.clone();
+        let KeptHead { name, recorded, spec, named, at, ids, paint } = brush.clone();
         let paint = paint.map(|paint| keep(bytes_of(&paint), paint.width(), paint.height()));
-        let numbers = [numbers.canvas, numbers.palette];
+        let numbers = [ids.canvas, ids.palette].map(|id| id.map(|id| id.0));
         BrushFile { name, recorded, spec, named, at, numbers, paint }
     });
     let brushes = brushes.collect();
@@ -108,14 +109,14 @@ impl WorkFile {
         let mask = mask.transpose()?;
         let brushes = self.brushes.into_iter().map(|brush| {
             let BrushFile { name, recorded, spec, named, at, numbers, paint: place } = brush;
-            let [canvas, palette] = numbers;
-            let numbers = PerSurface { canvas, palette };
+            let [canvas, palette] = numbers.map(|number| number.map(BrushId));
+            let ids = PerSurface { canvas, palette };
             let paint = place.map(|place| {
                 let Place { width, height, .. } = place;
                 paint_of(width, height, own(place)?).ok_or_else(wrong)
             });
             let paint = paint.transpose()?;
-            Ok(KeptHead { name, recorded, spec, named, at, numbers, paint })
+            Ok(KeptHead { name, recorded, spec, named, at, ids, paint })
         });
         let brushes = brushes.collect::<Result<_, FileFailure>>()?;
         let (recording, start) = match &self.recording {

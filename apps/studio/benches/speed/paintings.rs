@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use paint::brush::HeadShape;
-use paint::canvas::Canvas;
+use paint::document::Canvas;
 use paint::file;
 use paint::ground::GroundSpec;
 use paint::session::PaintingSession;

@@ -19,7 +19,7 @@ mod tests;
 use std::fmt;
 use std::str::FromStr;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
 pub use head::Head;
 pub use mark::ContactMark;
@@ -125,18 +125,12 @@ impl FromStr for HeadShape {
 }
 
 /// The name does not belong to a shape.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 #[error("no brush has this shape: `{name}`")]
+#[hint("shapes are {}", HeadShape::ALL.map(HeadShape::name).join(", "))]
 pub struct UnknownShape {
     /// The unknown name.
     pub name: String,
-}
-
-impl Explain for UnknownShape {
-    fn hint(&self) -> Option<Hint> {
-        let names = HeadShape::ALL.map(HeadShape::name).join(", ");
-        Some(Hint::new(format!("shapes are {names}")))
-    }
 }
 
 /// Proportions of a head, in widths of the head. Profiles run from the ferrule to the tip.
@@ -260,38 +254,31 @@ const KNIFE: Proportions = Proportions {
 };
 
 /// Why a head cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum BrushError {
     /// The width of the head is out of range.
     #[error("a head is 0.2 to 100 mm wide: `{size_mm}` mm")]
+    #[hint("give the width of the head in mm, such as 6")]
     Size {
         /// Width of the head in mm.
         size_mm: f64,
     },
     /// The width of a cell is not above 0.
     #[error("cells have a width above 0 mm: `{cell_mm}` mm")]
+    #[hint("give the width of a cell in mm, such as 0.1")]
     Cell {
         /// Width of a cell in mm.
         cell_mm: f64,
     },
     /// The head would have more cells than allowed.
     #[error("a head is at most 2048 cells wide: `{size_mm}` mm over cells of {cell_mm} mm")]
+    #[hint("take a smaller brush or larger cells")]
     TooFine {
         /// Width of the head in mm.
         size_mm: f64,
         /// Width of a cell in mm.
         cell_mm: f64,
     },
-}
-
-impl Explain for BrushError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Size { .. } => "give the width of the head in mm, such as 6",
-            Self::Cell { .. } => "give the width of a cell in mm, such as 0.1",
-            Self::TooFine { .. } => "take a smaller brush or larger cells",
-        }))
-    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! touches at each of them follows from how it is bent there, so several threads draw the contacts
 //! side by side. They are the contacts of [`Head::advance_as`] to the bit.
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use graphics::tile::Rect;
 use rayon::prelude::*;
 
@@ -51,8 +51,9 @@ pub enum StrokeTool {
 }
 
 /// A number of a tool is out of range.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 #[error("the {field} of the tool `{tool}` is {wanted}, found `{found}`")]
+#[hint("a strength of 0.5 and a height of 0 mm suit most paint")]
 pub struct ToolError {
     /// Name of the tool in a script.
     pub tool: &'static str,
@@ -62,12 +63,6 @@ pub struct ToolError {
     pub wanted: &'static str,
     /// Value of the number.
     pub found: f64,
-}
-
-impl Explain for ToolError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("a strength of 0.5 and a height of 0 mm suit most paint"))
-    }
 }
 
 impl StrokeTool {

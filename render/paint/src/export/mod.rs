@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use documents::file::{FileAction, FileError, write_whole};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::export::{ExportError, OutsideGamut, PictureFormat, picture_file};
 use graphics::field::Field;
 
@@ -149,7 +149,7 @@ fn make_folder(folder: &Path) -> Result<(), FileError> {
 }
 
 /// A painting cannot be exported.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PaintingExportError {
     /// The state of the painting cannot be computed.
     #[error(transparent)]
@@ -163,26 +163,6 @@ pub enum PaintingExportError {
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-}
-
-impl Explain for PaintingExportError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Painting(error) => error.hint(),
-            Self::Export(error) => error.hint(),
-            Self::PaintingFile(error) => error.hint(),
-            Self::File(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Painting(error) => error.fault(),
-            Self::Export(error) => error.fault(),
-            Self::PaintingFile(error) => error.fault(),
-            Self::File(error) => error.fault(),
-        }
-    }
 }
 
 /// Wavelengths of a spectral picture.

@@ -42,7 +42,7 @@ mod read;
 mod write;
 
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use pigment::library::LibraryError;
 
 pub use channels::{ChannelNames, PigmentChannel, channels_of_slots, slots_of_channels};
@@ -51,13 +51,14 @@ pub use read::{EXPANSION, MEMORY_LIMIT, read, read_table, read_within};
 pub use write::{write, write_with_table};
 
 /// A painting's file cannot be read, or a painting cannot be written.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum PaintingFileError {
     /// The file cannot be read from or written to the disk.
     #[error(transparent)]
     File(#[from] FileError),
     /// The file is not OpenEXR, or is damaged.
     #[error("{file}: not an intact OpenEXR file: {reason}")]
+    #[hint("the file is truncated, damaged or not OpenEXR: restore it from a backup")]
     Container {
         /// Path of the file.
         file: String,
@@ -66,6 +67,7 @@ pub enum PaintingFileError {
     },
     /// The file is OpenEXR, but not a painting of impasto.
     #[error("{file}: not a painting of impasto: {reason}")]
+    #[hint("choose a painting that was saved by impasto")]
     Format {
         /// Path of the file.
         file: String,
@@ -74,6 +76,7 @@ pub enum PaintingFileError {
     },
     /// The file has a version that this program does not know.
     #[error("{file}: this program reads paintings up to version {newest}, found `{found}`")]
+    #[hint("a newer impasto may read it")]
     Version {
         /// Path of the file.
         file: String,
@@ -92,6 +95,7 @@ pub enum PaintingFileError {
     },
     /// The pigment library in the file is invalid.
     #[error(transparent)]
+    #[fault(Input)]
     Library(#[from] LibraryError),
     /// A part of the file is missing or malformed.
     #[error("{file}: part `{part}` {reason}")]
@@ -105,6 +109,7 @@ pub enum PaintingFileError {
     },
     /// A channel is missing or malformed.
     #[error("{file}: part `{part}`, channel `{channel}` {reason}")]
+    #[hint("another program changed the file: keep channels as they were, in mm")]
     Channel {
         /// Path of the file.
         file: String,
@@ -117,6 +122,7 @@ pub enum PaintingFileError {
     },
     /// A value is not a possible amount or height.
     #[error("{file}: part `{part}`, channel `{channel}`, x {x}, y {y}: {wanted}, found `{found}`")]
+    #[hint("another program changed the file: keep channels as they were, in mm")]
     Value {
         /// Path of the file.
         file: String,
@@ -135,6 +141,7 @@ pub enum PaintingFileError {
     },
     /// The painting would take more memory than allowed.
     #[error("{file}: the painting takes {bytes} bytes in memory, the limit is {limit}")]
+    #[hint("reduce the canvas, or merge dry layers")]
     TooLarge {
         /// Path of the file.
         file: String,
@@ -162,32 +169,6 @@ impl PaintingFileError {
 
     fn container(file: &str, reason: String) -> Self {
         Self::Container { file: file.to_owned(), reason }
-    }
-}
-
-impl Explain for PaintingFileError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::File(error) => return error.hint(),
-            Self::Container { .. } => {
-                "the file is truncated, damaged or not OpenEXR: restore it from a backup"
-            }
-            Self::Format { .. } => "choose a painting that was saved by impasto",
-            Self::Version { .. } => "a newer impasto may read it",
-            Self::Library(error) => return error.hint(),
-            Self::Channel { .. } | Self::Value { .. } => {
-                "another program changed the file: keep channels as they were, in mm"
-            }
-            Self::TooLarge { .. } => "reduce the canvas, or merge dry layers",
-            Self::Header { .. } | Self::Part { .. } | Self::Unwritable { .. } => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            _ => Fault::Input,
-        }
     }
 }
 

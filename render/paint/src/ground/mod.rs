@@ -8,7 +8,7 @@ mod primer;
 mod relief;
 mod spec;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use graphics::picture_formats::NAMES;
 
@@ -32,7 +32,7 @@ pub struct Ground {
 }
 
 /// A ground cannot be made as described.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum GroundError {
     /// A setting is out of its range.
     #[error("{name} of a ground is {least} to {most}{unit}, found `{value}`")]
@@ -50,6 +50,7 @@ pub enum GroundError {
     },
     /// The relief is higher than heights in quanta allow.
     #[error("a ground may be {highest_mm} mm high over cells of this size, found `{mm}`")]
+    #[hint("use larger cells, or a lower ground")]
     TooHigh {
         /// Height found, in mm.
         mm: f64,
@@ -58,6 +59,7 @@ pub enum GroundError {
     },
     /// The colour is not written as `#rrggbb`.
     #[error("the colour of a ground is written #rrggbb, found `{text}`")]
+    #[hint("or give a number 0 to 1, or {{\"spectrum\": {{..}}}}")]
     Color {
         /// Text that was found.
         text: String,
@@ -70,6 +72,7 @@ pub enum GroundError {
     Resampled(#[from] spectra::InterpolateError),
     /// The reflectance spectrum does not overlap the library's wavelengths.
     #[error("the ground is measured from {start_nm} to {end_nm} nm only")]
+    #[hint("the library covers {library}")]
     Band {
         /// First wavelength of the spectrum, in nm.
         start_nm: f64,
@@ -80,30 +83,18 @@ pub enum GroundError {
     },
     /// The paint that tones the ground cannot be mixed.
     #[error("the film on the ground: {0}")]
+    #[hint(inner)]
+    #[fault(Input)]
     Recipe(#[from] pigment::library::RecipeError),
     /// The picture of a relief cannot be read.
     #[error("{path}: {reason}")]
+    #[hint("the relief of a ground is a grey picture ({NAMES}), white the highest")]
     Picture {
         /// Path of the picture.
         path: String,
         /// Reason given by the system or the decoder.
         reason: String,
     },
-}
-
-impl Explain for GroundError {
-    fn hint(&self) -> Option<Hint> {
-        Some(match self {
-            Self::TooHigh { .. } => Hint::new("use larger cells, or a lower ground"),
-            Self::Color { .. } => Hint::new("or give a number 0 to 1, or {\"spectrum\": {..}}"),
-            Self::Band { library, .. } => Hint::new(format!("the library covers {library}")),
-            Self::Picture { .. } => Hint::new(format!(
-                "the relief of a ground is a grey picture ({NAMES}), white the highest"
-            )),
-            Self::Recipe(error) => return error.hint(),
-            Self::OutOfRange { .. } | Self::Spectrum(_) | Self::Resampled(_) => return None,
-        })
-    }
 }
 
 /// Returns `value` if it lies within `range`, both ends included.

@@ -61,7 +61,7 @@ impl Painting {
         for index in self.cells_with_paint(brush) {
             paint.set_cell(index, paint.cell(index).plus(&fresh));
         }
-        self.change_brush(brush, &paint)
+        self.set_brush_paint(brush, &paint)
     }
 
     /// Largest amount, in mm, that [`Painting::load`] can add to a brush on which there is `paint`.
@@ -89,7 +89,10 @@ impl Painting {
         vehicle: f64,
     ) -> Result<[f64; SLOTS + 1], PaintingError> {
         if !(0.0..=1.0).contains(&vehicle) {
-            return Err(PaintingError::Share { what: "vehicle", value: vehicle });
+            return Err(PaintingError::Range {
+                what: "vehicle is a share of 0 to 1",
+                value: vehicle,
+            });
         }
         let total: f64 = recipe.iter().sum();
         let parts = total.is_finite() && recipe.iter().all(|&part| part >= 0.0);
@@ -119,7 +122,8 @@ impl Painting {
     ) -> Result<Cell, PaintingError> {
         let shares = self.shares(recipe, vehicle)?;
         if !(amount_mm >= 0.0 && amount_mm.is_finite()) {
-            return Err(PaintingError::Amount { value: amount_mm });
+            let what = "an amount of paint is 0 mm or more";
+            return Err(PaintingError::Range { what, value: amount_mm });
         }
         let [pigments @ .., vehicle] =
             shares.map(|share| quanta_from_mm(amount_mm * share, self.cell_mm));
@@ -127,19 +131,13 @@ impl Painting {
     }
 
     /// Wipes a brush on a rag. The fraction `kept` (0 to 1) of its paint stays.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if `kept` is outside 0 to 1.
-    ///
-    /// # Panics
-    /// If there is no such brush.
-    pub fn wipe(&mut self, brush: BrushId, kept: f64) -> Result<(), PaintingError> {
-        let share = share_of_65536_parts("kept", kept)?;
+    pub(crate) fn wipe(&mut self, brush: BrushId, kept: f64) -> Result<(), PaintingError> {
+        let share = share_of_65536_parts("kept is a share of 0 to 1", kept)?;
         let mut paint = self.engine.brush_paint(self.brushes[brush.0].id)?;
         for index in 0..paint.vehicle.values().len() {
             paint.set_cell(index, paint.cell(index).share_of_65536(share));
         }
-        self.change_brush(brush, &paint)
+        self.set_brush_paint(brush, &paint)
     }
 
     /// Removes all paint from a brush.
@@ -151,7 +149,7 @@ impl Painting {
     /// If there is no such brush.
     pub fn wash(&mut self, brush: BrushId) -> Result<(), PaintingError> {
         let (width, height) = self.brushes[brush.0].cells;
-        self.change_brush(brush, &Layer::empty(width, height))
+        self.set_brush_paint(brush, &Layer::empty(width, height))
     }
 
     /// Paint on a brush.
@@ -174,7 +172,7 @@ impl Painting {
     /// # Panics
     /// If there is no such brush, or `paint` does not have the cells of the head.
     pub fn set_brush_paint(&mut self, brush: BrushId, paint: &Layer) -> Result<(), PaintingError> {
-        self.change_brush(brush, paint)
+        Ok(self.engine.set_brush_paint(self.brushes[brush.0].id, paint)?)
     }
 
     /// Head of a brush, as it is bent now.
@@ -199,13 +197,7 @@ impl Painting {
 
     /// Removes the paint of a brush and returns it, for the brush of another painting. An
     /// action of the history: an undo puts it back.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn take_brush_paint(&mut self, brush: BrushId) -> Result<Layer, PaintingError> {
+    pub(crate) fn take_brush_paint(&mut self, brush: BrushId) -> Result<Layer, PaintingError> {
         self.apply_action(|painting| {
             let id = painting.brushes[brush.0].id;
             painting.history.save_brush(&mut painting.engine, id)?;
@@ -214,16 +206,12 @@ impl Painting {
             Ok(paint)
         })
     }
-
-    fn change_brush(&mut self, brush: BrushId, paint: &Layer) -> Result<(), PaintingError> {
-        Ok(self.engine.set_brush_paint(self.brushes[brush.0].id, paint)?)
-    }
 }
 
 /// A fraction of 0 to 1 as parts of 65536.
 pub(super) fn share_of_65536_parts(what: &'static str, value: f64) -> Result<u32, PaintingError> {
     if !(0.0..=1.0).contains(&value) {
-        return Err(PaintingError::Share { what, value });
+        return Err(PaintingError::Range { what, value });
     }
     Ok((value * 65536.0).round() as u32)
 }
@@ -264,24 +252,6 @@ impl TipLoad {
     #[must_use]
     pub fn thickness_mm(&self) -> f64 {
         self.amounts_mm.iter().sum()
-    }
-}
-
-impl Painting {
-    /// Paint at the tip of a brush, which is what it paints with now. The rest of the head may
-    /// hold more.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush.
-    pub fn tip_load(&mut self, brush: BrushId) -> Result<TipLoad, PaintingError> {
-        let cell_mm = self.cell_mm();
-        let head = self.head(brush);
-        let rows = head.rows_with_paint().len();
-        let area = head.paint_cell_area();
-        Ok(TipLoad::of(&self.brush_paint(brush)?, rows, cell_mm, area))
     }
 }
 
@@ -406,7 +376,8 @@ impl Painting {
     ) -> Result<(), PaintingError> {
         let shares = self.shares(recipe, vehicle)?;
         if !(volume_mm3 > 0.0 && volume_mm3 <= MOST_MM3) {
-            return Err(PaintingError::Volume { value: volume_mm3 });
+            let what = "a volume of paint is above 0 mm3 and at most a litre, 1000000 mm3";
+            return Err(PaintingError::Range { what, value: volume_mm3 });
         }
         let bounds = self.engine.bounds();
         let middle = (x_mm / self.cell_mm, y_mm / self.cell_mm);

@@ -1,21 +1,24 @@
-//! Errors of a painting.
+//! Errors of paintings and of their sessions.
 
 use crate::brush::{BrushError, ToolError};
+use crate::file::PaintingFileError;
 use crate::layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
+use crate::strokes::{InvalidValue, ScriptError, ScriptStartError};
 use documents::counted;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::gpu::DeviceError;
 
-/// Why a painting refuses an action. Nothing is changed then, unless the device failed.
-#[derive(Debug, thiserror::Error)]
+/// Why a painting or its session refuses an action. Nothing is changed then, unless the device failed.
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PaintingError {
     /// The graphics device failed.
     #[error(transparent)]
     Engine(#[from] DeviceError),
     /// The light is unknown or has no wavelengths in common with the library.
     #[error(transparent)]
+    #[fault(Input)]
     Light(#[from] PaintLightError),
     /// A brush head cannot have this size.
     #[error(transparent)]
@@ -26,31 +29,20 @@ pub enum PaintingError {
     /// A number of a tool is out of range.
     #[error(transparent)]
     Tool(#[from] ToolError),
+    /// A number is out of range.
+    #[error("{what}, found `{value}`")]
+    Range {
+        /// Description of the range.
+        what: &'static str,
+        /// Value of the number.
+        value: f64,
+    },
     /// A recipe has no parts above 0, or a negative part.
     #[error("a recipe needs parts above 0, none below, unless it is vehicle alone")]
     NoMixture,
-    /// A share lies outside 0 to 1.
-    #[error("{what} is a share of 0 to 1, found `{value}`")]
-    Share {
-        /// Name of the quantity.
-        what: &'static str,
-        /// Value of the quantity.
-        value: f64,
-    },
-    /// An amount of paint on a brush is negative or not a number.
-    #[error("an amount of paint is 0 mm or more, found `{value}`")]
-    Amount {
-        /// The amount in mm.
-        value: f64,
-    },
-    /// A volume of paint is not above 0, or more than a litre.
-    #[error("a volume of paint is above 0 mm3 and at most a litre, 1000000 mm3, found `{value}`")]
-    Volume {
-        /// The volume in mm3.
-        value: f64,
-    },
     /// A place lies beside the canvas.
     #[error("there is no canvas {x_mm} mm from its left and `{y_mm}` mm from its upper edge")]
+    #[hint("places are in mm from the canvas's corner")]
     OffCanvas {
         /// Distance from the left edge in mm.
         x_mm: f64,
@@ -59,27 +51,12 @@ pub enum PaintingError {
     },
     /// The paint at a place is too high for a heap on it.
     #[error("the paint {x_mm} mm from the left and `{y_mm}` mm from the top is too high for more")]
+    #[hint("squeeze beside it, or spread it first")]
     NoRoom {
         /// Distance from the left edge in mm.
         x_mm: f64,
         /// Distance from the upper edge in mm.
         y_mm: f64,
-    },
-    /// A gloss is out of range.
-    #[error(
-        "a gloss has a strength of 0 to 100 and an exponent of 0 to 1e6, found `{strength}` and `{exponent}`"
-    )]
-    Gloss {
-        /// Strength of the highlight.
-        strength: f32,
-        /// Exponent of the highlight.
-        exponent: f32,
-    },
-    /// A stiffness is out of range.
-    #[error("the stiffness of paint is 0 to 1, found `{stiffness}`")]
-    Stiffness {
-        /// The stiffness.
-        stiffness: f64,
     },
     /// A recipe has parts of a slot without pigment.
     #[error("no pigment is squeezed out in slot {slot}")]
@@ -89,6 +66,7 @@ pub enum PaintingError {
     },
     /// A brush cannot hold that much more paint.
     #[error("the brush holds {most_mm:.2} mm more at most, found `{amount_mm}`")]
+    #[hint("wipe or wash the brush first")]
     Overloaded {
         /// Height of the paint to load, in mm.
         amount_mm: f64,
@@ -97,12 +75,14 @@ pub enum PaintingError {
     },
     /// A pigment cannot leave the palette while it is wet on the canvas or on a brush.
     #[error("{pigment} is still wet, so it cannot leave the palette")]
+    #[hint("dry the painting and wash the brushes first")]
     StillWet {
         /// Name of the pigment.
         pigment: String,
     },
     /// A layer would need more pigments than it has slots.
     #[error("a layer holds 8 pigments, found `{found}`")]
+    #[hint("dry the painting, then go on with another palette")]
     TooManyPigments {
         /// Number of pigments.
         found: usize,
@@ -115,27 +95,25 @@ pub enum PaintingError {
     },
     /// The layer contains the pigment already.
     #[error("the layer has {pigment} already")]
+    #[hint("a layer holds each pigment once: choose one that it lacks")]
     AlreadyThere {
         /// Name of the pigment.
         pigment: String,
     },
     /// The pigment is not on the palette now.
     #[error("{pigment} is not on the palette now")]
+    #[hint("put it there with a palette action, or undo less")]
     OffPalette {
         /// Name of the pigment.
         pigment: String,
     },
     /// The wet layer has no opacity.
     #[error("wet paint has no opacity of its own")]
+    #[hint("dry it first")]
     WetOpacity,
-    /// An opacity lies outside 0 to 1000.
-    #[error("an opacity is 0 to 1000, found `{value}`")]
-    Opacity {
-        /// Opacity that was requested.
-        value: f64,
-    },
     /// Ground and dry paint are as high as the arithmetic allows.
     #[error("the paint is piled as high as it can be, 256 cell widths, at column {x}, row `{y}`")]
+    #[hint("paint thinner, or with larger cells")]
     TooHigh {
         /// Column of the cell, from 0.
         x: usize,
@@ -144,27 +122,25 @@ pub enum PaintingError {
     },
     /// Only dry layers can be named, hidden, moved and merged.
     #[error("wet paint lies on top of all layers and has no {what} of its own")]
+    #[hint("dry it first")]
     WetLayer {
         /// Name of the property.
         what: &'static str,
-    },
-    /// A layer cannot have this name.
-    #[error("a layer has {wanted}")]
-    LayerName {
-        /// Description of the names allowed.
-        wanted: &'static str,
     },
     /// One layer was named twice for a merge.
     #[error("a layer merges with another one, not with itself")]
     SameLayer,
     /// The lowest dry layer is to be merged with the one below.
     #[error("there is no dry layer below this one")]
+    #[hint("name the other layer with `with`")]
     NothingBelow,
     /// Of two layers to merge one is hidden.
     #[error("one of the two layers is hidden")]
+    #[hint("show both, or hide both")]
     UnlikeVisibility,
     /// A film between two layers to merge overlaps both.
     #[error("`{label}` lies between the two layers and overlaps both")]
+    #[hint("move that layer above or below both, or merge it as well")]
     FilmBetween {
         /// Name of that layer.
         label: String,
@@ -174,6 +150,7 @@ pub enum PaintingError {
         "a layer holds 8 pigments, these two have {}: {}",
         pigments.len(), pigments.join(", ")
     )]
+    #[hint("keep them apart, or exchange a pigment of one layer for one of the other's")]
     MergedPigments {
         /// Names of the pigments of both.
         pigments: Vec<String>,
@@ -201,6 +178,7 @@ pub enum PaintingError {
     #[error(
         "merging these layers would move a colour by {delta_e:.2} CIEDE2000 (at column {x}, row {y})"
     )]
+    #[hint("keep them apart; layers are unlimited")]
     MergeShows {
         /// Largest colour difference in CIEDE2000.
         delta_e: f64,
@@ -209,58 +187,47 @@ pub enum PaintingError {
         /// Row of that cell, from 0.
         y: usize,
     },
-}
-
-impl Explain for PaintingError {
-    fn hint(&self) -> Option<Hint> {
-        let hint = match self {
-            Self::Engine(error) => return error.hint(),
-            Self::Light(error) => return error.hint(),
-            Self::Brush(error) => return error.hint(),
-            Self::Stroke(error) => return error.hint(),
-            Self::Tool(error) => return error.hint(),
-            Self::TooHigh { .. } => "paint thinner, or with larger cells",
-            Self::StillWet { .. } => "dry the painting and wash the brushes first",
-            Self::TooManyPigments { .. } => "dry the painting, then go on with another palette",
-            Self::MergeShows { .. } => "keep them apart; layers are unlimited",
-            Self::AlreadyThere { .. } => {
-                "a layer holds each pigment once: choose one that it lacks"
-            }
-            Self::OffCanvas { .. } => "places are in mm from the canvas's corner",
-            Self::NoRoom { .. } => "squeeze beside it, or spread it first",
-            Self::WetOpacity => "dry it first",
-            Self::OffPalette { .. } => "put it there with a palette action, or undo less",
-            Self::WetLayer { .. } => "dry it first",
-            Self::LayerName { .. } => "shorten the name",
-            Self::NothingBelow => "name the other layer with `with`",
-            Self::UnlikeVisibility => "show both, or hide both",
-            Self::FilmBetween { .. } => "move that layer above or below both, or merge it as well",
-            Self::MergedPigments { .. } => {
-                "keep them apart, or exchange a pigment of one layer for one of the other's"
-            }
-            Self::Overloaded { .. } => "wipe or wash the brush first",
-            Self::NoMixture
-            | Self::Share { .. }
-            | Self::Amount { .. }
-            | Self::Volume { .. }
-            | Self::Gloss { .. }
-            | Self::Stiffness { .. }
-            | Self::EmptySlot { .. }
-            | Self::NotThere { .. }
-            | Self::Opacity { .. }
-            | Self::NoLayer { .. }
-            | Self::UnknownLayer { .. }
-            | Self::SameLayer => return None,
-        };
-        Some(Hint::new(hint))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Engine(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
+    /// A number of an action is out of range, or a name is unknown.
+    #[error(transparent)]
+    Invalid(#[from] Box<InvalidValue>),
+    /// The header of a recording is invalid.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// A canvas cannot be made.
+    #[error(transparent)]
+    Start(#[from] ScriptStartError),
+    /// The painting cannot be saved.
+    #[error(transparent)]
+    File(#[from] PaintingFileError),
+    /// Canvas and palette do not go together.
+    #[error("canvas and palette have different {what}")]
+    #[hint("set the palette up after the canvas")]
+    Unlike {
+        /// Name of what differs.
+        what: &'static str,
+    },
+    /// The action saves a file. Sessions do not write files, their owner does.
+    #[error("a session saves nothing")]
+    #[hint("write the documents of the session")]
+    Save,
+    /// There is no open stroke, or it was lifted.
+    #[error("no stroke is open")]
+    #[hint("set the brush down first")]
+    NoStroke,
+    /// An action other than light, gloss and opacity was adjusted.
+    #[error("`{kind}` cannot be adjusted bit by bit")]
+    #[hint("light, gloss, stiffness and opacity can be")]
+    NoControl {
+        /// Key of the action in a script.
+        kind: &'static str,
+    },
+    /// The action needs a session: it uses brushes by name, undoes, or saves.
+    #[error("`{kind}` is an action of a session")]
+    #[hint("apply it to the session of the painting")]
+    NoSession {
+        /// Key of the action in a script.
+        kind: &'static str,
+    },
 }
 
 fn listed(known: &[String]) -> String {

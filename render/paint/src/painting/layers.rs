@@ -7,23 +7,20 @@
 //!
 //! A mask is film over cells that keeps paint from getting on or off them.
 
-use std::fmt;
 use std::sync::Arc;
 
 use graphics::field::Field;
 use pigment::PigmentId;
-use serde::de::{self, Deserializer, MapAccess, Visitor};
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Serialize, Serializer};
 use spectra::color::{Lab, Matrix3, RgbSpace, delta_e_ciede2000};
 
 use super::brushes::share_of_65536_parts;
 use super::failure::PaintingError;
-use super::state::{DryLayerState, HIGHEST, Painting};
+use super::state::{HIGHEST, Painting};
 use crate::brush::Relief;
 use crate::document::Slots;
-use crate::layer::{Layer, LayerId, SLOTS, layer_name_violation};
+use crate::layer::{DryLayerState, Layer, LayerRef, SLOTS};
 use crate::mask::Mask;
+use crate::strokes::MaskChange;
 
 impl Painting {
     /// Dries the fraction `fraction` (0 to 1) of all wet paint, from the bottom, as a new
@@ -36,7 +33,7 @@ impl Painting {
     /// # Panics
     /// If a stroke is open.
     pub fn dry(&mut self, fraction: f64) -> Result<bool, PaintingError> {
-        let share = share_of_65536_parts("fraction", fraction)?;
+        let share = share_of_65536_parts("fraction is a share of 0 to 1", fraction)?;
         let painted = self.engine.wet_tiles()?;
         if share == 0 || painted.is_empty() {
             return Ok(false);
@@ -59,7 +56,8 @@ impl Painting {
     /// Sets the pigments of the palette. Pigments that stay keep their slots.
     ///
     /// # Errors
-    /// The errors of [`Painting::slots_with`]. Nothing is changed then.
+    /// [`PaintingError`] for more than eight pigments, or if a pigment that leaves is still
+    /// wet on the canvas or on a brush. Nothing is changed then.
     ///
     /// # Panics
     /// If a stroke is open.
@@ -76,11 +74,7 @@ impl Painting {
     }
 
     /// Slots after [`Painting::set_palette`] with these pigments.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for more than eight pigments, or if a pigment that leaves is still
-    /// wet on the canvas or on a brush.
-    pub fn slots_with(&mut self, pigments: &[PigmentId]) -> Result<Slots, PaintingError> {
+    pub(crate) fn slots_with(&mut self, pigments: &[PigmentId]) -> Result<Slots, PaintingError> {
         let mut wanted: Vec<PigmentId> = Vec::new();
         for &pigment in pigments {
             if !wanted.contains(&pigment) {
@@ -158,7 +152,7 @@ impl Painting {
     pub fn set_opacity(&mut self, layer: LayerRef, opacity: f64) -> Result<(), PaintingError> {
         let index = self.dry_index(layer)?.ok_or(PaintingError::WetOpacity)?;
         if !(0.0..=1000.0).contains(&opacity) {
-            return Err(PaintingError::Opacity { value: opacity });
+            return Err(PaintingError::Range { what: "an opacity is 0 to 1000", value: opacity });
         }
         self.apply_action(|painting| {
             painting.state.dry[index].opacity = opacity;
@@ -179,10 +173,7 @@ impl Painting {
     }
 
     /// Index of a dry layer from the lowest, which is 0. `None` for the wet one.
-    ///
-    /// # Errors
-    /// [`PaintingError::NoLayer`] or [`PaintingError::UnknownLayer`] if there is no such layer.
-    pub fn dry_index(&self, layer: LayerRef) -> Result<Option<usize>, PaintingError> {
+    pub(crate) fn dry_index(&self, layer: LayerRef) -> Result<Option<usize>, PaintingError> {
         let dry = &self.state.dry;
         match layer {
             LayerRef::Wet => Ok(None),
@@ -233,155 +224,6 @@ impl Painting {
     }
 }
 
-/// One layer of a painting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LayerRef {
-    /// The wet layer.
-    Wet,
-    /// A dry layer by its index. 0 is the lowest.
-    Dry(usize),
-    /// A dry layer by its identity, wherever it lies.
-    Id(LayerId),
-}
-
-/// A layer is `"wet"`, the index of a dry layer from 0, the lowest, or `{"id": 3}`.
-impl Serialize for LayerRef {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Wet => serializer.serialize_str("wet"),
-            Self::Dry(index) => serializer.serialize_u64(*index as u64),
-            Self::Id(id) => {
-                let mut map = serializer.serialize_map(Some(1))?;
-                map.serialize_entry("id", id)?;
-                map.end()
-            }
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for LayerRef {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Name;
-
-        impl<'de> Visitor<'de> for Name {
-            type Value = LayerRef;
-
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str(
-                    "\"wet\", the number of a dry layer, from 0, or its identity, {\"id\": 1}",
-                )
-            }
-
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<LayerRef, E> {
-                match text {
-                    "wet" => Ok(LayerRef::Wet),
-                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
-                }
-            }
-
-            fn visit_u64<E: de::Error>(self, index: u64) -> Result<LayerRef, E> {
-                let dry = usize::try_from(index).map(LayerRef::Dry);
-                dry.map_err(|_| E::invalid_value(de::Unexpected::Unsigned(index), &self))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<LayerRef, A::Error> {
-                let mut id = None;
-                while let Some(key) = map.next_key::<String>()? {
-                    match key.as_str() {
-                        "id" if id.is_none() => id = Some(map.next_value()?),
-                        "id" => return Err(de::Error::duplicate_field("id")),
-                        other => return Err(de::Error::unknown_field(other, &["id"])),
-                    }
-                }
-                id.map(LayerRef::Id).ok_or_else(|| de::Error::missing_field("id"))
-            }
-        }
-
-        deserializer.deserialize_any(Name)
-    }
-}
-
-impl Painting {
-    /// Names a dry layer. An empty name takes its name away.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for the wet layer, a layer that does not exist, or a name that is not one
-    /// line of at most 80 characters.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn name_layer(&mut self, layer: LayerRef, name: &str) -> Result<(), PaintingError> {
-        let index = self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what: "name" })?;
-        if let Some(wanted) = layer_name_violation(name) {
-            return Err(PaintingError::LayerName { wanted });
-        }
-        self.apply_action(|painting| {
-            name.clone_into(&mut painting.state.dry[index].name);
-            Ok(())
-        })
-    }
-
-    /// Shows or hides a dry layer. Its opacity and its height stay.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for the wet layer, or a layer that does not exist.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn show_layer(&mut self, layer: LayerRef, visible: bool) -> Result<(), PaintingError> {
-        let index = self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what: "visibility" })?;
-        self.apply_action(|painting| {
-            painting.state.dry[index].visible = visible;
-            painting.views.mark_all();
-            Ok(())
-        })
-    }
-
-    /// Moves a dry layer to place `to` of the stack. 0 is the lowest. The layers between move by
-    /// one place. Returns whether it lay elsewhere before.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for the wet layer, a layer that does not exist, and a place above the
-    /// topmost dry layer.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn move_layer(&mut self, layer: LayerRef, to: usize) -> Result<bool, PaintingError> {
-        let from = self.dry_index(layer)?.ok_or(PaintingError::WetLayer { what: "place" })?;
-        self.dry_index(LayerRef::Dry(to))?;
-        if from == to {
-            return Ok(false);
-        }
-        self.apply_action(|painting| {
-            painting.history.move_dry_layer(&mut painting.engine, from, to);
-            let moved = painting.state.dry.remove(from);
-            painting.state.dry.insert(to, moved);
-            painting.floor_changed()
-        })?;
-        Ok(true)
-    }
-}
-
-/// A change of the mask.
-///
-/// In a script it is one of `{"polygon_mm": [[x, y], ..]}`, `{"layer": 0}` (or `"wet"`),
-/// `{"painted": {}}`, `{"inverse": true}` and `{"clear": {}}`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum MaskChange {
-    /// Leaves the inside of a polygon open, by the even-odd rule, and covers the rest. Its points
-    /// are in mm from the upper left corner.
-    PolygonMm(Vec<[f64; 2]>),
-    /// Leaves the cells open that have paint of a layer now.
-    Layer(LayerRef),
-    /// Leaves the cells open that have paint now, wet or dry.
-    Painted {},
-    /// Exchanges what is covered and what is open. Always true.
-    Inverse(bool),
-    /// Takes the mask off.
-    Clear {},
-}
-
 impl Painting {
     /// The mask, if one is set. It is not part of the document: a file does not hold it.
     #[must_use]
@@ -392,13 +234,7 @@ impl Painting {
     /// Changes the mask. Strokes, heaps and scraping change no paint of covered cells, and nothing
     /// flows over the border. Light and drying go through the film. Returns whether there was
     /// anything to change: without a mask there is none to invert or to take off.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if there is no such layer, or if the device was lost.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn change_mask(&mut self, change: &MaskChange) -> Result<bool, PaintingError> {
+    pub(crate) fn change_mask(&mut self, change: &MaskChange) -> Result<bool, PaintingError> {
         let bounds = self.bounds();
         let next = match (change, &self.mask) {
             (MaskChange::Inverse(_) | MaskChange::Clear {}, None) => return Ok(false),
@@ -653,27 +489,4 @@ fn farthest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> (f64, usize, usize) {
 fn lab(rgb: &[f32; 4], matrix: &Matrix3) -> Lab {
     let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
     Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn layers_are_named_wet_by_place_or_by_identity() {
-        let all = [
-            (LayerRef::Wet, "\"wet\""),
-            (LayerRef::Dry(2), "2"),
-            (LayerRef::Id(LayerId(3)), "{\"id\":3}"),
-        ];
-        for (layer, text) in all {
-            assert_eq!(serde_json::to_string(&layer).unwrap(), text);
-            assert_eq!(serde_json::from_str::<LayerRef>(text).unwrap(), layer);
-        }
-        for wrong in
-            ["\"dry\"", "-1", "1.5", "{}", "{\"id\":-1}", "{\"id\":1,\"id\":2}", "{\"no\":1}"]
-        {
-            assert!(serde_json::from_str::<LayerRef>(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -1,4 +1,5 @@
-//! A painting while it is worked on: an engine, brushes, lights and undo.
+//! A painting while it is worked on: an engine, brushes, lights and undo. In a session it is one
+//! of two surfaces.
 //!
 //! Every change of paint, layers or light is an action, which one undo takes back. Only one
 //! action is open at a time: while a stroke is open ([`OpenStroke`]), all others panic,
@@ -11,12 +12,13 @@ mod brushes;
 mod open_stroke;
 mod layers;
 mod pictures;
+mod actions;
 
 pub use brushes::TipLoad;
 pub use failure::PaintingError;
-pub use layers::{LayerRef, MERGE_TOLERANCE, MaskChange};
+pub use layers::MERGE_TOLERANCE;
 pub use open_stroke::{OpenStroke, StrokeReport, TakenPaint};
-pub use state::{Brush, DryLayerState, Painting, State, UNDO_BYTES};
+pub use state::{Brush, Painting, State, UNDO_BYTES};
 
 #[cfg(test)]
 mod tests;

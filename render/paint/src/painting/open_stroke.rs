@@ -18,7 +18,8 @@ use crate::layer::{Layer, SLOTS};
 use crate::motion::bed::BLOCK;
 use crate::motion::levelling_sub_steps;
 use crate::pose::{Pose, Sample};
-use crate::stroke::{Path, StrokeError};
+use crate::stroke::{Path, SampleDecimals, StrokeError};
+use crate::strokes::{Stroke, SurfaceId};
 
 /// Work done for a finished stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -33,24 +34,30 @@ pub struct StrokeReport {
     pub taken: TakenPaint,
 }
 
-/// A stroke between the first and the last contact with a [`Painting`].
+/// A stroke between the first and the last contact with a [`Painting`]: the samples so far and
+/// what is painted of them.
 ///
-/// The caller owns it, adds samples with [`OpenStroke::extend`] as they come, paints in
-/// portions with [`OpenStroke::advance`], so that pictures can be shown in between, and
-/// closes the action with [`OpenStroke::finish`]. Paint and undo are the same to the bit
-/// as with [`Painting::stroke`] with all samples, for any portions.
+/// A [`PaintingSession`](crate::PaintingSession) holds its open stroke. On a painting alone you
+/// own it: add samples with [`OpenStroke::extend`] as they come, paint in portions with
+/// [`OpenStroke::advance`], so that pictures can be shown in between, and close the action with
+/// [`OpenStroke::finish`]. Paint and undo are the same to the bit as with [`Painting::stroke`]
+/// with all samples, for any portions.
 ///
 /// Until it is finished, the painting refuses all other actions (they panic).
 #[derive(Debug)]
 #[must_use = "the painting refuses other actions until the stroke is finished"]
 pub struct OpenStroke {
-    /// Index of the brush, once the stroke is open in the painting.
+    /// Brush, surface and tool, with the samples that were accepted.
+    stroke: Stroke,
+    /// Decimals that a session rounds samples to.
+    pub(crate) decimals: SampleDecimals,
+    /// Surface that the brush came from.
+    pub(crate) from: SurfaceId,
+    /// Brush of the painting that the stroke is open in.
     brush: Option<BrushId>,
-    tool: StrokeTool,
     /// The head of a tool, while the stroke is open in the painting.
     clean: Option<CleanHead>,
     path: Path,
-    lifted: bool,
     /// Whether the head was set down.
     down: bool,
     /// Contacts that are painted now.
@@ -60,6 +67,8 @@ pub struct OpenStroke {
     /// Contacts that the head bends through while `batch` is painted.
     next: Batch,
     reached: usize,
+    /// Number of sub-steps that were painted.
+    done: usize,
     waiting: usize,
     /// Tiles that the head was over.
     touched: TileSet,
@@ -69,21 +78,28 @@ pub struct OpenStroke {
 }
 
 impl OpenStroke {
-    /// A stroke without samples, on cells of `cell_mm` mm with a brush of `size_mm` as `tool`,
-    /// that is not yet open in a painting.
-    pub(crate) fn new(cell_mm: f64, size_mm: f64, tool: StrokeTool) -> Result<Self, PaintingError> {
-        tool.check()?;
+    /// `stroke`, which has no samples, on cells of `cell_mm` mm with a brush of `size_mm`. It is
+    /// not yet open in a painting.
+    pub(crate) fn new(
+        cell_mm: f64,
+        size_mm: f64,
+        stroke: Stroke,
+        decimals: SampleDecimals,
+    ) -> Result<Self, PaintingError> {
+        stroke.tool.check()?;
         Ok(Self {
+            from: stroke.on,
+            stroke,
+            decimals,
             brush: None,
-            tool,
             clean: None,
             path: Path::new(cell_mm, size_mm)?,
-            lifted: false,
             down: false,
             batch: Batch::empty(),
             painted: 0,
             next: Batch::empty(),
             reached: 0,
+            done: 0,
             waiting: 0,
             touched: TileSet::default(),
             noted: TileSet::default(),
@@ -107,7 +123,7 @@ impl OpenStroke {
             if let Some(paint) = paint {
                 engine.set_brush_paint(id, paint)?;
             }
-            CleanHead::of(self.tool, engine, id)
+            CleanHead::of(self.stroke.tool, engine, id)
         });
         match opened {
             Ok(clean) => {
@@ -122,10 +138,10 @@ impl OpenStroke {
         }
     }
 
-    /// The tool that the head is used as.
+    /// Brush, surface and tool, with the samples so far.
     #[must_use]
-    pub fn tool(&self) -> StrokeTool {
-        self.tool
+    pub fn stroke(&self) -> &Stroke {
+        &self.stroke
     }
 
     /// Whether the stroke is open in a painting.
@@ -140,29 +156,26 @@ impl OpenStroke {
     /// [`StrokeError`] for an impossible sample (its index counts from the first of the
     /// stroke), and after [`OpenStroke::lift`].
     pub fn extend(&mut self, samples: &[Sample]) -> Result<(), StrokeError> {
-        if self.lifted {
+        if self.is_lifted() {
             return Err(StrokeError::Lifted);
         }
-        self.path.push(samples)
+        for sample in samples {
+            self.path.push(sample)?;
+            self.stroke.samples.push(*sample);
+        }
+        Ok(())
     }
 
     /// Lifts the brush: no more samples come, so that [`OpenStroke::advance`] can paint up
     /// to the last one.
     pub fn lift(&mut self) {
-        self.lifted = true;
         self.path.finish();
     }
 
     /// Whether the brush was lifted.
     #[must_use]
     pub fn is_lifted(&self) -> bool {
-        self.lifted
-    }
-
-    /// Number of samples so far.
-    #[must_use]
-    pub fn samples(&self) -> usize {
-        self.path.samples()
+        self.path.is_finished()
     }
 
     /// Number of samples that the paint has reached.
@@ -176,6 +189,12 @@ impl OpenStroke {
     #[must_use]
     pub fn waiting(&self) -> usize {
         self.waiting
+    }
+
+    /// Mean number of sub-steps that a sample has given so far.
+    #[must_use]
+    pub fn substeps_per_sample(&self) -> f64 {
+        (self.done + self.waiting) as f64 / self.stroke.samples.len().max(1) as f64
     }
 
     /// Paints at most `most_substeps` sub-steps, and returns how many more are known: 0 if
@@ -220,7 +239,7 @@ impl OpenStroke {
             let next = &mut self.next;
             let noted = &mut self.noted;
             let clean = &mut self.clean;
-            let as_tool = self.tool;
+            let as_tool = self.stroke.tool;
             let (result, ()) = rayon::join(
                 || {
                     for contact in touching.clone() {
@@ -246,6 +265,7 @@ impl OpenStroke {
             let idle = rest.is_empty() && self.next.count == 0;
             left -= now.len();
             self.painted += now.len();
+            self.done += now.len();
             if all {
                 self.reached = self.batch.reached;
                 std::mem::swap(&mut self.batch, &mut self.next);
@@ -273,43 +293,39 @@ impl OpenStroke {
     ///
     /// # Panics
     /// If the stroke was begun on another painting.
-    pub fn finish(mut self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
-        self.lift();
-        let painted = self.advance(painting, usize::MAX).and_then(|_| self.level(painting));
-        self.close(painting, painted)
+    pub fn finish(self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
+        self.end(painting, true).1
     }
 
-    /// Paints what is known of the stroke and closes it as one action, without lifting the brush:
-    /// the paint is as it was while the stroke was open.
-    ///
-    /// # Errors
-    /// [`PaintingError`] like [`OpenStroke::finish`].
-    ///
-    /// # Panics
-    /// If the stroke was begun on another painting.
-    pub fn cut(mut self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
-        let painted = self.advance(painting, usize::MAX).map(drop);
-        self.close(painting, painted)
-    }
-
-    fn close(
+    /// Paints what is known of the stroke and closes it as one action, which is returned with its
+    /// report. Without `lift` the brush is not lifted: the paint is as it was while the stroke was
+    /// open.
+    pub(crate) fn end(
         mut self,
         painting: &mut Painting,
-        painted: Result<(), PaintingError>,
-    ) -> Result<StrokeReport, PaintingError> {
-        let wiped = self.clean.take().map(|clean| clean.finish(&mut painting.engine));
+        lift: bool,
+    ) -> (Stroke, Result<StrokeReport, PaintingError>) {
+        let painted = if lift {
+            self.lift();
+            self.advance(painting, usize::MAX).and_then(|_| self.level(painting))
+        } else {
+            self.advance(painting, usize::MAX).map(drop)
+        };
+        let wiped = self.clean.take().map(|clean| clean.finish(&mut painting.engine)).transpose();
         if self.is_open() {
             painting.stroke_brush = None;
-            if self.samples() == 0 {
+            if self.stroke.samples.is_empty() {
                 painting.history.abandon();
                 self.report.undoable = true;
             } else {
                 self.report.undoable = painting.history.commit() == CommitOutcome::Undoable;
             }
         }
-        painted?;
-        self.report.taken = wiped.transpose()?.unwrap_or_default();
-        Ok(self.report)
+        let report = painted.and_then(|()| {
+            let taken = wiped?.unwrap_or_default();
+            Ok(StrokeReport { taken, ..self.report })
+        });
+        (self.stroke, report)
     }
 
     /// Lets fluid paint level where the head was.
@@ -387,14 +403,7 @@ impl Painting {
 
     /// Works the paint with the head of a brush as `tool`, like [`Painting::stroke`]. The paint on
     /// the brush stays as it is.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for impossible samples and tools, before anything is changed, or if the
-    /// device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn stroke_as(
+    pub(crate) fn stroke_as(
         &mut self,
         tool: StrokeTool,
         brush: BrushId,
@@ -403,22 +412,10 @@ impl Painting {
         if samples.is_empty() {
             return Err(StrokeError::Empty.into());
         }
-        let size_mm = self.brushes[brush.0].head.size_mm();
-        let mut stroke = OpenStroke::new(self.cell_mm, size_mm, tool)?;
+        let mut stroke = self.new_stroke(tool, brush)?;
         stroke.extend(samples)?;
         stroke.open(self, brush, None)?;
         stroke.finish(self)
-    }
-
-    /// Begins a stroke whose samples come later.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn begin_stroke(&mut self, brush: BrushId) -> Result<OpenStroke, PaintingError> {
-        self.begin_stroke_as(StrokeTool::Paint, brush)
     }
 
     /// Begins a stroke of a brush as `tool` whose samples come later.
@@ -428,15 +425,20 @@ impl Painting {
     ///
     /// # Panics
     /// If there is no such brush, or a stroke is open.
-    pub fn begin_stroke_as(
+    pub fn begin_stroke(
         &mut self,
         tool: StrokeTool,
         brush: BrushId,
     ) -> Result<OpenStroke, PaintingError> {
-        let size_mm = self.brushes[brush.0].head.size_mm();
-        let mut stroke = OpenStroke::new(self.cell_mm, size_mm, tool)?;
+        let mut stroke = self.new_stroke(tool, brush)?;
         stroke.open(self, brush, None)?;
         Ok(stroke)
+    }
+
+    fn new_stroke(&self, tool: StrokeTool, brush: BrushId) -> Result<OpenStroke, PaintingError> {
+        let size_mm = self.brushes[brush.0].head.size_mm();
+        let stroke = Stroke { tool, ..Stroke::default() };
+        OpenStroke::new(self.cell_mm, size_mm, stroke, SampleDecimals::RECORDING)
     }
 
     /// Whether a stroke is open.
@@ -468,19 +470,19 @@ fn abreast(cells: usize, threads: usize) -> usize {
 
 /// Sub-steps that the head has bent through.
 #[derive(Debug, Clone)]
-pub(super) struct Batch {
-    pub(super) contacts: Vec<Contact>,
+struct Batch {
+    contacts: Vec<Contact>,
     /// Number of contacts in use.
-    pub(super) count: usize,
+    count: usize,
     /// Number of samples that the head had reached after them.
-    pub(super) reached: usize,
+    reached: usize,
     /// Poses of the sub-steps that are drawn next.
     poses: Vec<Pose>,
     side_by_side: SideBySide,
 }
 
 impl Batch {
-    pub(super) fn empty() -> Self {
+    fn empty() -> Self {
         let nothing = Contact::default();
         Self {
             contacts: vec![nothing; BATCH],
@@ -492,7 +494,7 @@ impl Batch {
     }
 
     /// Bends `head` through the next poses of `path`, as `tool`.
-    pub(super) fn bend(
+    fn bend(
         &mut self,
         path: &mut Path,
         (head, tool): (&mut Head, StrokeTool),
@@ -544,7 +546,7 @@ impl TakenPaint {
     }
 
     /// Adds the paint of a head.
-    pub(super) fn add(&mut self, paint: &Layer) {
+    fn add(&mut self, paint: &Layer) {
         for (sum, more) in self.quanta.iter_mut().zip(paint.totals()) {
             *sum += more;
         }
@@ -557,7 +559,7 @@ const EMPTIED_EVERY: usize = 128;
 
 /// A head while it works as a tool: the paint of its brush is set aside.
 #[derive(Debug)]
-pub(super) struct CleanHead {
+struct CleanHead {
     brush: BrushId,
     /// Paint of the brush.
     kept: Layer,
@@ -568,7 +570,7 @@ pub(super) struct CleanHead {
 
 impl CleanHead {
     /// Sets the paint of `brush` aside, if `tool` needs a clean head.
-    pub(super) fn of(
+    fn of(
         tool: StrokeTool,
         engine: &mut PaintEngine,
         brush: BrushId,
@@ -584,17 +586,13 @@ impl CleanHead {
     }
 
     /// Number of sub-steps that may be painted before the head is emptied.
-    pub(super) fn left(&self) -> usize {
+    fn left(&self) -> usize {
         self.since.map_or(usize::MAX, |since| EMPTIED_EVERY - since)
     }
 
     /// Counts sub-steps, at most those of [`CleanHead::left`], and empties the head when it is
     /// time. The count does not depend on the portions of a stroke.
-    pub(super) fn painted(
-        &mut self,
-        engine: &mut PaintEngine,
-        count: usize,
-    ) -> Result<(), DeviceError> {
+    fn painted(&mut self, engine: &mut PaintEngine, count: usize) -> Result<(), DeviceError> {
         let Some(since) = &mut self.since else { return Ok(()) };
         *since += count;
         if *since >= EMPTIED_EVERY {
@@ -610,7 +608,7 @@ impl CleanHead {
     }
 
     /// Wipes the head, gives the brush its paint back and returns all paint that was taken.
-    pub(super) fn finish(mut self, engine: &mut PaintEngine) -> Result<TakenPaint, DeviceError> {
+    fn finish(mut self, engine: &mut PaintEngine) -> Result<TakenPaint, DeviceError> {
         self.taken.add(&engine.brush_paint(self.brush)?);
         engine.set_brush_paint(self.brush, &self.kept)?;
         Ok(self.taken)

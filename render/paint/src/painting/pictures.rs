@@ -1,6 +1,4 @@
-//! Pictures and reflectances of a painting.
-//!
-//! Lights of a painting, gloss and stiffness of its paint.
+//! Pictures, reflectances and lights of a painting.
 
 use std::sync::Arc;
 
@@ -12,7 +10,7 @@ use super::state::{Painting, PendingTiles, SecondLight};
 use crate::document::{Lighting, Slots};
 use crate::engine::View;
 use crate::light::Light;
-use crate::optics::{Gloss, Scene};
+use crate::optics::Scene;
 use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
 
 impl Painting {
@@ -200,46 +198,6 @@ impl Painting {
         })
     }
 
-    /// Sets the gloss of wet and of dry paint.
-    ///
-    /// # Errors
-    /// [`PaintingError::Gloss`] if a strength is outside 0 to 100 or an exponent outside 0 to
-    /// 1e6.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn set_gloss(&mut self, wet: Gloss, dry: Gloss) -> Result<(), PaintingError> {
-        for Gloss { strength, exponent } in [wet, dry] {
-            if !((0.0..=100.0).contains(&strength) && (0.0..=1e6).contains(&exponent)) {
-                return Err(PaintingError::Gloss { strength, exponent });
-            }
-        }
-        self.apply_action(|painting| {
-            let medium = &mut painting.state.medium;
-            (medium.wet, medium.dry) = (wet, dry);
-            painting.views.mark_all_wet();
-            Ok(())
-        })
-    }
-
-    /// Sets the stiffness of the wet paint ([`stiffness`](crate::document::Medium::stiffness)).
-    /// Paint levels by it after the next stroke.
-    ///
-    /// # Errors
-    /// [`PaintingError::Stiffness`] outside 0 to 1.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn set_stiffness(&mut self, stiffness: f64) -> Result<(), PaintingError> {
-        if !(0.0..=1.0).contains(&stiffness) {
-            return Err(PaintingError::Stiffness { stiffness });
-        }
-        self.apply_action(|painting| {
-            painting.state.medium.stiffness = stiffness;
-            Ok(())
-        })
-    }
-
     /// Also keeps a picture under a second light, for a view that is split between the two.
     /// `None` frees its memory. Not an action of the history.
     ///
@@ -286,13 +244,7 @@ impl Painting {
     }
 
     /// Shows the painting under the light of another painting of the same library.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn relight_as(&mut self, other: &Self) -> Result<(), PaintingError> {
+    pub(crate) fn relight_as(&mut self, other: &Self) -> Result<(), PaintingError> {
         self.apply_action(|painting| {
             painting.state.lighting = other.state.lighting.clone();
             let bounds = painting.engine.bounds();

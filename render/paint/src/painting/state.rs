@@ -13,45 +13,11 @@ use crate::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
 use crate::engine::{BrushId, PaintEngine};
 use crate::ground::Ground;
 use crate::history::{History, Restored};
-use crate::layer::{Layer, SLOTS, distinct_ids, layer_label, shown_opacity};
+use crate::layer::{DryLayerState, Layer, SLOTS, distinct_ids};
 use crate::light::Light;
 use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::shade::reach;
-
-/// Properties of a dry layer that can be changed later.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DryLayerState {
-    /// Its identity within the painting.
-    pub id: LayerId,
-    /// Its name. Empty if it has none.
-    pub name: String,
-    /// Whether it is shown.
-    pub visible: bool,
-    /// Pigment of each slot, as an index into the library.
-    pub slots: Slots,
-    /// Factor of the optical thickness: 1 as painted, 0 clear.
-    pub opacity: f64,
-}
-
-impl DryLayerState {
-    /// A layer that just dried.
-    pub(super) fn new(id: LayerId, slots: Slots) -> Self {
-        Self { id, name: String::new(), visible: true, slots, opacity: 1.0 }
-    }
-
-    /// Opacity as it is shown: 0 for a hidden layer.
-    #[must_use]
-    pub fn shown_opacity(&self) -> f64 {
-        shown_opacity(self.visible, self.opacity)
-    }
-
-    /// Its name, or its number if it has none.
-    #[must_use]
-    pub fn label(&self) -> String {
-        layer_label(self.id, &self.name)
-    }
-}
 
 /// Properties of a painting besides its paint. An undo restores them with the paint.
 #[derive(Debug, Clone, PartialEq)]
@@ -515,7 +481,7 @@ impl Painting {
 
     /// Forgets all but the last `undo` actions that can be undone, and all but the next `redo`
     /// that can be repeated, to use their memory for others.
-    pub fn keep_actions(&mut self, undo: usize, redo: usize) {
+    pub(crate) fn keep_actions(&mut self, undo: usize, redo: usize) {
         self.history.keep_only(undo, redo);
     }
 

@@ -10,9 +10,10 @@ use crate::brush::{HeadShape, StrokeTool};
 use crate::document::{Canvas, Document, LayerId, Lighting, Medium};
 use crate::engine::{BrushId, PaintEngine};
 use crate::ground::GroundSpec;
-use crate::layer::{Cell, Layer, SLOTS};
-use crate::painting::{LayerRef, MaskChange, OpenStroke, Painting, PaintingError, TakenPaint};
+use crate::layer::{Cell, Layer, LayerRef, SLOTS};
+use crate::painting::{OpenStroke, Painting, PaintingError, TakenPaint};
 use crate::pose::Sample;
+use crate::strokes::{Action, MaskChange};
 
 /// Width of a cell in mm.
 const CELL_MM: f64 = 0.2;
@@ -164,7 +165,7 @@ fn both_backends_keep_off_the_mask_to_the_same_bits() {
     let mut processor = on_cpu(LINEN, 0.3);
     for painting in [&mut device, &mut processor] {
         // Fluid paint levels after a stroke, also beside the head.
-        painting.set_stiffness(0.3).unwrap();
+        painting.apply(&Action::Stiffness { value: 0.3 }).unwrap();
         painting.change_mask(&triangle()).unwrap();
         let brush = loaded(painting, HeadShape::Flat, 4.0);
         painting.stroke(brush, &along(6.0, (5.0, 15.0), 0.7)).unwrap();
@@ -179,7 +180,7 @@ fn both_backends_keep_off_the_mask_to_the_same_bits() {
 #[test]
 fn paint_that_levels_stays_on_its_side_of_the_border() {
     let mut painting = on_cpu(LINEN, 0.3);
-    painting.set_stiffness(0.0).unwrap();
+    painting.apply(&Action::Stiffness { value: 0.0 }).unwrap();
     painting.change_mask(&triangle()).unwrap();
     let before = painting.wet().unwrap();
     let brush = loaded(&mut painting, HeadShape::Flat, 5.0);
@@ -336,7 +337,7 @@ fn portions_of_any_size_take_the_same() {
         let brush = loaded(&mut whole, shape, 6.0);
         let report = whole.stroke_as(tool, brush, &samples).unwrap();
         let brush = loaded(&mut pieces, shape, 6.0);
-        let mut stroke: OpenStroke = pieces.begin_stroke_as(tool, brush).unwrap();
+        let mut stroke: OpenStroke = pieces.begin_stroke(tool, brush).unwrap();
         for (index, sample) in samples.iter().enumerate() {
             stroke.extend(&[*sample]).unwrap();
             stroke.advance(&mut pieces, 1 + 13 * index).unwrap();
@@ -518,6 +519,10 @@ fn id(number: u32) -> LayerRef {
     LayerRef::Id(LayerId(number))
 }
 
+fn named(layer: LayerRef, name: &str) -> Action {
+    Action::Name { layer, name: name.to_owned() }
+}
+
 /// An even film of the pigment in `slot`, `amount` quanta high, over `rect`.
 fn slot_film(slot: usize, amount: u32, rect: Rect) -> Layer {
     let mut layer = Layer::empty(WIDTH, HEIGHT);
@@ -580,18 +585,21 @@ fn a_moved_layer_covers_what_it_lies_over_and_the_relief_stays() {
     let before = painting.picture().unwrap();
     let whole = painting.document().unwrap();
     let floor = painting.engine.floor().unwrap();
-    assert!(painting.move_layer(id(1), 2).unwrap(), "it lay below");
+    assert!(painting.apply(&Action::Order { layer: id(1), to: 2 }).unwrap(), "it lay below");
     assert_eq!(ids(&painting), [2, 3, 1]);
     assert!(painting.engine.floor().unwrap() == floor, "heights add up in any order");
     let after = painting.picture().unwrap();
     assert!(after[(30, 30)] != before[(30, 30)], "the first is on top now");
     assert_as_new(&mut painting, "a move");
-    assert!(!painting.move_layer(id(1), 2).unwrap(), "it is there already");
+    assert!(
+        !painting.apply(&Action::Order { layer: id(1), to: 2 }).unwrap(),
+        "it is there already"
+    );
     assert!(painting.undo().unwrap() && painting.document().unwrap() == whole, "undo");
     assert!(painting.picture().unwrap() == before, "the picture after undo");
     assert!(painting.redo().unwrap() && ids(&painting) == [2, 3, 1], "redo");
     assert!(painting.picture().unwrap() == after, "the picture after redo");
-    let error = painting.move_layer(id(1), 3).unwrap_err();
+    let error = painting.apply(&Action::Order { layer: id(1), to: 3 }).unwrap_err();
     assert!(matches!(error, PaintingError::NoLayer { index: 3, count: 3 }), "{error}");
     assert_eq!(painting.undo_bytes().0, 0, "an order takes no memory");
 }
@@ -602,13 +610,13 @@ fn a_hidden_layer_keeps_opacity_and_relief() {
     painting.set_opacity(id(2), 0.7).unwrap();
     let shown = painting.picture().unwrap();
     let floor = painting.engine.floor().unwrap();
-    painting.show_layer(id(2), false).unwrap();
+    painting.apply(&Action::Visible { layer: id(2), value: false }).unwrap();
     assert!(painting.picture().unwrap() != shown, "nothing was hidden");
     assert_as_new(&mut painting, "hiding");
     let layer = painting.state().dry[1].clone();
     assert_eq!((layer.opacity, layer.shown_opacity()), (0.7, 0.0));
     assert!(painting.engine.floor().unwrap() == floor, "its height stays");
-    painting.show_layer(id(2), true).unwrap();
+    painting.apply(&Action::Visible { layer: id(2), value: true }).unwrap();
     assert!(painting.picture().unwrap() == shown, "not as before");
     painting.undo().unwrap();
     assert!(!painting.state().dry[1].visible, "undone");
@@ -617,15 +625,15 @@ fn a_hidden_layer_keeps_opacity_and_relief() {
 #[test]
 fn names_are_undone_and_checked() {
     let mut painting = painting(&[(0, THICK, rect(5, 40))]);
-    painting.name_layer(LayerRef::Dry(0), "sky").unwrap();
+    painting.apply(&named(LayerRef::Dry(0), "sky")).unwrap();
     assert_eq!(painting.state().dry[0].label(), "sky");
     assert!(painting.undo().unwrap() && painting.state().dry[0].label() == "Layer 1");
     assert!(painting.redo().unwrap() && painting.state().dry[0].label() == "sky");
-    let error = painting.name_layer(id(1), "a\nb").unwrap_err();
-    assert!(matches!(error, PaintingError::LayerName { .. }) && error.hint().is_some());
-    let error = painting.name_layer(LayerRef::Wet, "wet").unwrap_err();
+    let error = painting.apply(&named(id(1), "a\nb")).unwrap_err();
+    assert!(error.to_string().starts_with("name: a name on one line"), "{error}");
+    let error = painting.apply(&named(LayerRef::Wet, "wet")).unwrap_err();
     assert!(matches!(error, PaintingError::WetLayer { .. }), "{error}");
-    let error = painting.name_layer(id(7), "x").unwrap_err().to_string();
+    let error = painting.apply(&named(id(7), "x")).unwrap_err().to_string();
     assert_eq!(error, "there is no layer 7; the painting has 1");
 }
 
@@ -645,7 +653,7 @@ fn layers_apart_merge_past_films_that_they_do_not_touch() {
     let left = rect(5, 20);
     let right = rect(30, 20);
     let mut painting = painting(&[(0, THICK, left), (3, THICK, right), (5, THICK, rect(70, 10))]);
-    painting.name_layer(id(3), "edge").unwrap();
+    painting.apply(&named(id(3), "edge")).unwrap();
     let picture = painting.picture().unwrap();
     let whole = painting.document().unwrap();
     painting.merge(id(1), id(3)).unwrap();
@@ -671,13 +679,13 @@ fn the_lower_layer_rises_if_only_it_is_free() {
 fn a_film_between_that_touches_both_forbids_a_merge_and_is_named() {
     let mut painting =
         painting(&[(0, THICK, rect(5, 30)), (3, THICK, rect(25, 30)), (0, THICK, rect(40, 30))]);
-    painting.name_layer(id(2), "water").unwrap();
+    painting.apply(&named(id(2), "water")).unwrap();
     let whole = painting.document().unwrap();
     let error = painting.merge(id(1), id(3)).unwrap_err();
     assert_eq!(error.to_string(), "`water` lies between the two layers and overlaps both");
     assert!(error.hint().is_some_and(|hint| hint.to_string().contains("move that layer")));
     assert!(painting.document().unwrap() == whole, "something changed");
-    painting.move_layer(id(2), 2).unwrap();
+    painting.apply(&Action::Order { layer: id(2), to: 2 }).unwrap();
     painting.merge(id(1), id(3)).unwrap();
     assert_eq!(ids(&painting), [1, 2]);
 }
@@ -705,7 +713,7 @@ fn opacities_become_part_of_the_merged_paint() {
         .count();
     assert_eq!(moved, 0, "cells that changed colour");
     painting.undo().unwrap();
-    painting.show_layer(id(2), false).unwrap();
+    painting.apply(&Action::Visible { layer: id(2), value: false }).unwrap();
     let error = painting.merge(id(1), id(2)).unwrap_err();
     assert!(matches!(error, PaintingError::UnlikeVisibility), "{error}");
 }
@@ -714,7 +722,7 @@ fn opacities_become_part_of_the_merged_paint() {
 fn hidden_layers_merge_only_if_it_would_not_show() {
     let mut painting = painting(&[(0, THICK, rect(5, 40)), (3, THICK, rect(30, 40))]);
     for layer in [id(1), id(2)] {
-        painting.show_layer(layer, false).unwrap();
+        painting.apply(&Action::Visible { layer, value: false }).unwrap();
     }
     let error = painting.merge(id(1), id(2)).unwrap_err();
     assert!(matches!(error, PaintingError::MergeShows { .. }), "{error}");

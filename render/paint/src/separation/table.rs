@@ -9,7 +9,7 @@
 //! Recipes change little from height to height, so they are interpolated between the tables, evenly
 //! in the logarithm of the height.
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use rayon::prelude::*;
@@ -288,35 +288,28 @@ impl SeparationSettings {
 }
 
 /// A separation cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum SeparationError {
     /// The palette has no pigment.
     #[error("a palette has at least one pigment, found `0`")]
+    #[hint("name pigments of the library, or none, to have them chosen")]
     NoPigment,
     /// The lattice is too coarse or too large.
     #[error("a table has 5 to 65 points along each side, found `{lattice}`")]
+    #[hint("25 points are usual")]
     Lattice {
         /// Points along each side.
         lattice: usize,
     },
     /// The heights are not a valid range.
     #[error("heights run from above 0 to 100 mm, rising, found `{least_mm}:{most_mm}`")]
+    #[hint("0.03:0.3 is usual; the same number twice for an even film")]
     Heights {
         /// Least height in mm.
         least_mm: f64,
         /// Greatest height in mm.
         most_mm: f64,
     },
-}
-
-impl Explain for SeparationError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NoPigment => "name pigments of the library, or none, to have them chosen",
-            Self::Lattice { .. } => "25 points are usual",
-            Self::Heights { .. } => "0.03:0.3 is usual; the same number twice for an even film",
-        }))
-    }
 }
 
 /// Ratio of the heights of neighbouring tables, at most.

@@ -3,21 +3,14 @@
 
 use pigment::PigmentId;
 
-use super::history::Entry;
-use super::state::{Adjusting, Control, Outcome, PaintingSession, SessionError};
+use super::history::{Carried, Entry};
+use super::state::{Adjusting, Control, Outcome, PaintingSession};
 use crate::engine::BrushId;
-use crate::layer::SLOTS;
-use crate::painting::{LayerRef, Painting, PaintingError};
+use crate::painting::{Painting, PaintingError};
 use crate::strokes::{
     Action, ActionPigments, CheckContext, Load, PaletteSpec, PerSurface, Recipe, Squeeze,
     SurfaceId, check_brush,
 };
-
-/// The action changes the canvas only.
-const CANVAS: PerSurface<bool> = PerSurface { canvas: true, palette: false };
-
-/// No surface: the action changes a brush only.
-const NONE: PerSurface<bool> = PerSurface { canvas: false, palette: false };
 
 impl PaintingSession {
     /// Applies one action. Any open stroke or adjustment is finished first. Drying, layers and
@@ -25,43 +18,41 @@ impl PaintingSession {
     /// concern both surfaces.
     ///
     /// # Errors
-    /// [`SessionError`] for an action that cannot be done. Nothing is changed then. If the
+    /// [`PaintingError`] for an action that cannot be done. Nothing is changed then. If the
     /// backend fails half way, history and recording end there.
-    pub fn apply(&mut self, action: &Action) -> Result<Outcome, SessionError> {
+    pub fn apply(&mut self, action: &Action) -> Result<Outcome, PaintingError> {
         self.finish_open()?;
         match action {
-            Action::Undo {} => return Ok(nothing_unless(self.undo()?)),
-            Action::Redo {} => return Ok(nothing_unless(self.redo()?)),
+            Action::Undo {} => return Ok(Outcome::of(self.undo()?)),
+            Action::Redo {} => return Ok(Outcome::of(self.redo()?)),
             Action::Stroke(stroke) | Action::Cut(stroke) => {
                 self.check(action)?;
                 let report = self.apply_stroke(stroke, matches!(action, Action::Cut(_)))?;
                 return Ok(report.map_or(Outcome::Nothing, Outcome::Painted));
             }
-            Action::Save { .. } => return Err(SessionError::Save),
+            Action::Save { .. } => return Err(PaintingError::Save),
             _ => {}
         }
         let (action, pigments) = self.rounded(action)?;
-        let label = action.label(&pigments, &self.canvas);
-        let Some(on) = self.perform(&action, &pigments)? else { return Ok(Outcome::Nothing) };
-        self.record_done(&action, &pigments, (label, on));
-        Ok(Outcome::Done)
+        let label = self.label(&action, &pigments);
+        let on = self.perform(&action, &pigments)?;
+        if let Some(on) = on {
+            self.record_done(action, &pigments, label, (on, None));
+        }
+        Ok(Outcome::of(on.is_some()))
     }
 
     /// Checks numbers and names of an action.
-    pub(super) fn check(&self, action: &Action) -> Result<(), SessionError> {
+    fn check(&self, action: &Action) -> Result<(), PaintingError> {
         let at = CheckContext::default();
         if let Some(brush) = action.brush() {
             check_brush(&at, brush, self.brushes.names().map(|(name, _)| name))?;
         }
-        self.surfaces().check(&at, action)?;
-        Ok(())
+        Ok(self.surfaces().check(&at, action)?)
     }
 
     /// The action with its numbers rounded as in a file, and the pigments that it names.
-    pub(super) fn rounded(
-        &self,
-        action: &Action,
-    ) -> Result<(Action, ActionPigments), SessionError> {
+    fn rounded(&self, action: &Action) -> Result<(Action, ActionPigments), PaintingError> {
         self.check(action)?;
         let action = action.rounded();
         let pigments =
@@ -69,13 +60,18 @@ impl PaintingSession {
         Ok((action, pigments))
     }
 
-    /// Applies an action to the surfaces. Returns the surfaces whose histories have it. `None`
-    /// if there was nothing to do.
-    pub(super) fn perform(
+    /// Label of an action before it is applied.
+    pub(super) fn label(&self, action: &Action, pigments: &ActionPigments) -> String {
+        action.label(pigments, self.canvas.library(), &self.canvas.state().dry)
+    }
+
+    /// Applies an action to the surfaces that it changes. Returns those that changed. `None` if
+    /// there was nothing to do.
+    fn perform(
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-    ) -> Result<Option<PerSurface<bool>>, SessionError> {
+    ) -> Result<Option<PerSurface<bool>>, PaintingError> {
         let done = self.try_perform(action, pigments);
         self.follow_failure(done)
     }
@@ -84,9 +80,9 @@ impl PaintingSession {
     /// unknown: the history of the session is cleared and its recording ends.
     pub(super) fn follow_failure<T>(
         &mut self,
-        done: Result<T, SessionError>,
-    ) -> Result<T, SessionError> {
-        if let Err(SessionError::Painting(PaintingError::Engine(error))) = &done {
+        done: Result<T, PaintingError>,
+    ) -> Result<T, PaintingError> {
+        if let Err(PaintingError::Engine(error)) = &done {
             self.history = Default::default();
             if let Some(record) = &mut self.record {
                 record.stop(&format!("the backend failed: {error}"));
@@ -99,138 +95,57 @@ impl PaintingSession {
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-    ) -> Result<Option<PerSurface<bool>>, SessionError> {
-        let both = PerSurface { canvas: true, palette: self.palette.is_some() };
-        let on = match (action, pigments) {
-            (Action::Load(load), ActionPigments::Recipe(parts)) => {
-                let recipe = recipe(&self.canvas, parts)?;
-                self.with_brush(&load.brush, |painting, id| {
-                    painting.load(id, &recipe, load.vehicle, load.amount_mm)
-                })?;
-                NONE
-            }
-            (Action::Wipe { brush, keep }, _) => {
-                self.with_brush(brush, |painting, id| painting.wipe(id, *keep))?;
-                NONE
-            }
-            (Action::Wash { brush }, _) => {
-                self.with_brush(brush, Painting::wash)?;
-                NONE
-            }
-            (Action::Dry { fraction }, _) => {
-                if !self.canvas.dry(*fraction)? {
-                    return Ok(None);
-                }
-                CANVAS
-            }
-            (Action::Palette(_), ActionPigments::Palette(slots)) => {
-                self.wash_replaced_brushes()?;
-                let pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
-                if let Some(palette) = &mut self.palette {
-                    palette.slots_with(&pigments)?;
-                }
-                for painting in self.paintings_mut() {
-                    painting.set_palette(&pigments)?;
-                }
-                both
-            }
-            (Action::Light(lighting), _) => {
-                self.canvas.relight(lighting.clone())?;
-                if let Some(palette) = &mut self.palette {
+    ) -> Result<Option<PerSurface<bool>>, PaintingError> {
+        if let Some(brush) = action.brush() {
+            self.change_brush(brush, action, pigments)?;
+            return Ok(Some(PerSurface::default()));
+        }
+        let on = action.surfaces();
+        let on = PerSurface::from_fn(|at| on[at] && self.painting(at).is_some());
+        if let ActionPigments::Palette(slots) = pigments {
+            self.wash_replaced_brushes()?;
+            // The palette may refuse the pigments, which must not change the canvas.
+            let pigments: Vec<PigmentId> = slots.iter().flatten().copied().collect();
+            self.palette.as_mut().map(|palette| palette.slots_with(&pigments)).transpose()?;
+        }
+        let mut done = false;
+        for surface in SurfaceId::ALL.into_iter().filter(|surface| on[*surface]) {
+            match (action, surface, &mut self.palette) {
+                // Both surfaces share one light.
+                (Action::Light(_), SurfaceId::Palette, Some(palette)) => {
                     palette.relight_as(&self.canvas)?;
                 }
-                both
+                _ => done |= self.surface_mut(surface)?.change(action, pigments)?,
             }
-            (Action::Gloss { wet, dry }, _) => {
-                for painting in self.paintings_mut() {
-                    painting.set_gloss(*wet, *dry)?;
-                }
-                both
-            }
-            (Action::Stiffness { value }, _) => {
-                for painting in self.paintings_mut() {
-                    painting.set_stiffness(*value)?;
-                }
-                both
-            }
-            (Action::Opacity { layer, value }, _) => {
-                self.canvas.set_opacity(*layer, *value)?;
-                CANVAS
-            }
-            (Action::Swap { layer, .. }, ActionPigments::Swap { from, to }) => {
-                self.canvas.swap_pigment(*layer, *from, *to)?;
-                match (layer, &mut self.palette) {
-                    (LayerRef::Wet, Some(palette)) => {
-                        palette.swap_pigment(LayerRef::Wet, *from, *to)?;
-                        both
-                    }
-                    _ => CANVAS,
-                }
-            }
-            (Action::Name { layer, name }, _) => {
-                self.canvas.name_layer(*layer, name)?;
-                CANVAS
-            }
-            (Action::Visible { layer, value }, _) => {
-                self.canvas.show_layer(*layer, *value)?;
-                CANVAS
-            }
-            (Action::Order { layer, to }, _) => {
-                if !self.canvas.move_layer(*layer, *to)? {
-                    return Ok(None);
-                }
-                CANVAS
-            }
-            (Action::Merge { layer, with }, _) => {
-                let with = with.map_or_else(|| below(&self.canvas, *layer), Ok)?;
-                self.canvas.merge(*layer, with)?;
-                CANVAS
-            }
-            (Action::Squeeze(squeeze), ActionPigments::Recipe(parts)) => {
-                let recipe = recipe(&self.canvas, parts)?;
-                let Squeeze { on, vehicle, x_mm, y_mm, volume_mm3, .. } = *squeeze;
-                self.surface_mut(on)?.squeeze(&recipe, vehicle, x_mm, y_mm, volume_mm3)?;
-                PerSurface::from_fn(|surface| surface == on)
-            }
-            (Action::Scrape { on }, _) => {
-                if !self.surface_mut(*on)?.scrape()? {
-                    return Ok(None);
-                }
-                PerSurface::from_fn(|surface| surface == *on)
-            }
-            (Action::Mask(change), _) => {
-                if !self.canvas.change_mask(change)? {
-                    return Ok(None);
-                }
-                CANVAS
-            }
-            (action, _) => unreachable!("`{}` is applied elsewhere", action.kind()),
-        };
-        Ok(Some(on))
+        }
+        Ok(done.then_some(on))
     }
 
     /// Changes the paint on a brush, on the surface that holds it. A brush that is used for
     /// the first time is added to the painting and the recording even if the change fails.
-    fn with_brush(
+    fn change_brush(
         &mut self,
         name: &str,
-        change: impl FnOnce(&mut Painting, BrushId) -> Result<(), PaintingError>,
-    ) -> Result<(), SessionError> {
-        check_brush(&CheckContext::default(), name, self.brushes.names().map(|(name, _)| name))?;
-        let Some(tool) = self.brushes.find(name) else { return Ok(()) };
+        action: &Action,
+        pigments: &ActionPigments,
+    ) -> Result<(), PaintingError> {
+        if let ActionPigments::Recipe(parts) = pigments {
+            self.canvas.recipe(parts)?;
+        }
+        let tool = self.tool(name)?;
         let at = self.brushes.tools[tool].at;
         let fresh = self.brushes.tools[tool].ids[at].is_none();
         let id = self.brush_id(tool, at)?;
-        let changed = change(self.surface_mut(at)?, id);
+        let changed = self.surface_mut(at)?.change_brush(id, action, pigments);
         if changed.is_err() && fresh {
             self.note(Action::Wash { brush: name.to_owned() });
         }
-        Ok(changed?)
+        changed
     }
 
     /// Washes heads whose name now belongs to another head. They were washed when they were
     /// replaced, but an undo may have restored paint on them.
-    fn wash_replaced_brushes(&mut self) -> Result<(), SessionError> {
+    fn wash_replaced_brushes(&mut self) -> Result<(), PaintingError> {
         for tool in self.brushes.replaced() {
             let at = self.brushes.tools[tool].at;
             let Some(id) = self.brushes.tools[tool].ids[at] else { continue };
@@ -245,7 +160,11 @@ impl PaintingSession {
     }
 
     /// Id of a head in the painting of a surface. It is added there if it is new.
-    pub(super) fn brush_id(&mut self, tool: usize, on: SurfaceId) -> Result<BrushId, SessionError> {
+    pub(super) fn brush_id(
+        &mut self,
+        tool: usize,
+        on: SurfaceId,
+    ) -> Result<BrushId, PaintingError> {
         if let Some(id) = self.brushes.tools[tool].ids[on] {
             return Ok(id);
         }
@@ -255,19 +174,20 @@ impl PaintingSession {
         Ok(id)
     }
 
-    /// Adds an action that was done to the history, under this label on these surfaces, and to the
-    /// recording.
+    /// Adds an action that was done to the history of the surfaces that it changed, with the brush
+    /// that it moved, and to the recording.
     pub(super) fn record_done(
         &mut self,
-        action: &Action,
+        action: Action,
         pigments: &ActionPigments,
-        (label, on): (String, PerSurface<bool>),
+        label: String,
+        (on, carried): (PerSurface<bool>, Option<Carried>),
     ) {
-        if on != NONE {
-            self.history.add(label, on, None);
+        if on != PerSurface::default() {
+            self.history.add(label, on, carried);
             self.limit_history();
         }
-        self.scope.add_palette_of(action, pigments);
+        self.scope.add_palette_of(&action, pigments);
         self.note(self.with_library_names(action, pigments));
     }
 
@@ -289,7 +209,7 @@ impl PaintingSession {
 
     /// The action with short names of pigments replaced by the names of the library, which do
     /// not depend on the palette.
-    fn with_library_names(&self, action: &Action, pigments: &ActionPigments) -> Action {
+    fn with_library_names(&self, action: Action, pigments: &ActionPigments) -> Action {
         let library = self.canvas.library();
         let name = |pigment: PigmentId| library[pigment].name.clone();
         let recipe = |parts: &[(PigmentId, f64)]| -> Recipe {
@@ -297,44 +217,31 @@ impl PaintingSession {
         };
         match (action, pigments) {
             (Action::Load(load), ActionPigments::Recipe(parts)) => {
-                Action::Load(Load { recipe: recipe(parts), ..load.clone() })
+                Action::Load(Load { recipe: recipe(parts), ..load })
             }
             (Action::Squeeze(squeeze), ActionPigments::Recipe(parts)) => {
-                Action::Squeeze(Squeeze { recipe: recipe(parts), ..squeeze.clone() })
+                Action::Squeeze(Squeeze { recipe: recipe(parts), ..squeeze })
             }
             (Action::Palette(_), ActionPigments::Palette(slots)) => {
                 let pigments = slots.iter().flatten().map(|&pigment| (None, name(pigment)));
                 Action::Palette(PaletteSpec { pigments: pigments.collect() })
             }
             (Action::Swap { layer, .. }, ActionPigments::Swap { from, to }) => {
-                Action::Swap { layer: *layer, from: name(*from), to: name(*to) }
+                Action::Swap { layer, from: name(*from), to: name(*to) }
             }
-            _ => action.clone(),
+            (action, _) => action,
         }
     }
 }
 
-pub(super) fn nothing_unless(done: bool) -> Outcome {
-    if done { Outcome::Done } else { Outcome::Nothing }
-}
-
-/// Parts of a recipe by slot of the current palette.
-fn recipe(painting: &Painting, parts: &[(PigmentId, f64)]) -> Result<[f64; SLOTS], PaintingError> {
-    let mut recipe = [0.0; SLOTS];
-    for &(pigment, part) in parts {
-        recipe[painting.slot_of(pigment)?] = part;
-    }
-    Ok(recipe)
-}
-
 impl Control {
-    fn of(action: &Action) -> Result<Self, SessionError> {
+    fn of(action: &Action) -> Result<Self, PaintingError> {
         match action {
             Action::Light(_) => Ok(Self::Light),
             Action::Gloss { .. } => Ok(Self::Gloss),
             Action::Stiffness { .. } => Ok(Self::Stiffness),
             Action::Opacity { layer, .. } => Ok(Self::Opacity(*layer)),
-            _ => Err(SessionError::NoControl { kind: action.kind() }),
+            _ => Err(PaintingError::NoControl { kind: action.kind() }),
         }
     }
 }
@@ -346,8 +253,8 @@ impl PaintingSession {
     /// action.
     ///
     /// # Errors
-    /// [`SessionError`] for other actions, and the errors of [`PaintingSession::apply`].
-    pub fn adjust(&mut self, action: &Action) -> Result<(), SessionError> {
+    /// [`PaintingError`] for other actions, and the errors of [`PaintingSession::apply`].
+    pub fn adjust(&mut self, action: &Action) -> Result<(), PaintingError> {
         let control = Control::of(action)?;
         if self.adjusting.as_ref().is_none_or(|adjusting| adjusting.control != control) {
             self.finish_open()?;
@@ -375,15 +282,12 @@ impl PaintingSession {
     pub fn end_adjustment(&mut self) {
         let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
-        let label = action.label(&ActionPigments::None, &self.canvas);
-        self.record_done(&action, &ActionPigments::None, (label, on));
+        let label = self.label(&action, &ActionPigments::None);
+        self.record_done(action, &ActionPigments::None, label, (on, None));
     }
 
     /// Finishes the open stroke or adjustment, if there is one.
-    ///
-    /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn finish_open(&mut self) -> Result<(), SessionError> {
+    pub(crate) fn finish_open(&mut self) -> Result<(), PaintingError> {
         self.end_adjustment();
         if self.stroke.is_some() {
             self.end_stroke()?;
@@ -396,15 +300,6 @@ impl PaintingSession {
     }
 }
 
-/// The dry layer below another.
-fn below(canvas: &Painting, layer: LayerRef) -> Result<LayerRef, PaintingError> {
-    match canvas.dry_index(layer)? {
-        Some(0) => Err(PaintingError::NothingBelow),
-        Some(index) => Ok(LayerRef::Dry(index - 1)),
-        None => Err(PaintingError::WetLayer { what: "layer to merge with" }),
-    }
-}
-
 /// Share of the memory, as a divisor, that is kept for the surface that uses less.
 const RESERVED: u64 = 8;
 
@@ -413,16 +308,16 @@ impl PaintingSession {
     /// or adjustment is finished first, and is then the last action.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn undo(&mut self) -> Result<bool, SessionError> {
+    /// [`PaintingError`] if the device was lost.
+    pub fn undo(&mut self) -> Result<bool, PaintingError> {
         self.finish_open()?;
-        let Some(entry) = self.history.done.pop() else { return Ok(false) };
+        let Some(entry) = self.history.done.pop_back() else { return Ok(false) };
         let exchanged = self.exchange(&entry, Painting::undo);
         self.follow_failure(exchanged)?;
         if let Some(carried) = entry.carried {
             self.brushes.tools[carried.tool].at = carried.from;
         }
-        self.history.undone.push(entry);
+        self.history.undone.push_back(entry);
         self.limit_history();
         self.note(Action::Undo {});
         Ok(true)
@@ -431,16 +326,16 @@ impl PaintingSession {
     /// Repeats the action that was undone last. Returns whether there was one.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn redo(&mut self) -> Result<bool, SessionError> {
+    /// [`PaintingError`] if the device was lost.
+    pub fn redo(&mut self) -> Result<bool, PaintingError> {
         self.finish_open()?;
-        let Some(entry) = self.history.undone.pop() else { return Ok(false) };
+        let Some(entry) = self.history.undone.pop_back() else { return Ok(false) };
         let exchanged = self.exchange(&entry, Painting::redo);
         self.follow_failure(exchanged)?;
         if let Some(carried) = entry.carried {
             self.brushes.tools[carried.tool].at = carried.to;
         }
-        self.history.done.push(entry);
+        self.history.done.push_back(entry);
         self.limit_history();
         self.note(Action::Redo {});
         Ok(true)
@@ -450,8 +345,8 @@ impl PaintingSession {
     /// or as near as can be reached.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn go_to(&mut self, done: usize) -> Result<(), SessionError> {
+    /// [`PaintingError`] if the device was lost.
+    pub fn go_to(&mut self, done: usize) -> Result<(), PaintingError> {
         self.finish_open()?;
         let (_, now) = self.history();
         for _ in done..now {
@@ -538,7 +433,7 @@ impl PaintingSession {
         &mut self,
         entry: &Entry,
         exchange: impl Fn(&mut Painting) -> Result<bool, PaintingError>,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), PaintingError> {
         for surface in SurfaceId::ALL {
             if entry.on[surface] {
                 let done = exchange(self.surface_mut(surface)?)?;

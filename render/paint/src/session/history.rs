@@ -27,52 +27,29 @@ pub(super) struct Entry {
     pub(super) carried: Option<Carried>,
 }
 
-/// Actions, the oldest first, and their number on each surface.
-#[derive(Debug, Default)]
-pub(super) struct Entries {
-    entries: VecDeque<Entry>,
-    on: PerSurface<usize>,
+/// Numbers of the actions of each surface.
+fn counts(entries: &VecDeque<Entry>) -> PerSurface<usize> {
+    PerSurface::from_fn(|surface| entries.iter().filter(|entry| entry.on[surface]).count())
 }
 
-impl Entries {
-    pub(super) fn push(&mut self, entry: Entry) {
-        self.on = PerSurface::from_fn(|surface| self.on[surface] + usize::from(entry.on[surface]));
-        self.entries.push_back(entry);
+/// Drops the entries farthest from the present, which are the first, until each surface has at
+/// most `kept`, the number of actions that its painting still has. Returns the number of the last
+/// one.
+fn drop_farthest(entries: &mut VecDeque<Entry>, kept: PerSurface<usize>) -> Option<u64> {
+    let mut last = None;
+    while counts(entries).iter().zip(kept.iter()).any(|(count, kept)| count > kept) {
+        last = entries.pop_front().map(|entry| entry.number);
     }
-
-    pub(super) fn pop(&mut self) -> Option<Entry> {
-        let entry = self.entries.pop_back()?;
-        self.uncount(&entry);
-        Some(entry)
-    }
-
-    fn uncount(&mut self, entry: &Entry) {
-        self.on = PerSurface::from_fn(|surface| self.on[surface] - usize::from(entry.on[surface]));
-    }
-
-    /// Drops the entries farthest from the present until each surface has at most `kept`,
-    /// the number of actions that its painting still has. Returns the number of the last one.
-    fn drop_farthest(&mut self, kept: PerSurface<usize>) -> Option<u64> {
-        let mut last = None;
-        while self.on.iter().zip(kept.iter()).any(|(count, kept)| count > kept) {
-            let Some(farthest) = self.entries.pop_front() else { return last };
-            self.uncount(&farthest);
-            last = Some(farthest.number);
-        }
-        last
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.entries.len()
-    }
+    last
 }
 
 /// Actions that are done, and actions that were undone.
 #[derive(Debug, Default)]
 pub(super) struct SharedHistory {
-    pub(super) done: Entries,
+    /// Actions that are done, the oldest first.
+    pub(super) done: VecDeque<Entry>,
     /// Undone actions. The next redo is the last one.
-    pub(super) undone: Entries,
+    pub(super) undone: VecDeque<Entry>,
     /// Number of the action added last. 0 before the first.
     last: u64,
     /// Number of the last done action that was dropped. 0 if none was.
@@ -82,21 +59,21 @@ pub(super) struct SharedHistory {
 impl SharedHistory {
     /// Adds a new action. The undone ones are dropped.
     pub(super) fn add(&mut self, label: String, on: PerSurface<bool>, carried: Option<Carried>) {
-        self.undone = Entries::default();
+        self.undone.clear();
         self.last += 1;
-        self.done.push(Entry { number: self.last, label, on, carried });
+        self.done.push_back(Entry { number: self.last, label, on, carried });
     }
 
     /// Drops the actions that a painting has dropped. `undo` and `redo` are the numbers of
     /// actions that each painting can still undo and redo.
     pub(super) fn limit_to(&mut self, undo: PerSurface<usize>, redo: PerSurface<usize>) {
-        self.beginning = self.done.drop_farthest(undo).unwrap_or(self.beginning);
-        self.undone.drop_farthest(redo);
+        self.beginning = drop_farthest(&mut self.done, undo).unwrap_or(self.beginning);
+        drop_farthest(&mut self.undone, redo);
     }
 
     /// Numbers of actions of each surface that can be undone and redone.
     pub(super) fn counts(&self) -> (PerSurface<usize>, PerSurface<usize>) {
-        (self.done.on, self.undone.on)
+        (counts(&self.done), counts(&self.undone))
     }
 
     /// Labels of all actions that can be reached by undo and redo, in their order.
@@ -110,7 +87,7 @@ impl SharedHistory {
     }
 
     fn entries(&self) -> impl Iterator<Item = &Entry> {
-        self.done.entries.iter().chain(self.undone.entries.iter().rev())
+        self.done.iter().chain(self.undone.iter().rev())
     }
 }
 
@@ -204,7 +181,7 @@ mod tests {
         history.add(label.to_owned(), PerSurface { canvas, palette }, None);
     }
 
-    fn counts([canvas, palette]: [usize; 2]) -> PerSurface<usize> {
+    fn kept(canvas: usize, palette: usize) -> PerSurface<usize> {
         PerSurface { canvas, palette }
     }
 
@@ -215,15 +192,15 @@ mod tests {
         add(&mut history, "b", [false, true]);
         add(&mut history, "c", [true, true]);
         add(&mut history, "d", [true, false]);
-        history.limit_to(counts([3, 2]), counts([0, 0]));
+        history.limit_to(kept(3, 2), kept(0, 0));
         assert_eq!(history.labels(), ["a", "b", "c", "d"], "all is known");
         // The palette forgot `b`, so `a` cannot be reached, though the canvas knows it.
-        history.limit_to(counts([3, 1]), counts([0, 0]));
+        history.limit_to(kept(3, 1), kept(0, 0));
         assert_eq!(history.labels(), ["c", "d"]);
         // That the canvas forgets `a` as well changes nothing.
-        history.limit_to(counts([2, 1]), counts([0, 0]));
+        history.limit_to(kept(2, 1), kept(0, 0));
         assert_eq!(history.labels(), ["c", "d"]);
-        history.limit_to(counts([1, 1]), counts([0, 0]));
+        history.limit_to(kept(1, 1), kept(0, 0));
         assert_eq!(history.labels(), ["d"]);
         assert_eq!(history.numbers(), [3, 4], "it begins after `c`");
     }
@@ -235,11 +212,11 @@ mod tests {
             add(&mut history, label, [true, label == "b"]);
         }
         for _ in 0..3 {
-            let entry = history.done.pop().expect("there are three");
-            history.undone.push(entry);
+            let entry = history.done.pop_back().expect("there are three");
+            history.undone.push_back(entry);
         }
         assert_eq!(history.labels(), ["a", "b", "c"]);
-        history.limit_to(counts([0, 0]), counts([3, 0]));
+        history.limit_to(kept(0, 0), kept(3, 0));
         assert_eq!(history.labels(), ["a"], "`b` is lost, and with it `c` after it");
         add(&mut history, "d", [true, false]);
         assert_eq!((history.labels(), history.undone.len()), (vec!["d"], 0));

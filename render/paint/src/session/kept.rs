@@ -9,36 +9,14 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 use super::history::Record;
-use super::state::{Outcome, PaintingSession, SessionError, Tool};
+use super::state::{KeptHead, Outcome, PaintingSession};
 use crate::amount::MAX_COLUMN;
-use crate::layer::Layer;
 use crate::mask::Mask;
-use crate::painting::{Painting, StrokeReport};
-use crate::strokes::{
-    Action, BrushSpec, KeptBrush, PerSurface, ScriptError, StrokeScript, SurfaceId,
-};
-
-/// A head of a session.
-#[derive(Debug, Clone, PartialEq)]
-pub struct KeptHead {
-    /// Name under which it was added.
-    pub name: String,
-    /// Its name in the recording.
-    pub recorded: String,
-    /// Shape and size.
-    pub spec: BrushSpec,
-    /// Whether it has its name now. Another head may have taken it.
-    pub named: bool,
-    /// Surface that its paint belongs to.
-    pub at: SurfaceId,
-    /// Its number among the heads used on each surface, from 0, if it was used there.
-    pub numbers: PerSurface<Option<usize>>,
-    /// The paint on it, by slots of the palette. `None` if it is clean.
-    pub paint: Option<Layer>,
-}
+use crate::painting::{Painting, PaintingError, StrokeReport};
+use crate::strokes::{Action, KeptBrush, ScriptError, StrokeScript, SurfaceId};
 
 /// The end of a recording, from some action on.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,31 +47,16 @@ impl PaintingSession {
     /// All heads with the paint on them.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn kept_heads(&mut self) -> Result<Vec<KeptHead>, SessionError> {
-        let named: Vec<usize> =
-            self.brushes.names().filter_map(|(name, _)| self.brushes.find(name)).collect();
-        let mut kept = Vec::with_capacity(self.brushes.tools.len());
-        for index in 0..self.brushes.tools.len() {
-            let Tool { name, recorded, spec, ids, at } = &self.brushes.tools[index];
-            let numbers = PerSurface::from_fn(|surface| ids[surface].map(|id| id.0));
-            let (at, id) = (*at, ids[*at]);
-            let mut brush = KeptHead {
-                name: name.clone(),
-                recorded: recorded.clone(),
-                spec: spec.clone(),
-                named: named.contains(&index),
-                at,
-                numbers,
-                paint: None,
-            };
-            if let Some(id) = id {
-                let paint = self.surface_mut(at)?.brush_paint(id)?;
-                brush.paint = paint.totals().iter().any(|total| *total > 0).then_some(paint);
+    /// [`PaintingError`] if the device was lost.
+    pub fn kept_heads(&mut self) -> Result<Vec<KeptHead>, PaintingError> {
+        let mut heads = self.brushes.tools.clone();
+        for head in &mut heads {
+            if let Some(id) = head.ids[head.at] {
+                let paint = self.surface_mut(head.at)?.brush_paint(id)?;
+                head.paint = paint.totals().iter().any(|total| *total > 0).then_some(paint);
             }
-            kept.push(brush);
         }
-        Ok(kept)
+        Ok(heads)
     }
 
     /// The recording from action `from` on. `None` if the session records nothing or the recording
@@ -107,8 +70,10 @@ impl PaintingSession {
             Some(adjusting) => Some(adjusting.action.clone()),
             None => self.cut_so_far(),
         };
-        if let (Some(_), Some(stroke)) = (&open, &self.stroke) {
-            let tool = &self.brushes.tools[stroke.tool];
+        let stroke = self.stroke.as_ref();
+        let tool = stroke.and_then(|open| self.brushes.find(&open.stroke().brush));
+        if let (Some(_), Some(tool)) = (&open, tool) {
+            let tool = &self.brushes.tools[tool];
             header.brushes.entry(tool.recorded.clone()).or_insert_with(|| tool.spec.clone());
         }
         let actions = record.script.actions.get(from..).unwrap_or_default().to_vec();
@@ -120,28 +85,28 @@ impl PaintingSession {
     /// these surfaces.
     ///
     /// # Errors
-    /// [`SessionError`] if canvas, palette, brushes and mask do not go together, or if the device
+    /// [`PaintingError`] if canvas, palette, brushes and mask do not go together, or if the device
     /// was lost.
     pub fn restored(
         canvas: Painting,
         palette: Option<Painting>,
         kept: KeptSession,
-    ) -> Result<Self, SessionError> {
+    ) -> Result<Self, PaintingError> {
         let mut session = Self::new(canvas, palette)?;
         if kept.mask.as_ref().is_some_and(|mask| mask.bounds() != session.canvas.bounds()) {
-            return Err(SessionError::Unlike { what: "masks" });
+            return Err(PaintingError::Unlike { what: "masks" });
         }
         session.canvas.hold_mask(kept.mask)?;
         for surface in SurfaceId::ALL {
             let mut used: Vec<(usize, &KeptHead)> = kept
                 .brushes
                 .iter()
-                .filter_map(|brush| Some((brush.numbers[surface]?, brush)))
+                .filter_map(|brush| Some((brush.ids[surface]?.0, brush)))
                 .collect();
             used.sort_by_key(|(number, _)| *number);
             for (expected, (number, brush)) in used.into_iter().enumerate() {
                 if number != expected {
-                    return Err(SessionError::Unlike { what: "brushes" });
+                    return Err(PaintingError::Unlike { what: "brushes" });
                 }
                 let painting = session.surface_mut(surface)?;
                 painting.add_brush(brush.spec.shape, brush.spec.size_mm)?;
@@ -154,18 +119,15 @@ impl PaintingSession {
         Ok(session)
     }
 
-    fn restore_brush(&mut self, brush: KeptHead) -> Result<(), SessionError> {
-        let KeptHead { name, recorded, spec, named, at, numbers, paint } = brush;
-        let ids = PerSurface::from_fn(|surface| numbers[surface].map(crate::engine::BrushId));
-        if let (Some(id), Some(paint)) = (ids[at], &paint) {
-            let painting = self.surface_mut(at)?;
-            let (width, height) = painting.head(id).paint_grid();
-            if (paint.width(), paint.height()) != (width, height) {
-                return Err(SessionError::Unlike { what: "brushes" });
+    fn restore_brush(&mut self, mut head: KeptHead) -> Result<(), PaintingError> {
+        if let (Some(id), Some(paint)) = (head.ids[head.at], head.paint.take()) {
+            let painting = self.surface_mut(head.at)?;
+            if (paint.width(), paint.height()) != painting.head(id).paint_grid() {
+                return Err(PaintingError::Unlike { what: "brushes" });
             }
-            painting.set_brush_paint(id, paint)?;
+            painting.set_brush_paint(id, &paint)?;
         }
-        self.brushes.restore(Tool { name, recorded, spec, ids, at }, named);
+        self.brushes.restore(head);
         Ok(())
     }
 }
@@ -178,18 +140,18 @@ impl PaintingSession {
     /// All brushes in the order of their names, with the paint that they hold.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn kept_brushes(&mut self) -> Result<Vec<KeptBrush>, SessionError> {
-        let names: Vec<String> = self.brushes.names().map(|(name, _)| name.to_owned()).collect();
-        let mut kept = Vec::with_capacity(names.len());
-        for name in names {
-            let paint = self.brush_paint(&name)?;
-            let paint = paint.filter(|paint| paint.totals().iter().any(|total| *total > 0));
-            let Some(tool) = self.brushes.find(&name) else { continue };
-            let tool = &self.brushes.tools[tool];
-            kept.push(KeptBrush { spec: tool.spec.clone(), at: tool.at, paint, name });
-        }
-        Ok(kept)
+    /// [`PaintingError`] if the device was lost.
+    pub fn kept_brushes(&mut self) -> Result<Vec<KeptBrush>, PaintingError> {
+        let mut heads = self.kept_heads()?;
+        heads.retain(|head| head.named);
+        heads.sort_by(|a, b| a.name.cmp(&b.name));
+        let kept = heads.into_iter().map(|KeptHead { name, spec, at, paint, .. }| KeptBrush {
+            name,
+            spec,
+            at,
+            paint,
+        });
+        Ok(kept.collect())
     }
 
     /// Adds brushes with the paint that they held when they were kept, under the pigments of this
@@ -201,9 +163,9 @@ impl PaintingSession {
     /// session that has taken up the same brushes.
     ///
     /// # Errors
-    /// [`SessionError`] for a head that cannot be made on cells of this width, or if the device was
+    /// [`PaintingError`] for a head that cannot be made on cells of this width, or if the device was
     /// lost.
-    pub fn take_up(&mut self, brushes: &[KeptBrush]) -> Result<Vec<String>, SessionError> {
+    pub fn take_up(&mut self, brushes: &[KeptBrush]) -> Result<Vec<String>, PaintingError> {
         let mut left = Vec::new();
         for KeptBrush { name, spec, at, paint } in brushes {
             self.set_brush(name, spec)?;
@@ -243,13 +205,14 @@ pub struct ReplayReport {
 }
 
 /// Why a replay failed. `E` is the error of the function that saves.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum ReplayError<E: std::error::Error + 'static> {
     /// The script is invalid.
     #[error(transparent)]
     Script(#[from] ScriptError),
     /// The session refuses an action.
     #[error("action {index} ({kind})")]
+    #[hint(inner)]
     Action {
         /// Index of the action, from 0.
         index: usize,
@@ -257,10 +220,11 @@ pub enum ReplayError<E: std::error::Error + 'static> {
         kind: &'static str,
         /// Error of the session.
         #[source]
-        error: Box<SessionError>,
+        error: Box<PaintingError>,
     },
     /// A file cannot be saved.
     #[error("action {index} (save)")]
+    #[hint(inner)]
     Save {
         /// Index of the action, from 0.
         index: usize,
@@ -268,24 +232,6 @@ pub enum ReplayError<E: std::error::Error + 'static> {
         #[source]
         error: E,
     },
-}
-
-impl<E: Explain + 'static> Explain for ReplayError<E> {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Script(error) => error.hint(),
-            Self::Action { error, .. } => error.hint(),
-            Self::Save { error, .. } => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Script(error) => error.fault(),
-            Self::Action { error, .. } => error.fault(),
-            Self::Save { error, .. } => error.fault(),
-        }
-    }
 }
 
 impl StrokeScript {

@@ -16,6 +16,7 @@
 //!
 //! **The recording** holds all actions since the session started, undo and redo included, as
 //! a script of the format `strokes/1`.
+
 mod history;
 mod state;
 mod actions;
@@ -25,5 +26,5 @@ mod kept;
 #[cfg(test)]
 mod tests;
 
-pub use kept::{KeptHead, KeptSession, RecordingTail, ReplayError, ReplayReport};
-pub use state::{Outcome, PaintingSession, SessionError};
+pub use kept::{KeptSession, RecordingTail, ReplayError, ReplayReport};
+pub use state::{KeptHead, Outcome, PaintingSession};

@@ -1,41 +1,21 @@
-//! A painting session: its surfaces, its brushes by name, its errors, and a short interface for
-//! programs.
+//! A painting session: its surfaces, its brushes by name, and a short interface for programs.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use documents::hint::{Explain, Fault, Hint};
 use pigment::library::PigmentLibrary;
 
 use super::history::{Record, SharedHistory};
 use crate::brush::Head;
 use crate::document::{Canvas, Document, Medium};
 use crate::engine::{BrushId, PaintEngine};
-use crate::file::PaintingFileError;
-use crate::layer::Layer;
-use crate::painting::{LayerRef, OpenStroke, Painting, PaintingError, StrokeReport, UNDO_BYTES};
+use crate::layer::{Layer, LayerRef};
+use crate::painting::{OpenStroke, Painting, PaintingError, StrokeReport, UNDO_BYTES};
 use crate::pose::Sample;
-use crate::stroke::SampleDecimals;
 use crate::strokes::{
     Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, Load, PaletteSpec, PerSurface,
-    PigmentNames, Recipe, ScriptError, ScriptStartError, Stroke, StrokeScript, StrokeTool,
-    SurfaceId, check_size, pigment_names, six_digits,
+    PigmentNames, Recipe, Stroke, StrokeScript, SurfaceId, check_size, pigment_names, six_digits,
 };
-
-/// The open stroke of a session.
-#[derive(Debug)]
-pub(super) struct SessionStroke {
-    pub(super) on: SurfaceId,
-    /// Index of the brush.
-    pub(super) tool: usize,
-    /// Decimals that samples are rounded to.
-    pub(super) decimals: SampleDecimals,
-    /// Rounded samples that were accepted.
-    pub(super) samples: Vec<Sample>,
-    /// Surface that the brush came from. `None` before the first sample.
-    pub(super) from: Option<SurfaceId>,
-    pub(super) stroke: OpenStroke,
-}
 
 /// The open adjustment of a session.
 #[derive(Debug)]
@@ -68,7 +48,7 @@ pub struct PaintingSession {
     /// Limit of the memory for undo on both surfaces, in bytes.
     pub(super) undo_limit: u64,
     pub(super) record: Option<Record>,
-    pub(super) stroke: Option<SessionStroke>,
+    pub(super) stroke: Option<OpenStroke>,
     pub(super) adjusting: Option<Adjusting>,
 }
 
@@ -84,6 +64,12 @@ pub enum Outcome {
     Painted(StrokeReport),
 }
 
+impl Outcome {
+    pub(super) fn of(done: bool) -> Self {
+        if done { Self::Done } else { Self::Nothing }
+    }
+}
+
 impl PaintingSession {
     /// Starts a session on a canvas and, optionally, a palette to mix on. Both must have the
     /// same library, the same pigments in the same slots, the same light and medium, and
@@ -93,8 +79,8 @@ impl PaintingSession {
     /// [`PaintingSession::set_undo_bytes`].
     ///
     /// # Errors
-    /// [`SessionError::Unlike`] if canvas and palette do not go together.
-    pub fn new(canvas: Painting, palette: Option<Painting>) -> Result<Self, SessionError> {
+    /// [`PaintingError::Unlike`] if canvas and palette do not go together.
+    pub fn new(canvas: Painting, palette: Option<Painting>) -> Result<Self, PaintingError> {
         if let Some(palette) = &palette {
             let unlike = [
                 ("pigment libraries", palette.library() != canvas.library()),
@@ -104,7 +90,7 @@ impl PaintingSession {
                 ("media", palette.medium() != canvas.medium()),
             ];
             if let Some((what, _)) = unlike.iter().find(|(_, unlike)| *unlike) {
-                return Err(SessionError::Unlike { what });
+                return Err(PaintingError::Unlike { what });
             }
         }
         let own = PaletteSpec::from_names(pigment_names(&canvas.state().slots, canvas.library()));
@@ -129,12 +115,12 @@ impl PaintingSession {
     /// [`StrokeScript::surfaces`]).
     ///
     /// # Errors
-    /// [`SessionError`] if the header describes other surfaces.
+    /// [`PaintingError`] if the header describes other surfaces.
     pub fn recorded(
         canvas: Painting,
         palette: Option<Painting>,
         script: &StrokeScript,
-    ) -> Result<Self, SessionError> {
+    ) -> Result<Self, PaintingError> {
         let mut session = Self::new(canvas, palette)?;
         let mut header = script.rounded_header()?;
         let (canvas, slots) = (&session.canvas, session.canvas.state().slots);
@@ -144,15 +130,15 @@ impl PaintingSession {
         let cells = session.palette.as_ref().map(|palette| palette.bounds());
         let cells = cells.map(|bounds| (bounds.width, bounds.height));
         if cells != header.mixing.as_ref().map(|mixing| mixing.cells()) {
-            return Err(SessionError::Unlike { what: "palettes than the script describes" });
+            return Err(PaintingError::Unlike { what: "palettes than the script describes" });
         }
         let bare = header.start.is_none();
         let medium = header.medium.clone().unwrap_or_else(|| Medium::of(canvas.library()));
         if bare && medium != *canvas.medium() {
-            return Err(SessionError::Unlike { what: "media than the script describes" });
+            return Err(PaintingError::Unlike { what: "media than the script describes" });
         }
         if bare && header.lighting.clone().unwrap_or_default() != canvas.state().lighting {
-            return Err(SessionError::Unlike { what: "lights than the script describes" });
+            return Err(PaintingError::Unlike { what: "lights than the script describes" });
         }
         header.palette = PaletteSpec::from_names(pigment_names(&slots, canvas.library()));
         header.brushes.clear();
@@ -201,12 +187,12 @@ impl PaintingSession {
     /// or adjustment is finished first.
     ///
     /// # Errors
-    /// [`SessionError`] for a head that cannot be made on cells of this width, or if the
+    /// [`PaintingError`] for a head that cannot be made on cells of this width, or if the
     /// device was lost.
-    pub fn set_brush(&mut self, name: &str, spec: &BrushSpec) -> Result<(), SessionError> {
+    pub fn set_brush(&mut self, name: &str, spec: &BrushSpec) -> Result<(), PaintingError> {
         let spec = BrushSpec { size_mm: six_digits(spec.size_mm), ..spec.clone() };
         check_size(&CheckContext::default(), "size_mm", spec.size_mm)?;
-        Head::new(spec.shape, spec.size_mm, self.canvas.cell_mm()).map_err(PaintingError::from)?;
+        Head::new(spec.shape, spec.size_mm, self.canvas.cell_mm())?;
         self.finish_open()?;
         let wash = Action::Wash { brush: name.to_owned() };
         let now = self.brushes.find(name).map(|tool| &self.brushes.tools[tool]);
@@ -228,8 +214,8 @@ impl PaintingSession {
     /// Paint on a brush. `None` if there is no such brush, or if it was never used.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn brush_paint(&mut self, name: &str) -> Result<Option<Layer>, SessionError> {
+    /// [`PaintingError`] if the device was lost.
+    pub fn brush_paint(&mut self, name: &str) -> Result<Option<Layer>, PaintingError> {
         let Some(tool) = self.brushes.find(name) else { return Ok(None) };
         let at = self.brushes.tools[tool].at;
         let Some(id) = self.brush_id_on(name, at) else { return Ok(None) };
@@ -247,8 +233,8 @@ impl PaintingSession {
     /// Canvas and palette as they are now, with the painted part of an open stroke.
     ///
     /// # Errors
-    /// [`SessionError`] if the device was lost.
-    pub fn documents(&mut self) -> Result<(Document, Option<Document>), SessionError> {
+    /// [`PaintingError`] if the device was lost.
+    pub fn documents(&mut self) -> Result<(Document, Option<Document>), PaintingError> {
         let canvas = self.canvas.document()?;
         let palette = self.palette.as_mut().map(Painting::document).transpose()?;
         Ok((canvas, palette))
@@ -280,8 +266,8 @@ impl PaintingSession {
     /// Sizes of the surfaces, for the checks of actions.
     pub(super) fn surfaces(&self) -> ActionLimits {
         let own = ActionLimits {
-            canvas_mm: longer_side_mm(&self.canvas),
-            palette_mm: self.palette.as_ref().map(longer_side_mm),
+            canvas_mm: self.canvas.longer_side_mm(),
+            palette_mm: self.palette.as_ref().map(Painting::longer_side_mm),
         };
         self.recording().map_or(own, StrokeScript::limits)
     }
@@ -290,18 +276,13 @@ impl PaintingSession {
     pub(super) fn surface_mut(
         &mut self,
         surface: SurfaceId,
-    ) -> Result<&mut Painting, SessionError> {
+    ) -> Result<&mut Painting, PaintingError> {
         self.surfaces().reach_mm(&CheckContext::default(), surface)?;
         Ok(match (surface, &mut self.palette) {
             (SurfaceId::Palette, Some(palette)) => palette,
             _ => &mut self.canvas,
         })
     }
-}
-
-fn longer_side_mm(painting: &Painting) -> f64 {
-    let bounds = painting.bounds();
-    bounds.width.max(bounds.height) as f64 * painting.cell_mm()
 }
 
 fn undo_limit_of(painting: &Painting) -> u64 {
@@ -316,8 +297,8 @@ impl PaintingSession {
     /// The documentation of the crate has an example.
     ///
     /// # Errors
-    /// [`SessionError`] for a canvas that cannot be made, or a library without a pigment.
-    pub fn on_canvas(library: &PigmentLibrary, canvas: &Canvas) -> Result<Self, SessionError> {
+    /// [`PaintingError`] for a canvas that cannot be made, or a library without a pigment.
+    pub fn on_canvas(library: &PigmentLibrary, canvas: &Canvas) -> Result<Self, PaintingError> {
         let pigments = &library.pigments;
         let known = pigments.iter().find(|pigment| pigment.identified).or(pigments.first());
         let first = library.reference.as_deref().or(known.map(|pigment| pigment.name.as_str()));
@@ -334,14 +315,14 @@ impl PaintingSession {
     /// are not on the palette are added to it.
     ///
     /// # Errors
-    /// [`SessionError`] for an unknown brush or pigment, for more than eight pigments on the
+    /// [`PaintingError`] for an unknown brush or pigment, for more than eight pigments on the
     /// palette, and if the brush cannot hold that much.
     pub fn load<'a>(
         &mut self,
         brush: &str,
         recipe: impl IntoIterator<Item = (&'a str, f64)>,
         amount_mm: f64,
-    ) -> Result<(), SessionError> {
+    ) -> Result<(), PaintingError> {
         let parts: Vec<(&str, f64)> = recipe.into_iter().collect();
         let library = self.canvas.library();
         let slots = self.canvas.state().slots;
@@ -372,29 +353,15 @@ impl PaintingSession {
     /// Paints a stroke on the canvas. An undo takes it back.
     ///
     /// # Errors
-    /// [`SessionError`] for an unknown brush and for impossible samples. Nothing is painted
+    /// [`PaintingError`] for an unknown brush and for impossible samples. Nothing is painted
     /// then.
     pub fn stroke(
         &mut self,
         brush: &str,
         samples: &[Sample],
-    ) -> Result<StrokeReport, SessionError> {
-        self.stroke_as(StrokeTool::Paint, brush, samples)
-    }
-
-    /// Works the wet paint of the canvas with the head of a brush as `tool`. An undo takes it back.
-    ///
-    /// # Errors
-    /// [`SessionError`] for an unknown brush, and for impossible samples and tools. Nothing is
-    /// changed then.
-    pub fn stroke_as(
-        &mut self,
-        tool: StrokeTool,
-        brush: &str,
-        samples: &[Sample],
-    ) -> Result<StrokeReport, SessionError> {
-        let samples = samples.to_vec();
-        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, tool, samples };
+    ) -> Result<StrokeReport, PaintingError> {
+        let brush = brush.to_owned();
+        let stroke = Stroke { brush, samples: samples.to_vec(), ..Stroke::default() };
         Ok(match self.apply(&Action::Stroke(stroke))? {
             Outcome::Painted(report) => report,
             Outcome::Done | Outcome::Nothing => StrokeReport::default(),
@@ -404,28 +371,34 @@ impl PaintingSession {
     /// Saves the canvas as a painting file (OpenEXR, see [`crate::file`]).
     ///
     /// # Errors
-    /// [`SessionError`] if the file cannot be written.
-    pub fn save(&mut self, path: impl AsRef<Path>) -> Result<(), SessionError> {
+    /// [`PaintingError`] if the file cannot be written.
+    pub fn save(&mut self, path: impl AsRef<Path>) -> Result<(), PaintingError> {
         self.finish_open()?;
         Ok(self.canvas.document()?.save(path.as_ref())?)
     }
 }
 
-/// A head that was added under a name.
-#[derive(Debug)]
-pub(super) struct Tool {
+/// A head of a session.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeptHead {
     /// Name under which it was added.
-    pub(super) name: String,
+    pub name: String,
     /// Its name in the recording, unique among all heads.
-    pub(super) recorded: String,
-    pub(super) spec: BrushSpec,
-    /// Its id in the painting of each surface, once it was used there.
-    pub(super) ids: PerSurface<Option<BrushId>>,
+    pub recorded: String,
+    /// Shape and size.
+    pub spec: BrushSpec,
+    /// Whether it has its name now. Another head may have taken it.
+    pub named: bool,
     /// Surface whose painting holds its paint. In the other one it is clean.
-    pub(super) at: SurfaceId,
+    pub at: SurfaceId,
+    /// Its id in the painting of each surface, once it was used there.
+    pub ids: PerSurface<Option<BrushId>>,
+    /// The paint on it, by slots of the palette. `None` if it is clean, and while a session has
+    /// the head, as its paint is on the surface then.
+    pub paint: Option<Layer>,
 }
 
-impl Tool {
+impl KeptHead {
     pub(super) fn used(&self) -> bool {
         self.ids.iter().any(Option::is_some)
     }
@@ -444,20 +417,20 @@ pub(super) enum Added {
 #[derive(Debug, Default)]
 pub(super) struct Brushes {
     /// All heads, including those whose name now belongs to another: undo needs them.
-    pub(super) tools: Vec<Tool>,
-    names: BTreeMap<String, usize>,
+    pub(super) tools: Vec<KeptHead>,
 }
 
 impl Brushes {
     /// Adds a brush under a name, in place of the one with that name.
     pub(super) fn add(&mut self, name: &str, spec: &BrushSpec) -> Added {
-        if let Some(&now) = self.names.get(name) {
+        if let Some(now) = self.find(name) {
             if self.tools[now].spec == *spec {
                 return Added::Ready;
             }
             let again = self.tools.iter().position(|t| t.name == name && t.spec == *spec);
             if let Some(again) = again {
-                self.names.insert(name.to_owned(), again);
+                self.tools[now].named = false;
+                self.tools[again].named = true;
                 return if self.tools[again].used() { Added::Used } else { Added::Ready };
             }
             if !self.tools[now].used() {
@@ -465,40 +438,41 @@ impl Brushes {
                 return Added::Ready;
             }
         }
-        self.tools.push(Tool {
+        self.restore(KeptHead {
             name: name.to_owned(),
             recorded: self.free_name(name),
             spec: spec.clone(),
-            ids: PerSurface::default(),
+            named: true,
             at: SurfaceId::Canvas,
+            ids: PerSurface::default(),
+            paint: None,
         });
-        self.names.insert(name.to_owned(), self.tools.len() - 1);
         Added::Ready
     }
 
-    /// Adds a head that an earlier session had, after all those that it was added after. The last
-    /// one of a name that is `named` has the name now.
-    pub(super) fn restore(&mut self, tool: Tool, named: bool) {
-        if named {
-            self.names.insert(tool.name.clone(), self.tools.len());
+    /// Adds a head. If it is `named`, it takes its name from the head that has it.
+    pub(super) fn restore(&mut self, head: KeptHead) {
+        if let Some(before) = self.find(&head.name).filter(|_| head.named) {
+            self.tools[before].named = false;
         }
-        self.tools.push(tool);
+        self.tools.push(head);
     }
 
     /// Index of the head that has a name now.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
-        self.names.get(name).copied()
+        self.tools.iter().position(|tool| tool.named && tool.name == name)
     }
 
-    /// Names with the heads that have them now.
-    pub(super) fn names(&self) -> impl Iterator<Item = (&str, &Tool)> + Clone {
-        self.names.iter().map(|(name, &tool)| (name.as_str(), &self.tools[tool]))
+    /// Names with the heads that have them now, in the order of the names.
+    pub(super) fn names(&self) -> impl Iterator<Item = (&str, &KeptHead)> + Clone {
+        let mut named: Vec<_> = self.tools.iter().filter(|tool| tool.named).collect();
+        named.sort_by(|a, b| a.name.cmp(&b.name));
+        named.into_iter().map(|tool| (tool.name.as_str(), tool))
     }
 
     /// Heads whose name now belongs to another.
     pub(super) fn replaced(&self) -> Vec<usize> {
-        let named: BTreeSet<usize> = self.names.values().copied().collect();
-        (0..self.tools.len()).filter(|tool| !named.contains(tool)).collect()
+        (0..self.tools.len()).filter(|&tool| !self.tools[tool].named).collect()
     }
 
     /// `name`, with a number appended if another head was recorded under it.
@@ -507,69 +481,6 @@ impl Brushes {
         let numbered = (2_usize..).map(|number| format!("{name} {number}"));
         let mut names = std::iter::once(name.to_owned()).chain(numbered);
         names.find(|name| !used.contains(name.as_str())).unwrap_or_default()
-    }
-}
-
-/// Why a session refuses an action. Nothing is changed then, unless the device failed.
-#[derive(Debug, thiserror::Error)]
-pub enum SessionError {
-    /// A surface refuses the action, or its device failed.
-    #[error(transparent)]
-    Painting(#[from] PaintingError),
-    /// A number is out of range, or a name is unknown.
-    #[error(transparent)]
-    Invalid(#[from] Box<InvalidValue>),
-    /// The header of a recording is invalid.
-    #[error(transparent)]
-    Script(#[from] ScriptError),
-    /// A canvas cannot be made.
-    #[error(transparent)]
-    Start(#[from] ScriptStartError),
-    /// The painting cannot be saved.
-    #[error(transparent)]
-    File(#[from] PaintingFileError),
-    /// Canvas and palette do not go together.
-    #[error("canvas and palette have different {what}")]
-    Unlike {
-        /// Name of what differs.
-        what: &'static str,
-    },
-    /// The action saves a file. Sessions do not write files, their owner does.
-    #[error("a session saves nothing")]
-    Save,
-    /// There is no open stroke, or it was lifted.
-    #[error("no stroke is open")]
-    NoStroke,
-    /// An action other than light, gloss and opacity was adjusted.
-    #[error("`{kind}` cannot be adjusted bit by bit")]
-    NoControl {
-        /// Key of the action in a script.
-        kind: &'static str,
-    },
-}
-
-impl Explain for SessionError {
-    fn hint(&self) -> Option<Hint> {
-        let hint = match self {
-            Self::Painting(error) => return error.hint(),
-            Self::Invalid(invalid) => return invalid.hint(),
-            Self::Script(error) => return error.hint(),
-            Self::Start(error) => return error.hint(),
-            Self::File(error) => return error.hint(),
-            Self::Unlike { .. } => "set the palette up after the canvas",
-            Self::Save => "write the documents of the session",
-            Self::NoStroke => "set the brush down first",
-            Self::NoControl { .. } => "light, gloss, stiffness and opacity can be",
-        };
-        Some(Hint::new(hint))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Painting(error) => error.fault(),
-            Self::File(error) => error.fault(),
-            _ => Fault::Input,
-        }
     }
 }
 

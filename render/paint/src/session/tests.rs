@@ -11,18 +11,19 @@ use pigment::library::PigmentLibrary;
 
 use super::history::Limits;
 use super::kept::KeptSession;
-use super::state::{Outcome, PaintingSession, SessionError};
+use super::state::{Outcome, PaintingSession};
 use crate::brush::{HeadShape, StrokeTool};
 use crate::document::{Document, LayerId};
-use crate::engine::PaintEngine;
+use crate::engine::{BrushId, PaintEngine};
 use crate::file::{read, read_table, write_with_table};
 use crate::history::TILE_BYTES;
-use crate::layer::Layer;
+use crate::layer::{Layer, LayerRef};
 use crate::mask::Mask;
-use crate::painting::{LayerRef, MaskChange, Painting};
+use crate::painting::Painting;
 use crate::pose::Sample;
 use crate::strokes::{
-    Action, BrushSpec, KeptBrush, Load, Recipe, SideTable, Squeeze, Stroke, StrokeScript, SurfaceId,
+    Action, BrushSpec, KeptBrush, Load, MaskChange, Recipe, SideTable, Squeeze, Stroke,
+    StrokeScript, SurfaceId,
 };
 
 fn recorded() -> PaintingSession {
@@ -118,7 +119,7 @@ fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
     dab(&mut session);
     session.undo().unwrap();
     let reason = DeviceError::NoAdapter { reason: "it burnt".to_owned() };
-    let failed = session.follow_failure::<()>(Err(SessionError::Painting(reason.into())));
+    let failed = session.follow_failure::<()>(Err(reason.into()));
     assert!(failed.is_err(), "the failure is not returned");
     assert_eq!(session.history(), (Vec::new(), 0));
     assert!(!session.undo().unwrap() && !session.redo().unwrap(), "a step from before the failure");
@@ -575,7 +576,7 @@ fn brushes_that_do_not_go_together_are_refused() {
     first_half(&mut session);
     let (canvas, palette) = session.documents().unwrap();
     let brushes = session.kept_heads().unwrap();
-    let refused = |change: fn(&mut super::kept::KeptHead)| {
+    let refused = |change: fn(&mut super::KeptHead)| {
         let mut brushes = brushes.clone();
         let loaded = brushes.iter_mut().find(|brush| brush.paint.is_some()).unwrap();
         change(loaded);
@@ -584,7 +585,7 @@ fn brushes_that_do_not_go_together_are_refused() {
         PaintingSession::restored(canvas, palette, kept).is_err()
     };
     assert!(!refused(|_| {}));
-    assert!(refused(|brush| brush.numbers.canvas = Some(7)));
+    assert!(refused(|brush| brush.ids.canvas = Some(BrushId(7))));
     assert!(refused(|brush| brush.spec.size_mm = 9.0), "its paint has other cells");
 }
 

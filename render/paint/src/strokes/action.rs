@@ -16,9 +16,8 @@ use serde::{Deserialize, Serialize};
 use super::MAX_NAMES;
 use crate::brush::StrokeTool;
 use crate::document::{Lighting, Slots};
-use crate::layer::SLOTS;
+use crate::layer::{LayerRef, SLOTS};
 use crate::optics::Gloss;
-use crate::painting::{LayerRef, MaskChange};
 use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 
@@ -263,6 +262,26 @@ pub struct Squeeze {
     pub volume_mm3: f64,
 }
 
+/// A change of the mask.
+///
+/// In a script it is one of `{"polygon_mm": [[x, y], ..]}`, `{"layer": 0}` (or `"wet"`),
+/// `{"painted": {}}`, `{"inverse": true}` and `{"clear": {}}`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum MaskChange {
+    /// Leaves the inside of a polygon open, by the even-odd rule, and covers the rest. Its points
+    /// are in mm from the upper left corner.
+    PolygonMm(Vec<[f64; 2]>),
+    /// Leaves the cells open that have paint of a layer now.
+    Layer(LayerRef),
+    /// Leaves the cells open that have paint now, wet or dry.
+    Painted {},
+    /// Exchanges what is covered and what is open. Always true.
+    Inverse(bool),
+    /// Takes the mask off.
+    Clear {},
+}
+
 /// Strength of blending and erasing where a script names none.
 const STRENGTH: f64 = 0.5;
 
@@ -270,9 +289,8 @@ const STRENGTH: f64 = 0.5;
 ///
 /// In a script the tool is `"tool": "blend"`, `"scrape"` or `"erase"`, left out for painting.
 /// Blending and erasing have a `"strength"` above 0 to 1, 0.5 by default. Scraping has a
-/// `"height_mm"` of 0 to
-/// 10 over the ground, 0 by default.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// `"height_mm"` of 0 to 10 over the ground, 0 by default.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Keys", into = "Keys")]
 pub struct Stroke {
     /// Name of the brush.

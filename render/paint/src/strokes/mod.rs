@@ -56,10 +56,11 @@ use documents::hint::{Explain, Hint};
 
 pub use crate::brush::StrokeTool;
 pub use crate::document::Canvas;
-pub use crate::painting::{LayerRef, MaskChange};
+pub use crate::layer::LayerRef;
 pub use crate::stroke::SampleDecimals;
 pub use action::{
-    Action, ActionPigments, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke, SurfaceId,
+    Action, ActionPigments, Load, MaskChange, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke,
+    SurfaceId,
 };
 pub(super) use script::action_line;
 pub use script::{BrushSpec, KeptBrush, SideTable, StrokeScript};
@@ -67,6 +68,7 @@ pub(super) use start::{PigmentNames, pigment_names};
 pub use start::{Resolved, ScriptLibrary, ScriptStartError};
 pub(super) use table::{
     ActionLimits, CheckContext, check_brush, check_sample, check_size, check_tool, six_digits,
+    unknown_brush,
 };
 
 /// Most cells of a canvas: 8192 x 8192. Painting takes about 90 bytes per cell, plus 36
@@ -114,8 +116,9 @@ impl fmt::Display for ValueLocation {
 }
 
 /// A value that is out of range or does not fit the rest of the script.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[error("{location}: {wanted}, found `{found}`")]
+#[hint(with = hint.clone())]
 pub struct InvalidValue {
     /// Location of the value.
     pub location: ValueLocation,
@@ -127,17 +130,12 @@ pub struct InvalidValue {
     pub hint: Option<Hint>,
 }
 
-impl Explain for InvalidValue {
-    fn hint(&self) -> Option<Hint> {
-        self.hint.clone()
-    }
-}
-
 /// Why a script cannot be read or played.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ScriptError {
     /// The file is longer than [`MAX_FILE_BYTES`].
     #[error("{file}: a script has at most {limit} bytes, found `{bytes}`")]
+    #[hint("record fewer samples a second, or several scripts")]
     TooLong {
         /// Name of the file.
         file: String,
@@ -148,6 +146,7 @@ pub enum ScriptError {
     },
     /// The file is not UTF-8.
     #[error("{file}: line {line}: no UTF-8, found byte `0x{byte:02x}`")]
+    #[hint("save the script as UTF-8")]
     Encoding {
         /// Name of the file.
         file: String,
@@ -178,6 +177,7 @@ pub enum ScriptError {
     },
     /// The script has a version that this program does not know.
     #[error("{file}: this program reads strokes up to version {newest}, found `{found}`")]
+    #[hint("a newer impasto may read it")]
     Version {
         /// Name of the file.
         file: String,
@@ -188,6 +188,7 @@ pub enum ScriptError {
     },
     /// A value of a file is invalid.
     #[error("{file}: {invalid}")]
+    #[hint(inner = invalid)]
     Value {
         /// Name of the file.
         file: String,
@@ -197,20 +198,6 @@ pub enum ScriptError {
     /// A value of a script in memory is invalid.
     #[error(transparent)]
     Invalid(#[from] Box<InvalidValue>),
-}
-
-impl Explain for ScriptError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::TooLong { .. } => {
-                Some(Hint::new("record fewer samples a second, or several scripts"))
-            }
-            Self::Encoding { .. } => Some(Hint::new("save the script as UTF-8")),
-            Self::Version { .. } => Some(Hint::new("a newer impasto may read it")),
-            Self::Value { invalid, .. } | Self::Invalid(invalid) => invalid.hint(),
-            Self::Syntax { .. } | Self::Format { .. } => None,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use crate::ground::{Ground, GroundError, GroundRelief, GroundSpec};
 use crate::layer::SLOTS;
 
 /// Why the surfaces of a script cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ScriptStartError {
     /// The script is invalid, or does not describe the painting that it continues.
     #[error(transparent)]
@@ -26,15 +26,6 @@ pub enum ScriptStartError {
     /// A ground cannot be made.
     #[error(transparent)]
     Ground(#[from] GroundError),
-}
-
-impl Explain for ScriptStartError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Script(error) => error.hint(),
-            Self::Ground(error) => error.hint(),
-        }
-    }
 }
 
 impl StrokeScript {

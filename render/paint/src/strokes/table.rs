@@ -10,18 +10,19 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use documents::hint::{Explain, Hint};
+use pigment::library::PigmentLibrary;
 use pigment::{PigmentId, digits};
 use spectra::{Observer, light_from_text};
 
 use super::action::{
-    Action, ActionPigments, Load, PaletteSpec, Recipe, Squeeze, Stroke, SurfaceId, numbers,
+    Action, ActionPigments, Load, MaskChange, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke,
+    SurfaceId, numbers,
 };
 use super::{InvalidValue, MAX_MASK_POINTS, ValueLocation};
 use crate::brush::StrokeTool;
 use crate::document::{Lighting, Medium};
-use crate::layer::{LayerId, SLOTS, layer_label, layer_name_violation};
+use crate::layer::{DryLayerState, LayerId, LayerRef, SLOTS, layer_label, layer_name_violation};
 use crate::optics::Gloss;
-use crate::painting::{DryLayerState, LayerRef, MaskChange, Painting};
 use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 
@@ -102,10 +103,47 @@ impl Action {
         }
     }
 
-    /// Label for the history, with the pigments that the action names. `canvas` is the canvas
-    /// before the action, so that layers have the names and places that the action means.
-    pub(crate) fn label(&self, pigments: &ActionPigments, canvas: &Painting) -> String {
-        let name = |pigment: PigmentId| canvas.library()[pigment].name.as_str();
+    /// The surfaces that the action changes, if they exist. None for one that changes only a
+    /// brush.
+    pub(crate) fn surfaces(&self) -> PerSurface<bool> {
+        let canvas = PerSurface { canvas: true, palette: false };
+        match self {
+            Self::Load(_)
+            | Self::Wipe { .. }
+            | Self::Wash { .. }
+            | Self::Undo {}
+            | Self::Redo {}
+            | Self::Save { .. } => PerSurface::default(),
+            Self::Stroke(Stroke { on, .. })
+            | Self::Cut(Stroke { on, .. })
+            | Self::Squeeze(Squeeze { on, .. })
+            | Self::Scrape { on } => PerSurface::from_fn(|surface| surface == *on),
+            Self::Palette(_)
+            | Self::Light(_)
+            | Self::Gloss { .. }
+            | Self::Stiffness { .. }
+            | Self::Swap { layer: LayerRef::Wet, .. } => PerSurface { palette: true, ..canvas },
+            Self::Dry { .. }
+            | Self::Opacity { .. }
+            | Self::Name { .. }
+            | Self::Visible { .. }
+            | Self::Order { .. }
+            | Self::Swap { .. }
+            | Self::Merge { .. }
+            | Self::Mask(_) => canvas,
+        }
+    }
+
+    /// Label for the history, with the pigments that the action names. `dry` are the dry layers of
+    /// the canvas before the action, so that layers have the names and places that the action
+    /// means.
+    pub(crate) fn label(
+        &self,
+        pigments: &ActionPigments,
+        library: &PigmentLibrary,
+        dry: &[DryLayerState],
+    ) -> String {
+        let name = |pigment: PigmentId| library[pigment].name.as_str();
         match self {
             Self::Stroke(stroke) | Self::Cut(stroke) if stroke.tool.is_paint() => {
                 format!("stroke{}, {}", place(stroke.on), stroke.brush)
@@ -120,26 +158,26 @@ impl Action {
             Self::Gloss { .. } => "gloss".to_owned(),
             Self::Stiffness { value } => format!("stiffness {value}"),
             Self::Opacity { layer, value } => {
-                format!("{} of {}", percent(*value), layer_name(*layer, canvas))
+                format!("{} of {}", percent(*value), layer_name(*layer, dry))
             }
             Self::Swap { layer, .. } => match pigments {
                 ActionPigments::Swap { from, to } => {
-                    format!("{} for {}, {}", name(*to), name(*from), layer_name(*layer, canvas))
+                    format!("{} for {}, {}", name(*to), name(*from), layer_name(*layer, dry))
                 }
                 _ => "swap".to_owned(),
             },
             Self::Name { name, .. } if name.is_empty() => "no name for a layer".to_owned(),
             Self::Name { name, .. } => format!("name {name}"),
-            Self::Visible { layer, value: true } => format!("show {}", layer_name(*layer, canvas)),
-            Self::Visible { layer, value: false } => format!("hide {}", layer_name(*layer, canvas)),
+            Self::Visible { layer, value: true } => format!("show {}", layer_name(*layer, dry)),
+            Self::Visible { layer, value: false } => format!("hide {}", layer_name(*layer, dry)),
             Self::Order { layer, to } => {
-                format!("{} to place {}", layer_name(*layer, canvas), to + 1)
+                format!("{} to place {}", layer_name(*layer, dry), to + 1)
             }
             Self::Merge { layer, with: None } => {
-                format!("merge {} with the one below", layer_name(*layer, canvas))
+                format!("merge {} with the one below", layer_name(*layer, dry))
             }
             Self::Merge { layer, with: Some(with) } => {
-                format!("merge {} with {}", layer_name(*layer, canvas), layer_name(*with, canvas))
+                format!("merge {} with {}", layer_name(*layer, dry), layer_name(*with, dry))
             }
             Self::Squeeze(squeeze) => {
                 let paint = match pigments {
@@ -160,7 +198,7 @@ impl Action {
             }
             Self::Mask(change) => match change {
                 MaskChange::PolygonMm(_) => "mask".to_owned(),
-                MaskChange::Layer(layer) => format!("mask by {}", layer_name(*layer, canvas)),
+                MaskChange::Layer(layer) => format!("mask by {}", layer_name(*layer, dry)),
                 MaskChange::Painted {} => "mask by all paint".to_owned(),
                 MaskChange::Inverse(_) => "mask inverted".to_owned(),
                 MaskChange::Clear {} => "mask off".to_owned(),
@@ -393,11 +431,18 @@ pub(crate) fn check_brush<'a>(
     brush: &str,
     known: impl Iterator<Item = &'a str> + Clone,
 ) -> Checked {
-    if known.clone().any(|name| name == brush) {
-        return Ok(());
-    }
+    let is_known = known.clone().any(|name| name == brush);
+    if is_known { Ok(()) } else { Err(unknown_brush(at, brush, known)) }
+}
+
+/// The error about a brush that is none of `known`.
+pub(crate) fn unknown_brush<'a>(
+    at: &CheckContext,
+    brush: &str,
+    known: impl Iterator<Item = &'a str>,
+) -> Box<InvalidValue> {
     let hint = did_you_mean(brush, known).or_else(|| Some(Hint::new("declare it under `brushes`")));
-    Err(at.invalid("brush", "one of `brushes`", &brush, hint))
+    at.invalid("brush", "one of `brushes`", &brush, hint)
 }
 
 /// The start of a long text, on one line, for messages.
@@ -513,18 +558,13 @@ fn percent(share: f64) -> String {
     format!("{} %", (share * 1000.0).round() / 10.0)
 }
 
-fn layer_name(layer: LayerRef, canvas: &Painting) -> String {
-    match layer {
-        LayerRef::Wet => "wet paint".to_owned(),
-        LayerRef::Dry(index) => {
-            let dry = canvas.state().dry.get(index);
-            dry.map_or_else(|| layer_label(LayerId::by_place(index), ""), DryLayerState::label)
-        }
-        LayerRef::Id(id) => {
-            let dry = canvas.state().dry.iter().find(|layer| layer.id == id);
-            dry.map_or_else(|| layer_label(id, ""), DryLayerState::label)
-        }
-    }
+fn layer_name(layer: LayerRef, dry: &[DryLayerState]) -> String {
+    let (found, id) = match layer {
+        LayerRef::Wet => return "wet paint".to_owned(),
+        LayerRef::Dry(index) => (dry.get(index), LayerId::by_place(index)),
+        LayerRef::Id(id) => (dry.iter().find(|layer| layer.id == id), id),
+    };
+    found.map_or_else(|| layer_label(id, ""), DryLayerState::label)
 }
 
 /// Where a stroke is, if not on the canvas.

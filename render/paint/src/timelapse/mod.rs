@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use documents::file::{FileError, write_whole};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use graphics::export::{
     AnimationFormat, ExportError, Frame, FrameError, FrameRate, Sequence, SequenceError,
     SequenceSettings, reduced, reduced_size, srgb8,
@@ -23,7 +23,7 @@ use sha2::{Digest, Sha256};
 use crate::file::PaintingFileError;
 use crate::painting::PaintingError;
 use crate::pose::Sample;
-use crate::session::{PaintingSession, SessionError};
+use crate::session::PaintingSession;
 use crate::strokes::{Action, ScriptError, Squeeze, Stroke, StrokeScript, SurfaceId};
 
 /// Most frames of a timelapse.
@@ -375,7 +375,7 @@ impl<P: FnMut(usize, Frame) -> Result<(), TimelapseError>> Taking<'_, P> {
         index: usize,
         stroke: &Stroke,
     ) -> Result<(), TimelapseError> {
-        let failed = |error: SessionError| {
+        let failed = |error: PaintingError| {
             let error = Box::new(error);
             TimelapseError::Action { index, kind: "stroke", error }
         };
@@ -489,7 +489,8 @@ impl Timelapse<'_> {
 }
 
 /// Why a timelapse cannot be made.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum TimelapseError {
     /// A setting is out of range.
     #[error("{name} takes {wanted}, found `{found}`")]
@@ -503,6 +504,7 @@ pub enum TimelapseError {
     },
     /// The settings ask for too many frames.
     #[error("a timelapse has at most {most} frames, found `{found}`")]
+    #[hint("take a frame less often")]
     Frames {
         /// Greatest number of frames.
         most: usize,
@@ -514,6 +516,7 @@ pub enum TimelapseError {
     Script(#[from] ScriptError),
     /// The session refuses an action.
     #[error("action {index} ({kind})")]
+    #[hint(inner)]
     Action {
         /// Index of the action, from 0.
         index: usize,
@@ -521,7 +524,7 @@ pub enum TimelapseError {
         kind: &'static str,
         /// Error of the session.
         #[source]
-        error: Box<SessionError>,
+        error: Box<PaintingError>,
     },
     /// A picture cannot be computed.
     #[error(transparent)]
@@ -541,37 +544,6 @@ pub enum TimelapseError {
     /// The animation cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-}
-
-impl Explain for TimelapseError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Setting { .. } => None,
-            Self::Frames { .. } => Some(Hint::new("take a frame less often")),
-            Self::Script(error) => error.hint(),
-            Self::Action { error, .. } => error.hint(),
-            Self::Painting(error) => error.hint(),
-            Self::Start(error) => error.hint(),
-            Self::Export(error) => error.hint(),
-            Self::Sequence(error) => error.hint(),
-            Self::Frame(error) => error.hint(),
-            Self::File(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Setting { .. } | Self::Frames { .. } => Fault::Setting,
-            Self::Script(error) => error.fault(),
-            Self::Action { error, .. } => error.fault(),
-            Self::Painting(error) => error.fault(),
-            Self::Start(error) => error.fault(),
-            Self::Export(error) => error.fault(),
-            Self::Sequence(error) => error.fault(),
-            Self::Frame(error) => error.fault(),
-            Self::File(error) => error.fault(),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use pigment::PigmentLibrary;
 use super::*;
 use crate::brush::HeadShape;
 use crate::document::Canvas;
-use crate::painting::LayerRef;
+use crate::layer::LayerRef;
 use crate::pose::Sample;
 use crate::session::PaintingSession;
 use crate::strokes::{Action, BrushSpec, StrokeScript};

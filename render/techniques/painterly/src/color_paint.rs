@@ -284,7 +284,7 @@ mod tests {
             "Bone Black",
         ];
         let library = PigmentLibrary::van_gogh_oils();
-        let slots = paint::palette::palette_slots(&names.map(str::to_owned), &library).unwrap();
+        let slots = paint::document::palette_slots(&names.map(str::to_owned), &library).unwrap();
         let ground = GroundKind::Panel.spec(1);
         let settings = ColorPaintSettings::default();
         ColorPaint::new(Arc::new(library), slots, (&ground, &level()), &settings).unwrap()

@@ -374,11 +374,10 @@ mod exact_tests {
     use graphics::camera::Framing;
     use graphics::field::Field;
     use graphics::mesh::Mesh;
-    use paint::document::{Document, Lighting};
+    use paint::document::{Document, Lighting, palette_slots};
     use paint::ground::GroundKind;
     use paint::layer::SLOTS;
     use paint::light::Light;
-    use paint::palette::palette_slots;
     use paint::scene::{SpectralDocument, picture, scene};
     use pigment::PigmentLibrary;
     use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_ciede2000};

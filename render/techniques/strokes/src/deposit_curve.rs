@@ -141,7 +141,7 @@ impl<'a> Trial<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paint::canvas::Canvas;
+    use paint::document::Canvas;
     use paint::ground::GroundKind;
     use paint::session::PaintingSession;
     use pigment::PigmentLibrary;

@@ -4,7 +4,7 @@
 use documents::hint::Explain;
 use documents::settings::{OutOfRange, out_of_range};
 use documents::text::{Checked, KeyPath, ValueFault};
-use paint::canvas::Canvas;
+use paint::document::Canvas;
 use paint::ground::GroundKind;
 use paint::strokes::MAX_CELLS;
 use serde::{Deserialize, Serialize};

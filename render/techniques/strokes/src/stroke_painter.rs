@@ -7,18 +7,17 @@ use graphics::export::{ExportError, png8};
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, DeviceError};
 use graphics::picture::{Photograph, Picture};
-use paint::document::{Lighting, Medium, Slots};
+use paint::document::{Lighting, Medium, PaletteError, Slots, palette_slots};
 use paint::engine::PaintEngine;
 use paint::export::{NamedFile, PigmentMap, pigment_maps};
 use paint::ground::{ColorPrimer, Ground, GroundError, Primer};
 use paint::light::{Light, PaintLightError};
 use paint::painting::{Painting, PaintingError};
-use paint::palette::{PaletteError, palette_slots};
 use paint::separation::{
     ColorErrors, FilmMaterials, PaintFilm, Separation, SeparationError, SeparationSettings,
     choose_palette, rebuild_picture,
 };
-use paint::session::{PaintingSession, SessionError};
+use paint::session::PaintingSession;
 use paint::strokes::{PaletteSpec, Resolved, ScriptError, StrokeScript};
 use pigment::PigmentLibrary;
 use pigment::library::to_text;
@@ -250,12 +249,9 @@ pub enum StrokePainterError {
     /// The device cannot be used.
     #[error(transparent)]
     Device(#[from] DeviceError),
-    /// The painting cannot be opened, or its picture cannot be computed.
+    /// The painting cannot be opened, its picture computed, or its session set up.
     #[error(transparent)]
     Painting(#[from] PaintingError),
-    /// The session cannot be set up.
-    #[error(transparent)]
-    Session(#[from] SessionError),
     /// The painting cannot go on.
     #[error(transparent)]
     Strokes(#[from] PainterError),

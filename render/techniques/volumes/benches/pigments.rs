@@ -12,10 +12,9 @@ use graphics::camera::{Camera, Framing};
 use graphics::field::Field;
 use graphics::mesh::SampleModel;
 use graphics::surface::{Crossings, PackedMesh, SurfacePoint, VisibilityBuffer, visible};
-use paint::document::Lighting;
+use paint::document::{Lighting, palette_slots};
 use paint::ground::GroundKind;
 use paint::layer::Cell;
-use paint::palette::palette_slots;
 use pigment::PigmentLibrary;
 use volumes::pigments::{
     Density, Drawing, Facets, Film, FilmCounter, FilmHeights, FilmKind, FilmMaterial,

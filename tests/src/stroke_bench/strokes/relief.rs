@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use paint::ground::GroundKind;
 use paint::layer::Layer;
+use paint::strokes::{Action, StrokeTool};
 use paint::{BrushId, HeadShape};
 
 use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel, YELLOW};
@@ -92,7 +93,7 @@ pub(super) fn stiffness(bench: &Bench) -> CaseReport {
     let mut softer = 0.0;
     for stiffness in [0.0, 0.35, 0.7, 1.0] {
         let mut easel = bench.panel((80.0, 20.0));
-        easel.painting.set_stiffness(stiffness).expect("a stiffness");
+        easel.painting.apply(&Action::Stiffness { value: stiffness }).expect("a stiffness");
         let brush = easel.brush(HeadShape::Flat, SIZE_MM);
         stroke(&mut easel, brush, 10.0, 60.0);
         let heights = easel.heights();
@@ -309,7 +310,7 @@ pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
     easel.load(brush, &YELLOW, 1.0);
     let before = easel.quanta(&[brush]);
     let samples = Hand::across(PRESSURE).along(&[(8.0, 12.0), (82.0, 12.0)]);
-    let mut stroke = easel.painting.begin_stroke(brush).expect("a stroke");
+    let mut stroke = easel.painting.begin_stroke(StrokeTool::Paint, brush).expect("a stroke");
     let mut on_brush = Vec::new();
     let mut rest = samples.as_slice();
     for end_mm in BANDS_MM.map(|left| left + BAND_MM + 4.0) {

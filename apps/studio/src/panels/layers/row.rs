@@ -10,7 +10,7 @@ use eframe::egui::{
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 use paint::document::{LayerId, Slots};
-use paint::dry_layer::MAX_LAYER_NAME;
+use paint::layer::MAX_LAYER_NAME;
 use paint::strokes::{Action, LayerRef};
 use session::{Command, LayerState, Thumbnail};
 

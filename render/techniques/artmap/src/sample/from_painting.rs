@@ -253,7 +253,7 @@ pub enum FromPaintingError {
 
 #[cfg(test)]
 mod tests {
-    use paint::canvas::Canvas;
+    use paint::document::Canvas;
     use paint::ground::GroundKind;
     use paint::session::PaintingSession;
     use paint::{BrushSpec, HeadShape, Sample};

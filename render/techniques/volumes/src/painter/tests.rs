@@ -9,10 +9,9 @@ use graphics::encoding::encoded_from_linear;
 use graphics::field::Field;
 use graphics::mesh::{Mesh, SampleModel};
 use graphics::surface::{Model, NO_TRIANGLE, PackedMesh, SurfacePoint, VisibilityBuffer, visible};
-use paint::document::{Document, Lighting};
+use paint::document::{Document, Lighting, palette_slots};
 use paint::ground::GroundKind;
 use paint::light::Light;
-use paint::palette::palette_slots;
 use paint::scene::{picture, scene};
 use pigment::PigmentLibrary;
 

@@ -148,11 +148,11 @@ mod tests {
     };
     use documents::hint::Explain;
     use paint::amount::{mm_from_quanta, quanta_from_mm};
-    use paint::document::Document;
+    use paint::document::{Document, palette_slots};
     use paint::engine::PaintEngine;
     use paint::ground::GroundKind;
-    use paint::painting::{LayerRef, Painting};
-    use paint::palette::palette_slots;
+    use paint::layer::LayerRef;
+    use paint::painting::Painting;
     use paint::scene::SpectralDocument;
     use paint::separation::SeparationSettings;
     use pigment::{Backing, FilmOver, PigmentLibrary};
