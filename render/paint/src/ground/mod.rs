@@ -1,8 +1,8 @@
-//! Grounds to paint on. The relief is generated from a seed or taken from a picture. The colour is
-//! the colour of the priming.
+//! Grounds to paint on. You generate the relief from a seed or take it from a picture. The colour
+//! is the colour of the priming.
 //!
-//! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always
-//! give equal grounds.
+//! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always give equal
+//! grounds.
 
 mod primer;
 mod relief;
@@ -31,7 +31,7 @@ pub struct Ground {
     pub gloss: Gloss,
 }
 
-/// A ground cannot be made as described.
+/// Tells you why we cannot make a ground.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GroundError {
     /// A setting is out of its range.
@@ -78,10 +78,10 @@ pub enum GroundError {
         /// The library's grid, for example `380 to 730 nm in steps of 10 nm`.
         library: String,
     },
-    /// The paint that tones the ground cannot be mixed.
+    /// We cannot mix the paint that tones the ground.
     #[error("the film on the ground: {0}")]
     Recipe(#[from] pigment::library::RecipeError),
-    /// The picture of a relief cannot be read.
+    /// We cannot read the picture of a relief.
     #[error("{path}: {reason}")]
     Picture {
         /// Path of the picture.
