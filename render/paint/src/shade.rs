@@ -77,7 +77,8 @@ impl Tops {
         spans: impl Fn(usize) -> &'a [Range<usize>] + Sync,
         top: impl Fn(usize, usize) -> i32 + Sync,
     ) {
-        let (width, stride) = (self.width, self.width + 2 * MARGIN);
+        let width = self.width;
+        let stride = width + 2 * MARGIN;
         let first = rows.start;
         let values = &mut self.values[rows.start * stride..rows.end * stride];
         values.par_chunks_mut(stride).enumerate().for_each(|(row, values)| {

@@ -212,7 +212,8 @@ fn cells_within(reach: [f32; 4], origin: (i64, i64), bounds: Rect) -> Rect {
         return Rect::default();
     }
     let side = |low: f32, high: f32, origin: i64, start: usize, count: usize| {
-        let (start, end) = (start as i64, (start + count) as i64);
+        let end = (start + count) as i64;
+        let start = start as i64;
         let low = (origin + (low - 0.5).ceil() as i64).clamp(start, end);
         let high = (origin + (high - 0.5).ceil() as i64).clamp(start, end);
         (low as usize, (high - low) as usize)

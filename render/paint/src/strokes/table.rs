@@ -216,7 +216,8 @@ impl Number<'_> {
             NumberRef::Double(value) => **value,
             NumberRef::Single(value) => f64::from(**value),
         };
-        let (lowest, highest) = (*self.limits.start(), *self.limits.end());
+        let lowest = *self.limits.start();
+        let highest = *self.limits.end();
         if (lowest..=highest).contains(&value) && (value > 0.0 || !self.above_zero) {
             return Ok(());
         }

@@ -173,7 +173,8 @@ impl PenetrationMap {
             let columns = self.seen.of(y);
             let volume = &wet.volume()[y * floor.width()..][columns.clone()];
             let floor = floor.row(y, columns.start, columns.len());
-            let (start, from) = (self.start(y), columns.start.saturating_sub(reach.x));
+            let start = self.start(y);
+            let from = columns.start.saturating_sub(reach.x);
             let tops = &mut self.tops[start - RIM..][..row];
             let inner = &mut tops[RIM + from..][..columns.len()];
             for ((top, &floor), &volume) in inner.iter_mut().zip(floor).zip(volume) {
