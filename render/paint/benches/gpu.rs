@@ -1,6 +1,7 @@
 //! Benchmarks on the GPU: sub-steps, rendering, and the cost of a submission.
 //!
-//! Runs on the best adapter, software adapters included. Without an adapter nothing is timed.
+//! This takes the best adapter it finds, which may be a software adapter. If there is none, it
+//! times nothing.
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 

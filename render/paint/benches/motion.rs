@@ -1,10 +1,10 @@
 //! Sub-steps on the CPU: `cargo bench -p impasto-paint --bench motion`.
 //!
 //! A head with a curved bottom moves one cell per sub-step over wet paint of eight pigments. Items
-//! are cells of the rectangle of the contact. For comparison: 0.52 million cells/s at 88 x 88 and
-//! 116 sub-steps/s at 26 x 26 (Baxter, Wendt and Lin 2004, GeForce FX 5900). 8.5 million cells/s
-//! for a dab of radius 32 by libmypaint, which simulates no paint. Set `RAYON_NUM_THREADS=1` for
-//! one core.
+//! are cells of the rectangle of the contact. For comparison: Baxter, Wendt and Lin (2004) reached
+//! 0.52 million cells/s at 88 x 88 and 116 sub-steps/s at 26 x 26 on a GeForce FX 5900. libmypaint,
+//! which does not simulate paint, reaches 8.5 million cells/s for a dab of radius 32. To measure
+//! one core, set `RAYON_NUM_THREADS=1`.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

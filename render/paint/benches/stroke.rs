@@ -1,4 +1,5 @@
-//! Complete strokes, a replay, and relighting: `cargo bench -p impasto-paint --bench stroke`.
+//! This times complete strokes, a replay, and relighting: `cargo bench -p impasto-paint --bench
+//! stroke`.
 //!
 //! Strokes run from samples to paint: the head bends, its footprint is rasterised, the paint of
 //! eight pigments moves, and undo saves tiles. Items are cells of the rectangles of contacts,

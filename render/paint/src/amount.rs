@@ -1,9 +1,9 @@
 //! Amounts of paint in whole quanta of height.
 //!
-//! The column of paint over a cell is measured in quanta. 2^21 quanta are as high as a
-//! cell is wide (with cells of 0.1 mm a quantum is 0.05 nm). Quanta are only moved,
-//! never created or lost, so every pigment's total is exact. And integer sums do not
-//! depend on their order, so threads, backends and machines agree bit for bit.
+//! We measure the column of paint over a cell in quanta. 2^21 quanta are as high as a cell is wide,
+//! so with cells of 0.1 mm, for example, a quantum is 0.05 nm. We only move quanta and never create
+//! or lose them, so every pigment's total is exact. Sums of integers do not depend on their order,
+//! so threads, backends and machines agree bit for bit.
 
 /// Height in quanta of a column as high as its cell is wide.
 pub const QUANTA_PER_CELL: u32 = 1 << 21;
@@ -11,8 +11,8 @@ pub const QUANTA_PER_CELL: u32 = 1 << 21;
 /// Maximum height in quanta of the column over a cell: 512 cell widths.
 pub const MAX_COLUMN: u32 = 1 << 30;
 
-/// Computes `amount * share / 256`, rounded down, for a `share` of 0 to 256. Splits
-/// `amount`, as the whole product may exceed the 32 bits of integers in shaders.
+/// Computes `amount * share / 256`, rounded down, for a `share` of 0 to 256. This splits `amount`,
+/// because the whole product may exceed the 32 bits of integers in shaders.
 #[inline(always)]
 #[must_use]
 pub const fn share_of_256(amount: u32, share: u32) -> u32 {
@@ -27,8 +27,8 @@ pub const fn share_of_65536(amount: u32, share: u32) -> u32 {
 }
 
 /// Computes `part / whole` in parts of 65536, for a `part` up to `whole` and a `whole` up to
-/// [`MAX_COLUMN`]: never more than the exact ratio, at most 1/32768 of it less, and 0 for a
-/// `whole` of 0.
+/// [`MAX_COLUMN`]. The result is never more than the exact ratio and at most 1/32768 of it less. If
+/// `whole` is 0, you get 0.
 #[inline(always)]
 #[must_use]
 pub fn ratio_of_65536(part: u32, whole: u32) -> u32 {
@@ -36,8 +36,8 @@ pub fn ratio_of_65536(part: u32, whole: u32) -> u32 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     const SHIFTED: u64 = (15 + 2 * 1023) << 52;
     // In the shaders, the product of `part` and 65536 must fit into 32 bits, so both numbers lose
-    // the bits that `part` has above 16. Shifts of each lane by its own number are slow in some
-    // vectors, so this divides by the power of two, which is exact.
+    // the bits that `part` has above 16. Some vectors shift each lane by its own number slowly, so
+    // we divide by the power of two, which is exact.
     let size = f64::from((part | 1) as i32).to_bits() & EXPONENT;
     let power = f64::from_bits(SHIFTED - size);
     let (scale, more) = if power < 1.0 { (power, 1.0) } else { (1.0, 0.0) };
@@ -55,7 +55,7 @@ pub fn quotient(amount: u32, count: u32) -> u32 {
 }
 
 /// Computes `part / whole`, rounded down, for whole numbers. Processors cannot divide vectors of
-/// whole numbers, so this divides in f64, which is exact here.
+/// whole numbers, so we divide in f64, which is exact here.
 #[inline(always)]
 fn floor_of_quotient(part: f64, whole: f64) -> u32 {
     /// 2^52: above this number, neighbouring f64 values are 1 apart. Adding it is faster than the
@@ -65,8 +65,8 @@ fn floor_of_quotient(part: f64, whole: f64) -> u32 {
     ((part / whole).floor() + UNIT).to_bits() as u32
 }
 
-/// Converts a height in mm to quanta, rounded to the nearest and clamped to 0 to
-/// [`MAX_COLUMN`]. `cell_mm` is the width of a cell in mm.
+/// Converts a height in mm to quanta, rounded to the nearest and clamped to 0 to [`MAX_COLUMN`].
+/// `cell_mm` is the width of a cell in mm.
 #[must_use]
 pub fn quanta_from_mm(height_mm: f64, cell_mm: f64) -> u32 {
     let quanta = height_mm / cell_mm * f64::from(QUANTA_PER_CELL);

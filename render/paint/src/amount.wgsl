@@ -1,4 +1,4 @@
-// Shares of amounts, rounded down to whole quanta; twin of amount.rs.
+// Shares of amounts, rounded down to whole quanta. This is the twin of amount.rs.
 
 const MAX_COLUMN: u32 = 1073741824u;
 

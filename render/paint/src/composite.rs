@@ -1,15 +1,11 @@
 //! Composites Kubelka-Munk layers: the internal reflectance of painted cells.
 //!
-//! The layer equations in Baxter, Wendt and Lin 2004 (eq. 8 and 9) are misprinted. See
-//! [`spectra::optics::Layer::new`] for the form with decaying exponentials. With d = 1
-//! over a backing g, and rearranged so that it subtracts no nearly equal values and
-//! divides once, that form is:
-//! ```text
-//! x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e)
-//! den   = (K + S) (1 - e) + (1 + e) x
-//! above = (K + S (1 - g)) (1 - e) + (1 + e) x      (den - n g)
-//! R = (n above + 4 e x^2 g) / (den above)
-//! ```
+//! The layer equations in Baxter, Wendt and Lin 2004 (eq. 8 and 9) are misprinted. You find the
+//! form with decaying exponentials at [`spectra::optics::Layer::new`] . With d = 1 over a backing
+//! g, and rearranged so that it subtracts no nearly equal values and divides once, that form is:
+//! ```text x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e) den   = (K + S) (1 - e) + (1 + e)
+//! x above = (K + S (1 - g)) (1 - e) + (1 + e) x      (den - n g) R = (n above + 4 e x^2 g) / (den
+//! above) ```
 
 use pulp::Simd;
 
@@ -89,8 +85,8 @@ impl pulp::WithSimd for CompositeRow<'_> {
     }
 }
 
-/// Minimum of x = alpha d. Thinner films are computed with this x, which changes the
-/// reflectance by about its square.
+/// Minimum of x = alpha d. We compute thinner films with this x, which changes the reflectance by
+/// about its square.
 const MIN_X: f32 = 1e-5;
 
 /// Internal reflectance of a film of unit thickness over `backing`.
@@ -116,7 +112,6 @@ mod tests {
 
     use super::*;
 
-    /// Values of K d and S d to test.
     const GRID: [f32; 15] =
         [0.0, 1e-12, 1e-7, 1e-5, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 50.0, 300.0, 2000.0, 1e4];
     const BACKINGS: [f32; 8] = [0.0, 1e-4, 0.03, 0.2, 0.5, 0.8, 0.97, 1.0];
@@ -176,7 +171,7 @@ mod tests {
     #[test]
     fn no_paint_keeps_the_backing_and_thick_paint_hides_it() {
         assert_eq!(over(1e4, 1e4, 0, BACKINGS), BACKINGS);
-        // Painting another cell of the row changes no bit of this one.
+        // If we paint another cell of the row, this one does not change.
         let mut row = [BACKINGS, BACKINGS];
         composite_row(&layer(1.0, 1.0), &[[0; SLOTS], [9, 9, 0, 0, 0, 0, 0, 0]], &mut row);
         assert_eq!(row[0], BACKINGS);

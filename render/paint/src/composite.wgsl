@@ -1,4 +1,4 @@
-// Composites a Kubelka-Munk film over a backing at eight wavelengths; twin of
+// Composites a Kubelka-Munk film over a backing at eight wavelengths. This is the twin of
 // composite.rs. Wavelengths 0 to 3 are `low`, 4 to 7 `high`.
 
 struct Nodes {
@@ -12,8 +12,8 @@ struct LayerOptics {
     scattering: array<vec4<f32>, 16>,
 }
 
-// 1 - exp(-y), given e = exp(-y); by a series where the difference would lose digits. It has no
-// quotients, which software devices compute slowly.
+// Computes 1 - exp(-y), given e = exp(-y). Where this difference would lose digits, a series
+// replaces it. There are no quotients, because software devices compute them slowly.
 fn one_minus_exp(y: vec4<f32>, e: vec4<f32>) -> vec4<f32> {
     let tail = 1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0 - y * (1.0 / 5040.0)));
     let series = y * (1.0 - y * (0.5 - y * (1.0 / 6.0 - y * tail)));
@@ -43,8 +43,8 @@ struct Sums {
     s: Nodes,
 }
 
-// Adds one slot's K and S. The uniform `params` of the including shader has a field
-// `layer`; uniforms cannot be passed to functions.
+// Adds one slot's K and S. The uniform `params` of the including shader has a field `layer`, since
+// uniforms cannot be passed to functions.
 fn with_slot(sums: Sums, slot: u32, quanta: u32) -> Sums {
     let amount = f32(quanta);
     return Sums(
@@ -59,8 +59,8 @@ fn with_slot(sums: Sums, slot: u32, quanta: u32) -> Sums {
     );
 }
 
-// Composites the amounts `low` and `high`, in quanta by slot, over `backing`. Unrolled,
-// since a variable index would send the vectors through memory.
+// Composites the amounts `low` and `high`, in quanta by slot, over `backing`. We unroll this, since
+// a variable index would send the vectors through memory.
 fn composite(low: vec4<u32>, high: vec4<u32>, backing: Nodes) -> Nodes {
     var sums = with_slot(Sums(), 0u, low.x);
     sums = with_slot(sums, 1u, low.y);

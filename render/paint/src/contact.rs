@@ -7,8 +7,8 @@ use graphics::tile::Rect;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Touch {
-    /// Height of the head's surface at the cell's centre, in quanta over the plane of the
-    /// canvas. `i32::MAX` if there is no head.
+    /// Height of the head's surface at the cell's centre, in quanta over the plane of the canvas.
+    /// If there is no head, this is `i32::MAX`.
     pub height: i32,
     /// Index of the head's paint cell at that point, counted row by row.
     pub brush_cell: u32,
@@ -49,16 +49,16 @@ impl Touch {
         (i32::from(self.velocity as i16), i32::from((self.velocity >> 16) as i16))
     }
 
-    /// Factor on the transfer of paint, which grows with the head's speed: 0 (the head
-    /// rests, no transfer) to 256 (full transfer).
+    /// Factor on the transfer of paint, which grows with the head's speed: 0 if the head rests
+    /// (this transfers nothing) to 256 (full transfer).
     #[inline(always)]
     #[must_use]
     pub fn transfer_weight(&self) -> u32 {
         self.weights & 0x1ff
     }
 
-    /// Coat of the hair at this point relative to the head's mean, in parts of 32, below 128:
-    /// locks of hair leave different amounts of paint.
+    /// Coat of the hair at this point relative to the head's mean, in parts of 32, below 128. Locks
+    /// of hair leave different amounts of paint.
     #[inline(always)]
     #[must_use]
     pub fn release(&self) -> u32 {
@@ -111,41 +111,45 @@ pub struct ExchangeRates {
     pub release: u32,
     /// Thickness in quanta of the part of the coat that does not depend on the paint on the head.
     pub film: u32,
-    /// Share of what a film lacks of the coat's thickness that is laid in a sub-step.
+    /// Where a film is thinner than the coat, the share of the missing thickness that the head lays
+    /// in a sub-step.
     pub deposit: u32,
-    /// Share of what a film has beyond the coat's thickness that is taken up in a sub-step.
+    /// Where a film is thicker than the coat, the share of the surplus that the head takes up in a
+    /// sub-step.
     pub pick_up: u32,
-    /// Share of the smaller side that goes to the other side and is replaced by its paint.
+    /// Share of the smaller side that the two sides exchange: each gives this much and gets as much
+    /// of the other's paint.
     pub mixing: u32,
-    /// Distance in quanta by which hair is pressed below the crests of the ground. Less where
-    /// its coat bears it.
+    /// Distance in quanta by which the canvas presses hair below the crests of the ground. It is
+    /// less where its coat bears it.
     pub sink: u32,
     /// Velocity of the paint that the head has penetrated, relative to the head's, in
     /// parts of 256, up to 256.
     pub drag: u32,
-    /// Share of the paint from before the stroke that bears the hair, in parts of 65536. Less where
-    /// the coat is thin.
+    /// Share of the paint from before the stroke that bears the hair, in parts of 65536. This is
+    /// less where the coat is thin.
     pub bearing: u32,
 }
 
 /// The head of a brush over the canvas during one sub-step.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contact {
-    /// Rectangle around the cells under the head, clipped to the canvas. Empty if the head
-    /// touches none.
+    /// Rectangle around the cells under the head, clipped to the canvas. If the head touches none,
+    /// this is empty.
     pub rect: Rect,
     /// One touch for each cell of `rect`, row by row.
     pub touches: Vec<Touch>,
     /// How the head exchanges paint with the canvas.
     pub rates: ExchangeRates,
-    /// Flow of paint over the head before the sub-step. The first contact of a stroke has some.
+    /// Flow of paint over the head before the sub-step. For example, the first contact of a stroke
+    /// has some.
     pub wicking: Wicking,
 }
 
 /// Flow of paint over a head: along each hair, and between neighbouring hairs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Wicking {
-    /// Share of the differences that flows off, in parts of 65536. 0 if no paint flows.
+    /// Share of the differences that flows off, in parts of 65536. If this is 0, no paint flows.
     pub share: u32,
     /// First row of the head's cells that takes part. Rows count from the ferrule.
     pub first_row: u32,
@@ -154,8 +158,9 @@ pub struct Wicking {
     /// Number of hairs by which the groups start before the first hair, below `hairs`. Groups
     /// that overlap from flow to flow spread paint across the head.
     pub shift: u32,
-    /// Number of flows in which all groups have their turn. 0 and 1 let all flow at once.
+    /// Number of flows until every group has had its turn. With 0 or 1, all groups flow at once.
     pub turns: u32,
-    /// Groups take part whose number divided by `turns` leaves this, below `turns`.
+    /// Selects the groups that take part: divide a group's number by `turns` and compare the
+    /// remainder with this. Below `turns`.
     pub turn: u32,
 }

@@ -1,4 +1,4 @@
-// The head's surface above one cell of the canvas; twin of contact.rs.
+// The head's surface above one cell of the canvas. This is the twin of contact.rs.
 
 struct Touch {
     height: i32,

@@ -1,5 +1,6 @@
-//! A painting at rest: everything that its file stores, its canvas and palette, and a part of it
-//! cut out as a painting.
+//! A painting at rest. Its [`Document`] holds everything that its file stores. You can also
+//! describe a canvas, look up the pigments of a palette, and cut out a part of a painting as a
+//! painting of its own.
 
 use documents::hint::Explain;
 use graphics::tile::Rect;
@@ -19,9 +20,9 @@ pub use crate::layer::{DryLayer, LayerId, Slots};
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lighting {
-    /// Name of the illuminant, as [`spectra::light_from_text`] reads it (`D65`, `A`, `4000K`).
+    /// Name of the illuminant, as [`spectra::light_from_text`] reads it (e.g. `D65`, `A`, `4000K`).
     pub illuminant: String,
-    /// Name of the observer, as [`spectra::Observer::named`] reads it (`1931-2`).
+    /// Name of the observer, as [`spectra::Observer::named`] reads it (e.g. `1931-2`).
     pub observer: String,
     /// Direction of the light, in degrees clockwise from the top of the canvas.
     pub azimuth_deg: f64,
@@ -31,8 +32,8 @@ pub struct Lighting {
     pub ambient: f64,
     /// Factor on the heights of the relief: 0 flat, 1 physical.
     pub relief: f64,
-    /// How far the eye adapted to the light, 0..1: at 1 white paint is white under every light,
-    /// at 0 the picture has the light's own colour beside D65. Files omit 1.
+    /// How far the eye adapts to the light, 0..1. At 1 white paint looks white under every light.
+    /// At 0 you see the light's own colour beside D65. Files omit 1.
     #[serde(default = "complete", skip_serializing_if = "is_complete")]
     pub adaptation: f64,
 }
@@ -65,11 +66,11 @@ impl Default for Lighting {
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Medium {
-    /// S of the library's reference white per mm of height. It converts heights to the
-    /// library's thickness, which has no unit of its own.
+    /// S of the library's reference white per mm of height. We need this to convert heights to the
+    /// library's thickness, which does not have a unit of its own.
     pub scattering_per_mm: f64,
-    /// Stiffness of the wet paint: 0 is stand oil, which levels by itself, 1 is putty, which
-    /// stays as it is laid. Left out of files for tube paint.
+    /// Stiffness of the wet paint: 0 is stand oil, which levels by itself, 1 is putty, which stays
+    /// where you lay it. Files leave this out for tube paint.
     #[serde(default = "tube_paint", skip_serializing_if = "is_tube_paint")]
     pub stiffness: f64,
     /// Gloss of wet paint.
@@ -89,7 +90,8 @@ fn is_tube_paint(stiffness: &f64) -> bool {
 }
 
 impl Default for Medium {
-    /// A thin oil: 0.1 mm of white is translucent (S d = 5). Values chosen by eye.
+    /// A thin oil: for example, 0.1 mm of white is translucent (S d = 5). We chose the values by
+    /// eye.
     fn default() -> Self {
         Self {
             scattering_per_mm: 50.0,
@@ -101,8 +103,9 @@ impl Default for Medium {
 }
 
 impl Medium {
-    /// Oil for the paint of `library`: its white hides from 0.05 mm on (see [`scattering_per_mm`]),
-    /// or has the scattering of the default if the library has no white that hides.
+    /// Oil for the paint of `library`, in which its white hides from 0.05 mm on (see
+    /// [`scattering_per_mm`]). If the library does not have a white that hides, you get the
+    /// scattering of the default.
     #[must_use]
     pub fn of(library: &PigmentLibrary) -> Self {
         let default = Self::default();
@@ -126,7 +129,7 @@ pub struct Document {
     pub medium: Medium,
     /// Dry layers, lowest first.
     pub dry: Vec<DryLayer>,
-    /// Identity of the next dry layer, above the identities of all layers so far.
+    /// Identity of the next dry layer. This is above the identities of all layers so far.
     pub next_layer: LayerId,
     /// Pigments of the wet layer.
     pub slots: Slots,
@@ -163,8 +166,8 @@ impl Document {
         }
     }
 
-    /// Whether this can be the palette of `canvas`: library, pigments, light, medium and width of
-    /// a cell are the same.
+    /// Returns whether you can use this as the palette of `canvas`: library, pigments, light,
+    /// medium and width of a cell must be equal.
     #[must_use]
     pub fn belongs_to(&self, canvas: &Self) -> bool {
         self.library == canvas.library
@@ -175,7 +178,8 @@ impl Document {
     }
 
     /// SHA-256 of the ground's heights and of all amounts of paint, wet and dry, as 64 hexadecimal
-    /// digits. Two paintings with equal digests hold the same paint to the last quantum.
+    /// digits. If the digests of two paintings are equal, you know that they hold equal paint to
+    /// the last quantum.
     #[must_use]
     pub fn digest_of_paint(&self) -> String {
         let mut digest = Sha256::new();
@@ -207,7 +211,8 @@ pub struct Canvas {
     pub width_mm: f64,
     /// Height in mm, 0.001 to 1e6.
     pub height_mm: f64,
-    /// Width and height of a cell in mm, 0.001 to 10. 0.1 (254 to the inch) by default.
+    /// Width and height of a cell in mm, 0.001 to 10. By default this is 0.1, or 254 cells to the
+    /// inch.
     #[serde(default = "default_cell_mm")]
     pub cell_mm: f64,
     /// The ground. Primed linen by default.
@@ -240,15 +245,13 @@ impl Canvas {
         self.ground.build(width, height, self.cell_mm, library)
     }
 
-    /// The longer side in mm.
     pub(crate) fn longer_side_mm(&self) -> f64 {
         self.width_mm.max(self.height_mm)
     }
 }
 
-/// Number of cells that cover a side, at least one.
 pub(crate) fn covering_cells(side_mm: f64, cell_mm: f64) -> usize {
-    // A remainder below 1e-6 of a cell is a rounding error and adds no cell.
+    // We treat a remainder below 1e-6 of a cell as a rounding error, so it does not add a cell.
     ((side_mm / cell_mm - 1e-6).ceil() as usize).max(1)
 }
 
@@ -256,8 +259,8 @@ fn default_cell_mm() -> f64 {
     0.1
 }
 
-/// Slots of a palette with the pigments of these names (see [`PigmentLibrary::find`]), in
-/// their order.
+/// Looks up the pigments of these names (see [`PigmentLibrary::find`]) and returns them as the
+/// slots of a palette, in their order.
 ///
 /// # Errors
 /// [`PaletteError`] for more than eight names, an unknown name, and a pigment named twice.
@@ -294,17 +297,17 @@ pub enum PaletteError {
         /// The second name, as it was given.
         name: String,
     },
-    /// The library has no pigment of this name, or several.
+    /// The library has none or several pigments of this name.
     #[error(transparent)]
     Pigment(#[from] RecipeError),
 }
 
 impl Document {
-    /// The painting of the cells in `rect` alone: ground, dry layers and wet paint stay as they
-    /// are, to the quantum. Light, binder and pigments are the whole painting's.
+    /// Cuts out the cells in `rect` as a painting of their own. Ground, dry layers and wet paint
+    /// stay as they are, to the quantum. Light, binder and pigments are the whole painting's.
     ///
-    /// Beyond its edges a painting has no ground that could be continued, since a file keeps the
-    /// relief of a ground and not how it was made. So a painting can be cropped, but not enlarged.
+    /// You can crop a painting, but not enlarge it. A file keeps the relief of a ground but not how
+    /// we made it, so we cannot continue it beyond the edges.
     ///
     /// # Panics
     /// If `rect` is empty or reaches beyond the canvas.

@@ -1,12 +1,12 @@
 //! Undo and redo by tiles.
 //!
-//! Before an action changes paint, the history saves the wet paint of each tile concerned (in the
-//! engine's memory), the paint of brushes, removed dry layers, and a value of the caller's. Undo
-//! swaps all of this with the present state. Redo is the same swap once more, and both are exact to
-//! the bit.
+//! Before an action changes paint, the history saves what it is about to change: the wet paint of
+//! each tile concerned (in the engine's memory), the paint of brushes, removed dry layers, and a
+//! value of the caller's. Undo swaps all of this with the present state. Redo is another such swap.
+//! Both are exact to the bit.
 //!
-//! Memory: [`TILE_BYTES`] per tile, 36 bytes per cell of brushes and dry layers. All of it
-//! counts towards the limit, which is exceeded at most during one call.
+//! Memory: [`TILE_BYTES`] per tile, 36 bytes per cell of brushes and dry layers. All of this counts
+//! towards the limit, which we exceed at most during one call.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -24,7 +24,8 @@ const CELL_BYTES: u64 = 4 * (SLOTS as u64 + 1);
 /// The effect of an undo or redo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Restored<T> {
-    /// The caller's value that belongs to the restored state.
+    /// The caller's value that belongs to the restored state. You passed this to
+    /// [`History::begin`], [`History::undo`] or [`History::redo`].
     pub caller: T,
     /// Tiles whose wet paint changed.
     pub tiles: TileSet,
@@ -58,7 +59,6 @@ impl<T> Action<T> {
         Self { caller, tiles, brushes, dry }
     }
 
-    /// Memory of the saved paint in bytes.
     fn bytes(&self) -> u64 {
         let brushes = self.brushes.values();
         let dry = self.dry.iter().filter_map(|change| match change {
@@ -106,21 +106,19 @@ fn bytes_of(layer: &Layer) -> u64 {
     layer.vehicle.values().len() as u64 * CELL_BYTES
 }
 
-/// Message of the panic when an action must be open.
 const OPEN: &str = "an action must be open";
 
-/// Message of the panic when no action may be open.
 const NOT_OPEN: &str = "no action may be open";
 
 /// Message of the panic for an action that was within the limit a moment ago.
 const FITS: &str = "the action fits the limit of memory";
 
-/// Actions that can be undone and redone. `T` is a value that the caller gets back with
-/// each, such as a document's metadata.
+/// Actions that you can undo and redo. `T` is a value that you get back with each, for example a
+/// document's metadata.
 ///
-/// An action is opened by [`begin`](History::begin), saves what it is about to change
-/// ([`save_tiles`](History::save_tiles), [`save_brush`](History::save_brush)) or changes
-/// dry layers through the history, and is closed by [`commit`](History::commit).
+/// You open an action by [`begin`](History::begin). Then you save what it is about to change
+/// ([`save_tiles`](History::save_tiles), [`save_brush`](History::save_brush)) or change dry layers
+/// through the history. You close it by [`commit`](History::commit).
 #[derive(Debug)]
 pub struct History<T> {
     limit_bytes: u64,
@@ -138,17 +136,17 @@ pub struct History<T> {
 #[derive(Debug)]
 enum OpenAction<T> {
     Saved(Action<T>),
-    /// It exceeds the limit by itself, so its saved state was dropped.
+    /// It exceeds the limit by itself, so we dropped its saved state.
     TooLarge,
 }
 
-/// Whether a committed action can be undone.
+/// Tells you whether you can undo a committed action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CommitOutcome {
     /// The action can be undone.
     Undoable,
-    /// The action needs more memory than the limit. Its changes stay, and neither it nor
-    /// any action before it can be undone.
+    /// The action needs more memory than the limit. Its changes stay, and you can undo neither this
+    /// action nor any before it.
     TooLarge,
 }
 
@@ -167,8 +165,8 @@ impl<T> History<T> {
         }
     }
 
-    /// Opens an action and drops all that could be redone. An undo of the action returns
-    /// `before`.
+    /// Opens an action and drops all that you could redo. If you undo this action, you get `before`
+    /// back.
     ///
     /// # Panics
     /// If an action is open.
@@ -180,8 +178,8 @@ impl<T> History<T> {
         self.open = Some(OpenAction::Saved(Action::new(before)));
     }
 
-    /// Saves the wet paint of the tiles that `rect` overlaps. Call it before they change.
-    /// Tiles that this action has saved before are skipped.
+    /// Saves the wet paint of the tiles that `rect` overlaps. Call this before they change. It
+    /// skips tiles that this action has saved before.
     ///
     /// # Errors
     /// [`DeviceError`] if the engine has no memory left.
@@ -208,7 +206,7 @@ impl<T> History<T> {
         Ok(())
     }
 
-    /// Saves the paint of a brush. Call it before the paint changes.
+    /// Saves the paint of a brush. Call this before the paint changes.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost.
@@ -310,7 +308,7 @@ impl<T> History<T> {
         }
     }
 
-    /// Closes the open action and drops its saved state. Its changes stay.
+    /// Closes the open action and drops its saved state. You cannot undo its changes.
     ///
     /// # Panics
     /// If no action is open.
@@ -320,7 +318,7 @@ impl<T> History<T> {
         }
     }
 
-    /// Restores the state before the last action. `None` if there is none to undo. A redo
+    /// Restores the state before the last action. You get `None` if there is none to undo. A redo
     /// returns `current`.
     ///
     /// # Errors
@@ -343,8 +341,8 @@ impl<T> History<T> {
         Ok(Some(restored))
     }
 
-    /// Restores the state after the action undone last. `None` if there is none to redo.
-    /// Its undo returns `current`.
+    /// Restores the state after the action that you undid last. You get `None` if there is none to
+    /// redo. If you undo it again, you get `current`.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost, and all paint with it.
@@ -366,20 +364,20 @@ impl<T> History<T> {
         Ok(Some(restored))
     }
 
-    /// Number of actions that can be undone.
+    /// Number of actions that you can undo.
     #[must_use]
     pub fn undo_count(&self) -> usize {
         self.done.len()
     }
 
-    /// Number of actions that can be redone.
+    /// Number of actions that you can redo.
     #[must_use]
     pub fn redo_count(&self) -> usize {
         self.undone.len()
     }
 
-    /// Memory of the saved paint in bytes. Free slots, which the engine keeps allocated,
-    /// do not count.
+    /// Memory of the saved paint in bytes. This does not count free slots, which the engine keeps
+    /// allocated.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.bytes
@@ -391,15 +389,15 @@ impl<T> History<T> {
         self.limit_bytes
     }
 
-    /// Sets the limit of memory. Actions farthest from the present are forgotten until the
-    /// rest fits.
+    /// Sets the limit of memory. This forgets the actions farthest from the present until the rest
+    /// fits.
     pub fn set_limit_bytes(&mut self, limit_bytes: u64) {
         self.limit_bytes = limit_bytes;
         self.shrink();
     }
 
-    /// Forgets all but the last `undo` actions that can be undone, and all but the next `redo`
-    /// that can be redone.
+    /// Forgets all but the last `undo` actions that you can undo, and all but the next `redo` that
+    /// you can redo.
     pub fn keep_only(&mut self, undo: usize, redo: usize) {
         while self.done.len() > undo {
             self.done.pop_front().into_iter().for_each(|oldest| self.forget(oldest));
@@ -416,7 +414,7 @@ impl<T> History<T> {
         }
     }
 
-    /// The open action. `None` if it exceeds the limit.
+    /// The open action. If it exceeds the limit, this is `None`.
     fn open_action(&mut self) -> Option<&mut Action<T>> {
         match self.open.as_mut().expect(OPEN) {
             OpenAction::Saved(action) => Some(action),
@@ -424,8 +422,8 @@ impl<T> History<T> {
         }
     }
 
-    /// Counts `more` bytes for the open action and forgets the oldest actions until they
-    /// fit. Returns whether they fit. If not, the open action's saved state is dropped.
+    /// Counts `more` bytes for the open action and forgets the oldest actions until they fit.
+    /// Returns whether they fit. If not, this drops the open action's saved state.
     fn reserve(&mut self, more: u64) -> bool {
         while self.bytes + more > self.limit_bytes {
             if let Some(oldest) = self.done.pop_front() {
@@ -441,8 +439,8 @@ impl<T> History<T> {
         true
     }
 
-    /// Forgets the actions farthest from the present until the rest fits. An undo can need
-    /// this, as it saves the dry layers that it removes.
+    /// Forgets the actions farthest from the present until the rest fits. For example, an undo
+    /// needs this when it saves the dry layers that it removes.
     fn shrink(&mut self) {
         while self.bytes > self.limit_bytes {
             if self.undone.is_empty() {

@@ -1,5 +1,5 @@
-//! A layer of paint: the amounts of eight pigments and of vehicle in every cell, and dry layers,
-//! with properties that can be changed later.
+//! A layer of paint holds the amounts of eight pigments and of vehicle in every cell. A dry layer
+//! adds properties that you can change later, for example its opacity.
 
 use std::fmt;
 
@@ -61,7 +61,7 @@ impl Cell {
         Self { pigments, vehicle: self.vehicle + other.vehicle }
     }
 
-    /// Subtracts `part`, none of whose amounts exceeds this cell's.
+    /// Subtracts `part`. None of its amounts may exceed this cell's.
     #[inline(always)]
     #[must_use]
     pub fn minus(&self, part: &Self) -> Self {
@@ -168,9 +168,9 @@ impl Layer {
 /// Most characters in the name of a layer.
 pub const MAX_LAYER_NAME: usize = 80;
 
-/// Identity of a dry layer: a number from 1 that stays with the layer when it is moved, renamed or
-/// saved, and that no other layer of the painting gets. Only an undo, which takes the layer away
-/// as well, gives its number back.
+/// Identity of a dry layer: a number from 1 that stays with the layer when you move, rename or save
+/// it. No other layer of the painting gets this number, unless an undo takes the layer away and
+/// gives its number back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct LayerId(pub u32);
@@ -179,7 +179,7 @@ impl LayerId {
     /// Identity of the first layer of a painting.
     pub const FIRST: Self = Self(1);
 
-    /// Identity of a layer of a file that stores none: its place, `index`, counted from 1.
+    /// Identity for a layer from a file that does not store one. We count its place `index` from 1.
     #[must_use]
     pub fn by_place(index: usize) -> Self {
         Self(u32::try_from(index).map_or(u32::MAX, |index| index.saturating_add(1)))
@@ -205,7 +205,7 @@ pub struct DryLayer {
     pub id: LayerId,
     /// Its name, up to [`MAX_LAYER_NAME`] characters. Empty if it has none.
     pub name: String,
-    /// Whether it is shown. A hidden layer keeps its opacity and its height.
+    /// Whether you see this layer. A hidden layer keeps its opacity and its height.
     pub visible: bool,
     /// Pigments of the layer.
     pub slots: Slots,
@@ -222,7 +222,7 @@ impl DryLayer {
         Self { id, name: String::new(), visible: true, slots, opacity: 1.0, paint }
     }
 
-    /// Factor on the optical thickness as it is shown: 0 for a hidden layer.
+    /// Factor on the optical thickness as you see it: 0 for a hidden layer.
     #[must_use]
     pub fn shown_opacity(&self) -> f64 {
         shown_opacity(self.visible, self.opacity)
@@ -343,7 +343,7 @@ pub fn layer_label(id: LayerId, name: &str) -> String {
     if name.is_empty() { format!("Layer {id}") } else { name.to_owned() }
 }
 
-/// `None` if a layer can have this name, else a description of the names allowed.
+/// Returns `None` if you may give a layer this name, else a description of the names allowed.
 #[must_use]
 pub fn layer_name_violation(name: &str) -> Option<&'static str> {
     if name.chars().count() > MAX_LAYER_NAME {
@@ -355,8 +355,8 @@ pub fn layer_name_violation(name: &str) -> Option<&'static str> {
     (name.trim() != name).then_some("a name without spaces at its ends")
 }
 
-/// Gives layers whose identity is 0 or taken another one, and returns the identity of the next
-/// new layer, at least `next`.
+/// Gives a new identity to each layer with the identity 0 or one that is taken. Returns the
+/// identity of the next new layer, at least `next`.
 pub fn distinct_ids<'a>(ids: impl Iterator<Item = &'a mut LayerId>, next: LayerId) -> LayerId {
     let ids: Vec<&mut LayerId> = ids.collect();
     let highest = ids.iter().map(|id| **id).filter(|id| id.0 < u32::MAX).max();

@@ -1,4 +1,5 @@
-// The paint in one cell in quanta; twin of layer.rs. Slots 0 to 3 are `low`, 4 to 7 `high`.
+// The paint in one cell in quanta. This is the twin of layer.rs. Slots 0 to 3 are `low`, 4 to 7
+// `high`.
 
 struct Cell {
     low: vec4<u32>,

@@ -30,10 +30,10 @@
 //! [`OpenStroke`] is a stroke whose samples arrive one by one. [`StrokeScript`] is a
 //! file of strokes, and [`document::Document`] a painting at rest.
 //!
-//! Follows Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for Paint" (NPAR
-//! 2004). Amounts of paint are integers (see [`amount`]), so that paint is conserved exactly
-//! and CPU and GPU agree to the bit. Light is computed in f32 at eight wavelengths chosen for
-//! the illuminant.
+//! We follow Baxter, Wendt and Lin, "IMPaSTo: A Realistic, Interactive Model for Paint" (NPAR
+//! 2004). Amounts of paint are integers (see [`amount`]), so that paint is conserved exactly and
+//! CPU and GPU agree to the bit. Light is computed in f32 at eight wavelengths chosen for the
+//! illuminant.
 //!
 //! Out of scope: meshes, the painting techniques themselves (what they have in common is
 //! [`technique::Technique`]), fitting pigments (crate `calibrate`).

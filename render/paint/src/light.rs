@@ -1,7 +1,7 @@
-//! Light for painting: eight wavelengths that represent a light's spectrum, their conversion to
-//! sRGB, and fast mixing of two paints in any ratio.
+//! Light for painting: we represent a light's spectrum by eight wavelengths, convert them to sRGB,
+//! and mix two paints in any ratio fast.
 //!
-//! Quadratures that were fitted before are stored: a program asks for the same few lights again and
+//! We keep the quadratures that we fitted, because a program asks for the same few lights again and
 //! again.
 
 use std::sync::{Mutex, PoisonError};
@@ -19,14 +19,13 @@ use spectra::{LightError, Observer, ObserverError, light_from_text};
 
 use crate::optics::{NODES, SceneSurface, scaled, scene_surface};
 
-/// Quadratures that are kept, those used last: two of a split view, and a few that a painter
-/// compares.
+/// Number of quadratures that we keep, those used last. For example, a split view needs two, and a
+/// painter compares a few.
 const KEPT: usize = 8;
 
 static QUADRATURES: KeptQuadratures = KeptQuadratures(Mutex::new(Vec::new()));
 
-/// The quadrature of a light for a library. Fitted, which takes about a second, unless it was
-/// before.
+/// The quadrature of a light for a library. A first call fits it, which takes about a second.
 fn quadrature(
     library: &PigmentLibrary,
     viewing: &Viewing,
@@ -36,7 +35,7 @@ fn quadrature(
     })
 }
 
-/// All that a quadrature depends on, and the quadrature.
+/// A quadrature and all that it depends on.
 #[derive(Debug)]
 struct Kept {
     library: PigmentLibrary,
@@ -44,7 +43,7 @@ struct Kept {
     quadrature: EffectiveQuadrature,
 }
 
-/// Quadratures, the one used last at the end.
+/// Quadratures in order of use: you find the one used last at the end.
 #[derive(Debug)]
 struct KeptQuadratures(Mutex<Vec<Kept>>);
 
@@ -66,7 +65,7 @@ impl KeptQuadratures {
             kept.push(used);
             return Ok(quadrature);
         }
-        // The fit runs without the lock: a thread that waits in it may take up work that needs the
+        // We fit without the lock: a thread that waits in the fit may take up work that needs this
         // lock.
         drop(kept);
         let quadrature = fit()?;
@@ -96,8 +95,8 @@ pub struct Light {
 }
 
 impl Light {
-    /// Prepares the light of `viewing` for painting with `library`. Takes up to a second, unless
-    /// this program prepared it before and used few others since.
+    /// Prepares the light of `viewing` for painting with `library`. This takes up to a second,
+    /// unless your program prepared this light before and used few others since.
     ///
     /// # Errors
     /// [`PaintLightError::Quadrature`] if the light has fewer than eight usable wavelengths.
@@ -107,12 +106,12 @@ impl Light {
         Ok(Self { viewing: viewing.clone(), quadrature, rgb_from_nodes })
     }
 
-    /// Linear sRGB of reflectance 1 at each wavelength for an eye that adapted to the light by a
-    /// `degree` of 0 (the picture has the light's own colour beside D65) to 1
-    /// (`rgb_from_nodes`, in which every light's white is white).
+    /// Linear sRGB of reflectance 1 at each wavelength, for an eye that adapted to the light by
+    /// `degree`. At 0 you see the light's own colour beside D65. At 1 every light's white is white,
+    /// as in `rgb_from_nodes`.
     ///
-    /// Below 1 the exposure is lowered until white stays within sRGB: the greatest channel of
-    /// the perfect diffuser is 1.
+    /// Below 1 we lower the exposure until white stays within sRGB: the greatest channel of the
+    /// perfect diffuser is 1.
     #[must_use]
     pub fn rgb_at_degree(&self, degree: f64) -> [[f32; 3]; NODES] {
         if degree >= 1.0 {
@@ -317,7 +316,7 @@ mod tests {
         assert_eq!(ask(&oils, "A"), 3, "another light");
         for light in ["D50", "FL1", "FL2", "FL3", "FL4", "FL5", "FL6"] {
             ask(&oils, light);
-            // Used again and again, so it is kept.
+            // The light is in use again and again, so the list keeps it.
             ask(&oils, "D65");
         }
         let before = fits.get();

@@ -1,12 +1,12 @@
-//! Masks: cells of a canvas that are covered, as by masking film.
+//! Masks cover cells of a canvas, as masking film does.
 
 use graphics::tile::Rect;
 
 /// Number of cells in a word.
 const WORD: usize = 32;
 
-/// Covered and open cells of a canvas. Paint neither reaches nor leaves a covered cell: no head
-/// touches it, and nothing flows over its sides. A bit a cell.
+/// Covered and open cells of a canvas, a bit per cell. Paint neither reaches nor leaves a covered
+/// cell: heads do not touch it, and nothing flows over its sides.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mask {
     bounds: Rect,
@@ -16,8 +16,8 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// A mask of the canvas `bounds` that leaves the cells open whose index, row by row, `open`
-    /// accepts.
+    /// A mask of the canvas `bounds`. A cell stays open if `open` accepts its index, counted row by
+    /// row.
     #[must_use]
     pub fn with_open(bounds: Rect, open: impl Fn(usize) -> bool) -> Self {
         let cells = bounds.width * bounds.height;
@@ -28,8 +28,9 @@ impl Mask {
         Self { bounds, words: words.collect() }
     }
 
-    /// A mask that leaves the cells open whose centres lie within a polygon, by the even-odd rule.
-    /// Its points are in cells. It is closed from the last to the first.
+    /// A mask that leaves the cells inside a polygon open. We test the centre of each cell by the
+    /// even-odd rule. You give the points in cells, and we close the polygon from the last to the
+    /// first.
     #[must_use]
     pub fn with_open_polygon(bounds: Rect, points: &[(f64, f64)]) -> Self {
         let mut open = vec![false; bounds.width * bounds.height];
@@ -58,7 +59,7 @@ impl Mask {
         self.bounds
     }
 
-    /// The mask with covered and open cells exchanged.
+    /// This mask with covered and open cells exchanged.
     #[must_use]
     pub fn inverse(&self) -> Self {
         Self::with_open(self.bounds, |cell| self.covers(cell))
@@ -80,14 +81,13 @@ impl Mask {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// The bits of all cells, for devices.
     pub(crate) fn words(&self) -> &[u32] {
         &self.words
     }
 
     /// Lines between covered and open blocks of `step` x `step` cells, from corner to corner in
-    /// cells, each as long as it is straight. Those along x first. The cell in the middle of a
-    /// block stands for it. The edge of the canvas is no such line.
+    /// cells. Each line is as long as it is straight. You get the lines along x first. We judge a
+    /// block by the cell in its middle. The edge of the canvas does not count as such a line.
     #[must_use]
     pub fn outline(&self, step: usize) -> Vec<[(u32, u32); 2]> {
         let step = step.max(1);

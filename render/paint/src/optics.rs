@@ -1,6 +1,6 @@
 //! The optical data that rendering reads: K and S, surface and lamp at eight wavelengths, in f32.
 //!
-//! Only here the library's f64 becomes the f32 of painting.
+//! This is the only place where we convert the library's f64 to the f32 of painting.
 
 use pigment::quadrature::{EffectiveQuadrature, Quadrature};
 use spectra::Grid;
@@ -29,7 +29,7 @@ pub struct LayerOptics {
 pub struct Gloss {
     /// Light of the highlight relative to a perfect white, at no ambient light. 0 and up.
     pub strength: f32,
-    /// Blinn's exponent. 10 is satin, 100 the gloss of wet paint.
+    /// Blinn's exponent. For example, 10 is satin and 100 is the gloss of wet paint.
     pub exponent: f32,
 }
 
@@ -61,12 +61,13 @@ pub struct Scene {
     pub wet: LayerOptics,
     /// The surface between paint and air.
     pub surface: SceneSurface,
-    /// Linear sRGB of a reflectance of 1 at one wavelength and 0 at the others, by
-    /// wavelength. The sum, for the perfect diffuser, is (1, 1, 1).
+    /// Linear sRGB of a reflectance of 1 at one wavelength and 0 at the others, by wavelength. For
+    /// the perfect diffuser you sum them to (1, 1, 1).
     pub rgb_from_nodes: [[f32; 3]; NODES],
     /// Direction of the light, relief and gloss.
     pub lamp: Lamp,
-    /// Width and height of a cell in mm, above 0: shading looks some tenths of a mm far.
+    /// Width and height of a cell in mm, above 0. Shading needs this to look some tenths of a mm
+    /// far.
     pub cell_mm: f32,
 }
 
@@ -78,8 +79,8 @@ pub struct SceneSurface {
     pub k1: f32,
     /// Share of the diffuse light inside that the surface reflects back, 0 to 1.
     pub k2: f32,
-    /// Surface reflection included in the measured reflectance: k1 where the readings
-    /// include the specular component, else 0.
+    /// Surface reflection that the measured reflectance includes. If the readings include the
+    /// specular component, this is k1, else 0.
     pub specular: f32,
 }
 

@@ -1,7 +1,7 @@
 //! Arithmetic on the amounts of the eight pigments of a cell.
 //!
-//! It is most of the work of moving paint. For WebAssembly the compiler makes no vectors of loops
-//! over so few numbers, so they are written out there.
+//! Moving paint spends most of its time here. For WebAssembly the compiler does not make vectors of
+//! loops over so few numbers, so we write them out.
 
 /// Number of pigments that a cell can hold.
 pub(crate) const COUNT: usize = 8;
@@ -75,7 +75,6 @@ mod loops {
         )
     }
 
-    /// Sum of all amounts.
     #[inline(always)]
     pub(crate) fn total(amounts: &Amounts) -> u32 {
         let mut total = 0;
@@ -85,9 +84,9 @@ mod loops {
         total
     }
 
-    /// Applies `act` to each pair of amounts. Written as a loop, since the closures of
-    /// `map` and `from_fn` are not always inlined and then are not compiled for the
-    /// instruction set that the caller chose.
+    /// Applies `act` to each pair of amounts. We write this as a loop: the compiler does not always
+    /// inline the closures of `map` and `from_fn`, and then does not compile them for the
+    /// instruction set that you chose.
     #[inline(always)]
     fn each(a: &Amounts, b: &Amounts, act: impl Fn(u32, u32) -> u32) -> Amounts {
         let mut found = *a;
@@ -100,8 +99,8 @@ mod loops {
     }
 }
 
-/// Vectors do not check that sums fit into 32 bits. The same paint is moved by the loops in the
-/// tests, which do.
+/// Vectors do not check that sums fit into 32 bits. In the tests, loops that do check this move the
+/// paint.
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 mod vectors {
     use std::arch::wasm32::{
@@ -113,7 +112,6 @@ mod vectors {
     pub(crate) use wrapping_difference as difference;
     pub(crate) use wrapping_sum as sum;
 
-    /// `share / 65536` of each amount, rounded down, for a `share` of 0 to 65536.
     #[inline(always)]
     pub(crate) fn share(amounts: &Amounts, share: u32) -> Amounts {
         let [first, second]: [v128; 2] = bytemuck::cast(*amounts);
@@ -128,21 +126,18 @@ mod vectors {
         i32x4_add(i32x4_mul(u32x4_shr(amounts, 16), share), low)
     }
 
-    /// Sums modulo 2^32.
     #[inline(always)]
     pub(crate) fn wrapping_sum(a: &Amounts, b: &Amounts) -> Amounts {
         let (a, b): ([v128; 2], [v128; 2]) = (bytemuck::cast(*a), bytemuck::cast(*b));
         bytemuck::cast([i32x4_add(a[0], b[0]), i32x4_add(a[1], b[1])])
     }
 
-    /// Differences `a - b` modulo 2^32.
     #[inline(always)]
     pub(crate) fn wrapping_difference(a: &Amounts, b: &Amounts) -> Amounts {
         let (a, b): ([v128; 2], [v128; 2]) = (bytemuck::cast(*a), bytemuck::cast(*b));
         bytemuck::cast([i32x4_sub(a[0], b[0]), i32x4_sub(a[1], b[1])])
     }
 
-    /// Sum of all amounts.
     #[inline(always)]
     pub(crate) fn total(amounts: &Amounts) -> u32 {
         let [first, second]: [v128; 2] = bytemuck::cast(*amounts);

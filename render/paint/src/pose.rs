@@ -1,6 +1,5 @@
-//! Position and attitude of a brush: a pen's sample in mm, and a pose in cells.
-//!
-//! Rounding of pen samples.
+//! Position and attitude of a brush: a pen's sample in mm, and a pose in cells. You can also round
+//! pen samples, for example to record them.
 
 /// Position and attitude of a brush at one moment, as a pen reports it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +11,7 @@ pub struct Sample {
     pub x_mm: f64,
     /// Distance in mm from the upper edge of the canvas to that point.
     pub y_mm: f64,
-    /// Pressure from 0 (just above the canvas) to 1 (as far down as the head bends).
+    /// Pressure from 0 (just above the canvas) to 1 (down as far as the head bends).
     pub pressure: f64,
     /// Tilt of the handle to the right, -90 to 90 degrees from upright.
     pub tilt_x_deg: f64,
@@ -34,7 +33,7 @@ impl Sample {
     }
 }
 
-/// Position and attitude of a brush at one sub-step, with positions in cells.
+/// Position and attitude of a brush at one sub-step. Positions are in cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// Distance in cells from the left edge of the canvas to the middle of
@@ -77,9 +76,9 @@ impl Sample {
     }
 }
 
-/// Decimals to which the numbers of a sample are rounded.
+/// Number of decimals to which we round the numbers of a sample.
 ///
-/// A sample that was rounded to fewer decimals stays as it is when it is rounded to more.
+/// If you round a sample to fewer decimals and then to more, it stays the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SampleDecimals {
     /// Decimals of `seconds`.
@@ -93,7 +92,7 @@ pub struct SampleDecimals {
 }
 
 impl SampleDecimals {
-    /// Decimals of a recording: four of each number, so a tenth of a millisecond and a
+    /// Decimals of a recording: four of each number, so for example a tenth of a millisecond or a
     /// tenth of a micrometre.
     pub const RECORDING: Self = Self { seconds: 4, place: 4, pressure: 4, angle: 4 };
 
@@ -101,8 +100,8 @@ impl SampleDecimals {
     /// pressure and 0.01 degrees.
     pub const PEN: Self = Self { seconds: 4, place: 3, pressure: 4, angle: 2 };
 
-    /// The sample with each number rounded, halves away from 0. No number is -0, which a
-    /// file cannot tell from 0.
+    /// The sample with each number rounded, halves away from 0. This never gives -0, which a file
+    /// cannot tell from 0.
     #[must_use]
     pub fn round(&self, sample: &Sample) -> Sample {
         Sample {

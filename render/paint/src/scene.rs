@@ -1,9 +1,9 @@
-//! Viewing of a painting at rest: the parameters of its [`Scene`], its
-//! picture without a paint engine, and the exact spectrum of every cell.
+//! Viewing of a painting at rest. You get the parameters of its [`Scene`], its picture without a
+//! paint engine, and the exact spectrum of every cell.
 //!
-//! Pictures are computed on all cores, with one pixel a cell or several. The reflectance by
-//! wavelength is in f64. It is the reference for the eight wavelengths of the engine, and serves
-//! spectral files and the eyedropper.
+//! We compute pictures on all cores, with one pixel per cell or several. The reflectance by
+//! wavelength is in f64. We check the engine's eight wavelengths against this, and spectral files
+//! and the eyedropper read it.
 
 use documents::hint::Explain;
 use graphics::field::Field;
@@ -23,8 +23,8 @@ use crate::optics::{
 };
 use crate::shade::{TopMaterial, Tops, color_row, relieve_row, shade_row};
 
-/// Least elevation of the light in degrees. Colours are relative to the light on a level
-/// surface, which is 0 at elevation 0.
+/// Least elevation of the light in degrees. Colours are relative to the light on a level surface,
+/// and at elevation 0 this light is 0.
 const LOWEST_DEG: f64 = 1.0;
 
 /// Everything except the paint itself that decides how a painting looks.
@@ -48,8 +48,8 @@ pub struct Appearance<'a> {
 
 /// Parameters that convert the paint of `document` to linear sRGB under `light`.
 ///
-/// `light` must have been made for the document's library. A ground darker than its
-/// surface reflection counts as black.
+/// You must have made `light` for the document's library. We treat a ground darker than its surface
+/// reflection as black.
 #[must_use]
 pub fn scene(document: &Document, light: &Light) -> Scene {
     let dry: Vec<_> =
@@ -93,7 +93,6 @@ impl<'a> Appearance<'a> {
     }
 }
 
-/// Internal reflectance of a ground with the given measured reflectance.
 fn internal_ground(library: &PigmentLibrary, reflectance: &[f64]) -> Vec<f64> {
     reflectance
         .iter()
@@ -111,17 +110,17 @@ fn direction(lighting: &Lighting) -> [f32; 3] {
     [azimuth.sin() * level, -azimuth.cos() * level, elevation.sin()].map(|v| v as f32)
 }
 
-/// Picture of a document in linear sRGB, white at 1. The fourth value is 1. It equals the
-/// picture of a paint engine. Takes 20 bytes per cell beside the document.
+/// Picture of a document in linear sRGB, white at 1. The fourth value is 1. This equals the picture
+/// of a paint engine. It takes 20 bytes per cell beside the document.
 ///
-/// `scene` must have been made for `document`.
+/// You must have made `scene` for `document`.
 #[must_use]
 pub fn picture(document: &Document, scene: &Scene) -> Field<[f32; 4]> {
     picture_of_lowest(document, scene, ALL)
 }
 
-/// Picture of a document like [`picture`] with its lowest `layers` only, dry ones first: as it
-/// would look without the others. 0 is the ground.
+/// Picture of a document like [`picture`], but only with its lowest `layers`, dry ones first. Use
+/// this to see how it would look without the others. If you pass 0, you get the ground.
 #[must_use]
 pub fn picture_of_lowest(document: &Document, scene: &Scene, layers: usize) -> Field<[f32; 4]> {
     let width = document.wet.width();
@@ -231,13 +230,13 @@ impl PixelsPerCell {
     }
 }
 
-/// Picture of a document in linear sRGB, white at 1, like [`picture`] but with
-/// `pixels` along the width and the height of every cell. Heights and the light of level
-/// paint between the centres of cells come from Mitchell and Netravali's (1988) bicubic filter,
-/// and relief and gloss are shaded at the finer grid. Even paint has its exact colour. Takes 21
-/// bytes per cell and 20 bytes per pixel beside the document.
+/// Picture of a document in linear sRGB, white at 1, like [`picture`] but with `pixels` along the
+/// width and the height of every cell. Between the centres of cells, we interpolate heights and the
+/// light of level paint by Mitchell and Netravali's (1988) bicubic filter. We shade relief and
+/// gloss at this finer grid. Even paint has its exact colour. This takes 21 bytes per cell and 20
+/// bytes per pixel beside the document.
 ///
-/// `scene` must have been made for `document`.
+/// You must have made `scene` for `document`.
 #[must_use]
 pub fn fine_picture(document: &Document, scene: &Scene, pixels: PixelsPerCell) -> Field<[f32; 4]> {
     let count = pixels.count();
@@ -259,7 +258,7 @@ pub fn fine_picture(document: &Document, scene: &Scene, pixels: PixelsPerCell) -
         });
         (from + more).round() as i32
     });
-    // Heights are in widths of a cell, so heights of the finer grid count more.
+    // Heights are in widths of a cell, so on this finer grid they count more.
     let relief = scene.lamp.relief * count as f32;
     let lamp = Lamp { relief, ..scene.lamp };
     let scene = Scene { lamp, cell_mm: scene.cell_mm / count as f32, ..scene.clone() };
@@ -302,7 +301,7 @@ impl Cells {
         Self { colors, materials }
     }
 
-    /// Colour and topmost material of a pixel: that which covers most of it.
+    /// Colour and topmost material of a pixel. We choose the material that covers most of it.
     fn between(&self, between: &Between, x: usize, y: usize) -> ([f32; 4], TopMaterial) {
         let from = self.colors[between.cell(x, y)];
         let mut more = [0.0; 4];
@@ -342,13 +341,12 @@ impl Between {
         Self { weights: weights.collect(), width, height }
     }
 
-    /// The cell in which a pixel lies.
     fn cell(&self, x: usize, y: usize) -> (usize, usize) {
         (x / self.weights.len(), y / self.weights.len())
     }
 
     /// Calls `add` with the weight of each cell around a pixel. The weights sum to 1. Beyond the
-    /// edges of the canvas its last cells go on.
+    /// edges of the canvas we repeat its last cells.
     fn around(&self, x: usize, y: usize, mut add: impl FnMut(f32, (usize, usize))) {
         let count = self.weights.len();
         let across = &self.weights[x % count];
@@ -399,7 +397,6 @@ impl SpectralStack {
         )
     }
 
-    /// The stack at the nodes of `quadrature`.
     fn at_nodes(appearance: &Appearance<'_>, quadrature: &EffectiveQuadrature) -> Self {
         let grid = appearance.library.grid;
         Self::new(
@@ -467,11 +464,11 @@ impl SpectralStack {
         internal.into_iter().map(|r| self.surface.measured_from_internal(r)).collect()
     }
 
-    /// Part of the ground, then of each layer, in what is seen of a column of paint: sum 1.
+    /// Share of the ground, then of each layer, in what you see of a column of paint: sum 1.
     ///
-    /// A film hides the part of the contrast between a white and a black below it that is lost, at
-    /// each wavelength. All wavelengths count alike. What it does not hide is left to the films
-    /// below it.
+    /// At each wavelength, a film hides a part of the contrast between a white and a black below
+    /// it. This part is the film's share. All wavelengths count alike. We leave the rest to the
+    /// films below.
     pub fn seen(&self, pigments: impl IntoIterator<Item = [u32; SLOTS]>) -> Vec<f64> {
         let columns: Vec<[f64; SLOTS]> =
             pigments.into_iter().map(|amounts| amounts.map(f64::from)).collect();
@@ -492,7 +489,7 @@ impl SpectralStack {
     }
 }
 
-/// Which paint shows at a cell.
+/// Tells you which paint you see at a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeenPaint {
     /// Part of the ground, 0 where the paint hides it.
@@ -508,7 +505,6 @@ pub struct SeenPaint {
 pub struct SpectralDocument<'a> {
     document: &'a Document,
     stack: SpectralStack,
-    /// Layers, lowest first.
     layers: Vec<&'a Layer>,
 }
 
@@ -519,8 +515,9 @@ impl<'a> SpectralDocument<'a> {
         Self::new(document, SpectralStack::full)
     }
 
-    /// Reflectance at the nodes of `quadrature`, as pictures are computed. With K and S that stand
-    /// for bands, it is near the reflectance at these wavelengths, but has the colour of the whole.
+    /// Reflectance at the nodes of `quadrature`, as we compute pictures. K and S there may stand
+    /// for bands. Then this is near the reflectance at these wavelengths, but has the colour of the
+    /// whole.
     #[must_use]
     pub fn at_nodes(document: &'a Document, quadrature: &EffectiveQuadrature) -> Self {
         Self::new(document, |appearance| SpectralStack::at_nodes(appearance, quadrature))
@@ -546,9 +543,9 @@ impl<'a> SpectralDocument<'a> {
         self.stack.measured_reflectance(self.layers.iter().map(|layer| layer.pigments[(x, y)]))
     }
 
-    /// Paint that shows at the cell in column `x` and row `y`: each layer by what it hides of those
-    /// below (see [`SpectralStack::seen`]), each pigment by its part of the layer's paint, by
-    /// volume.
+    /// Paint that you see at the cell in column `x` and row `y`: each layer by how much it hides of
+    /// the layers below (see [`SpectralStack::seen`]), each pigment by its part of the layer's
+    /// paint, by volume.
     #[must_use]
     pub fn seen(&self, x: usize, y: usize) -> SeenPaint {
         let parts = self.stack.seen(self.layers.iter().map(|layer| layer.pigments[(x, y)]));
@@ -569,9 +566,9 @@ impl<'a> SpectralDocument<'a> {
         SeenPaint { ground: parts[0], layers: parts[1..].to_vec(), pigments }
     }
 
-    /// Measured reflectance of all cells as 32-bit planes, one per wavelength. Rows are
-    /// computed on all CPU cores. After each row `go_on` is called with the number of rows
-    /// done. If it returns `false`, the result is `None`.
+    /// Measured reflectance of all cells as 32-bit planes, one per wavelength. We compute rows on
+    /// all CPU cores. After each row this calls `go_on` with the number of rows done. If `go_on`
+    /// returns `false`, you get `None`.
     pub fn planes(&self, mut go_on: impl FnMut(usize) -> bool) -> Option<Vec<Field<f32>>> {
         let width = self.document.wet.width();
         let height = self.document.wet.height();

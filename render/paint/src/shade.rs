@@ -1,5 +1,5 @@
-//! Shades painted cells: from internal reflectance to the light that reaches the eye,
-//! through surface reflection, colour, relief and gloss. This is the specification of `shade.wgsl`.
+//! Shades painted cells: from internal reflectance to the light that reaches the eye, through
+//! surface reflection, colour, relief and gloss. `shade.wgsl` follows this specification.
 //!
 //! A flat painting shows what an instrument measures: under any lamp, a cell on level paint has
 //! exactly the colour of its film. Relief multiplies that by
@@ -34,8 +34,8 @@ use crate::optics::{Gloss, NODES, Scene, SceneSurface};
 /// Width in cells of the margin on both sides of every row: how far shading may look.
 pub const MARGIN: usize = 32;
 
-/// Height of the surface at every cell, in quanta. Beyond the edges of the canvas the surface
-/// goes on level.
+/// Height of the surface at every cell, in quanta. Beyond the edges of the canvas we continue the
+/// surface level.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Tops {
     width: usize,
@@ -77,7 +77,8 @@ impl Tops {
         spans: impl Fn(usize) -> &'a [Range<usize>] + Sync,
         top: impl Fn(usize, usize) -> i32 + Sync,
     ) {
-        let (width, stride) = (self.width, self.width + 2 * MARGIN);
+        let width = self.width;
+        let stride = width + 2 * MARGIN;
         let first = rows.start;
         let values = &mut self.values[rows.start * stride..rows.end * stride];
         values.par_chunks_mut(stride).enumerate().for_each(|(row, values)| {
@@ -122,18 +123,19 @@ pub const REACH_MM: f32 = 0.8;
 /// Most that relief may add to the light of level paint, as a share of it.
 pub const MOST: f32 = 1.5;
 
-/// How far a slope towards the lamp overtops the lamp's own where half of the light is left.
+/// The lamp has a slope, and a slope towards the lamp may overtop it. By this much, half of the
+/// light is left.
 pub const SOFT: f32 = 0.3;
 
-/// Distances towards the lamp at which the surface is looked at, in mm, with the weight of what
-/// stands there: shadows end softly.
+/// Distances towards the lamp at which we look at the surface, in mm, each with its weight. For
+/// example, shadows end softly because of these weights.
 const SHADOW: [(f32, f32); 6] =
     [(0.1, 1.0), (0.2, 1.0), (0.3, 1.0), (0.4, 0.9), (0.6, 0.7), (REACH_MM, 0.4)];
 
 /// Distances of what stands around, in mm: along the axes and along the diagonals.
 const AROUND: [f32; 2] = [0.2, 0.45];
 
-/// A cell at an offset whose height matters to the light of a cell.
+/// A cell at an offset. Its height changes the light of this cell.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tap {
     /// Offset in cells along x and y.
@@ -165,8 +167,8 @@ pub struct ReliefLamp {
     pub around: [Tap; 8],
 }
 
-/// How far shading looks in cells of `cell_mm`: a change of height changes the light of cells up
-/// to this distance along x and y.
+/// How far shading looks in cells of `cell_mm`. If you change a height, the light changes in cells
+/// up to this distance along x and y.
 #[must_use]
 pub fn reach(cell_mm: f64) -> usize {
     cells(REACH_MM, cell_mm as f32).round() as usize
@@ -195,7 +197,8 @@ impl ReliefLamp {
             let per_quantum = lamp.relief / (distance * QUANTA_PER_CELL as f32);
             Tap { offset: offset.map(|v| v as i32), per_quantum, less: 0.0 }
         };
-        // A lamp straight above has no direction on the canvas, and nothing stands in its way.
+        // A lamp straight above does not have a direction on the canvas, and nothing stands in its
+        // way.
         let level = x.hypot(y).max(1e-6);
         let shadow = SHADOW.map(|(mm, weight)| {
             let tap = tap([x / level, y / level], mm);
@@ -291,8 +294,8 @@ pub fn relieve_row(
     }
 }
 
-/// Number of cells whose diffuse light is computed before their gloss. Small enough that
-/// they stay in the L1 cache.
+/// Number of cells for which we compute diffuse light before gloss. This is small enough that they
+/// stay in the L1 cache.
 const BLOCK: usize = 64;
 
 struct Color<'a> {
@@ -328,8 +331,8 @@ impl pulp::WithSimd for Color<'_> {
 }
 
 impl ReliefLamp {
-    /// Share of the light that a surface with this n . h mirrors from the lamp, of which it
-    /// sees the share `lamp`.
+    /// Share of the light that a surface with this n . h mirrors from the lamp. The surface sees
+    /// the share `lamp` of it.
     #[inline(always)]
     fn mirrored(&self, n_dot_h: f32, lamp: f32, material: usize) -> f32 {
         let (gloss, level) = self.gloss[material.min(2)];
@@ -430,7 +433,7 @@ impl pulp::WithSimd for Shade<'_> {
     }
 }
 
-/// Factor on a colour whose greatest channel is `most`, for a factor of `diffuse` on its light.
+/// Factor on a colour with the greatest channel `most`, for a factor of `diffuse` on its light.
 #[inline(always)]
 fn bounded<S: Simd>(diffuse: f32, most: f32) -> f32 {
     let more = greater(diffuse - 1.0, 0.0);

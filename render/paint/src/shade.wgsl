@@ -1,7 +1,7 @@
-// From internal reflectance to light, through surface reflection, colour, relief and
-// gloss; twin of row.rs.
+// From internal reflectance to light, through surface reflection, colour, relief and gloss. This is
+// the twin of row.rs.
 
-// A lamp, prepared for shading relief; twin of `ReliefLamp` in relief_lamp.rs.
+// A lamp, prepared for shading relief. This is the twin of `ReliefLamp` in relief_lamp.rs.
 struct LampParams {
     // Derivative of n . l / l_z by the slopes along x and y, before normalisation of n.
     towards_lamp: vec2<f32>,
@@ -9,7 +9,7 @@ struct LampParams {
     ambient: f32,
     // Slope for a height difference of one quantum over two cells, times the lamp's relief.
     slope: f32,
-    // h = (l + v) / |l + v|; the fourth component is 0.
+    // h = (l + v) / |l + v|. The fourth component is 0.
     halfway: vec4<f32>,
     // For wet paint, dry paint and ground: strength, exponent, h_z to the exponent, 0.
     gloss: array<vec4<f32>, 3>,
@@ -25,7 +25,7 @@ struct LampParams {
     padding: vec2<f32>,
 }
 
-// Shares of light reflected at the surface; twin of `SceneSurface` in optics.rs.
+// Shares of light reflected at the surface. This is the twin of `SceneSurface` in optics.rs.
 struct SurfaceParams {
     k1: f32,
     k2: f32,
@@ -39,8 +39,8 @@ fn measured(surface: SurfaceParams, internal: vec4<f32>) -> vec4<f32> {
     return surface.specular + through * internal / (1.0 - surface.k2 * internal);
 }
 
-// The uniform `params` of the including shader has fields `surface`, `rgb_from_nodes` and
-// `lamp`; uniforms cannot be passed to functions without copying them.
+// The uniform `params` of the including shader has fields `surface`, `rgb_from_nodes` and `lamp`.
+// We cannot pass uniforms to functions without copying them.
 fn color(internal: Nodes) -> vec3<f32> {
     let low = measured(params.surface, internal.low);
     let high = measured(params.surface, internal.high);
@@ -56,8 +56,8 @@ fn rise(tap: vec4<f32>, at: vec2<i32>, here: f32) -> f32 {
     return tap.z * (top(at + vec2<i32>(tap.xy)) - here) - tap.w;
 }
 
-// Shades a cell. `column` holds the heights in quanta of the cell above, of the cell, and of the
-// cell below; `material` is 0 wet paint, 1 dry paint, 2 ground. The including shader has a function
+// Shades a cell. `column` holds the heights in quanta of the cell above, of this cell, and of the
+// cell below. `material` is 0 wet paint, 1 dry paint, 2 ground. The including shader has a function
 // `top`, the height at a cell or at the nearest cell of the canvas.
 fn shade(at: vec2<i32>, column: vec3<f32>, material: u32, flat_color: vec3<f32>) -> vec3<f32> {
     let here = column.y;

@@ -1,5 +1,5 @@
-//! Strokes: the smooth path through pen samples as they arrive, cut into sub-steps of at most one
-//! cell, and the contacts of a head along it.
+//! A stroke is a smooth path through pen samples. This module follows the path as samples arrive,
+//! cuts it into sub-steps of at most one cell, and gives you the contacts of a head along it.
 
 use std::collections::VecDeque;
 
@@ -11,17 +11,17 @@ use super::contact::Contact;
 pub use super::pose::SampleDecimals;
 use super::pose::{Pose, Sample};
 
-/// Poses of a stroke, each at most one cell from the previous one, from the first sample to
-/// the last, where the brush is lifted.
+/// Computes the poses of a stroke. Each is at most one cell from the previous one, from the first
+/// sample to the last. There we lift the brush.
 ///
-/// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and
-/// Keyser 2011). Pressure, tilt and twist are interpolated linearly, twist the shorter way
-/// round. From one pose to the next, the sides of a brush of `size_mm` move by one cell at most,
-/// an angle changes by 3 degrees at most, and the pressure by 1/16 at most, less for a wide brush,
-/// so that the sides of its mark move by about a cell. At the last sample the brush is lifted on
-/// the spot, by 1.5 cells of its sides a pose. Time only orders the samples: a brush at rest makes
-/// no sub-steps. If all samples have the same position and pose, the stroke is a dab: the brush is
-/// pressed down and lifted at that position.
+/// The path is a centripetal Catmull-Rom curve through the samples (Yuksel, Schaefer and Keyser
+/// 2011). Pressure, tilt and twist are interpolated linearly, twist the shorter way round. From one
+/// pose to the next, the sides of a brush of `size_mm` move by one cell at most, an angle changes
+/// by 3 degrees at most, and the pressure by 1/16 at most, less for a wide brush, so that the sides
+/// of its mark move by about a cell. At the last sample we lift the brush on the spot: its sides
+/// move by 1.5 cells a pose. Time only orders the samples: a brush at rest does not make sub-steps.
+/// If all samples have one position and pose, you get a dab: we press the brush down and lift it at
+/// this position.
 ///
 /// # Errors
 /// [`StrokeError`] if there is no sample, a number is not finite or out of range, time runs
@@ -41,9 +41,9 @@ pub fn substeps(
     Ok(path)
 }
 
-/// Contacts of `head` with the canvas along `poses`. The head is set down at the first pose
-/// without dragging and lifted after the last. Poses that touch nothing give no contact, unless
-/// paint flows along the hair.
+/// Contacts of `head` with the canvas along `poses`. We set the head down at the first pose without
+/// dragging it and lift it after the last. You do not get contacts for poses that touch nothing,
+/// unless paint flows along the hair.
 pub fn contacts(
     head: &mut Head,
     poses: impl Iterator<Item = Pose>,
@@ -153,8 +153,8 @@ fn most_pressure(reach: f64) -> f64 {
 /// Maximum change of tilt or twist in a sub-step, in degrees (chosen by eye).
 const MOST_DEGREES: f64 = 3.0;
 
-/// Number of points per sub-step at which the walk tests whether the sub-step is full, so
-/// that none is shorter than 15/16.
+/// Number of points per sub-step at which the walk tests whether the sub-step is full. This keeps
+/// every sub-step at 15/16 or longer.
 const LOOKS: f64 = 16.0;
 
 /// The curve from one sample to the next.
@@ -166,13 +166,13 @@ struct Piece {
     points: [(f64, f64); 4],
     /// Half of the width of the brush in cells.
     reach: f64,
-    /// Number of equal steps of the curve's parameter in which it is walked.
+    /// We walk the curve in this number of equal steps of its parameter.
     looks: u64,
 }
 
 impl Piece {
-    /// The curve between the samples `from` and `to`. The samples before and after them, if
-    /// there are any, set its tangents. `reach` is half of the width of the brush in cells.
+    /// The curve between the samples `from` and `to`. The samples before and after them, if there
+    /// are any, set its tangents. `reach` is half of the width of the brush in cells.
     fn new(
         (before, from): (Option<Pose>, Pose),
         (mut to, after): (Pose, Option<Pose>),
@@ -278,12 +278,11 @@ fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
 /// (chosen by the measured lip at the end of a stroke).
 const LIFT: f64 = 1.5;
 
-/// Iterator over the poses of a stroke. Its samples arrive in portions. The poses are the
-/// same to the bit as the poses of [`substeps`] for all samples at once.
+/// Iterator over the poses of a stroke. You may pass its samples in portions and still get the
+/// poses of [`substeps`] for all samples at once, equal to the bit.
 ///
-/// The curve to a sample depends on the one after it, so poses lag one sample behind until
-/// the path is finished. A dab (all samples at one position and pose) has no poses until
-/// then.
+/// The curve to a sample depends on the next one, so poses lag one sample behind until you finish
+/// the path. A dab (all samples at one position and pose) does not have poses until then.
 #[derive(Debug, Clone)]
 pub struct Path {
     cell_mm: f64,
@@ -291,11 +290,12 @@ pub struct Path {
     reach: f64,
     samples: usize,
     seconds: f64,
-    /// Poses of the last three samples, the newest last: the curve of the next piece needs them.
+    /// Poses of the last three samples, the newest last. We need them for the curve of the next
+    /// piece.
     recent: [Option<Pose>; 3],
-    /// Pieces whose curve is known and that are not yet walked to their end.
+    /// Pieces with a known curve that we have not walked to their end.
     pieces: VecDeque<Piece>,
-    /// Sum of the sizes of all pieces whose curve is known, in sub-steps.
+    /// Sum of the sizes of all pieces with a known curve, in sub-steps.
     length: f64,
     first: Option<Pose>,
     finished: bool,
@@ -307,13 +307,13 @@ pub struct Path {
     look: u64,
     /// Fraction of a sub-step from the last pose returned to `look`.
     since: f64,
-    /// Next pose, if it was computed and not yet returned.
+    /// Next pose, if we have computed it and not yet returned it.
     next: Option<Pose>,
 }
 
 impl Path {
-    /// A path without samples over cells of `cell_mm`, for a brush of `size_mm`, whose sides move
-    /// by a cell or less in a sub-step.
+    /// A path without samples over cells of `cell_mm`, for a brush of `size_mm`. In a sub-step the
+    /// sides of this brush move by a cell or less.
     ///
     /// # Errors
     /// [`StrokeError::Cell`] if `cell_mm` is not a finite number above 0.
@@ -372,7 +372,7 @@ impl Path {
         self.pieces.extend(piece);
     }
 
-    /// Ends the path at the last sample. Its last poses can be computed now.
+    /// Ends the path at the last sample. After this you can get its last poses.
     pub fn finish(&mut self) {
         let [before, from, to] = self.recent;
         if !self.finished {
@@ -399,7 +399,7 @@ impl Path {
         }
     }
 
-    /// Upper bound of the number of poses that can be computed now. 0 if and only if there is
+    /// Upper bound of the number of poses that you can get now. This is 0 if and only if there is
     /// none.
     pub fn waiting(&mut self) -> usize {
         if self.peek().is_none() {
@@ -425,9 +425,9 @@ impl Path {
         self.next.as_ref()
     }
 
-    /// Removes and returns the first pose together with a copy of the second, once both are
-    /// known: a head is set down at the first in the direction of the second. Call it
-    /// before any pose is removed.
+    /// Removes and returns the first pose together with a copy of the second, once we know both.
+    /// You need both to set a head down at the first pose in the direction of the second. Call this
+    /// before you remove any pose.
     pub fn set_out(&mut self) -> Option<(Pose, Pose)> {
         let first = self.next()?;
         let second = self.peek().copied();
@@ -461,9 +461,9 @@ impl Path {
         self.pressed()
     }
 
-    /// Number of sub-steps in which the brush is lifted at the last sample, and number of all poses
-    /// there. A path arrives pressed and is only lifted. A dab is pressed down first, in as many
-    /// sub-steps.
+    /// Number of sub-steps in which we lift the brush at the last sample, and number of all poses
+    /// there. On a path the brush arrives pressed, so we only lift it. For a dab we press it down
+    /// first, in as many sub-steps.
     fn pressing(&self) -> (usize, usize) {
         let pressure = self.recent[2].map_or(0.0, |last| last.pressure);
         let lifting = (pressure / (LIFT * most_pressure(self.reach))).ceil() as usize;
@@ -480,7 +480,6 @@ impl Path {
         Some(Pose { pressure: share * last.pressure, ..last })
     }
 
-    /// Refuses impossible samples.
     fn check(&self, sample: &Sample) -> Result<(), StrokeError> {
         let index = self.samples;
         let farthest = FARTHEST * self.cell_mm;
@@ -518,7 +517,7 @@ fn piece_size(piece: &Option<Piece>) -> f64 {
 impl Iterator for Path {
     type Item = Pose;
 
-    /// The next pose. `None` while it is not known, and after the last.
+    /// The next pose. This is `None` while we do not know it, and after the last.
     fn next(&mut self) -> Option<Pose> {
         self.peek();
         self.next.take()
@@ -542,7 +541,6 @@ mod tests {
         twist_deg: 0.0,
     };
 
-    /// Width of the brush.
     const SIZE_MM: f64 = 3.0;
 
     fn poses(samples: &[Sample]) -> Vec<Pose> {

@@ -1,8 +1,8 @@
-//! The shape that all techniques of painting have: settings and their presets, a subject, its painter, the
-//! pictures that it paints and the stages on the way to them.
+//! All techniques of painting have one shape: settings and their presets, a subject, its painter,
+//! the pictures that it paints and the stages on the way to them.
 //!
-//! A program that knows [`Technique`] reads settings, prepares a painter and asks it for pictures in the same
-//! way for every technique:
+//! If you know [`Technique`], you can read settings, prepare a painter and ask it for pictures in
+//! one way for every technique:
 //!
 //! ```
 //! use documents::Task;
@@ -30,7 +30,7 @@ use graphics::field::Field;
 /// A step on the way to a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Its name in lower case with hyphens, such as `dry-brush`.
+    /// Its name in lower case with hyphens, for example `dry-brush`.
     pub name: String,
     /// Its picture, encoded sRGB with coverage.
     pub picture: Field<[f32; 4]>,
@@ -38,11 +38,11 @@ pub struct Stage {
 
 /// A technique of painting. The type that implements it is the painter of one subject.
 pub trait Technique: Sized {
-    /// The name of the technique, such as `watercolor`.
+    /// The name of the technique, for example `watercolor`.
     const NAME: &'static str;
 
-    /// Changes of single settings as users write them, such as `edges.strength=2`: examples for help texts, the
-    /// most usual one first.
+    /// Changes of single settings as users write them, e.g. `edges.strength=2`. Help texts show
+    /// these examples, the most usual one first.
     const EXAMPLES: &'static [&'static str];
 
     /// The settings, one row each.
@@ -51,20 +51,21 @@ pub trait Technique: Sized {
     /// Settings that ship under a name.
     type Preset: Preset<Settings = Self::Settings>;
 
-    /// The photograph or model that is painted, with all that it is painted with: pigments, a device.
+    /// The photograph or model that you paint, with all that you need for it: for example pigments
+    /// or a device.
     type Subject<'a>;
 
-    /// How the subject is seen, such as by a camera, or where it is painted.
+    /// How you see the subject, for example by a camera, or where you paint it.
     type View<'a>;
 
     /// The result: a picture, or for example a painting with its strokes.
     type Picture;
 
-    /// Why a subject cannot be painted.
+    /// Tells you why a technique cannot paint a subject.
     type Error: Explain + From<Cancelled> + 'static;
 
-    /// A copy of `settings` changed by the text of a file. A technique with files in its settings takes their
-    /// paths from the folder of `file`.
+    /// Returns a copy of `settings`, changed by the text of a file. If the settings name files, we
+    /// look for them in the folder of `file`.
     ///
     /// # Errors
     /// [`SettingsError`] if the text is no TOML, a key is unknown, or a value is out of its range.
@@ -76,7 +77,7 @@ pub trait Technique: Sized {
         settings::changed(settings, &file.display().to_string(), text)
     }
 
-    /// Does all work that does not depend on the view. It takes from a moment to some seconds.
+    /// Does all work that does not depend on the view. This takes from a moment to some seconds.
     ///
     /// # Errors
     /// [`Self::Error`] for a subject that cannot be painted in these settings, and if `task` is cancelled.
@@ -86,14 +87,14 @@ pub trait Technique: Sized {
         task: &Task,
     ) -> Result<Self, Self::Error>;
 
-    /// Paints the subject as it is seen.
+    /// Paints the subject as you see it in this view.
     ///
     /// # Errors
     /// [`Self::Error`] for a view that shows nothing, for a device that fails, and if `task` is cancelled.
     fn paint(&mut self, view: Self::View<'_>, task: &Task) -> Result<Self::Picture, Self::Error>;
 
-    /// The pictures of the steps to [`Self::paint`] of this view, in their order. A technique whose steps are
-    /// not pictures has none.
+    /// The pictures of the steps to [`Self::paint`] of this view, in their order. If the steps of a
+    /// technique are not pictures, you get none.
     ///
     /// # Errors
     /// The errors of [`Self::paint`].

@@ -1,5 +1,5 @@
-//! A study of mixtures: yellow and Prussian blue that mix wet to green, scales of tints, a brush
-//! that is not washed, patches mixed by knife, and a line by each head shape.
+//! A study of mixtures. You see yellow and Prussian blue that mix wet to green, scales of tints, a
+//! brush that we do not wash, patches mixed by knife, and a line by each head shape.
 
 use paint::brush::HeadShape;
 use paint::document::{Lighting, Medium};
@@ -8,7 +8,6 @@ use paint::strokes::{Canvas, StrokeScript};
 
 use super::script_builder::ScriptBuilder;
 
-/// The stroke script of the study.
 pub(crate) fn script() -> StrokeScript {
     let linen = Linen { seed: 3, threads_per_cm: 16.0, relief_mm: 0.06 };
     let ground = GroundRelief::Linen(linen).into();

@@ -1,5 +1,5 @@
-//! Glazes over impasto: dried ridges of white and yellow by brush and knife, thin transparent
-//! glazes over them, partly wiped off, and a low light from the side.
+//! Glazes over impasto. We dry ridges of white and yellow by brush and knife, lay thin transparent
+//! glazes over them, wipe these off in part, and light the painting low from the side.
 
 use std::f64::consts::PI;
 
@@ -13,7 +13,6 @@ use super::script_builder::{Place, ScriptBuilder};
 const WIDTH: f64 = 100.0;
 const HEIGHT: f64 = 70.0;
 
-/// The stroke script of the painting.
 pub(crate) fn script() -> StrokeScript {
     let ground = GroundKind::Panel.spec(1);
     let canvas = Canvas { width_mm: WIDTH, height_mm: HEIGHT, cell_mm: 0.125, ground };

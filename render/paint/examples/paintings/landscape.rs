@@ -2,12 +2,9 @@
 //! trees over dry paint, with thick highlights and thin lines by the rigger.
 //!
 //! Most strokes start at the points of a jittered grid. Direction and mixture depend on the
-//! position. Strokes in the foreground are longer.
-//!
-//! Plants of the landscape: cypresses and their shadows, bushes, ears and stalks of wheat,
-//! poppies.
-//!
-//! Layout of the landscape: its size, the horizon and the path through the field.
+//! position. Strokes in the foreground are longer. You find the layout of the landscape here: its
+//! size, the horizon and the path through the field. Its plants are cypresses and their shadows,
+//! bushes, ears and stalks of wheat, and poppies.
 
 use std::f64::consts::PI;
 
@@ -40,7 +37,6 @@ const EARTH: [(&str, &str); 8] = [
     ("P", "Prussian Blue"),
 ];
 
-/// The stroke script of the landscape.
 pub(crate) fn script() -> StrokeScript {
     let linen = Linen { seed: 7, threads_per_cm: 17.0, relief_mm: 0.06 };
     let primer = Primer::Color(ColorPrimer { rgb: "#d9b98a".to_owned() });
@@ -290,7 +286,7 @@ fn field(script: &mut ScriptBuilder) {
             row.push((recipe, bowed(at, way, way + bow, length)));
             x += 5.0 + 1.5 * near;
         }
-        // Sorted by mixture, so that the brush is not washed for every stroke.
+        // We sort by mixture, so that we need not wash the brush for every stroke.
         row.sort_by(|a, b| a.0.cmp(b.0));
         for (recipe, places) in row {
             script.fresh(brush, recipe, 0.05, 0.22);
@@ -454,9 +450,7 @@ pub(crate) fn poppies(script: &mut ScriptBuilder) {
     }
 }
 
-/// Width of the canvas in mm.
 pub(crate) const WIDTH: f64 = 200.0;
-/// Height of the canvas in mm.
 pub(crate) const HEIGHT: f64 = 140.0;
 
 /// Distance of the horizon from the top in mm. The field begins there.

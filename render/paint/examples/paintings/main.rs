@@ -1,4 +1,4 @@
-//! Writes the stroke scripts of `paintings/`. The output is deterministic:
+//! Writes the stroke scripts of `paintings/`. You always get the same output. For example, run
 //! `cargo run -p impasto-paint --example paintings -- paintings`.
 
 mod script_builder;

@@ -1,4 +1,4 @@
-//! Builds stroke scripts: keeps the brushes, loads them when they run low, and varies
+//! Builds stroke scripts. This keeps the brushes, loads them when they run low, and varies
 //! positions at random as a hand does.
 
 use std::collections::BTreeMap;
@@ -35,7 +35,6 @@ impl ScriptBuilder {
         Self { built: script, random: ChaCha8Rng::seed_from_u64(seed), loaded: BTreeMap::new() }
     }
 
-    /// Adds a brush.
     pub(crate) fn brush(&mut self, name: &str, shape: HeadShape, size_mm: f64) {
         self.built.brushes.insert(name.to_owned(), BrushSpec { shape, size_mm });
     }
@@ -50,8 +49,7 @@ impl ScriptBuilder {
         self.random.random_range(0..count)
     }
 
-    /// Loads a brush with `recipe`: short names, each followed by its parts, such as
-    /// `W10C1.5`.
+    /// Loads a brush with `recipe`: short names, each followed by its parts, for example `W10C1.5`.
     pub(crate) fn load(&mut self, brush: &str, recipe: &str, vehicle: f64, amount_mm: f64) {
         let load = Load { brush: brush.to_owned(), recipe: parts(recipe), vehicle, amount_mm };
         self.built.actions.push(Action::Load(load));
@@ -69,18 +67,16 @@ impl ScriptBuilder {
         }
     }
 
-    /// Washes a brush.
     pub(crate) fn wash(&mut self, brush: &str) {
         self.built.actions.push(Action::Wash { brush: brush.to_owned() });
     }
 
-    /// Dries the wet paint.
     pub(crate) fn dry(&mut self) {
         self.built.actions.push(Action::Dry { fraction: 1.0 });
     }
 
-    /// Washes all brushes, as those that were in paint hold some of it, and sets the pigments of
-    /// the palette.
+    /// Sets the pigments of the palette. We wash all brushes for this, because those that were in
+    /// paint hold some of it.
     pub(crate) fn palette(&mut self, pigments: &[(&str, &str)]) {
         let brushes: Vec<String> = self.built.brushes.keys().cloned().collect();
         for brush in &brushes {

@@ -4,7 +4,7 @@
 //! cargo run -p impasto-paint --example replay_digest -- 60 paintings/glaze.json ..
 //! ```
 //!
-//! The tests of the pages compare them with the digests of the same strokes in WebAssembly.
+//! The tests of the pages compare these with the digests of the same strokes in WebAssembly.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it found")]
 

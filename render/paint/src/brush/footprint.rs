@@ -1,14 +1,14 @@
-//! The contact of a bent head with the canvas: the facets near the canvas, drawn cell by cell.
+//! The contact of a bent head with the canvas. We draw the facets near the canvas cell by cell.
 //!
-//! Drawing does not change the head, so several sub-steps can be drawn side by side.
+//! Drawing does not change the head, so you can draw several sub-steps side by side.
 //!
-//! A pressed head squeezes paint to its sides, where it stands up as a lip. The flow takes place
-//! between the hairs, below the size of a cell, so we do not compute it: the coat is thicker near
-//! the sides of the contact.
+//! A pressed head squeezes paint to its sides, where it stands up as a lip. This flow is between
+//! the hairs, below the size of a cell, so we do not compute it. Instead we make the coat thicker
+//! near the sides of the contact.
 //!
-//! A side that crosses the rows of cells at a small angle takes one cell after another. Over the
-//! last cell the velocity therefore falls to 0. Otherwise the paint that is dragged along would
-//! stay as a bead in each cell that the side leaves.
+//! A side that crosses the rows of cells at a small angle takes one cell after another. We let the
+//! velocity fall to 0 over the last cell. Otherwise the paint that the head drags along would stay
+//! as a bead in each cell that the side leaves.
 
 use std::ops::Range;
 
@@ -23,12 +23,12 @@ use super::surface::{LimitSurface, Net, Point};
 use crate::amount::QUANTA_PER_CELL;
 use crate::contact::{Contact, Touch};
 
-/// The number 1 in fixed point with 16 fractional bits, the format of values interpolated
+/// The number 1 in fixed point with 16 fractional bits. We use this format for values interpolated
 /// along a row.
 const ONE: f32 = 65536.0;
 
-/// Indices of the values interpolated over a facet: height in quanta, velocity along x and y in
-/// 1/256 cell per sub-step, speed weight, and paint cells around and along from the facet's
+/// Indices of the values that we interpolate over a facet: height in quanta, velocity along x and y
+/// in 1/256 cell per sub-step, speed weight, and paint cells around and along from the facet's
 /// first. All but the height are times 65536.
 const HEIGHT: usize = 0;
 const X: usize = 1;
@@ -37,9 +37,9 @@ const SPEED: usize = 3;
 const AROUND: usize = 4;
 const ALONG: usize = 5;
 
-/// Rasterises the surface of a head into a contact. Vertices are x and y in cells from an
-/// origin, then height in quanta, velocity in x and y in 1/256 cell per sub-step and speed
-/// weight, these three times 65536.
+/// Rasterises the surface of a head into a contact. Vertices are x and y in cells from an origin,
+/// then height in quanta, velocity in x and y in 1/256 cell per sub-step and speed weight. We
+/// multiply the last three by 65536.
 #[derive(Debug, Clone)]
 pub(super) struct Footprint {
     /// Whether each facet has hair. Empty if all have.
@@ -47,7 +47,7 @@ pub(super) struct Footprint {
     facets: Vec<Facet>,
     /// Number of canvas cells under each paint cell.
     sharers: Vec<u16>,
-    /// Columns of each row of the contact between which all touches lie.
+    /// For each row of the contact, the columns between which all touches lie.
     spans: Vec<Range<usize>>,
     /// Number of paint cells in a row.
     width: u32,
@@ -68,9 +68,9 @@ impl Footprint {
         Self { hair, facets: Vec::new(), sharers, spans: Vec::new(), width }
     }
 
-    /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells
-    /// of `bounds`, in coordinates from the cell `origin`. `locks` has the lock of each column
-    /// of paint cells.
+    /// Fills `out` with the part of `surface` below `ceiling` (in quanta) and within the cells of
+    /// `bounds`, in coordinates from the cell `origin`. `locks` has the lock of each column of
+    /// paint cells.
     #[inline(always)]
     pub(super) fn draw(
         &mut self,
@@ -118,7 +118,6 @@ impl Footprint {
         self.count(out);
     }
 
-    /// The columns of each row of the contact drawn last between which all touches lie.
     pub(super) fn spans(&self) -> &[Range<usize>] {
         &self.spans
     }
@@ -207,13 +206,14 @@ fn within<'a>(
     rows.flat_map(|(row, span)| row.get(span.clone()).unwrap_or_default())
 }
 
-/// Cells of `bounds` whose centre may lie within `reach`.
+/// Cells of `bounds` with centres that may lie within `reach`.
 fn cells_within(reach: [f32; 4], origin: (i64, i64), bounds: Rect) -> Rect {
     if reach[0] > reach[2] {
         return Rect::default();
     }
     let side = |low: f32, high: f32, origin: i64, start: usize, count: usize| {
-        let (start, end) = (start as i64, (start + count) as i64);
+        let end = (start + count) as i64;
+        let start = start as i64;
         let low = (origin + (low - 0.5).ceil() as i64).clamp(start, end);
         let high = (origin + (high - 0.5).ceil() as i64).clamp(start, end);
         (low as usize, (high - low) as usize)
@@ -258,9 +258,9 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
-    /// Rasterises a triangle whose corners follow each other in the direction from the x axis
-    /// to the y axis. Others are skipped. A cell centre on an edge belongs
-    /// to the triangle right of it or below it.
+    /// Rasterises a triangle if its corners follow each other in the direction from the x axis to
+    /// the y axis. This skips other triangles. A cell centre on an edge belongs to the triangle
+    /// right of it or below it.
     #[inline(always)]
     fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
         let bx = b.x - a.x;
@@ -279,8 +279,7 @@ impl Canvas<'_> {
         let (right, down) = slopes(a, b, c, [bx / area, by / area, cx / area, cy / area]);
         let edges = [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)];
         let step = whole(&right);
-        // The slopes of a sliver are inaccurate, so heights are clamped to the heights of its
-        // corners.
+        // The slopes of a sliver are inaccurate, so we clamp heights to the heights of its corners.
         let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
         let lowest = lesser(lesser(heights[0], heights[1]), heights[2]);
         let highest = greater(greater(heights[0], heights[1]), heights[2]);
@@ -343,7 +342,7 @@ fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Po
     (right, down)
 }
 
-/// Line through two corners, the same to the bit for either order of the corners.
+/// Line through two corners. You get equal bits for either order of the corners.
 struct Edge {
     x: f32,
     y: f32,
@@ -357,7 +356,7 @@ impl Edge {
     fn new(from: &Corner, to: &Corner) -> Self {
         let side = to.y - from.y;
         let (upper, lower) = if side > 0.0 { (from, to) } else { (to, from) };
-        // Horizontal edges bound no row. Their slope is never used.
+        // Horizontal edges do not bound a row. We never use their slope.
         let slope = (lower.x - upper.x) / (lower.y - upper.y);
         Self { x: upper.x, y: upper.y, slope, side }
     }
@@ -373,7 +372,7 @@ fn first_middle(place: f32, end: usize) -> usize {
 
 #[inline(always)]
 fn whole(values: &Point) -> [i32; 8] {
-    // A loop, since the closure of `map` is not always inlined.
+    // This is a loop, since the compiler does not always inline the closure of `map`.
     let mut wholes = [0; 8];
     for i in 0..8 {
         wholes[i] = nearest(values[i]);
@@ -381,7 +380,7 @@ fn whole(values: &Point) -> [i32; 8] {
     wholes
 }
 
-/// Low 32 bits of the nearest whole number. Avoids the range checks of `as`, which take longer
+/// Low 32 bits of the nearest whole number. This avoids the range checks of `as`, which take longer
 /// than the rest of a row.
 #[inline(always)]
 fn nearest(value: f32) -> i32 {
@@ -390,15 +389,15 @@ fn nearest(value: f32) -> i32 {
     (f64::from(value) + UNIT).to_bits() as i32
 }
 
-/// Height above the highest relief nearby up to which the surface of the head is drawn, in mm.
-/// Wet paint above that height is not touched.
+/// Height above the highest relief nearby up to which we draw the surface of the head, in mm. The
+/// head does not touch wet paint above this height.
 const HIGHEST_PAINT_MM: f64 = 2.0;
 
-/// Distance from the tip in mm over which the hair loses its grasp of the paint, so that a
-/// film does not depend on where in a cell the tip ends.
+/// Distance from the tip in mm over which the hair loses its grasp of the paint. We need this so
+/// that a film does not depend on where in a cell the tip ends.
 const TIP_MM: f64 = 0.8;
 
-/// Height over the crests in mm up to which hair counts as touching.
+/// Height over the crests in mm up to which we treat hair as touching.
 const TOUCHING_MM: f32 = 0.1;
 
 /// How a bent head is held in one sub-step.
@@ -426,7 +425,7 @@ pub(super) struct Imprint {
 }
 
 impl Imprint {
-    /// Buffers for a head with this surface and, unless it is empty, hair on these facets only.
+    /// Buffers for a head with this surface. If `hair` is not empty, only these facets have hair.
     pub(super) fn new(surface: LimitSurface, hair: Vec<bool>, cell_mm: f64) -> Self {
         let (around, along) = surface.cells();
         let footprint = Footprint::new(around, along, hair);
@@ -443,13 +442,12 @@ impl Imprint {
         graphics::lanes::vectorized(Evaluate { imprint: self, net, hold, relief });
     }
 
-    /// Extent across the stroke of the contact evaluated last.
     pub(super) fn extent(&self) -> Option<Extent> {
         self.extent
     }
 
-    /// Fills `out` with the contact evaluated last. `locks` has the lock of each column of
-    /// paint cells. `border` is where its sides are, if the head moved.
+    /// Fills `out` with the contact that you evaluated last. `locks` has the lock of each column of
+    /// paint cells. `border` tells you where its sides are, if the head moved.
     pub(super) fn draw(
         &mut self,
         locks: &[Lock],
@@ -565,8 +563,8 @@ const THICKER: f32 = 1.1;
 /// Distance from a side in mm over which the coat falls to its usual thickness.
 const REACH_MM: f32 = 0.7;
 
-/// Share of a change of the sides that is followed in a sub-step, so that the sides do not
-/// jump from cell to cell.
+/// Share of a change of the sides that we follow in a sub-step, so that the sides do not jump from
+/// cell to cell.
 const FOLLOWED: f32 = 0.2;
 
 /// Where the sides of the contact are, seen from the pen.
@@ -613,8 +611,8 @@ impl Sides {
         self.extent = None;
     }
 
-    /// Follows the extent `now` of a contact. Returns where its sides are. `None` if the head
-    /// hardly moved or does not touch.
+    /// Follows the extent `now` of a contact and returns where its sides are. If the head hardly
+    /// moved or does not touch, you get `None`.
     pub(super) fn follow(&mut self, now: Option<Extent>) -> Option<Border> {
         let now = now.filter(|now| now.low <= now.high)?;
         let (before_low, before_high) = self.extent.unwrap_or((now.low, now.high));
@@ -625,7 +623,6 @@ impl Sides {
     }
 }
 
-/// The sides of one contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Border {
     across: Extent,

@@ -22,8 +22,8 @@ const WIDEST: f64 = 2048.0;
 /// and touch none.
 const NARROWEST: f32 = 1.5;
 
-/// Maximum distance in cells along x or y that a head is dragged in a sub-step. After a longer
-/// move it is set down anew.
+/// Maximum distance in cells along x or y that we drag a head in a sub-step. After a longer move we
+/// set it down anew.
 const FARTHEST_DRAG: i64 = 64;
 
 /// The head of one brush. Its paint is a grid of cells in the engine. The head computes the
@@ -40,7 +40,6 @@ pub struct Head {
     pub(super) sides: Sides,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
-    /// Pose in the last sub-step.
     last: Option<Pose>,
     /// Area of a paint cell in cells of the canvas.
     paint_cell_area: f64,
@@ -96,7 +95,7 @@ impl Head {
         })
     }
 
-    /// The head with other locks of hair: each seed gives locks of its own.
+    /// This head with other locks of hair. For each seed you get locks of its own.
     #[must_use]
     pub fn with_locks(self, seed: u64) -> Self {
         Self { locks: self.locks.seeded(seed), ..self }
@@ -114,7 +113,7 @@ impl Head {
         self.size_mm
     }
 
-    /// Width in mm of the cells that it was made for.
+    /// Width in mm of the cells for which you made this head.
     #[must_use]
     pub fn cell_mm(&self) -> f64 {
         self.cell_mm
@@ -136,25 +135,24 @@ impl Head {
         rows - rows_with_paint(self.spines.of, rows, self.cell_mm)..rows
     }
 
-    /// Number of sub-steps since the head was set down.
     pub(super) fn sub_step(&self) -> u32 {
         self.sub_step
     }
 
-    /// Area of a paint cell, in cells of the canvas. Paint `d` mm thick on the head takes a column
-    /// of `d` times this area in each of its cells.
+    /// Area of a paint cell, in cells of the canvas. For example, paint `d` mm thick on the head
+    /// takes a column of `d` times this area in each of its cells.
     #[must_use]
     pub fn paint_cell_area(&self) -> f64 {
         self.paint_cell_area
     }
 
-    /// Lifts the head off the canvas, which straightens it.
+    /// Lifts the head off the canvas. This straightens it.
     pub fn lift(&mut self) {
         self.straighten();
         self.sides.lift();
     }
 
-    /// Lifts the head, but leaves the sides of its contact, which follow once it is drawn.
+    /// Lifts the head, but leaves the sides of its contact. They follow once you draw it.
     fn straighten(&mut self) {
         (self.origin, self.hovering) = (None, None);
         self.locks.lift();
@@ -162,7 +160,7 @@ impl Head {
     }
 
     /// Holds the straight head just above the canvas at `pose`, for any pressure, so that it
-    /// touches nothing. Does not affect the next stroke.
+    /// touches nothing. This does not affect the next stroke.
     pub fn hover(&mut self, pose: &Pose, relief: &Relief) {
         self.lift();
         let held = Pose { pressure: 1.0, ..*pose };
@@ -173,15 +171,16 @@ impl Head {
         self.hovering = Some(grip.origin);
     }
 
-    /// Surface of the head as it is bent now. `None` while it is lifted. Takes about 30 us.
+    /// Surface of the head with its present bend. While the head is lifted, this is `None`. It
+    /// takes about 30 us.
     #[must_use]
     pub fn mesh(&self) -> Option<HeadMesh> {
         let origin = self.origin.or(self.hovering)?;
         Some(HeadMesh::of(&self.net, origin))
     }
 
-    /// Sets the head down at `pose`, bent by its pressure, without dragging it. Its tip bends
-    /// opposite to `heading`, the direction of the stroke, unless that is (0, 0). At pressure 0 it
+    /// Sets the head down at `pose`. The pressure bends it, and we do not drag it. Its tip bends
+    /// opposite to `heading`, the direction of the stroke, unless you pass (0, 0). At pressure 0 it
     /// stays lifted.
     pub fn set_down(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
         self.sides.lift();
@@ -201,13 +200,14 @@ impl Head {
         self.net.rest();
     }
 
-    /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. The
-    /// rectangle is empty if nothing is touched, always at pressure 0 and at poses that are not
-    /// finite. Over no canvas, paint may still flow along the hair. A lifted head comes down from
-    /// just above the canvas. A head that is more than 64 cells away is set down anew.
+    /// Moves the head to `pose` and fills `out` with its contact with the canvas `bounds`. If the
+    /// head touches nothing, the rectangle is empty. This is always so at pressure 0 and at poses
+    /// that are not finite. Beyond the canvas, paint may still flow along the hair. A lifted head
+    /// comes down from just above the canvas. If the head is more than 64 cells away, we set it
+    /// down anew.
     ///
     /// The speed that governs transfer includes the surface's vertical motion and the change of
-    /// pressure, so that a head that is pressed straight down leaves paint too.
+    /// pressure. So if you press a head straight down, it leaves paint too.
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
         let (lifted, hold) = self.bend(pose, relief, out);
         if lifted {
@@ -219,9 +219,9 @@ impl Head {
         self.imprint.draw(&self.locks.columns, &hold, border, bounds, out);
     }
 
-    /// Bends the head at `pose`: all of [`Head::advance`] but the touches of `out` and the sides of
-    /// the contact. Returns whether the head was lifted before, and how it is held now unless it
-    /// stays lifted.
+    /// Bends the head at `pose`. This is all of [`Head::advance`] but the touches of `out` and the
+    /// sides of the contact. Returns whether the head was lifted before, and how you hold it now
+    /// unless it stays lifted.
     pub(super) fn bend(
         &mut self,
         pose: &Pose,
@@ -260,7 +260,7 @@ impl Head {
         self.spines.advance(&grip, &view);
         self.net.follow(&self.spines, &grip);
         if turned_over {
-            // Its edge stays where it is, so the blade does not sweep over the paint.
+            // Its edge stays in place, so this does not sweep the blade over the paint.
             self.net.rest();
         }
         let before = self.last.map_or(0.0, |last| last.pressure) as f32;
@@ -278,8 +278,8 @@ impl Head {
         (lifted, Some(hold))
     }
 
-    /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is
-    /// pressed or lifted on the spot, which drags no paint along.
+    /// Way in cells of the sides of the head from the last sub-step to `pose`. If you press or lift
+    /// it on the spot, this is 0, and it does not drag paint along.
     fn travelled(&self, pose: &Pose) -> f64 {
         let Some(last) = self.last else { return 0.0 };
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();

@@ -2,8 +2,8 @@
 //! takes.
 //!
 //! Bristles cling together in locks of 0.3 to 1.2 mm. A lock that stands back leaves more paint,
-//! as paint fills the room below it. While the head moves, locks change slowly, so that furrows
-//! wander instead of repeating.
+//! because paint fills the room below it. While you move the head, its locks change slowly, so that
+//! furrows wander instead of repeating.
 
 use graphics::noise::{Hills, random};
 use rand::RngExt;
@@ -84,13 +84,13 @@ impl Locks {
         self
     }
 
-    /// Ends a stroke: the next one has other locks.
+    /// Ends a stroke. You get other locks in the next one.
     pub(super) fn lift(&mut self) {
         self.before = None;
     }
 
-    /// Lets the locks change as the head moves to `grip`, and returns its motion in cells. Where
-    /// a stroke begins decides its first locks, so that a stroke painted again is the same.
+    /// Lets the locks change while the head moves to `grip`, and returns its motion in cells. The
+    /// start of a stroke decides its first locks, so if you paint a stroke again, you get the same.
     pub(super) fn follow(&mut self, grip: &Grip) -> (f32, f32) {
         let Some((origin, tip)) = self.before.replace((grip.origin, grip.tip)) else {
             let (x, y) = grip.origin;
@@ -135,8 +135,8 @@ fn moved(to: i64, from: i64, to_part: f32, from_part: f32) -> f32 {
 /// Coat of a head, and the distances in mm that it moves while differences between head and canvas
 /// fall to 1/e.
 struct Uptake {
-    /// Thickness of the coat relative to the paint on the head: at pressure 0, and how
-    /// much full pressure adds.
+    /// Thickness of the coat relative to the paint on the head: at pressure 0, and how much full
+    /// pressure adds.
     coat: (f64, f64),
     /// Thickness in mm, at pressure 0, of the part of the coat that does not depend on the paint
     /// on the head.
@@ -155,14 +155,15 @@ struct Uptake {
     wicking_mm: f64,
     /// Distance between two flows of paint over the head.
     wicking_every_mm: f64,
-    /// Number of flows in which all hairs have their turn, so that they do not fill in step, which
+    /// Number of flows until all hairs have had their turn. They do not fill in step, because this
     /// would leave beads along a stroke.
     turns: u32,
     /// Width of the groups of hairs that level together. 0 if each hair levels alone.
     spread_mm: f64,
 }
 
-/// Chosen by the measured thickness of films (0.2 of the load of a flat at middle pressure).
+/// We chose these by the measured thickness of films (0.2 of the load of a flat at middle
+/// pressure).
 const HAIR: Uptake = Uptake {
     coat: (0.1, 0.56),
     film_mm: 0.0,
@@ -177,8 +178,8 @@ const HAIR: Uptake = Uptake {
     spread_mm: 0.0,
 };
 
-/// A blade scrapes off what lies higher than its edge, carries it as a bank that rolls along the
-/// edge, and lays a film from it. Chosen by the measured evenness of films.
+/// A blade scrapes off the paint higher than its edge, carries it as a bank that rolls along the
+/// edge, and lays a film from it. We chose these by the measured evenness of films.
 const BLADE: Uptake = Uptake {
     coat: (0.02, -0.02),
     film_mm: 0.12,
@@ -234,8 +235,9 @@ pub(super) fn rates(
     }
 }
 
-/// Length of hair in mm beyond which paint flows along it less often, in proportion: on long hair,
-/// the paint that a stroke takes from the tip changes the mean that the coat follows less.
+/// Length of hair in mm beyond which paint flows along it less often, in proportion. On long hair,
+/// the paint that a stroke takes from the tip changes the mean less, and the coat follows this
+/// mean.
 const LONG_HAIR_MM: f64 = 20.0;
 
 /// Number of rows of paint cells, from the tip, that hold the paint of a head: all `rows` of hair,
@@ -244,9 +246,9 @@ pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usi
     if of.rigid { ((BANK_MM / row_mm).ceil() as usize).clamp(1, rows) } else { rows }
 }
 
-/// Flow of paint over a head before the sub-step number `sub_step` of a stroke. None in most
-/// sub-steps. The head has `rows` rows of paint cells. `cell_mm` is the width of its cells and of
-/// the cells of the canvas.
+/// Flow of paint over a head before the sub-step number `sub_step` of a stroke. In most sub-steps
+/// there is none. The head has `rows` rows of paint cells. `cell_mm` is the width of its cells and
+/// of the cells of the canvas.
 pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64) -> Wicking {
     let uptake = uptake(of);
     let with_paint = rows_with_paint(of, rows, cell_mm);

@@ -1,4 +1,4 @@
-//! The mark of a head that is pressed straight down on a plane.
+//! The mark that you get if you press a head straight down on a plane.
 
 use graphics::field::Field;
 use graphics::tile::Rect;
@@ -30,8 +30,8 @@ pub struct ContactMark {
 }
 
 impl ContactMark {
-    /// The mark of an upright head of `size_mm` mm width, with its broad side along x, that is
-    /// pressed down with `pressure` (0 to 1) over cells of `cell_mm` mm.
+    /// Computes the mark of an upright head of `size_mm` mm width, with its broad side along x. You
+    /// press it down with `pressure` (0 to 1) over cells of `cell_mm` mm.
     ///
     /// # Errors
     /// [`BrushError`], as for [`Head::new`].
@@ -96,7 +96,8 @@ impl ContactMark {
 
 #[cfg(test)]
 mod mark_tests {
-    //! Tests of the marks of dragged heads: how wide, where, and how even, however the hand leans.
+    //! Tests of the marks of dragged heads. We check how wide, where, and how even they are for any
+    //! lean of the hand.
 
     use crate::brush::{Head, HeadShape, Relief};
     use crate::contact::{Contact, ExchangeRates, Touch};
@@ -119,7 +120,6 @@ mod mark_tests {
         (60.0, 127.0),
     ];
 
-    /// Heads with their sizes in mm.
     const HEADS: [(HeadShape, f64); 9] = [
         (HeadShape::Round, 6.0),
         (HeadShape::Flat, 10.0),
@@ -220,8 +220,8 @@ mod mark_tests {
         of.iter().sum::<f64>() / of.len() as f64
     }
 
-    /// The mark of `hand`, and its worst figures over all eight directions of its lean: widths, and
-    /// for the others the farthest from 0.
+    /// The mark of `hand`, and its worst figures over all eight directions of its lean. For widths
+    /// you get the widest range, for the others the figure farthest from 0.
     fn worst(shape: HeadShape, size_mm: f64, hand: Hand) -> [f64; 6] {
         let mut worst = [f64::INFINITY, 0.0, 0.0, 0.0, 0.0, 0.0];
         for octant in 0..8 {

@@ -2,8 +2,8 @@
 //!
 //! We follow Baxter, Wendt and Lin 2004, section 3, and Baxter et al. 2001 ("DAB: interactive
 //! haptic painting with 3D virtual brushes"): a head is a skeleton with a subdivision surface
-//! around it. The skeleton lies on the canvas in equilibrium, without masses and springs. Each
-//! sub-step the surface gives one [`Contact`](super::contact::Contact).
+//! around it. The skeleton lies on the canvas in equilibrium, without masses and springs. In each
+//! sub-step you get one [`Contact`](super::contact::Contact) from this surface.
 mod relief;
 mod spines;
 mod surface;
@@ -81,7 +81,7 @@ impl HeadShape {
         }
     }
 
-    /// Contour seen from the broad side, from the ferrule to the tip: distance from the
+    /// Contour seen from the broad side, from the ferrule to the tip. You get the distance from the
     /// ferrule and half the width there, in widths of the head.
     #[must_use]
     pub fn contour(self) -> Vec<(f32, f32)> {
@@ -135,32 +135,29 @@ pub struct UnknownShape {
 
 /// Proportions of a head, in widths of the head. Profiles run from the ferrule to the tip.
 ///
-/// Lengths follow catalogues of artists' brushes: a bright is about as long as wide, a flat
-/// and a filbert 1.5 times, a round 2.5, a rigger 6. Give, splay and the profiles near the tip
-/// are chosen such that a head marks its own width at middle pressure. The unevenness of bristles
-/// is chosen by eye.
+/// Lengths follow catalogues of artists' brushes. For example, a bright is about as long as wide, a
+/// flat and a filbert 1.5 times, a round 2.5, a rigger 6. We chose give, splay and the profiles
+/// near the tip such that a head marks its own width at middle pressure. We chose the unevenness of
+/// bristles by eye.
 #[derive(Debug)]
 struct Proportions {
-    /// Length from the ferrule to the tip.
     length: f32,
     /// Thickness at the thickest position.
     thickness: f32,
     /// Number of spines side by side.
     spines: usize,
-    /// Width where the spines leave the ferrule, as a fraction of that at the tip.
+    /// Width at which the spines leave the ferrule, as a fraction of the width at the tip.
     root: f32,
     /// Fraction of the hair that lies on the canvas at full pressure.
     give: f32,
     /// Relative increase of the width under full pressure, where the head lies on the canvas.
     splay: f32,
-    /// Profile of the width along the head.
     width: [f32; NODES],
     /// Profile of the thickness along the head, as a fraction of the thickest position. 0 at
     /// the tip closes it.
     depth: [f32; NODES],
     /// Whether the head has tufts with gaps between them.
     gaps: bool,
-    /// Whether the head is rigid.
     rigid: bool,
     /// Largest recess of bristles from the surface, in tenths of a mm.
     recess: f32,

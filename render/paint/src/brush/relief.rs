@@ -1,4 +1,4 @@
-//! Coarse heights of the canvas, for the bending of heads.
+//! Coarse heights of the canvas. We bend heads over these.
 
 use crate::amount::QUANTA_PER_CELL;
 use graphics::field::Field;
@@ -7,9 +7,8 @@ use graphics::lanes::{greater, lesser};
 /// Number of cells of the canvas along x and y for each value of a relief.
 pub const BLOCK: usize = 8;
 
-/// Heights of ground and dry paint in mm, one value for each block of 8 x 8 cells: mean plus
-/// one standard deviation, which is near the crests, where hair rests. For a plane it is
-/// exact.
+/// Heights of ground and dry paint in mm, one value for each block of 8 x 8 cells. We take the mean
+/// plus one standard deviation: this is near the crests, where hair rests. For a plane it is exact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relief {
     cell_mm: f64,
@@ -145,7 +144,8 @@ fn block(at: f32, shift: f32) -> i64 {
     i64::from(floor_of(at / BLOCK as f32 + shift))
 }
 
-/// Largest whole number not above the argument. `f32::floor` is slow without SSE 4.1.
+/// Largest whole number not above the argument. We do not use `f32::floor`, because it is slow
+/// without SSE 4.1.
 #[inline(always)]
 fn floor_of(value: f32) -> i32 {
     let cut = value as i32;

@@ -1,13 +1,14 @@
-//! Spines of a head: chains of nodes, bent by the canvas, and how a hand holds them.
+//! Spines of a head are chains of nodes. The canvas bends them. This module also knows how a hand
+//! holds them.
 //!
 //! Hair is light and paint is thick, so a head is in equilibrium in every sub-step. Its shape
-//! follows from how it is held and how it trails. Hair leaves the ferrule along the handle, bends
-//! upright towards the canvas, and lies on it from where it reaches it. The part that lies is
-//! towed: its direction follows the pen as the tractrix does (Huygens 1693), the curve of a body
-//! that is dragged on a string. Nothing sticks and slips, so an even hand has an even contact.
+//! follows from how you hold it and how it trails. Hair leaves the ferrule along the handle, bends
+//! upright towards the canvas, and lies on it from where it reaches it. The pen tows this lying
+//! part: its direction follows the tractrix (Huygens 1693), the curve of a body that you drag on a
+//! string. Nothing sticks and slips, so an even hand has an even contact.
 //!
-//! A painter leads the place where hair touches, so a head is held such that the middle of its
-//! contact is at the pen, whatever its lean.
+//! A painter leads the place where hair touches, so we hold a head such that the middle of its
+//! contact is at the pen for any lean.
 //!
 //! Vectors are in cells: x right, y down the canvas, z up from it.
 
@@ -17,15 +18,15 @@ use super::relief::ReliefView;
 use super::{NODES, Proportions};
 use crate::pose::Pose;
 
-/// Length of the string on which the lying hair is towed, as a fraction of the length of the
-/// head: about as much as lies at middle pressure.
+/// Length of the string on which we tow the lying hair, as a fraction of the length of the head.
+/// This is about as much as lies at middle pressure.
 const TOW: f32 = 0.35;
 
 /// Distance between the lowest hair and the canvas at pressure 0, in cells.
 const CLEARANCE: f32 = 0.5;
 
-/// Minimum thickness of a wide head, in cells. A thinner head can pass between cell centres
-/// and touch none.
+/// Minimum thickness of a wide head, in cells. A thinner head can pass between cell centres and
+/// touch none.
 const THINNEST: f32 = 2.0;
 
 /// Minimum distance by which full pressure lowers a head, in mm. A knife is lowered by just
@@ -37,7 +38,6 @@ const LEAST_DEPTH_MM: f32 = 0.6;
 pub(super) struct Spines {
     pub(super) of: &'static Proportions,
     pub(super) width: f32,
-    /// Number of cells in a mm.
     cells_per_mm: f32,
     /// Rest position of each node: distances from the ferrule along the axis and across it.
     rest: Vec<(f32, f32)>,
@@ -98,7 +98,6 @@ impl Spines {
         self.of.length * self.width
     }
 
-    /// The node at `level` of `spine`.
     pub(super) fn node(&self, spine: usize, level: usize) -> Vector {
         self.nodes[spine * NODES + level]
     }
@@ -112,8 +111,8 @@ impl Spines {
         self.pen.1 -= moved.y;
     }
 
-    /// Holds the head just above the canvas at `grip`, ready to lie opposite to `heading`, or
-    /// opposite to the lean of the handle if that is zero.
+    /// Holds the head just above the canvas at `grip`, ready to lie opposite to `heading`. If you
+    /// pass zero, it lies opposite to the lean of the handle.
     pub(super) fn hang(&mut self, grip: &Grip, heading: Vector, relief: &ReliefView<'_>) {
         self.trail = (-heading).unit_or(grip.falls_to());
         self.settle(&Grip { pressure: 0.0, ..*grip }, relief);
@@ -162,7 +161,6 @@ impl Spines {
             / 3.0
     }
 
-    /// Bends the head to `grip`.
     fn settle(&mut self, grip: &Grip, relief: &ReliefView<'_>) {
         (self.pen, self.axis) = (grip.tip, grip.axis);
         let pen = Vector::new(grip.tip.0, grip.tip.1, 0.0);
@@ -235,11 +233,11 @@ const PRESSED: f32 = 0.6;
 /// How far pressed hair bends towards its trail before it reaches the canvas (chosen by eye).
 const ARC: f32 = 0.8;
 
-/// Where the contact of slanting hair lies, from its core (0) to the side that faces the canvas
-/// (1), fitted to the contacts of all shapes.
+/// Position of the contact in slanting hair, from its core (0) to the side that faces the canvas
+/// (1). We fitted this to the contacts of all shapes.
 const INWARDS: f32 = 0.7;
 
-/// Number of points of a segment at which contact is looked for.
+/// Number of points of a segment at which we look for contact.
 const LOOKS: usize = 4;
 
 /// Distance in mm by which hair is pressed below the crests of the relief at `pressure` (chosen
@@ -256,7 +254,6 @@ pub(super) struct Hair<'a> {
     pub(super) axis: Vector,
     /// Unit vector along the broad side.
     pub(super) broad: Vector,
-    /// Pressure from 0 to 1.
     pub(super) pressure: f32,
     /// Half the width and half the thickness around a spine at each level.
     pub(super) section: &'a [(f32, f32); NODES],
@@ -346,7 +343,7 @@ impl Hair<'_> {
     }
 
     /// Horizontal way from the ferrule, `high` over a plane, to the middle of the contact of a
-    /// head whose width along the hair is `width`. To its tip if it does not touch.
+    /// head. `width` is its width along the hair. If it does not touch, this is the way to its tip.
     pub(super) fn middle(&self, high: f32, width: &[f32; NODES]) -> Vector {
         let rest = std::array::from_fn::<_, NODES, _>(|level| {
             (self.length * level as f32 / (NODES - 1) as f32, 0.0)
@@ -404,11 +401,11 @@ const OTHER_SIDE: f32 = 0.17;
 /// pressure (chosen by eye).
 const BLADE_DEG: (f64, f64) = (25.0, 8.0);
 
-/// Number of steps per cell that positions are rounded to, so that a stroke shifted by whole
-/// cells has the same contacts.
+/// Number of steps per cell to which we round positions. So if you shift a stroke by whole cells,
+/// you get the same contacts.
 const STEPS_PER_CELL: f64 = 65536.0;
 
-/// Largest distance from the origin in cells. Positions beyond it are clipped.
+/// Largest distance from the origin in cells. We clip positions beyond this.
 const FARTHEST: f64 = 1e9;
 
 /// Axes of a head at a pose. Lengths are in cells from `origin`.
@@ -424,13 +421,12 @@ pub(super) struct Grip {
     pub(super) broad: Vector,
     /// Unit vector across the head along its thin side.
     pub(super) thin: Vector,
-    /// Pressure from 0 to 1.
     pub(super) pressure: f32,
 }
 
 impl Grip {
-    /// Axes of a head of these proportions at `pose`. `None` if a number is not finite or the
-    /// pressure is 0. A wide head or a blade lies level along its broad side, as it would
+    /// Axes of a head of these proportions at `pose`. If a number is not finite or the pressure is
+    /// 0, you get `None`. A wide head or a blade lies level along its broad side, because it would
     /// stand on a corner if it leaned that way.
     pub(super) fn new(pose: &Pose, of: &Proportions) -> Option<Self> {
         if !pose.is_finite() || pose.pressure <= 0.0 {
@@ -533,7 +529,7 @@ impl Vector {
         self.dot(self).sqrt()
     }
 
-    /// This direction with length 1. `otherwise` if its length is at most 1e-4.
+    /// This direction with length 1. If its length is at most 1e-4, you get `otherwise`.
     pub(super) fn unit_or(self, otherwise: Self) -> Self {
         let length = self.length();
         if length > 1e-4 { self * (1.0 / length) } else { otherwise }

@@ -1,9 +1,9 @@
 //! The surface of a head: a control net around the spines, its limit surface as a grid of facets,
 //! and a mesh for drawing.
 //!
-//! The net is closed around the head, open at the ferrule and closed at the tip. Over a regular net
-//! the limit of Catmull-Clark subdivision (1978) is the uniform bicubic B-spline, so we evaluate it
-//! directly.
+//! The net runs closed around the head, open at the ferrule and closed at the tip. Over a regular
+//! net the limit of Catmull-Clark subdivision (1978) is the uniform bicubic B-spline, so we
+//! evaluate this directly.
 
 use graphics::lanes::lesser;
 
@@ -15,8 +15,8 @@ use super::spines::{FLATTENED, Grip, Spines, Vector, b_spline};
 const ALONG: f32 = 4.0;
 const AROUND: f32 = 6.0;
 
-/// Longest spans along the head and around it, in paint cells, with facets of that length, as on a
-/// round brush of 60 cells.
+/// Longest spans along the head and around it, in paint cells, with facets of that length. For
+/// example, a round brush of 60 cells has these.
 const SPAN_ALONG: f32 = 30.0;
 const SPAN_AROUND: f32 = 24.0;
 
@@ -39,8 +39,8 @@ struct Span {
 
 impl Span {
     /// Facets of a span of `length` paint cells, each of about `facet` cells. On a span longer than
-    /// `usual`, facets grow with the square root of its length: a larger head bends less, so they
-    /// stay as near to its surface.
+    /// `usual`, facets grow with the square root of its length. This is enough, because a larger
+    /// head bends less and its facets stay as near to its surface.
     fn new(length: f32, facet: f32, usual: f32) -> Self {
         let facet = (facet * (length / usual).max(1.0).sqrt()).round();
         let facets = (length / facet).round().max(1.0);
@@ -98,7 +98,7 @@ impl LimitSurface {
         (facets.0 * cells.0, facets.1 * cells.1)
     }
 
-    /// Whether a facet may reach below the ceiling of the last evaluation.
+    /// Tells you whether a facet may reach below the ceiling of the last evaluation.
     #[inline]
     pub(super) fn is_near(&self, column: usize, row: usize) -> bool {
         self.near[row / self.along.facets * self.columns + column / self.around.facets]
@@ -203,8 +203,8 @@ pub(super) struct Net {
     pub(super) columns: usize,
     /// Points row by row from the ferrule.
     pub(super) points: Vec<Point>,
-    /// Cosine and sine of the columns around a single spine, enlarged because a B-spline stays
-    /// inside its control polygon.
+    /// Cosine and sine of the columns around a single spine. We enlarge them because a B-spline
+    /// stays inside its control polygon.
     circle: [(f32, f32); AROUND_ONE],
     single: bool,
     /// End of the surface in each column, at the tip.
@@ -258,9 +258,9 @@ impl Net {
                 Vector::new(p[0], p[1], p[2])
             };
             let first = at(1, column) * 2.0 - at(2, column);
-            // The row beyond the tip is the row before it with opposite columns
-            // exchanged, which closes the end bluntly. That would draw the end
-            // inwards. `last` moves it back to `ends`.
+            // The row beyond the tip is the row before it with opposite columns exchanged, which
+            // closes the end bluntly. This would draw the end inwards. `last` moves it back to
+            // `ends`.
             let here = at(tip - 1, column);
             let there = at(tip - 1, self.opposite(column));
             let last = self.ends[column] * 1.5 - (here + there) * 0.25;
@@ -276,7 +276,6 @@ impl Net {
         half % self.columns
     }
 
-    /// Sets all displacements to 0.
     pub(super) fn rest(&mut self) {
         for point in &mut self.points {
             point[4..].fill(0.0);

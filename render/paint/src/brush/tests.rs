@@ -34,8 +34,8 @@ fn set_down(shape: HeadShape, pose: Pose) -> Contact {
     contact
 }
 
-/// Cells with their touches where the head, whose hair sinks in by half of what it may, is below
-/// the top of a film of `mm` mm.
+/// Cells with their touches at which the head is below the top of a film of `mm` mm. We let its
+/// hair sink in by half of the allowed depth.
 fn under(contact: &Contact, mm: f64) -> Vec<(usize, usize, Touch)> {
     let top = (mm / 0.1 * f64::from(QUANTA_PER_CELL)) as i32 + (contact.rates.sink / 2) as i32;
     let cells = contact.touches.iter().enumerate().filter(|(_, touch)| touch.height <= top);
@@ -223,7 +223,7 @@ fn touches_over_the_edge_are_cut_off_and_the_rest_stays() {
         let found = under(&cut, 0.0);
         assert_eq!(found.len(), kept.len(), "{shape}");
         for (found, kept) in found.iter().zip(&kept) {
-            // Tolerance in quanta for the rounding of sums that start at another cell.
+            // This tolerance in quanta allows for the rounding of sums that start at another cell.
             assert!((found.2.height - kept.2.height).abs() < 200, "{shape}: {found:?}, {kept:?}");
         }
         head.advance(&pose, &plane(), Rect { x: 4000, ..half }, &mut cut);
@@ -319,7 +319,7 @@ fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
     let (valleys, crests) = touched(0.35);
     assert!(valleys == 0 && crests > 20, "{valleys} {crests}");
     let (valleys, crests) = touched(1.0);
-    // Not all of them: bristles that draw back do not reach the bottom of valleys this deep.
+    // Some do not: bristles that draw back do not reach the bottom of valleys this deep.
     assert!(valleys * 10 > crests * 6, "{valleys} {crests}");
 }
 

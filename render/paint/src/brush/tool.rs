@@ -1,11 +1,12 @@
-//! Tools that work the wet paint with a clean head, and the contacts of many sub-steps at once.
+//! Tools work the wet paint with a clean head. You can also get the contacts of many sub-steps at
+//! once here.
 //!
 //! A tool is the head of the brush with other rates of exchange, so both backends move the paint by
-//! the same laws as under a brush.
+//! the laws that hold under a brush.
 //!
-//! A head bends through its poses one after another, which takes a small part of the time. What it
-//! touches at each of them follows from how it is bent there, so several threads draw the contacts
-//! side by side. They are the contacts of [`Head::advance_as`] to the bit.
+//! We bend a head through its poses one after another, which takes a small part of the time. The
+//! bend at a pose decides its contact, so several threads draw the contacts side by side. You get
+//! the contacts of [`Head::advance_as`] to the bit.
 
 use documents::hint::Explain;
 use graphics::tile::Rect;
@@ -22,30 +23,31 @@ use crate::pose::Pose;
 
 /// Use of a head on the wet paint below it.
 ///
-/// With every tool but [`StrokeTool::Paint`] the head is clean: the paint on the brush is set aside
-/// for the stroke, and what the head holds at the end of the stroke is taken off the surface. Dry
-/// paint never moves.
+/// With every tool but [`StrokeTool::Paint`] the head is clean. We set the paint on the brush aside
+/// for the stroke, and at its end we take off the surface the paint that the head holds. Dry paint
+/// never moves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum StrokeTool {
     /// Paints with what is on the brush.
     #[default]
     Paint,
-    /// Softens and mixes, as a dry mop: what the head picks up it lays down again.
+    /// Softens and mixes like a dry mop: the head picks paint up and lays it down again.
     Blend {
         /// How much the paint is mixed and moved, above 0 to 1.
         strength: f64,
     },
-    /// Takes all paint higher than a blade that glides over the crests of the ground. What lies
-    /// between the crests stays.
+    /// Takes all paint higher than a blade that glides over the crests of the ground. Paint between
+    /// the crests stays.
     Scrape {
         /// Height of the blade over the crests at pressure 0 in mm, 0 to 10. It falls to 0 at full
         /// pressure.
         height_mm: f64,
     },
-    /// Takes a share of the paint, as a rag: more with pressure and with each mm of the way.
+    /// Takes a share of the paint, as a rag does. This takes more with pressure and with each mm of
+    /// the way.
     Erase {
-        /// How much it takes, above 0 to 1. With 1 and full pressure the paint falls to 1/e over
-        /// 1 mm.
+        /// How much it takes, above 0 to 1. For example, with 1 and full pressure the paint falls
+        /// to 1/e over 1 mm.
         strength: f64,
     },
 }
@@ -77,7 +79,7 @@ impl StrokeTool {
         }
     }
 
-    /// Whether the head paints with what is on the brush.
+    /// Returns whether the head paints with the paint on the brush.
     #[must_use]
     pub fn is_paint(&self) -> bool {
         *self == Self::Paint
@@ -133,8 +135,8 @@ const LAY_MM: f64 = 0.5;
 /// Velocity of the paint under a mop relative to a brush at full strength.
 const DRAG: f64 = 0.5;
 
-/// Coat of a mop relative to the paint on its hair, in parts of 32: the most there is, so that the
-/// mop is full when it holds a quarter of the film below it.
+/// Coat of a mop relative to the paint on its hair, in parts of 32. This is the largest possible,
+/// so that the mop is full when it holds a quarter of the film below it.
 const MOP_RELEASE: u32 = 127;
 
 /// Part of the head, from its end, in which a mop holds paint.
@@ -207,8 +209,8 @@ fn blend(contact: &mut Contact, strength: f64, cell_mm: f64, paint_cell_area: f6
     contact.touches.iter_mut().for_each(|touch| touch.set_release(MOP_RELEASE));
 }
 
-/// Lets the hair sway: each touch meets the hair `columns` columns further around a head of
-/// `width` x `height` cells. Only the tip exchanges paint.
+/// Lets the hair sway: each touch meets the hair `columns` columns further around a head of `width`
+/// x `height` cells. Only the tip exchanges paint.
 fn sway(contact: &mut Contact, (width, height): (usize, usize), columns: i32) {
     let width = width as u32;
     let first_row = (height - height.div_ceil(TIP)) as u32;
@@ -242,7 +244,8 @@ fn scrape(contact: &mut Contact, height_mm: f64, relief: &Relief) {
     });
 }
 
-/// A rag: it takes the share of `rub` (0 to 1) of what it reaches, less where it hardly touches.
+/// A rag takes the share of `rub` (0 to 1) of the paint that it reaches, and less where it hardly
+/// touches.
 fn erase(contact: &mut Contact, rub: f64, relief: &Relief) {
     let cell_mm = relief.cell_mm();
     let pick_up = if rub > 0.0 { share(cell_mm, ERASE_MM / rub) } else { 0 };
@@ -289,8 +292,8 @@ pub(crate) struct SideBySide {
 }
 
 impl SideBySide {
-    /// Moves `head` through `poses` as `tool`, and fills one of `contacts` for each. All calls must
-    /// be for one head.
+    /// Moves `head` through `poses` as `tool`, and fills one of `contacts` for each. You must use
+    /// one head in all calls.
     ///
     /// # Panics
     /// If there are fewer contacts than poses.

@@ -1,5 +1,5 @@
-//! The paint engine: one set of operations over both backends, for brushes, masks, tiles saved for
-//! undo, dry layers and pictures.
+//! The paint engine offers one set of operations over both backends, for brushes, masks, tiles
+//! saved for undo, dry layers and pictures.
 
 use graphics::field::Field;
 use graphics::gpu::{BackendChoice, Device, DeviceError, choose};
@@ -14,21 +14,18 @@ use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::optics::Scene;
 
-/// The paint of one painting: the wet layer, dry layers, the paint on each brush, and
-/// pictures of the canvas.
+/// The paint of one painting: the wet layer, dry layers, the paint on each brush, and pictures of
+/// the canvas.
 ///
-/// Every change is exact integer arithmetic, so both backends hold the same bits after
-/// the same calls. On the processor no operation fails. On a graphics device each
-/// returns [`DeviceError`] if the device is lost, and those that allocate also if it has
-/// no memory left.
+/// Every change is exact integer arithmetic, so both backends hold equal bits after equal calls. On
+/// the processor operations do not fail. On a graphics device each returns [`DeviceError`] if you
+/// lose the device, and those that allocate also return it if the device runs out of memory.
 ///
-/// Rectangles, tiles, brushes and layers must exist on this canvas: a caller that names
-/// others has a bug, and the call panics.
+/// Rectangles, tiles, brushes and layers must exist on this canvas. If you name others, this is a
+/// bug, and the call panics.
 #[derive(Debug)]
 pub enum PaintEngine {
-    /// In the machine's memory.
     Cpu(Box<CpuPaint>),
-    /// On a graphics device.
     Gpu(Box<GpuPaint>),
 }
 
@@ -37,8 +34,8 @@ pub enum PaintEngine {
 pub struct OpenedEngine {
     /// The engine, without paint.
     pub engine: PaintEngine,
-    /// Why the processor is used although a device was found. `None` if the device is
-    /// used or there was none.
+    /// Tells you why we use the processor although we found a device. This is `None` if we use the
+    /// device or did not find one.
     pub device_error: Option<DeviceError>,
 }
 
@@ -59,9 +56,9 @@ impl PaintEngine {
         Ok(Self::Gpu(Box::new(GpuPaint::new(device, floor)?)))
     }
 
-    /// A canvas without paint on the backend that `choice` selects, over a ground of
-    /// height `floor` in quanta. With [`BackendChoice::Auto`], a device that cannot hold
-    /// the canvas gives way to the processor.
+    /// A canvas without paint on the backend that `choice` selects, over a ground of height `floor`
+    /// in quanta. With [`BackendChoice::Auto`], you get the processor if the device cannot hold the
+    /// canvas.
     ///
     /// # Errors
     /// With [`BackendChoice::Gpu`], [`DeviceError`] if there is no device or it cannot
@@ -98,11 +95,8 @@ impl PaintEngine {
         }
     }
 
-    /// Waits until the device has done everything asked of it so far. Only needed for
+    /// Waits until the device has done everything that you asked of it. You need this only for
     /// timing: reads always return the current state.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn finish(&mut self) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(_) => Ok(()),
@@ -121,9 +115,6 @@ impl PaintEngine {
 
     /// Applies one sub-step of `brush` for each contact, in order. See
     /// [`crate::motion`].
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn apply_contacts(
         &mut self,
         brush: BrushId,
@@ -140,9 +131,6 @@ impl PaintEngine {
     }
 
     /// Adds a brush whose head has `width` x `height` cells, without paint.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn add_brush(&mut self, width: usize, height: usize) -> Result<BrushId, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.add_brush(width, height)),
@@ -151,9 +139,6 @@ impl PaintEngine {
     }
 
     /// Downloads the paint on a brush, over the cells of its head.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn brush_paint(&mut self, brush: BrushId) -> Result<Layer, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.brush_paint(brush)),
@@ -162,9 +147,6 @@ impl PaintEngine {
     }
 
     /// Replaces the paint on a brush.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn set_brush_paint(&mut self, brush: BrushId, layer: &Layer) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(paint) => {
@@ -176,17 +158,11 @@ impl PaintEngine {
     }
 
     /// Downloads the wet layer.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn wet(&mut self) -> Result<Layer, DeviceError> {
         self.wet_in(self.bounds())
     }
 
     /// Downloads the wet paint in `rect`. Time is proportional to the area of `rect`.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn wet_in(&mut self, rect: Rect) -> Result<Layer, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.wet_in(rect)),
@@ -195,17 +171,11 @@ impl PaintEngine {
     }
 
     /// Replaces the wet layer.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn set_wet(&mut self, layer: &Layer) -> Result<(), DeviceError> {
         self.set_wet_in(self.bounds(), layer)
     }
 
     /// Replaces the wet paint in `rect`. Time is proportional to the area of `rect`.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn set_wet_in(&mut self, rect: Rect, layer: &Layer) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(paint) => {
@@ -217,9 +187,6 @@ impl PaintEngine {
     }
 
     /// The tiles that have wet paint.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn wet_tiles(&mut self) -> Result<TileSet, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.wet_tiles()),
@@ -229,9 +196,6 @@ impl PaintEngine {
 
     /// Downloads the floor: the height of ground plus dry paint, in quanta over the
     /// plane of the canvas.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn floor(&mut self) -> Result<Field<i32>, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.floor()),
@@ -239,16 +203,13 @@ impl PaintEngine {
         }
     }
 
-    /// Renders tiles of a view: `shown` tiles by compositing the wet layer over the
-    /// baked reflectance of ground and dry layers, `baked` tiles by baking that first.
-    /// Time is proportional to the number of tiles.
+    /// Renders tiles of a view. For `shown` tiles, we composite the wet layer over the baked
+    /// reflectance of ground and dry layers. For `baked` tiles, we bake this reflectance first. The
+    /// time grows with the number of tiles.
     ///
-    /// The first call for a view must name all tiles. After a change of `scene` other than of
-    /// its lamp all tiles must be baked. After a change of the surface's height all tiles within
-    /// [`reach`](crate::shade::reach) of it must be shown.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
+    /// When you first call this for a view, name all tiles. If you change `scene` beyond its lamp,
+    /// bake all tiles. If you change the surface's height, show all tiles within
+    /// [`reach`](crate::shade::reach) of the change.
     pub fn render(
         &mut self,
         view: View,
@@ -266,20 +227,13 @@ impl PaintEngine {
     }
 
     /// Downloads the first view as last rendered. See [`PaintEngine::picture_in`].
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn picture(&mut self) -> Result<Field<[f32; 4]>, DeviceError> {
         self.picture_in(View::First, self.bounds())
     }
 
-    /// Downloads a view in `rect` as last rendered: linear sRGB with white at 1, and 1 as
-    /// the fourth component. Black where nothing was rendered. Where paint changed since, either
-    /// the earlier or the present paint is seen. Time is proportional to the
-    /// area of `rect`.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
+    /// Downloads a view in `rect` from its last rendering: linear sRGB with white at 1, and 1 as
+    /// the fourth component. It is black where you rendered nothing. If paint has changed since,
+    /// you see either the earlier or the present paint. The time grows with the area of `rect`.
     pub fn picture_in(&mut self, view: View, rect: Rect) -> Result<Field<[f32; 4]>, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.picture_in(view, rect)),
@@ -287,7 +241,7 @@ impl PaintEngine {
         }
     }
 
-    /// Frees the memory of a view. All its tiles must be baked before it is shown again.
+    /// Frees the memory of a view. Before you show it again, you must bake all its tiles.
     pub fn forget_view(&mut self, view: View) {
         match self {
             Self::Cpu(paint) => paint.forget_view(view),
@@ -297,11 +251,8 @@ impl PaintEngine {
 }
 
 impl PaintEngine {
-    /// Covers cells of the canvas, or none: the contacts that follow change no paint of covered
-    /// cells.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
+    /// Covers cells of the canvas, or none. The contacts that follow do not change the paint of
+    /// covered cells.
     ///
     /// # Panics
     /// If the mask is of another canvas.
@@ -317,12 +268,9 @@ impl PaintEngine {
         }
     }
 
-    /// Notes the surface of the paint in a tile as it is now: loaded hair rides on it in the
-    /// contacts that follow, until the tile is noted again. See [`bed`](crate::motion::bed). Before
-    /// the first time it is unknown and bears nothing.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
+    /// Records the surface of the paint in a tile: in the contacts that follow, loaded hair rides
+    /// on this until you record the tile again. See [`bed`](crate::motion::bed). Before the first
+    /// time we do not know it, so it does not bear hair.
     ///
     /// # Panics
     /// If the tile lies outside the canvas.
@@ -338,9 +286,6 @@ impl PaintEngine {
     }
 
     /// Copies the wet paint of a tile to `slot`, within the engine's memory.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn save_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(paint) => {
@@ -352,9 +297,6 @@ impl PaintEngine {
     }
 
     /// Swaps the wet paint of a tile with that saved in `slot`.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(paint) => {
@@ -367,11 +309,8 @@ impl PaintEngine {
 }
 
 impl PaintEngine {
-    /// Dries a share of all wet paint, 0 to 65536 in parts of 65536. It becomes a new dry
-    /// layer on top, and the floor rises by its height.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
+    /// Dries a share of all wet paint, 0 to 65536 in parts of 65536. This becomes a new dry layer
+    /// on top, and the floor rises by its height.
     pub fn dry(&mut self, share: u32) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(paint) => {
@@ -392,18 +331,12 @@ impl PaintEngine {
     }
 
     /// Downloads a dry layer, counted from the lowest, which is 0.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
         self.dry_layer_in(index, self.bounds())
     }
 
     /// Downloads the paint of a dry layer in `rect`. Time is proportional to the area of
     /// `rect`.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn dry_layer_in(&mut self, index: usize, rect: Rect) -> Result<Layer, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.dry_layer_in(index, rect)),
@@ -412,27 +345,18 @@ impl PaintEngine {
     }
 
     /// Adds a dry layer on top. The floor rises by its height.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn push_dry_layer(&mut self, layer: &Layer) -> Result<(), DeviceError> {
         self.insert_dry_layer(self.dry_layer_count(), layer)
     }
 
     /// Removes the topmost dry layer and returns it. The floor falls by its height.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn pop_dry_layer(&mut self) -> Result<Layer, DeviceError> {
         let top = self.dry_layer_count().checked_sub(1);
         self.remove_dry_layer(top.expect("the caller checks that there is a dry layer"))
     }
 
-    /// Adds a dry layer at `index`. Those from there on move up by one. The floor rises by its
+    /// Adds a dry layer at `index`. The layers from there on move up by one. The floor rises by its
     /// height.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn insert_dry_layer(&mut self, index: usize, layer: &Layer) -> Result<(), DeviceError> {
         match self {
             Self::Cpu(paint) => {
@@ -443,11 +367,8 @@ impl PaintEngine {
         }
     }
 
-    /// Removes a dry layer and returns it. Those above it move down by one. The floor falls by
+    /// Removes a dry layer and returns it. The layers above it move down by one. The floor falls by
     /// its height.
-    ///
-    /// # Errors
-    /// [`DeviceError`] of the device.
     pub fn remove_dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
         match self {
             Self::Cpu(paint) => Ok(paint.remove_dry_layer(index)),
@@ -456,7 +377,7 @@ impl PaintEngine {
     }
 
     /// Moves a dry layer from one index to another. The layers between move by one. The floor
-    /// stays, as heights add up in any order.
+    /// stays, because heights add up in any order.
     pub fn move_dry_layer(&mut self, from: usize, to: usize) {
         match self {
             Self::Cpu(paint) => paint.move_dry_layer(from, to),

@@ -1,20 +1,14 @@
-//! The layers of a painting as an OpenRaster file: films as colours with opacity, for programs that
-//! know nothing else.
+//! The layers of a painting as an OpenRaster file. We write films as colours with opacity, for
+//! programs that know nothing else.
 //!
-//! Light passes through a film of paint twice and is scattered on its way. The film does not blend
-//! with the colour below by one share of opacity. But at one pixel, over one colour, every colour
-//! can be reached: with `b` the colour below and `c` the colour with the film, both as stored
-//! (encoded sRGB, 0 to 1), programs show
-//! ```text
-//! c = a f + (1 - a) b
-//! ```
-//! for opacity a and colour f. f lies within 0..1 if a is at least the share by which some channel
-//! of b is moved towards black or white,
-//! ```text
-//! least = max over channels of (b - c) / b and (c - b) / (1 - b)
-//! ```
-//! We take the greater of this share and the film's own hiding power, and solve for f. No value is
-//! ever clipped, and the stack of layers shows the painting to the rounding of 16 bits.
+//! Light passes through a film of paint twice and scatters on its way, so you cannot blend a film
+//! with the colour below by one share of opacity. But at one pixel, over one colour, you can reach
+//! every colour. With `b` the colour below and `c` the colour with the film, both as stored
+//! (encoded sRGB, 0 to 1), programs show ```text c = a f + (1 - a) b ``` for opacity a and colour
+//! f. f lies within 0..1 if a is at least the share by which some channel of b is moved towards
+//! black or white, ```text least = max over channels of (b - c) / b and (c - b) / (1 - b) ``` We
+//! take the greater of this share and the film's own hiding power, and solve for f. This never
+//! clips a value, and the stack of layers shows the painting to the rounding of 16 bits.
 
 use graphics::export::{ExportError, OpenRaster, PictureFile, srgb16};
 use graphics::field::Field;
@@ -32,19 +26,20 @@ use crate::shade::color_row;
 /// Encodes the layers of `document` under `light` as OpenRaster: the ground, each dry layer, and
 /// the wet layer, with one pixel a cell and 16 bits a channel.
 ///
-/// Films of paint do not blend by opacity. Each pixel of a layer gets the opacity by which its
-/// film hides what lies below, or the least with which a program that composites stored values by
-/// `svg:src-over` shows exactly the painting up to this layer. Its colour is solved for that. So
-/// the layers together show the merged picture to the rounding of 16 bits, and without its upper
-/// layers the file shows the painting before they were painted. In another order, or over other
-/// colours, they show what such a program makes of them, which paint would not.
+/// Films of paint do not blend by opacity. We give each pixel of a layer the opacity by which its
+/// film hides the colour below. If that is too little, we take the least opacity with which a
+/// program that composites stored values by `svg:src-over` shows exactly the painting up to this
+/// layer. Then we solve for the colour. So the layers together show the merged picture to the
+/// rounding of 16 bits, and if you hide the upper layers you see the painting before them. If you
+/// reorder layers or change colours, such a program blends them in its own way, which differs from
+/// paint.
 ///
-/// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer
-/// is listed as hidden, with the pixels that it would have if it were shown. Those above it are
-/// made without its colour. The relief that it keeps is part of the next layer that is shown.
+/// A dry layer has its own name, or else its number and the names of its pigments. We list a hidden
+/// layer as hidden, with the pixels that it would have if you showed it, and make the layers above
+/// without its colour. It keeps its relief, which is part of the next layer that you see.
 ///
-/// Shadows and light of a layer's relief are part of the layer. After each layer `go_on` is called
-/// with the number of layers done. If it returns `false`, the result is `None`.
+/// Shadows and light of a layer's relief are part of the layer. After each layer this calls `go_on`
+/// with the number of layers done. If `go_on` returns `false`, you get `None`.
 ///
 /// # Errors
 /// [`ExportError`] for a painting without cells, cells of a size out of range, and colours that are
@@ -87,7 +82,7 @@ pub fn layers_file(
     Ok(Some(PictureFile { bytes: png.bytes, outside }))
 }
 
-/// The scene with the dry layer `index` shown, which is hidden.
+/// The scene with the hidden dry layer `index` shown.
 fn shown_scene(document: &Document, light: &Light, index: usize) -> Scene {
     let dry = document.dry.iter().enumerate().map(|(at, layer)| {
         (layer.slots, if at == index { layer.opacity } else { layer.shown_opacity() })
@@ -95,7 +90,7 @@ fn shown_scene(document: &Document, light: &Light, index: usize) -> Scene {
     Appearance::of(document, &dry.collect::<Vec<_>>()).scene(light)
 }
 
-/// Name of a layer: its own, or else the label `usual` with the pigments that are in it.
+/// Name of a layer: its own, or else the label `usual` with the names of its pigments.
 fn name(own: &str, usual: &str, (slots, paint): (&Slots, &Layer), document: &Document) -> String {
     if !own.is_empty() {
         return own.to_owned();
@@ -134,8 +129,8 @@ fn layer_pixels(
     pixels
 }
 
-/// How far a row of films hides what lies below: the contrast in encoded luminance between a
-/// white and a black ground that is lost under them.
+/// How far a row of films hides the colour below. We measure the contrast in encoded luminance
+/// between a white and a black ground, and how much of it the films take away.
 struct Hiding {
     /// Luminance of full red, green and blue.
     weights: [f64; 3],
@@ -188,7 +183,6 @@ impl Hiding {
     }
 }
 
-/// Encoded luminance of linear sRGB.
 fn luminance(weights: &[f64; 3], color: &[f32; 4]) -> f64 {
     let relative: f64 = weights.iter().zip(color).map(|(w, &value)| w * f64::from(value)).sum();
     Rgb([relative.clamp(0.0, 1.0); 3]).encoded().0[1]
@@ -198,13 +192,13 @@ fn luminance(weights: &[f64; 3], color: &[f32; 4]) -> f64 {
 const FULL: f64 = 65535.0;
 
 /// Colour and opacity that show `above` over `below`, all in 16 bits. The opacity is `hiding`, 0 to
-/// 1, or more where that cannot reach the colour.
+/// 1, or more if you could not reach the colour with this.
 #[must_use]
 pub(super) fn over(below: [u16; 3], above: [u16; 3], hiding: f64) -> [u16; 4] {
     let pairs = [0, 1, 2].map(|i| (f64::from(below[i]) / FULL, f64::from(above[i]) / FULL));
     let least = pairs.map(|(b, c)| if c < b { (b - c) / b } else { (c - b) / (1.0 - b).max(1e-9) });
     let alpha = least.into_iter().fold(hiding.clamp(0.0, 1.0), f64::max).min(1.0);
-    // Rounded up, so that the colour stays within its range.
+    // We round this up, so that the colour stays within its range.
     let stored = (alpha * FULL).ceil();
     if stored == 0.0 {
         return [0; 4];
@@ -326,7 +320,7 @@ mod tests {
         shown
     }
 
-    /// Greatest difference between what is shown and a picture, in steps of 16 bits.
+    /// Greatest difference between the layers as you see them and a picture, in steps of 16 bits.
     fn worst(shown: &[[f64; 3]], picture: &Field<[f32; 4]>) -> f64 {
         let wanted = srgb16(picture).unwrap().pixels;
         let channels = shown.as_flattened().iter().zip(wanted.values().as_flattened());

@@ -1,7 +1,7 @@
 //! Exports of a painting for other programs: pictures, layers, spectral OpenEXR and pigment maps.
 //!
-//! [`PaintingExports`] writes the files of a painting in progress. The other functions encode a
-//! document in memory. The same document always gives the same bytes.
+//! Use [`PaintingExports`] to write the files of a painting in progress. The other functions encode
+//! a document in memory. One document always gives the same bytes.
 
 mod pigment_maps;
 mod layers;
@@ -31,7 +31,7 @@ const STEM: &str = "painting";
 /// Function that takes path and content of a file.
 pub type PutFile<'a> = dyn FnMut(&Path, &[u8]) -> Result<(), FileError> + 'a;
 
-/// Files to make of a painting. `None` skips a file. Each is written whole or not at all.
+/// Files that you want of a painting. `None` skips a file. We write each whole or not at all.
 ///
 /// ```no_run
 /// use paint::export::PaintingExports;
@@ -60,7 +60,7 @@ pub struct PaintingExports {
     /// Path and wavelengths of a spectral OpenEXR: the reflectance of every cell, without
     /// relief and gloss.
     pub spectral: Option<(PathBuf, SpectralBands)>,
-    /// Folder for a map of each pigment, created if needed. See [`pigment_maps`] for the
+    /// Folder for a map of each pigment. We create it if needed. See [`pigment_maps`] for the
     /// files.
     pub pigment_maps: Option<PathBuf>,
     /// Path of the painting itself, see [`crate::file`].
@@ -68,11 +68,11 @@ pub struct PaintingExports {
 }
 
 impl PaintingExports {
-    /// Makes and writes the files. Returns a note if colours of the picture were outside its gamut.
+    /// Makes and writes the files. If colours of the picture are outside its gamut, you get a note.
     ///
     /// # Errors
-    /// [`PaintingExportError`] if the painting cannot be computed or a file cannot be encoded
-    /// or written. Files before it have been written.
+    /// [`PaintingExportError`] if we cannot compute the painting or cannot encode or write a file.
+    /// The files before this one are on the disk.
     pub fn write(
         &self,
         painting: &mut Painting,
@@ -81,10 +81,10 @@ impl PaintingExports {
     }
 
     /// Makes the files and hands path and content of each to `put`, as [`Self::write`] hands them
-    /// to [`write_whole`]. For programs that send some of them elsewhere.
+    /// to [`write_whole`]. Use this if you send some of them elsewhere.
     ///
     /// # Errors
-    /// Those of [`Self::write`], and of `put`.
+    /// The errors of [`Self::write`] and of `put`.
     pub fn write_with(
         &self,
         painting: &mut Painting,
@@ -130,8 +130,8 @@ impl PaintingExports {
     }
 }
 
-/// Writes `files` into `folder`, which is created if needed. Each file is written whole or
-/// not at all.
+/// Writes `files` into `folder`, and creates it if needed. This writes each file whole or not at
+/// all.
 ///
 /// # Errors
 /// [`FileError`] with the path of the file, or of the folder if it cannot be created.
@@ -168,17 +168,16 @@ pub enum PaintingExportError {
 /// Wavelengths of a spectral picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum SpectralBands {
-    /// The eight wavelengths that the picture was computed with.
+    /// The eight wavelengths of the picture.
     #[default]
     Nodes,
-    /// All wavelengths of the library, computed in double precision.
+    /// All wavelengths of the library. We compute them in double precision.
     Full,
 }
 
-/// Encodes a spectral OpenEXR of `document`: the reflectance of every cell without relief
-/// and gloss, and `picture` (computed under `light`) for programs that show colours. After
-/// each row `go_on` is called with the number of rows done. If it returns `false`, the
-/// result is `None`.
+/// Encodes a spectral OpenEXR of `document`: the reflectance of every cell without relief and
+/// gloss, and `picture` (computed under `light`) for programs that show colours. After each row
+/// this calls `go_on` with the number of rows done. If `go_on` returns `false`, you get `None`.
 ///
 /// # Errors
 /// [`ExportError`] in the cases of [`spectral_exr`].
@@ -203,8 +202,8 @@ pub fn spectral_file(
     spectral_exr(picture, &wavelengths_nm, &planes, document.cell_mm).map(Some)
 }
 
-/// Makes a map of each pigment: the height of its paint in mm, summed over all layers. The
-/// vehicle comes last. Pigments in no slot of any layer are left out.
+/// Makes a map of each pigment: the height of its paint in mm, summed over all layers. The vehicle
+/// comes last. You do not get a map of a pigment that is in no slot of any layer.
 #[must_use]
 pub fn painting_maps(document: &Document) -> Vec<PigmentMap> {
     let width = document.wet.width();

@@ -1,11 +1,12 @@
-//! Maps of the amount of each pigment, for reproducing a painting by printer, plotter or hand, and
-//! spectral OpenEXR files.
+//! Maps of the amount of each pigment, and spectral OpenEXR files. Use the maps to reproduce a
+//! painting by printer, plotter or hand.
 //!
-//! The layout of spectral files is the one of A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR
-//! Layout for Spectral Images" (Journal of Computer Graphics Techniques 10(3), 2021): a channel
-//! `T.550,000000nm` per wavelength of a reflective image (with a decimal comma, since a dot
-//! separates layers), R, G and B for programs that know no spectra, and attribute
-//! `spectralLayoutVersion` "1.0". Reflectance has no unit, so other attributes are not needed.
+//! Spectral files follow the layout of A. Fichet, R. Pacanowski and A. Wilkie, "An OpenEXR Layout
+//! for Spectral Images" (Journal of Computer Graphics Techniques 10(3), 2021). For a reflective
+//! image they have a channel per wavelength, for example `T.550,000000nm` (with a decimal comma,
+//! since a dot separates layers). Programs that do not know spectra read R, G and B. Attribute
+//! `spectralLayoutVersion` is "1.0". Reflectance does not have a unit, so we need no other
+//! attributes.
 
 use exr::image::FlatSamples;
 use exr::meta::attribute::{AttributeValue, Text};
@@ -36,9 +37,9 @@ pub struct NamedFile {
 /// `STEM.thickness.png`, the scale in `STEM.maps.json`, and a table of each pigment's
 /// total in `STEM.recipe.csv`.
 ///
-/// All PNGs have one scale, so that they can be compared: the value 65535 is the greatest
-/// height in mm of all paint together in one cell (`mm_at_65535`). Cells are `cell_mm`
-/// wide. The PNGs store that in `pHYs`.
+/// All PNGs have one scale, so that you can compare them: the value 65535 is the greatest height in
+/// mm of all paint together in one cell (`mm_at_65535`). Cells are `cell_mm` wide. The PNGs store
+/// that in `pHYs`.
 ///
 /// # Errors
 /// [`ExportError`] for maps of different sizes or without cells, a cell size out of
@@ -187,7 +188,7 @@ impl FileNames {
     }
 }
 
-/// Encodes `planes` of reflectance (0..1) at `wavelengths_nm` with 32 bits each, and
+/// Encodes `planes` of reflectance (0..1) at `wavelengths_nm` with 32 bits each. It also stores
 /// `picture` (linear sRGB) as R, G and B. A cell is `cell_mm` wide.
 ///
 /// # Errors
@@ -226,14 +227,13 @@ pub fn spectral_exr(
         channels.push((name, FlatSamples::F32(plane.values().to_vec())));
     }
     let mut attributes = LayerAttributes::default();
-    // Add at most one custom attribute: the encoder does not keep the order of several, so
-    // the bytes of the file would vary.
+    // Add at most one custom attribute. The encoder does not keep the order of several, so the
+    // bytes of the file would vary.
     let version = AttributeValue::Text("1.0".into());
     attributes.other.insert(Text::from("spectralLayoutVersion"), version);
     exr_file((width, height), cell_mm, channels, attributes)
 }
 
-/// Channel name for a wavelength of a reflective image.
 fn channel_name(nm: f64) -> String {
     format!("T.{}nm", format!("{nm:.6}").replace('.', ","))
 }

@@ -1,5 +1,5 @@
-//! Channels of a part: names of parts and channels, which pigment has which channel, and amounts in
-//! mm.
+//! Channels of a part of a file. Use this to name parts and channels, to find the channel of a
+//! pigment, and to convert amounts to mm.
 
 use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
@@ -14,19 +14,15 @@ const RESIDUE_SUFFIX: &str = ".rest";
 /// Content of a channel, in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
-    /// Height of the ground.
     Height,
     /// Height of all paint together.
     Thickness,
     /// Height of a slot's paint. [`SLOTS`] stands for the vehicle.
     Amount(usize),
-    /// Rounding residue of the ground's height.
     HeightResidue,
-    /// Rounding residue of a slot's paint.
     AmountResidue(usize),
 }
 
-/// A channel's name and content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Channel {
     pub(super) name: String,
@@ -50,8 +46,8 @@ pub(super) fn of_ground(inexact: bool) -> Vec<Channel> {
     channels
 }
 
-/// Channels of a layer, sorted by name as OpenEXR requires. `inexact` says which slots need
-/// a residue channel.
+/// Channels of a layer. We sort them by name, since OpenEXR requires this. `inexact` says which
+/// slots need a residue channel.
 pub(super) fn of_layer(pigments: &[PigmentChannel], inexact: [bool; SLOTS + 1]) -> Vec<Channel> {
     let mut channels = vec![Channel::new(THICKNESS, Content::Thickness)];
     let named = pigments.iter().map(|pigment| (pigment.channel.as_str(), pigment.slot));
@@ -65,8 +61,7 @@ pub(super) fn of_layer(pigments: &[PigmentChannel], inexact: [bool; SLOTS + 1]) 
     channels
 }
 
-/// Slots (and the vehicle, last) whose amounts exceed what 32-bit floats represent
-/// exactly.
+/// Slots (and the vehicle, last) with amounts beyond those that 32-bit floats represent exactly.
 pub(super) fn inexact_slots(layer: &Layer) -> [bool; SLOTS + 1] {
     let mut inexact = [false; SLOTS + 1];
     for pigments in layer.pigments.values() {
@@ -86,14 +81,13 @@ pub(super) const WET: &str = "wet";
 pub(super) const HEIGHT: &str = "height";
 /// Channel with the height of all paint together.
 pub(super) const THICKNESS: &str = "thickness";
-/// Channel with the height of clear vehicle.
 pub(super) const VEHICLE: &str = "vehicle";
 
-/// Channels of a layer that no pigment's channel can be called.
+/// Other channels of a layer. The channel of a pigment may not get one of these names.
 pub(super) const LAYER_CHANNELS: [&str; 3] = [HEIGHT, THICKNESS, VEHICLE];
 
-/// Longest channel name for a pigment, in bytes: it leaves room for a number and `.rest`
-/// within the 255 bytes that OpenEXR allows.
+/// Longest channel name for a pigment, in bytes. This leaves room for a number and `.rest` within
+/// the 255 bytes that OpenEXR allows.
 const LONGEST: usize = 200;
 
 /// Part that holds dry layer `index`, counted from the lowest.
@@ -106,7 +100,8 @@ pub(super) fn brush_part(index: usize) -> String {
     format!("brush.{index:03}")
 }
 
-/// Names for the channels of the pigments of one part of an OpenEXR file. No name is given twice.
+/// Gives names to the channels of the pigments in one part of an OpenEXR file. You never get a name
+/// twice.
 #[derive(Debug, Clone)]
 pub struct ChannelNames {
     taken: Vec<String>,
@@ -119,8 +114,8 @@ impl ChannelNames {
         Self { taken: reserved.iter().map(|&name| name.to_owned()).collect() }
     }
 
-    /// Channel name for `pigment`: its name with characters replaced that OpenEXR does not
-    /// allow, numbered if taken.
+    /// Channel name for `pigment`. We replace characters that OpenEXR does not allow, and add a
+    /// number if the name is taken.
     pub fn channel(&mut self, pigment: &str) -> String {
         let plain: String = pigment
             .chars()
@@ -138,11 +133,10 @@ impl ChannelNames {
     }
 }
 
-/// Least amount, in quanta, at which a float in mm no longer distinguishes neighbouring
-/// quanta: its rounding, 2^-24 of the value, reaches half a quantum.
+/// Least amount, in quanta, at which a float in mm no longer distinguishes neighbouring quanta: its
+/// rounding, 2^-24 of the value, reaches half a quantum.
 pub(super) const INEXACT_FROM: u32 = 1 << 23;
 
-/// Conversion for cells of one size.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Millimetres {
     quantum_mm: f64,
@@ -182,8 +176,8 @@ pub struct PigmentChannel {
     pub channel: String,
 }
 
-/// The slots in use with a channel for each, beside the channels `reserved` of the same part.
-/// `None` if the library lacks a pigment.
+/// The slots in use with a channel for each. The names avoid the channels `reserved` of this part.
+/// If the library lacks a pigment, you get `None`.
 #[must_use]
 pub fn channels_of_slots(
     library: &PigmentLibrary,
@@ -199,7 +193,7 @@ pub fn channels_of_slots(
     .collect()
 }
 
-/// The slots that the channels of a part tell of, beside its channels `reserved`.
+/// Reads the slots from the channels of a part, beside its channels `reserved`.
 ///
 /// # Errors
 /// The reason in words: a pigment that the library lacks, a slot beyond the last, a slot or a

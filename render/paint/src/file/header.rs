@@ -1,8 +1,9 @@
-//! The description of a painting in its file: JSON in ASCII in attributes of OpenEXR.
+//! The description of a painting in its file. We write it as JSON in ASCII in attributes of
+//! OpenEXR.
 //!
 //! Attribute `impasto` describes the painting. Each dry layer has an attribute with its identity,
-//! name and visibility, which other programs and older versions leave alone. Palette and brushes
-//! are a file of their own in an attribute of part `wet`.
+//! name and visibility. Other programs and older versions do not touch this attribute. Palette and
+//! brushes are a file of their own in an attribute of part `wet`.
 
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;
@@ -25,7 +26,6 @@ const VERSION: u64 = 1;
 /// Cell widths allowed, in mm. Within this range 32-bit floats in mm can represent quanta.
 const CELL_MM: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
-/// Content of the attribute.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FileHeader {
@@ -40,7 +40,7 @@ pub(super) struct FileHeader {
     pub(super) lighting: Lighting,
     /// The wet layer, then the dry layers from the lowest.
     pub(super) layers: Vec<LayerHeader>,
-    /// Brushes beside a palette. None beside a canvas.
+    /// Brushes beside a palette. Beside a canvas this is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) brushes: Vec<BrushHeader>,
     library: Value,
@@ -61,7 +61,6 @@ pub(super) struct BrushHeader {
 #[serde(deny_unknown_fields)]
 pub(super) struct BrushPaintHeader {
     pub(super) part: String,
-    /// Columns and rows of cells of the head.
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) pigments: Vec<PigmentChannel>,
@@ -158,8 +157,7 @@ impl FileHeader {
             brushes: brushes.collect(),
             library: library.map_err(|error| PaintingFileError::unwritable(error.to_string()))?,
         };
-        // JSON has no notation for NaN and infinity. Such numbers are found by parsing the
-        // text again.
+        // JSON cannot express NaN and infinity. We find such numbers by parsing the text again.
         match Self::from_json("", &header.to_json()?) {
             Ok((back, library)) if back == header && library == document.library => Ok(header),
             Ok(_) => Err(PaintingFileError::unwritable(
@@ -172,13 +170,12 @@ impl FileHeader {
         }
     }
 
-    /// Encodes the description as JSON in ASCII.
     pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
         ascii_json(self)
             .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
     }
 
-    /// Parses and checks a description. Returns it with the library that it holds.
+    /// Parses and checks a description. You get it with the library that it holds.
     pub(super) fn from_json(
         file: &str,
         json: &str,
@@ -260,7 +257,6 @@ impl LayerHeader {
 /// Attribute of the part of a dry layer.
 pub(super) const LAYER_ATTRIBUTE: &str = "impasto.layer";
 
-/// Content of the attribute.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct LayerAttribute {
     pub(super) id: LayerId,
@@ -287,7 +283,6 @@ impl LayerAttribute {
         Self { id: layer.id, next, name: layer.name.clone(), visible: layer.visible }
     }
 
-    /// Encodes the description.
     pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
         if let Some(wanted) = layer_name_violation(&self.name) {
             let reason = format!("layer {} has no {wanted}", self.id);
@@ -297,8 +292,8 @@ impl LayerAttribute {
             .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
     }
 
-    /// Description of the layer at `index`, from 0, whose part is `part`. A file without the
-    /// attribute has an unnamed, visible layer, whose identity is its place.
+    /// Description of the layer at `index`, from 0. `part` is its part. If a file does not have the
+    /// attribute, the layer is visible, does not have a name, and has its place as identity.
     pub(super) fn from_part(
         file: &str,
         part: &Header,
@@ -327,10 +322,10 @@ impl LayerAttribute {
     }
 }
 
-/// Attribute of part `wet` with the bytes of the file of palette and brushes.
+/// Attribute of part `wet`. It holds the bytes of the file of palette and brushes.
 pub(super) const TABLE_ATTRIBUTE: &str = "impasto.table";
 
-/// Type of the attribute. Programs that do not know it keep its bytes or drop them.
+/// Type of this attribute. Programs that do not know it keep its bytes or drop them.
 const KIND: &str = "impasto-table";
 
 /// The attribute with these bytes.
@@ -338,7 +333,7 @@ pub(super) fn table_attribute(bytes: Vec<u8>) -> AttributeValue {
     AttributeValue::Custom { kind: Text::from(KIND), bytes: bytes.into() }
 }
 
-/// Bytes of the file of palette and brushes, if one of the parts holds it.
+/// Bytes of the file of palette and brushes, if you find it in one of the parts.
 pub(super) fn table_bytes(parts: &[Header]) -> Option<&[u8]> {
     let key = Text::from(TABLE_ATTRIBUTE);
     parts.iter().find_map(|part| match part.own_attributes.other.get(&key) {
@@ -353,7 +348,7 @@ pub const ATTRIBUTE: &str = "impasto";
 /// Encodes a value as JSON in ASCII: other characters are escaped.
 ///
 /// # Errors
-/// If serialisation fails, as for a map whose keys are no texts.
+/// If serialisation fails, for example for a map with keys that are not texts.
 pub fn ascii_json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     let text = serde_json::to_string(value)?;
     let mut ascii = String::with_capacity(text.len());

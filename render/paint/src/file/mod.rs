@@ -2,10 +2,10 @@
 //! [`Document::open`](crate::document::Document::open) and
 //! [`Document::save`](crate::document::Document::save).
 //!
-//! One file has a part per layer, with scan lines of 32-bit float channels, so that any
-//! program that reads OpenEXR can show and edit them. Compression is PIZ, which is
-//! lossless. It encodes wet paint in half the time of ZIP and to two thirds of the bytes.
-//! Files with ZIP or without compression are read too.
+//! A file has a part per layer, with scan lines of 32-bit float channels. You can show and edit
+//! them in any program that reads OpenEXR. Compression is PIZ, which is lossless. It encodes wet
+//! paint in half the time of ZIP and to two thirds of the bytes. We also read files with ZIP or
+//! without compression.
 //!
 //! | part | channels, in mm |
 //! | --- | --- |
@@ -18,23 +18,23 @@
 //! opacity, and the pigment library.
 //!
 //! The part of a dry layer has an attribute `impasto.layer`: JSON in ASCII with its identity
-//! (`id`), the identity of the next layer (`next`), its `name` and whether it is `visible`. A file
-//! of an earlier version has none: its layers are numbered from the lowest, 1, and visible. Older
-//! programs leave the attribute alone, and show hidden layers.
+//! (`id`), the identity of the next layer (`next`), its `name` and whether it is `visible`. If a
+//! file of an earlier version does not have this attribute, we number its layers from the lowest,
+//! 1, and show all. Older programs leave the attribute alone, so you see hidden layers in them.
 //!
-//! The studio also keeps the palette and the brushes: as the bytes of a file of this format in
-//! attribute `impasto.table` of part `wet`. Its layers are the layers of the palette. A part
-//! `brush.000`, `brush.001` .. has the paint on the cells of a brush's head, and the JSON the name,
-//! shape and size of each brush. Programs that only show the painting need not decode it.
+//! The studio also keeps the palette and the brushes. Attribute `impasto.table` of part `wet` holds
+//! them as the bytes of a file of this format. The layers of that file are the layers of the
+//! palette. A part `brush.000`, `brush.001` .. has the paint on the cells of a brush's head, and
+//! the JSON the name, shape and size of each brush. If you only show the painting, you need not
+//! decode this.
 //!
-//! A pigment's channel has the pigment's name. Characters outside ASCII and dots (which
-//! OpenEXR reads as layers within the part) become `_`, and a name that is taken gets a
-//! number. The JSON says which channel belongs to which pigment.
+//! A pigment's channel has the pigment's name. Characters outside ASCII and dots (which OpenEXR
+//! reads as layers within the part) become `_`, and we add a number to a name that is taken. In the
+//! JSON you find the channel of each pigment.
 //!
-//! Amounts are whole quanta (see [`crate::amount`]) and are restored exactly. A 32-bit
-//! float distinguishes quanta below 2^23, enough for paint up to four cell widths high. If a
-//! layer holds more, channel `NAME.rest` has the rounding residue in mm, and the amount is
-//! the sum of both.
+//! Amounts are whole quanta (see [`crate::amount`]), and we restore them exactly. A 32-bit float
+//! distinguishes quanta below 2^23, enough for paint up to four cell widths high. If a layer holds
+//! more, channel `NAME.rest` has the rounding residue in mm, and the amount is the sum of both.
 
 mod channels;
 mod header;
@@ -150,7 +150,7 @@ pub enum PaintingFileError {
         /// Most bytes allowed.
         limit: u64,
     },
-    /// The painting is inconsistent, so no file can hold it.
+    /// The painting contradicts itself, so we cannot write a file of it.
     #[error("the painting cannot be saved: {reason}")]
     Unwritable {
         /// Reason, with the layer.
@@ -174,7 +174,8 @@ impl PaintingFileError {
 
 #[cfg(test)]
 mod tests {
-    //! Tests of what a file keeps besides paint: names of layers, the palette and the brushes.
+    //! These tests check what a file keeps besides paint: names of layers, the palette and the
+    //! brushes.
 
     use super::{PaintingFileError, read, read_table, write, write_with_table};
     use crate::brush::HeadShape;
@@ -186,8 +187,8 @@ mod tests {
     use pigment::PigmentId;
     use pigment::library::PigmentLibrary;
 
-    /// A painting that was saved before layers had identities: two dry layers, of which the lower
-    /// is hidden by an opacity of 0.
+    /// A painting from the time before layers had identities: it has two dry layers, and an opacity
+    /// of 0 hides the lower one.
     const EARLIER: &[u8] = include_bytes!("../../../../tests/fixtures/paintings/earlier.exr");
 
     fn paint(width: usize, height: usize, seed: u32) -> Layer {
@@ -262,7 +263,7 @@ mod tests {
         assert_eq!((document.dry[0].opacity, document.next_layer), (0.0, LayerId(3)));
         assert!(document.wet.totals()[1] > 0, "half of the second stroke is wet");
         assert!(read_table("earlier.exr", EARLIER).unwrap().is_none(), "it has no table");
-        // Saved again it is the same painting.
+        // If you save it again, you get an equal painting.
         assert!(read("again.exr", &write(&document).unwrap()).unwrap() == document, "changed");
     }
 

@@ -1,5 +1,5 @@
-//! Decoding of a painting's file. Its parts and channels are checked against its header before
-//! memory is allocated.
+//! Decodes a painting's file. We check its parts and channels against its header before we allocate
+//! memory.
 
 use std::io::Cursor;
 
@@ -21,15 +21,14 @@ use crate::ground::Ground;
 use crate::layer::{Cell, Layer, SLOTS, distinct_ids};
 use crate::strokes::{KeptBrush, SideTable};
 
-/// Memory that [`read`] allows a painting, in bytes: 16 GiB, which is 4096 x 4096 cells
-/// with 28 layers (a layer takes 36 bytes per cell, the ground 4).
+/// Memory that [`read`] allows a painting, in bytes: 16 GiB. This is enough for 4096 x 4096 cells
+/// with 28 layers, for example (a layer takes 36 bytes per cell, the ground 4).
 pub const MEMORY_LIMIT: u64 = 16 << 30;
 
-/// Number of blocks that are read as a batch and then decompressed in parallel.
+/// We read this number of blocks as a batch and then decompress them in parallel.
 const BATCH: usize = 64;
 
-/// Decodes a painting from `bytes`, the content of `file`. The name is used in errors
-/// only.
+/// Decodes a painting from `bytes`, the content of `file`. We use the name in errors only.
 ///
 /// # Errors
 /// [`PaintingFileError`] if the content is not OpenEXR, not a painting, of a newer
@@ -47,7 +46,7 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
 }
 
 /// Decodes the palette and the brushes beside a painting, if `bytes`, the content of `file`, hold
-/// them. The paint of the painting itself is not decoded.
+/// them. This does not decode the paint of the painting itself.
 ///
 /// # Errors
 /// [`PaintingFileError`] in the cases of [`read`], for the palette and the brushes.
@@ -143,7 +142,6 @@ fn decode(
     Ok((document(file, header, library, ground, (names, paints))?, brushes))
 }
 
-/// The brushes of the header with their loads.
 fn brushes(headers: &[BrushHeader], loads: Vec<Layer>) -> Vec<KeptBrush> {
     let mut loads = loads.into_iter();
     headers
@@ -179,8 +177,8 @@ fn json(file: &str, parts: &[Header]) -> Result<String, PaintingFileError> {
     }
 }
 
-/// Consecutive rows of a part. In rows of the ground, the vehicle of a cell holds the bits
-/// of the height, an i32.
+/// Consecutive rows of a part. In rows of the ground, we store the bits of the height, an i32, as
+/// the vehicle of a cell.
 struct Rows {
     part: usize,
     /// First row, counted from the top of the part's window.
@@ -233,12 +231,10 @@ fn rows(
 struct PartRow<'a> {
     file: &'a str,
     part: &'a PartLayout,
-    /// Row on the canvas.
     y: usize,
 }
 
 impl PartRow<'_> {
-    /// Decodes one plane into `cells`.
     fn read(
         &self,
         plane: &Plane,
@@ -320,7 +316,7 @@ fn document(
     height: Field<i32>,
     (names, mut paints): (Vec<LayerAttribute>, Vec<Layer>),
 ) -> Result<Document, PaintingFileError> {
-    // The header check guarantees that the wet layer comes first.
+    // The check of the header guarantees that the wet layer comes first.
     let slots = header.layers[0]
         .slots(&library)
         .map_err(|reason| PaintingFileError::header(file, reason))?;
@@ -354,8 +350,8 @@ fn document(
     })
 }
 
-/// Most bytes that one stored byte of an OpenEXR file can expand to: 1032 by ZIP, less by
-/// PIZ, plus headers. A file that announces more is truncated or malicious.
+/// Most bytes that one stored byte of an OpenEXR file can expand to: 1032 by ZIP, less by PIZ, plus
+/// headers. If a file announces more, we refuse it as truncated or malicious.
 pub const EXPANSION: u64 = 1100;
 
 /// A part of the file that passed the checks.
@@ -365,7 +361,6 @@ pub(super) struct PartLayout {
     /// Index of the header's paint that the part holds. `None` for the ground.
     pub(super) layer: Option<usize>,
     pub(super) window: Rect,
-    /// Number of channels of the part.
     pub(super) channels: usize,
     pub(super) planes: Vec<Plane>,
 }
@@ -401,8 +396,8 @@ impl Fault<'_> {
     }
 }
 
-/// Checks the parts against `header` and returns them in the file's order. Nothing has
-/// been allocated yet.
+/// Checks the parts against `header` and returns them in the file's order. We have not allocated
+/// anything before this.
 pub(super) fn layout(
     file: &str,
     parts: &[Header],
@@ -480,8 +475,8 @@ fn check_part(
     Ok(PartLayout { name, layer, window, channels, planes })
 }
 
-/// Cells that a part covers within its `room`. The ground, which has none, must cover the whole
-/// canvas.
+/// Cells that a part covers within its `room`. The ground does not have a room and must cover the
+/// whole canvas.
 fn window(
     fault: &Fault<'_>,
     part: &Header,

@@ -1,4 +1,4 @@
-//! Encoding of a painting's file, and documents opened and saved by path.
+//! Encodes a painting's file. You can also open and save documents by path.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -32,7 +32,7 @@ use crate::strokes::KeptBrush;
 /// Number of blocks that are compressed in parallel.
 const BATCH: usize = 64;
 
-/// Encodes a painting as a file. The same document always gives the same bytes.
+/// Encodes a painting as a file. One document always gives the same bytes.
 ///
 /// # Errors
 /// [`PaintingFileError::Unwritable`] if the document is inconsistent: layers of another
@@ -120,8 +120,8 @@ fn exr_header(
     let mut own = LayerAttributes::named(part.name.as_str());
     own.layer_position = Vec2(window.x as i32, window.y as i32);
     own.horizontal_density = Some((25.4 / header.cell_mm) as f32);
-    // Add at most one custom attribute: the encoder does not keep the order of several, so
-    // the bytes of the file would vary.
+    // Add at most one custom attribute. The encoder does not keep the order of several, so the
+    // bytes of the file would vary.
     own.other.extend(attribute.map(|(name, value)| (Text::from(name), value)));
     let canvas = IntegerBounds::new((0, 0), (header.width, header.height));
     Header::new(Text::from(part.name.as_str()), (window.width, window.height), channels.collect())
@@ -191,7 +191,6 @@ fn check_paint(slots: &Slots, paint: &Layer) -> Result<(), String> {
 #[derive(Debug)]
 pub(super) struct Part<'a> {
     pub(super) name: String,
-    /// Cells of the canvas that the part covers.
     pub(super) window: Rect,
     pub(super) channels: Vec<Channel>,
     source: Source<'a>,
@@ -229,7 +228,7 @@ pub(super) fn parts<'a>(
     std::iter::once(base).chain(layers).collect()
 }
 
-/// Smallest rectangle that contains all paint. One cell if there is none, since a data
+/// Smallest rectangle that contains all paint. If there is none, this is one cell, since a data
 /// window cannot be empty.
 fn covered(paint: &Layer) -> Rect {
     let width = paint.width();
@@ -304,7 +303,7 @@ impl Document {
         read(&path.display().to_string(), &documents::file::read(path)?)
     }
 
-    /// Writes the painting to a file (OpenEXR, see [`crate::file`]), which is replaced as a
+    /// Writes the painting to a file (OpenEXR, see [`crate::file`]). This replaces the file as a
     /// whole or not at all.
     ///
     /// # Errors

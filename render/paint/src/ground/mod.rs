@@ -1,8 +1,8 @@
-//! Grounds to paint on. The relief is generated from a seed or taken from a picture. The colour is
-//! the colour of the priming.
+//! Grounds to paint on. You generate the relief from a seed or take it from a picture. The colour
+//! is the colour of the priming.
 //!
-//! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always
-//! give equal grounds.
+//! Heights are 0 or more, in mm above the plane of the canvas. Equal descriptions always give equal
+//! grounds.
 
 mod primer;
 mod relief;
@@ -81,12 +81,12 @@ pub enum GroundError {
         /// The library's grid, for example `380 to 730 nm in steps of 10 nm`.
         library: String,
     },
-    /// The paint that tones the ground cannot be mixed.
+    /// We cannot mix the paint that tones the ground.
     #[error("the film on the ground: {0}")]
     #[hint(inner)]
     #[fault(Input)]
     Recipe(#[from] pigment::library::RecipeError),
-    /// The picture of a relief cannot be read.
+    /// We cannot read the picture of a relief.
     #[error("{path}: {reason}")]
     #[hint("the relief of a ground is a grey picture ({NAMES}), white the highest")]
     Picture {

@@ -1,7 +1,8 @@
-//! Reflectance of a ground: its priming, and an imprimatura, a thin dry film of paint over it.
+//! Reflectance of a ground. You choose its priming, and may put an imprimatura over it, which is a
+//! thin dry film of paint.
 //!
-//! The film has the same thickness everywhere, so ground and film together are one reflectance: a
-//! dry layer of this height over this priming, computed at all wavelengths of the library.
+//! We give the film one thickness everywhere, so ground and film together have one reflectance.
+//! This equals a dry layer of this height over this priming, at all wavelengths of the library.
 
 use std::collections::BTreeMap;
 
@@ -17,9 +18,9 @@ use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum};
 
 use super::{GroundError, check_range};
 
-/// Measured reflectance of a ground: `0.87`, `{"rgb": "#f4f1e8"}`,
-/// `{"spectrum": {"grid": {..}, "values": [..]}}`, or a film of paint over the library's white,
-/// `{"film": {"recipe": {"Bone Black": 1}, "height_mm": 0.003}}`.
+/// Measured reflectance of a ground. You write it as `0.87`, `{"rgb": "#f4f1e8"}`, `{"spectrum":
+/// {"grid": {..}, "values": [..]}}`, or as a film of paint over the library's white, `{"film":
+/// {"recipe": {"Bone Black": 1}, "height_mm": 0.003}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -41,8 +42,8 @@ pub enum Primer {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ColorPrimer {
-    /// sRGB colour under D65, written `#rrggbb`. A colour that no paint with the library's
-    /// surface can have is replaced by a near one.
+    /// sRGB colour under D65, written `#rrggbb`. If paint with the library's surface cannot have
+    /// this colour, we take a near one.
     pub rgb: String,
 }
 
@@ -80,8 +81,8 @@ impl Primer {
         )
     }
 
-    /// Measured reflectance on the grid of `library`. A spectrum that covers less is
-    /// extended by its end values.
+    /// Measured reflectance on the grid of `library`. If a spectrum covers less, we extend it by
+    /// its end values.
     ///
     /// # Errors
     /// [`GroundError`] for a value out of range, or an invalid colour or spectrum.
@@ -118,12 +119,12 @@ impl Primer {
     }
 }
 
-/// Scattering per mm of a library without a white that hides, as in
+/// Scattering per mm of a library that does not have a white that hides, as in
 /// [`Medium`](crate::document::Medium).
 const USUAL_SCATTERING_PER_MM: f64 = 50.0;
 
-/// A film of paint over the library's white, written
-/// `{"film": {"recipe": {"Bone Black": 1, "Vermilion": 2}, "height_mm": 0.003}}`.
+/// A film of paint over the library's white. You write it as `{"film": {"recipe": {"Bone Black": 1,
+/// "Vermilion": 2}, "height_mm": 0.003}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TonedPrimer {
@@ -142,8 +143,8 @@ pub struct PrimerFilm {
 }
 
 impl TonedPrimer {
-    /// Measured reflectance of the film over `priming`, both on the grid of `library`, whose
-    /// reference white hides from 0.05 mm on.
+    /// Measured reflectance of the film over `priming`, both on the grid of `library`. We assume
+    /// that its reference white hides from 0.05 mm on.
     ///
     /// # Errors
     /// [`GroundError`] for a height out of range, and for pigments or parts that the library
@@ -154,7 +155,8 @@ impl TonedPrimer {
         let parts = library.recipe(recipe.iter().map(|(name, part)| (name, *part)))?;
         let parts = parts.as_ref();
         let sum: f64 = parts.iter().map(|(_, part)| part).sum();
-        // The height counts all pigments together, also where a library's parts are amounts.
+        // The height counts all pigments together. This also holds where a library gives parts as
+        // amounts.
         let shares: Vec<(PigmentId, f64)> =
             parts.iter().map(|&(pigment, part)| (pigment, part / sum.max(1e-12))).collect();
         let mixture = library.mix(shares)?;

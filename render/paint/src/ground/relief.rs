@@ -18,7 +18,7 @@ use crate::optics::Gloss;
 /// Range of the relief of linen, paper, panels and wood, in mm.
 const RELIEF_MM: [f64; 2] = [0.0, 2.0];
 
-/// Random stream of each kind of ground, so that grounds of one seed differ.
+/// Random stream of each kind of ground, so that you get different grounds from one seed.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Stream {
     Linen = 0,
@@ -38,7 +38,7 @@ pub(super) fn set_up(
     Ok((relief as f32, random(seed, stream as u64)))
 }
 
-/// Evaluates `height_mm(x, y)` for every cell, negative heights counting as 0.
+/// Evaluates `height_mm(x, y)` for every cell. We count negative heights as 0.
 pub(super) fn heights_mm(
     width: usize,
     height: usize,
@@ -51,11 +51,11 @@ pub(super) fn heights_mm(
     heights
 }
 
-/// Settings of primed linen: warp (along y) and weft (along x) in plain weave, unevenly
-/// spaced threads with slubs, gaps filled by the priming.
+/// Settings of primed linen. Warp (along y) and weft (along x) cross in plain weave. The threads
+/// have slubs and uneven distances, and the priming fills the gaps.
 ///
-/// Painters' canvases have about 8 to 25 threads per centimetre. Primed, their relief is
-/// 0.1 to 0.2 mm.
+/// Painters' canvases have about 8 to 25 threads per centimetre. When you prime them, their relief
+/// is 0.1 to 0.2 mm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Linen {
@@ -108,7 +108,6 @@ impl Linen {
     }
 }
 
-/// Smooth maximum of two values.
 fn soft_max(a: f32, b: f32) -> f32 {
     let d = a - b;
     0.5 * (a + b + (d * d + 0.02).sqrt())
@@ -117,7 +116,6 @@ fn soft_max(a: f32, b: f32) -> f32 {
 /// All threads of one direction. `across` counts cells perpendicular to the threads,
 /// `along` cells in their direction.
 struct Threads {
-    /// Index of the nearest thread, for each cell across.
     nearest: Vec<usize>,
     /// Vertical deflection of threads of the other direction, for each cell across: 1 over
     /// the middle of a thread of sign 1, -1 over one of sign -1.
@@ -134,7 +132,7 @@ struct Thread {
 
 impl Threads {
     fn new(across: usize, along: usize, pitch: f64, random: &mut ChaCha8Rng) -> Self {
-        // Two more threads beyond each edge, as neighbours of the outermost visible ones.
+        // We add two threads beyond each edge, as neighbours of the outermost threads that you see.
         let mut middles = vec![-2.0 * pitch * random.random_range(0.8..1.0)];
         while middles[middles.len() - 1] < across as f64 + 2.0 * pitch {
             let step = pitch * random.random_range(0.82..1.18);
@@ -193,8 +191,8 @@ impl Threads {
     }
 }
 
-/// Settings of a smooth, nearly flat panel: the brush that primed it left faint marks along
-/// x, which were sanded down.
+/// Settings of a smooth, nearly flat panel. The brush that primed it left faint marks along x, and
+/// sanding wore them down.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Panel {
@@ -237,7 +235,7 @@ impl Panel {
     }
 }
 
-/// Finish of watercolour paper: how it was pressed, which decides its grain.
+/// Finish of watercolour paper: how the mill pressed it. This decides its grain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PaperFinish {
@@ -250,8 +248,8 @@ pub enum PaperFinish {
     HotPressed,
 }
 
-/// Settings of watercolour paper: the imprint of the felt it was pressed against, bumps 0.3
-/// to 3.6 mm wide with flattened tops.
+/// Settings of watercolour paper. The felt in the press leaves its imprint: bumps 0.3 to 3.6 mm
+/// wide with flattened tops.
 ///
 /// Profiles of cold-pressed papers are 0.05 to 0.1 mm deep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -259,8 +257,8 @@ pub enum PaperFinish {
 pub struct Paper {
     /// Seed of the grain, 1 by default.
     pub seed: u64,
-    /// Height from an average hollow to an average bump in mm, 0 to 2. By default the
-    /// height of the finish.
+    /// Height from an average hollow to an average bump in mm, 0 to 2. If you leave this out, you
+    /// get the height of the finish.
     pub relief_mm: f64,
     /// Finish of the paper, cold-pressed by default.
     #[serde(rename = "making", skip_serializing_if = "PaperFinish::is_default")]
@@ -289,8 +287,8 @@ impl Default for Paper {
     }
 }
 
-/// One octave of bumps: their width in mm, their share of the relief, and the rotation of
-/// their noise lattice in degrees, which hides its axes.
+/// One octave of bumps: their width in mm, their share of the relief, and the rotation of their
+/// noise lattice in degrees. This rotation hides the axes.
 type Bumps = (f64, f32, f64);
 
 impl PaperFinish {
@@ -354,18 +352,18 @@ impl Paper {
                 .iter()
                 .map(|(hills, share, [c, s])| share * hills.at(x * c - y * s, x * s + y * c))
                 .sum();
-            // Pressing flattens bumps strongly and hollows slightly: a soft limit for each.
+            // Pressing flattens bumps strongly and hollows slightly, so we use a soft limit for
+            // each.
             let pressed = if sum > 0.0 { sum / (1.0 + 1.5 * sum) } else { sum / (1.0 - 0.3 * sum) };
             relief * (0.65 + 1.3 * pressed)
         }))
     }
 }
 
-/// Settings of varnished walnut, as painters' palettes are made of: long fibres along x,
+/// Settings of varnished walnut, from which painters' palettes are made: long fibres along x,
 /// growth rings, and open pores that the varnish has not filled.
 ///
-/// The depth was chosen by eye: deep enough to look like wood, too shallow to catch a
-/// brush.
+/// We chose the depth by eye: deep enough to look like wood, too shallow to catch a brush.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wood {
@@ -427,8 +425,8 @@ impl Wood {
 }
 
 /// Relief from a grey picture with 8 or 16 bits, stretched over the canvas. Heights are
-/// proportional to the stored values: black is 0, white is `depth_mm`. Coloured pictures
-/// are converted to luma.
+/// proportional to the stored values: black is 0, white is `depth_mm`. If the picture is coloured,
+/// we convert it to luma.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PictureRelief {
@@ -495,7 +493,7 @@ impl PictureRelief {
     }
 }
 
-/// For each cell: two neighbouring pixels, and the share of the second.
+/// For each cell you get two neighbouring pixels, and the share of the second.
 fn interpolation(cells: usize, pixels: usize) -> Vec<(usize, usize, f32)> {
     let last = pixels as f64 - 1.0;
     (0..cells)

@@ -1,4 +1,4 @@
-//! Descriptions of grounds as scripts of strokes store them, and the kinds of ground by name.
+//! Descriptions of grounds in scripts of strokes. You can also choose a kind of ground by its name.
 
 use std::str::FromStr;
 
@@ -13,18 +13,20 @@ use crate::amount::QUANTA_PER_CELL;
 use crate::optics::Gloss;
 use graphics::field::Field;
 
-/// Description of a ground, as a script of strokes stores it:
-/// `{"kind": "linen", "seed": 1, "reflectance": {"rgb": "#f4f1e8"}}`.
+/// Description of a ground in a script of strokes. You write it as `{"kind": "linen", "seed": 1,
+/// "reflectance": {"rgb": "#f4f1e8"}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Map<String, Value>")]
 pub struct GroundSpec {
     /// Kind of ground and its relief.
     #[serde(flatten)]
     pub relief: GroundRelief,
-    /// Colour of the priming. By default the library's white. Of wood, walnut brown.
+    /// Colour of the priming. If you leave this out, you get the library's white, or walnut brown
+    /// for wood.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reflectance: Option<Primer>,
-    /// Gloss of the bare ground. By default matt. Of wood, varnished.
+    /// Gloss of the bare ground. If you leave this out, the ground is matt, or varnished if it is
+    /// wood.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gloss: Option<Gloss>,
 }
@@ -60,15 +62,14 @@ pub enum GroundKind {
     Wood,
 }
 
-/// Gloss of a ground that does not shine.
 const MATT: Gloss = Gloss { strength: 0.0, exponent: 10.0 };
 
-/// Greatest height of a ground, in cell widths. The rest of the range of heights is left
-/// for paint.
+/// Greatest height of a ground, in cell widths. We leave the rest of the range of heights for
+/// paint.
 const HIGHEST_CELLS: f64 = 256.0;
 
 impl GroundKind {
-    /// Kinds that pictures are painted on. [`GroundKind::Wood`] is for palettes.
+    /// Kinds on which you paint pictures. [`GroundKind::Wood`] is for palettes.
     pub const CANVASES: [Self; 3] = [Self::Linen, Self::Paper, Self::Panel];
 
     /// Name of the kind as users write it: `linen`, `paper`, `panel` or `wood`.
@@ -82,8 +83,8 @@ impl GroundKind {
         }
     }
 
-    /// Description of a ground of this kind with default relief, colour and gloss. The
-    /// seed decides the details of its relief. 1 is the default of a script.
+    /// Description of a ground of this kind with default relief, colour and gloss. The seed decides
+    /// the details of its relief. For example, scripts use 1 by default.
     #[must_use]
     pub fn spec(self, seed: u64) -> GroundSpec {
         match self {
@@ -158,8 +159,7 @@ impl GroundSpec {
         Ok(Ground { name, height, reflectance, gloss: self.gloss.unwrap_or(default_gloss) })
     }
 
-    /// Measured reflectance of the ground on the grid of `library`, without making its
-    /// relief.
+    /// Measured reflectance of the ground on the grid of `library`. This does not make its relief.
     ///
     /// # Errors
     /// [`GroundError`] for a colour or spectrum that is invalid.

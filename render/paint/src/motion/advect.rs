@@ -1,5 +1,5 @@
-//! Conservative advection: the column over a cell moves by its velocity and is divided
-//! among the cells that it then covers.
+//! Conservative advection. The column over a cell moves by its velocity and we divide it among the
+//! cells that it then covers.
 //!
 //! Baxter, Wendt and Lin 2004, section 4.1. As the column moves by at most one cell along
 //! x and y, it covers four cells: its own, the neighbours in x and in y, and the diagonal

@@ -1,4 +1,4 @@
-// Conservative advection of a column of paint in one sub-step; twin of advect.rs.
+// Conservative advection of a column of paint in one sub-step. This is the twin of advect.rs.
 
 // Shares of a column that leave it, in parts of 65536.
 struct Outflow {

@@ -1,13 +1,13 @@
-//! The bed of a stroke: the surface of the paint before it, on which loaded hair rides.
+//! The bed of a stroke is the surface of the paint before it. Loaded hair rides on this.
 //!
-//! Hair lies over some mm of paint, so the bed is smooth: one height for each block of
-//! [`BLOCK`] x [`BLOCK`] cells, the mean of their tops, and between the middles of four blocks the
-//! bilinear mean of their heights.
+//! Hair lies over some mm of paint, so the bed is smooth. We keep one height for each block of
+//! [`BLOCK`] x [`BLOCK`] cells, the mean of their tops. Between the middles of four blocks we take
+//! the bilinear mean of their heights.
 
 /// Width and height of a block in cells. The sides of a tile are a multiple.
 pub const BLOCK: usize = 8;
 
-/// Height, in units of 256 quanta, of a block that was never noted: below all paint.
+/// Height, in units of 256 quanta, of a block that you never recorded: below all paint.
 pub const NO_BED: i32 = -(1 << 22);
 
 /// Height of a block in units of 256 quanta, from the sum of the tops of its `count` cells, each
@@ -18,8 +18,8 @@ pub fn block_height(sum: i32, count: i32) -> i32 {
     sum / count
 }
 
-/// The blocks between whose middles the cell at `place` along an axis lies, out of `blocks`, and
-/// the share of the second one, in parts of 16.
+/// The two blocks out of `blocks` with middles around the cell at `place` along an axis, and the
+/// share of the second one, in parts of 16.
 #[inline(always)]
 #[must_use]
 pub fn between(place: usize, blocks: usize) -> (usize, usize, i32) {
@@ -29,9 +29,9 @@ pub fn between(place: usize, blocks: usize) -> (usize, usize, i32) {
     (second.saturating_sub(1), second.min(blocks - 1), 2 * cell as i32 + 1)
 }
 
-/// Mean of two heights, times 16, with the `share` of the second one in parts of 16. The mean of
-/// the blocks above each other, and then of these means side by side, is the height of the bed in
-/// quanta.
+/// Mean of two heights, times 16, with the `share` of the second one in parts of 16. To get the
+/// height of the bed in quanta, take this for the blocks above each other, and then for these means
+/// side by side.
 #[inline(always)]
 #[must_use]
 pub fn weighted((first, second): (i32, i32), share: i32) -> i32 {

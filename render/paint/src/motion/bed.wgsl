@@ -1,4 +1,4 @@
-// The surface of the paint before the stroke; twin of bed.rs. Blocks are 8 x 8 cells.
+// The surface of the paint before the stroke. This is the twin of bed.rs. Blocks are 8 x 8 cells.
 
 // x: the first of the blocks between which a cell lies, y: the second, z: the share of the second
 // in parts of 16.

@@ -1,4 +1,4 @@
-// The constants of motion; twin of constants.rs.
+// The constants of motion. This is the twin of constants.rs.
 
 struct MotionConstants {
     push_share: u32,

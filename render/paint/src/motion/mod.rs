@@ -1,10 +1,10 @@
-//! The motion of paint in one sub-step, cell by cell and in whole numbers: the
-//! specification that both backends follow.
+//! The motion of paint in one sub-step, cell by cell and in whole numbers. Both backends follow
+//! this specification.
 //!
-//! After Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in quanta), times in
-//! sub-steps. The head moves by at most one cell in a sub-step. [`MotionConstants`] and the
-//! [`ExchangeRates`](crate::contact::ExchangeRates) of a head are made from lengths in mm, so that
-//! a stroke hardly depends on the size of the cells.
+//! We follow Baxter, Wendt and Lin 2004, section 4. Lengths are in cells (heights in quanta), times
+//! in sub-steps. The head moves by at most one cell in a sub-step. [`MotionConstants`] and the
+//! [`ExchangeRates`](crate::contact::ExchangeRates) of a head come from lengths in mm, so that a
+//! stroke hardly depends on the size of the cells.
 //!
 //! # A sub-step
 //! On the contact's rectangle grown by two cells, within the canvas, the reach:
@@ -53,8 +53,8 @@ pub struct MotionConstants {
     /// Pressure under a head that has penetrated 1 mm, relative to that under 1 mm of paint, in
     /// parts of 65536.
     pub squeeze_share: u32,
-    /// Difference in height between two columns, in quanta, that the paint bears without
-    /// flowing: its yield.
+    /// Difference in height between two columns, in quanta, that the paint bears without flowing.
+    /// This is its yield.
     pub yield_quanta: u32,
     /// Share of a kink of single cells that is levelled in a sub-step, in parts of 65536. Up
     /// to 8192.
@@ -82,8 +82,8 @@ const FLATTEST: f64 = 0.01;
 const ADHESION_MM: f64 = 0.0002;
 
 impl MotionConstants {
-    /// Constants for cells of `cell_mm` mm and a paint of this `stiffness`: 0 is stand oil,
-    /// which levels by itself, 1 is putty, which stays as it is laid.
+    /// Constants for cells of `cell_mm` mm and a paint of this `stiffness`: 0 is stand oil, which
+    /// levels by itself, 1 is putty, which stays where you lay it.
     #[must_use]
     pub fn new(cell_mm: f64, stiffness: f64) -> Self {
         let slope = FLATTEST * libm::pow(STEEPEST / FLATTEST, stiffness.clamp(0.0, 1.0));

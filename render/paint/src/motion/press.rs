@@ -1,10 +1,11 @@
-//! How deep the head is pressed into the paint, and the velocity that the head, the weight of
-//! the paint and its surface tension give to it.
+//! How deep the head is pressed into the paint, and the velocity that the head, the weight of the
+//! paint and its surface tension give to it.
 //!
-//! Baxter, Wendt and Lin 2004, section 4.2: paint moves with a share of the velocity of the
-//! brush. Here only the part of a column that the head has penetrated does. Paint flows from high
-//! pressure to low: the pressure is the height of the surface plus that of the head. Away
-//! from the head, paint is a Bingham fluid: it flows only where its slope exceeds its yield.
+//! In Baxter, Wendt and Lin 2004, section 4.2, paint moves with a share of the velocity of the
+//! brush. Here we move only the part of a column that the head has penetrated. Paint flows from
+//! high pressure to low. The pressure is the height of the surface plus the pressure of the head.
+//! Away from the head, we treat paint as a Bingham fluid: it flows only where its slope exceeds its
+//! yield.
 
 use super::MotionConstants;
 use crate::amount::{MAX_COLUMN, ratio_of_65536, share_of_65536};
@@ -13,8 +14,8 @@ use crate::contact::{ExchangeRates, Touch};
 /// Value that stands for "no contact" among penetrations.
 pub const NO_CONTACT: i32 = i32::MIN;
 
-/// Columns higher than this, in quanta (some fifty cell widths), do not move and receive
-/// no inflow. Eight columns may flow into one at once, so this keeps every column below
+/// Columns higher than this, in quanta (some fifty cell widths), do not move and do not receive
+/// inflow. Eight columns may flow into one at once, so this keeps every column below
 /// [`MAX_COLUMN`].
 pub const CROWDED_VOLUME: u32 = MAX_COLUMN / 10;
 
@@ -27,9 +28,9 @@ const FASTEST_FLOW: u32 = 1 << 13;
 /// Thickness of the paint, relative to the coat of a head, that may bear its hair.
 const BORNE: u32 = 2;
 
-/// Thickness in quanta of the film that a head leaves when it presses down on the ground: the
-/// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of
-/// that hair.
+/// Thickness in quanta of the film that a head leaves when you press it down on the ground: the
+/// coat that stands out beyond its hair. `mean` is the mean volume in quanta of the cells of that
+/// hair.
 #[inline(always)]
 #[must_use]
 pub fn coat(rates: &ExchangeRates, touch: Touch, mean: u32) -> u32 {
@@ -155,9 +156,9 @@ pub fn dragged(rates: &ExchangeRates, touch: Touch, penetration: i32, volume: u3
     (x * share / 1024, y * share / 1024)
 }
 
-/// Removes the components of `velocity` that would move a column above
-/// [`CROWDED_VOLUME`] or move paint into one. `crowded(dx, dy)` says whether the column
-/// `dx` cells to the right and `dy` cells down is such a column.
+/// Removes the components of `velocity` that would move a column above [`CROWDED_VOLUME`] or move
+/// paint into one. `crowded(dx, dy)` tells us whether the column `dx` cells to the right and `dy`
+/// cells down is such a column.
 #[inline(always)]
 #[must_use]
 pub fn avoid_crowded_columns(

@@ -1,5 +1,5 @@
-// How deep the head is pressed into the paint, and the velocity that it gives to the
-// paint; twin of press.rs.
+// How deep the head is pressed into the paint, and the velocity that it gives to the paint. This is
+// the twin of press.rs.
 
 const NO_CONTACT: i32 = i32(-2147483647 - 1);
 const NO_HEAD: i32 = 2147483647;

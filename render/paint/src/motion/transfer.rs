@@ -1,14 +1,14 @@
 //! Transfer of paint between a cell of the canvas and the cell of the head above it.
 //!
-//! The head lays paint until the film under it is as thick as its coat, and takes paint up
-//! where the film is thicker. Besides, both sides exchange equal amounts in proportion to what
-//! touches, so that colors blend and a brush gets dirty (Chu, Baxter, Wei and Govindaraju
-//! 2010, section 4). Of the paint on the canvas, only the height that the head has penetrated
-//! counts. Where several cells of the canvas lie under one cell of the head, each may take an
-//! equal share of the head's paint, or of the room that it has below [`MAX_COLUMN`].
+//! The head lays paint until the film under it is as thick as its coat, and takes paint up where
+//! the film is thicker. Besides, both sides exchange equal amounts in proportion to the part that
+//! touches. So colours blend, and a brush gets dirty (Chu, Baxter, Wei and Govindaraju 2010,
+//! section 4). Of the paint on the canvas, only the height that the head has penetrated counts.
+//! Where several cells of the canvas lie under one cell of the head, each may take an equal share
+//! of the head's paint, or of the room that it has below [`MAX_COLUMN`].
 //!
-//! In a sub-step a head takes at most half of what it has penetrated. One that does not mix, as a
-//! blade that only scrapes, may take all of it.
+//! In a sub-step a head takes at most half of the paint that it has penetrated. If it does not mix,
+//! for example a blade that only scrapes, it may take all of it.
 
 use crate::amount::{MAX_COLUMN, quotient, ratio_of_65536, share_of_256, share_of_65536};
 use crate::contact::{ExchangeRates, Touch};

@@ -1,4 +1,4 @@
-// Transfer of paint between canvas and head; twin of transfer.rs.
+// Transfer of paint between canvas and head. This is the twin of transfer.rs.
 
 struct Exchange {
     // Shares of the head's and of the canvas's whole cell, in parts of 65536.

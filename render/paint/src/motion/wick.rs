@@ -1,15 +1,15 @@
-//! Flow of paint along the hair of a head, from where there is more to where there is less.
+//! Flow of paint along the hair of a head, from cells with more to cells with less.
 //!
-//! A hair is a column of cells and the column opposite to it, on the other side of the head.
-//! Hairs level alone or in groups of neighbours. Each cell of a group gives a share of what it has
-//! beyond the group's mean to a pot, and the pot is divided among the cells below the mean in
-//! proportion to what they lack. So a head feeds its tip from its belly, and a level hair does not
-//! mix. The coat follows the mean of each group, not the cell that touches: that cell empties
-//! between two flows, and the film would show it.
+//! A hair is a column of cells and the column opposite to it, on the other side of the head. Hairs
+//! level alone or in groups of neighbours. If a cell has more than its group's mean, it gives a
+//! share of the surplus to a pot. We divide this pot among the cells below the mean in proportion
+//! to their lack. So a head feeds its tip from its belly, and a level hair does not mix. The coat
+//! follows the mean of each group, not the cell that touches: this cell empties between two flows,
+//! and you would see that in the film.
 
 use crate::amount::{ratio_of_65536, share_of_65536};
 
-/// Volumes are summed in units of this power of two of quanta, so that sums fit into 32 bits.
+/// We sum volumes in units of this power of two of quanta, so that sums fit into 32 bits.
 pub const UNIT_BITS: u32 = 10;
 
 /// Mean volume in units of a column of `count` cells whose volumes sum to `sum` units.

@@ -1,4 +1,4 @@
-// Flow of paint along the hair of a head; twin of wick.rs.
+// Flow of paint along the hair of a head. This is the twin of wick.rs.
 
 const UNIT_BITS: u32 = 10u;
 const POT_UNITS: u32 = 2097152u;

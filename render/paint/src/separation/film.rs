@@ -1,9 +1,8 @@
-//! Colour of a paint film over a ground, and its derivatives by the amount of each
-//! pigment.
+//! Colour of a paint film over a ground, and its derivatives by the amount of each pigment.
 //!
-//! Kubelka and Munk 1931 through [`spectra::optics::Layer`], Saunderson's surface
-//! correction, then XYZ at a few nodes or over the whole grid. sRGB colours are adapted
-//! to the white of the light by Bradford's transform, as everywhere in impasto.
+//! We use Kubelka and Munk 1931 through [`spectra::optics::Layer`], Saunderson's surface
+//! correction, then XYZ at a few nodes or over the whole grid. We adapt sRGB colours to the white
+//! of the light by Bradford's transform, as everywhere in impasto.
 
 use pigment::library::PigmentLibrary;
 use pigment::quadrature::EffectiveQuadrature;
@@ -13,7 +12,7 @@ use spectra::optics::{Layer, Surface};
 use crate::document::Slots;
 use crate::layer::SLOTS;
 
-/// Pigments, ground and binder that films are made of.
+/// Pigments, ground and binder of which you make films.
 #[derive(Debug, Clone, Copy)]
 pub struct FilmMaterials<'a> {
     /// Library of the pigments.
@@ -38,7 +37,6 @@ pub struct PaintFilm {
     rgb_from_xyz: Matrix3,
 }
 
-/// Coefficients at one wavelength.
 #[derive(Debug, Clone, PartialEq)]
 struct Band {
     /// K per mm of each slot.
@@ -59,7 +57,8 @@ pub(super) struct LabSlopes {
 }
 
 impl PaintFilm {
-    /// Films seen at the nodes of `quadrature`, as the paint engine computes them.
+    /// Films as you see them at the nodes of `quadrature`. The paint engine computes them in this
+    /// way.
     ///
     /// # Panics
     /// If the ground's reflectance is not on the library's grid, or a slot refers to a
@@ -83,7 +82,7 @@ impl PaintFilm {
             .map(|(&weights, &bare)| Band {
                 absorption: [0.0; SLOTS],
                 scattering: [0.0; SLOTS],
-                // A ground darker than the surface reflection counts as black.
+                // We treat a ground darker than the surface reflection as black.
                 ground: surface.internal_from_measured(bare).unwrap_or(0.0).min(1.0),
                 weights,
             })
@@ -118,8 +117,8 @@ impl PaintFilm {
         Lab::from_xyz(self.xyz_from_rgb.apply(rgb.map(f64::from)).into(), self.white)
     }
 
-    /// Linear sRGB of the film of these heights (in mm, by slot) over the ground. Outside
-    /// 0..1 beyond the sRGB gamut.
+    /// Linear sRGB of the film of these heights (in mm, by slot) over the ground. Beyond the sRGB
+    /// gamut you get values outside 0..1.
     #[must_use]
     pub fn rgb(&self, heights_mm: &[f32; SLOTS]) -> [f32; 3] {
         let xyz = self.xyz(&heights_mm.map(f64::from), 1.0);
@@ -137,7 +136,7 @@ impl PaintFilm {
         Lab::from_xyz(self.xyz(heights_mm, 0.0), self.white)
     }
 
-    /// XYZ of a film. The ground's reflectance is multiplied by `lit`: 1, or 0 for black.
+    /// XYZ of a film. We multiply the ground's reflectance by `lit`: 1, or 0 for black.
     fn xyz(&self, heights_mm: &[f64; SLOTS], lit: f64) -> Xyz {
         let mut xyz = [0.0; 3];
         for band in &self.bands {

@@ -1,12 +1,12 @@
-//! Search for the film nearest to a colour: least squares over the amounts of a palette's
-//! pigments, from sampled films of one to three pigments, thin and thick.
+//! Search for the film nearest to a colour. We solve least squares over the amounts of a palette's
+//! pigments, and start from sampled films of one to three pigments, thin and thick.
 //!
-//! Colours have three dimensions and palettes up to eight, so many films match. The cost
-//! therefore has further terms. One prefers pigments near the colour: the sum over pigments
-//! of the share times the squared distance of the masstone from the colour. With linear
-//! mixing it selects the corners of the Delaunay tetrahedron that contains the colour, so
-//! at most four pigments are used, and their shares change continuously. The other terms
-//! prefer films that hide the ground, and thin films.
+//! Colours have three dimensions and palettes up to eight, so many films match. The cost therefore
+//! has further terms. One prefers pigments near the colour: the sum over pigments of the share
+//! times the squared distance of the masstone from the colour. With linear mixing this selects the
+//! corners of the Delaunay tetrahedron that contains the colour, so you get at most four pigments,
+//! and their shares change continuously. The other terms prefer films that hide the ground, and
+//! thin films.
 
 use pigment::matching::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use rayon::prelude::*;
@@ -106,7 +106,7 @@ impl FilmSearch {
         Self { film, least_mm, most_mm, hiding, masstones }
     }
 
-    /// The search among films of one height. Preferences among pigments stay.
+    /// This search among films of one height. Preferences among pigments stay.
     pub(super) fn at_height(&self, height_mm: f64) -> Self {
         Self { least_mm: height_mm, most_mm: height_mm, ..self.clone() }
     }
@@ -189,7 +189,6 @@ impl FilmSearch {
         (cost.value, self.mixed(&point))
     }
 
-    /// Film for the values of the unknowns.
     fn mixed(&self, point: &[f64; UNKNOWNS]) -> FilmMix {
         let used = self.film.used();
         let mut shares = [0.0; SLOTS];

@@ -1,8 +1,8 @@
 //! Separation of colours into films of a palette's pigments.
 //!
-//! [`PaintFilm`] computes the colour of any film of a palette over a ground. [`Separation`] finds
-//! the film for a colour, [`SeparationByHeight`] the film of a given height, and [`choose_palette`]
-//! the pigments for a picture.
+//! Use [`PaintFilm`] for the colour of any film of a palette over a ground, [`Separation`] to find
+//! the film for a colour, [`SeparationByHeight`] for a film of a given height, and
+//! [`choose_palette`] to find pigments for a picture.
 
 mod film;
 mod film_search;

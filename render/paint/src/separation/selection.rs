@@ -1,6 +1,4 @@
-//! Choice of the pigments that paint a photograph best.
-//!
-//! Colour error of a separation.
+//! Choice of the pigments that paint a photograph best, and the colour error of a separation.
 
 use std::collections::BTreeMap;
 
@@ -30,23 +28,23 @@ const STEPS: usize = 10;
 /// A palette chosen for a photograph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenPalette {
-    /// The pigments in the order of choice: first the one with the least error alone, then
-    /// each that reduced the error most together with those before it. A pigment that was
-    /// exchanged later leaves its slot to its replacement.
+    /// The pigments in the order of choice: first the pigment with the least error alone, then each
+    /// pigment that reduced the error most together with those before it. If we exchanged a pigment
+    /// later, its replacement is in its slot.
     pub slots: Slots,
-    /// Mean CIEDE2000 over the photograph's colours, weighted by the square root of their
-    /// area so that small coloured things count. If paint is to hide, each error includes the
+    /// Mean CIEDE2000 over the photograph's colours. We weight it by the square root of their area
+    /// so that small coloured things count. If you want paint to hide, each error includes the
     /// ground showing through.
     pub mean: f64,
 }
 
-/// Chooses up to eight pigments that come nearest to a photograph's colours. Pigments are
-/// added greedily one at a time. Then each is exchanged once if another is better.
-/// Pigments whose S is unknown take no part.
+/// Chooses up to eight pigments that come nearest to a photograph's colours. We add pigments
+/// greedily one at a time, and then exchange each once if another is better. We leave out pigments
+/// with unknown S.
 ///
-/// The picture's black should be raised to a tone that paint reaches, else pigments are
-/// spent on tones that none reaches. `film` makes the films of a palette, for example by
-/// [`PaintFilm::at_nodes`] under the light of the painting.
+/// Raise the picture's black to a tone that paint reaches first, else you spend pigments on tones
+/// that none reaches. `film` makes the films of a palette, for example by [`PaintFilm::at_nodes`]
+/// under the light of the painting.
 ///
 /// # Errors
 /// [`SeparationError`] if no pigment is usable, or for settings out of range.
@@ -152,8 +150,9 @@ fn frequent_colors(picture: &Picture) -> Vec<(f64, [f32; 3])> {
     colors
 }
 
-/// Picture that films of the given heights (in mm, by slot) make over the ground, in
-/// linear sRGB: Kubelka-Munk for every pixel, independent of the separation's table.
+/// Picture that you get from films of the given heights (in mm, by slot) over the ground, in linear
+/// sRGB. We compute Kubelka-Munk for every pixel, so this does not depend on the separation's
+/// table.
 #[must_use]
 pub fn rebuild_picture(film: &PaintFilm, heights_mm: &Field<[f32; SLOTS]>) -> Picture {
     let colors = heights_mm.values().par_iter().with_min_len(256).map(|at| film.rgb(at));
@@ -193,7 +192,7 @@ impl ColorErrors {
                 delta_e_ciede2000(film.lab_from_rgb(target), film.lab_from_rgb(painted))
             })
             .collect();
-        // A colour painted within `OUT_OF_GAMUT` is in gamut, which saves the slower check.
+        // A colour that we painted within `OUT_OF_GAMUT` is in gamut, so we skip the slower check.
         let doubtful = all.iter().zip(target.values()).filter(|(error, _)| **error > OUT_OF_GAMUT);
         let outside = Outside::of(separation, doubtful.map(|(_, &target)| target));
         let pixels = all.iter().zip(target.values());
@@ -215,11 +214,10 @@ fn mean_of(errors: &[f64]) -> f64 {
     errors.iter().sum::<f64>() / errors.len().max(1) as f64
 }
 
-/// Colours out of gamut. Finding one film takes long, so all colours that agree in the first 7
-/// bits of the fractions of their linear channels, about a step of 8-bit sRGB, are judged by the
-/// one in their middle.
+/// Colours out of gamut. It takes long to find one film. So we judge all colours that agree in the
+/// first 7 bits of the fractions of their linear channels by the one in their middle. This is about
+/// a step of 8-bit sRGB.
 struct Outside {
-    /// In ascending order.
     colors: Vec<[u16; 3]>,
 }
 

@@ -2,12 +2,12 @@
 //!
 //! The lattice is even in the square roots of linear red, green and blue, which are perceptually
 //! nearly even. Each point holds the film nearest to its colour (see `film_search`). Between
-//! points, heights are interpolated within tetrahedra, as usual for colour tables.
+//! points, we interpolate heights within tetrahedra, as usual for colour tables.
 //!
-//! Where the relief demands the height of a film, only its mixture is free: thin paint over a light
-//! ground takes more colour than thick paint does. We keep a table for each of a few heights.
-//! Recipes change little from height to height, so they are interpolated between the tables, evenly
-//! in the logarithm of the height.
+//! Where the relief demands the height of a film, you can only choose its mixture: thin paint over
+//! a light ground takes more colour than thick paint does. We keep a table for each of a few
+//! heights. Recipes change little from height to height, so we interpolate them between the tables,
+//! evenly in the logarithm of the height.
 
 use documents::hint::Explain;
 use graphics::field::Field;
@@ -29,11 +29,11 @@ pub struct SeparationSettings {
     pub least_mm: f64,
     /// Greatest height of a film in mm, from `least_mm` to 100. 0.3 by default.
     pub most_mm: f64,
-    /// Whether films should hide the ground as well as the heights allow. True by default. If
-    /// false, the ground may show through, which over white reaches lighter and more
+    /// Whether you want films to hide the ground as well as the heights allow. True by default. If
+    /// you pass false, the ground may show through. Over white you then reach lighter and more
     /// saturated colours.
     pub hides: bool,
-    /// Whether [`Separation::separate`] refines the table's film for every pixel, at some
+    /// Whether [`Separation::separate`] refines the table's film for every pixel. This takes some
     /// microseconds each. True by default.
     pub refined: bool,
 }
@@ -61,8 +61,8 @@ const NEIGHBOURS: f64 = 0.3;
 const FROM_TABLE: f64 = 1.0;
 const REFINEMENTS: usize = 8;
 
-/// A colour is out of gamut if the nearest reproducible colour differs by more than this,
-/// in CIEDE2000.
+/// If the nearest reproducible colour differs by more than this, in CIEDE2000, a colour is out of
+/// gamut.
 pub const OUT_OF_GAMUT: f64 = 1.0;
 
 /// Table from linear sRGB to the heights of a palette's pigments.
@@ -111,7 +111,7 @@ impl Separation {
         Ok(Self { search, refined: settings.refined, lattice: count, heights })
     }
 
-    /// The table of films of the given height, each as near to the recipe of this table's film as
+    /// A table of films of the given height. Each is as near to the recipe of this table's film as
     /// its colour allows.
     pub(super) fn at_height(&self, height_mm: f64) -> Self {
         let search = self.search.at_height(height_mm);
@@ -127,7 +127,7 @@ impl Separation {
         Self { search, heights, ..*self }
     }
 
-    /// The films that the table was computed for.
+    /// The films for which you computed the table.
     #[must_use]
     pub fn film(&self) -> &PaintFilm {
         &self.search.film
@@ -161,7 +161,7 @@ impl Separation {
         found.heights_mm().map(|height| height as f32)
     }
 
-    /// Whether the nearest colour that the palette reproduces differs by more than
+    /// Returns whether the nearest colour that you reach with the palette differs by more than
     /// [`OUT_OF_GAMUT`].
     #[must_use]
     pub fn is_out_of_gamut(&self, rgb: [f32; 3]) -> bool {
@@ -236,16 +236,16 @@ fn color(search: &FilmSearch, count: usize, index: usize) -> Lab {
     search.film.lab_from_rgb(rgb)
 }
 
-/// Film of a lattice point after smoothing with its neighbours: starts from its own film
-/// and from their mean, and keeps the better result.
+/// Film of a lattice point after smoothing with its neighbours. We start from its own film and from
+/// their mean, and keep the better result.
 fn smoothed(search: &FilmSearch, count: usize, films: &[FilmMix], index: usize) -> FilmMix {
     let place = [index / (count * count), index / count % count, index % count];
     let strides = [count * count, count, 1];
     let mut sum = [0.0; SLOTS];
     let mut neighbours = 0.0;
     for (at, stride) in place.into_iter().zip(strides) {
-        // Neighbours count in opposite pairs only, so that heights linear along an axis
-        // stay as they are.
+        // We count neighbours in opposite pairs only, so that heights linear along an axis stay as
+        // they are.
         if at > 0 && at < count - 1 {
             for other in [index - stride, index + stride] {
                 let heights = films[other].heights_mm();
@@ -326,7 +326,7 @@ pub struct SeparationByHeight {
 
 impl SeparationByHeight {
     /// Computes tables for films from `settings.least_mm` to `settings.most_mm`, at least one for
-    /// each doubling of the height. Takes seconds.
+    /// each doubling of the height. This takes seconds.
     ///
     /// # Errors
     /// [`SeparationError`] for an empty palette or settings out of range.
@@ -358,14 +358,14 @@ impl SeparationByHeight {
         Ok(Self { tables, heights_mm })
     }
 
-    /// The films that the tables were computed for.
+    /// The films for which you computed the tables.
     #[must_use]
     pub fn film(&self) -> &PaintFilm {
         self.tables[0].film()
     }
 
-    /// Heights in mm by slot of the film of a linear sRGB colour that is `height_mm` high: their
-    /// sum is that height. Films beyond the tables have the recipe of the nearest.
+    /// Heights in mm by slot of the film of a linear sRGB colour that is `height_mm` high: they sum
+    /// to this height. Beyond the tables you get the recipe of the nearest.
     #[must_use]
     pub fn heights_mm(&self, rgb: [f32; 3], height_mm: f32) -> [f32; SLOTS] {
         let last = self.tables.len() - 1;
@@ -393,8 +393,8 @@ impl SeparationByHeight {
         self.tables.iter().map(Separation::black).fold(0.0, f32::max)
     }
 
-    /// Whether the nearest colour that films of the height of the nearest table reproduce differs
-    /// by more than [`OUT_OF_GAMUT`](super::OUT_OF_GAMUT).
+    /// Returns whether the nearest colour that you reach with films of the nearest table's height
+    /// differs by more than [`OUT_OF_GAMUT`](super::OUT_OF_GAMUT).
     #[must_use]
     pub fn is_out_of_gamut(&self, rgb: [f32; 3], height_mm: f32) -> bool {
         let off = |mm: f64| (mm / f64::from(height_mm)).ln().abs();

@@ -1,7 +1,7 @@
-//! Actions of a script: single steps of work on a painting, as they stand in its JSON.
+//! Actions of a script are single steps of work on a painting. You write them in its JSON.
 //!
-//! Samples are rows of numbers: `[seconds, x, y, pressure, tilt x, tilt y, twist]`. Zeros at the
-//! end may be left out. Objects with free names refuse duplicate keys.
+//! Samples are rows of numbers: `[seconds, x, y, pressure, tilt x, tilt y, twist]`. You may leave
+//! out zeros at the end. We refuse duplicate keys in objects with free names.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -29,13 +29,13 @@ pub type Recipe = BTreeMap<String, f64>;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Action {
-    /// Adds paint to that on a brush. Wash the brush first for a clean colour.
+    /// Adds paint to a brush. For a clean colour, wash the brush first.
     Load(Load),
     /// Moves a brush over a surface, to paint or to blend, scrape or erase wet paint.
     Stroke(Stroke),
-    /// Moves a brush over a surface without lifting it at the end: its last way, which lags one
-    /// sample behind, is not painted, and the paint does not level. So a recording ends whose
-    /// program was killed within a stroke.
+    /// Moves a brush over a surface without lifting it at the end. A recording ends in this way if
+    /// you kill its program within a stroke. We do not paint its last way, which lags one sample
+    /// behind, and the paint does not level.
     Cut(Stroke),
     /// Wipes paint off a brush.
     Wipe {
@@ -74,7 +74,7 @@ pub enum Action {
     Name {
         /// The layer, which must be dry.
         layer: LayerRef,
-        /// One line of at most 80 characters. Empty takes the name away.
+        /// One line of at most 80 characters. If you pass an empty one, you take the name away.
         name: String,
     },
     /// Shows or hides a dry layer, which keeps its opacity.
@@ -116,7 +116,7 @@ pub enum Action {
         #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
         on: SurfaceId,
     },
-    /// Covers cells of the canvas, so that no paint gets on or off them, or uncovers them.
+    /// Covers cells of the canvas, or uncovers them. Paint does not get on or off covered cells.
     Mask(MaskChange),
     /// Sets the gloss of the binder.
     Gloss {
@@ -127,18 +127,20 @@ pub enum Action {
     },
     /// Sets the stiffness of the wet paint.
     Stiffness {
-        /// 0 is stand oil, which levels after a stroke, 1 is putty.
+        /// 0 is stand oil, which levels after a stroke, 1 is putty. For example, tube paint lies
+        /// between.
         value: f64,
     },
     /// Saves the painting (`.exr`) or its picture (`.png`).
     Save {
-        /// Relative path of the file, below a folder that the player of the script chooses.
+        /// Relative path of the file. It lies below a folder that you choose when you play the
+        /// script.
         path: String,
     },
 }
 
 impl Action {
-    /// Key of the action in a file, such as `stroke`.
+    /// Key of the action in a file, for example `stroke`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -297,7 +299,7 @@ pub struct Stroke {
     pub brush: String,
     /// The surface. The canvas by default.
     pub on: SurfaceId,
-    /// The tool that the head is used as. It paints by default.
+    /// The tool as which you use the head. It paints by default.
     pub tool: StrokeTool,
     /// Samples of the pen in order of time.
     pub samples: Vec<Sample>,
@@ -615,8 +617,8 @@ impl<'de> Deserialize<'de> for PaletteSpec {
     }
 }
 
-/// Deserializes an object and refuses duplicate keys, of which a plain map would silently
-/// keep the last. At most [`MAX_NAMES`] keys.
+/// Deserializes an object and refuses duplicate keys. A plain map would silently keep the last of
+/// them. At most [`MAX_NAMES`] keys.
 pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, T>, D::Error> {

@@ -1,8 +1,7 @@
 //! Stroke scripts: the file format `strokes`, version 1.
 //!
-//! A script is JSON with a canvas, its pigments and brushes, and a list of actions. It is
-//! written by hand, by a program, or by a session that records. Units are mm, seconds and
-//! degrees.
+//! A script is JSON with a canvas, its pigments and brushes, and a list of actions. You write it by
+//! hand, by a program, or by recording a session. Units are mm, seconds and degrees.
 //!
 //! ```json
 //! {
@@ -20,30 +19,30 @@
 //! }
 //! ```
 //!
-//! A sample is `[seconds, x, y, pressure, tilt x, tilt y, twist]`. Numbers left out at its
-//! end are 0. A palette is an object of short names, or a list, of at most eight pigments.
-//! Recipes use short names or names of the library. A layer is `"wet"`, the index of a dry
-//! layer from 0, the lowest, or `{"id": 3}`: its identity, which stays when layers are moved
-//! or merged. [`Action`] lists all actions.
+//! A sample is `[seconds, x, y, pressure, tilt x, tilt y, twist]`. If you leave out numbers at its
+//! end, they are 0. A palette is an object of short names, or a list, of at most eight pigments.
+//! Recipes use short names or names of the library. A layer is `"wet"`, the index of a dry layer
+//! from 0, the lowest, or `{"id": 3}`. This is its identity, which stays when you move or merge
+//! layers. [`Action`] lists all actions.
 //!
 //! With `"tool": "blend"`, `"scrape"` or `"erase"` a stroke works the wet paint with a clean head
-//! ([`StrokeTool`]), and the paint on its brush is set aside. Blending and erasing have a
+//! ([`StrokeTool`]), and we set the paint on its brush aside. Blending and erasing have a
 //! `"strength"` above 0 to 1, scraping has the `"height_mm"` of the blade over the ground:
 //! `{"stroke": {"brush": "big", "tool": "erase", "strength": 0.5, "samples": [..]}}`.
 //!
 //! `{"mask": {"polygon_mm": [[x, y], ..]}}` covers the canvas outside a polygon, as with masking
 //! film. [`MaskChange`] lists the other masks.
 //!
-//! The key `mixing` describes a palette to mix on, as a second canvas with cells of the
-//! same width. Strokes, heaps and scraping act on it with `"on": "palette"`. With `start`,
-//! the path of a painting (`.exr`), the script continues that painting: `canvas` and
-//! `palette` must agree with it, `medium` and `lighting` are left out. `"table": true` takes the
-//! palette's paint and the loads of the brushes from that file as well. Otherwise the palette
-//! begins bare and the brushes clean, whatever the file holds.
+//! The key `mixing` describes a palette on which you mix, as a second canvas with cells of the same
+//! width. Strokes, heaps and scraping act on it with `"on": "palette"`. With `start`, the path of a
+//! painting (`.exr`), the script continues that painting: `canvas` and `palette` must agree with
+//! it, `medium` and `lighting` are left out. `"table": true` takes the palette's paint and the
+//! loads of the brushes from that file as well. Otherwise the palette begins bare and the brushes
+//! clean, whatever the file holds.
 //!
-//! Scripts are untrusted input. Unknown and repeated keys, numbers out of range and files
-//! that are too long are refused with their location, and a script saves only below a
-//! folder that the caller chooses.
+//! We do not trust scripts. We refuse unknown and repeated keys, numbers out of range and files
+//! that are too long, and tell you their location. A script saves only below a folder that you
+//! choose.
 
 mod action;
 mod table;
@@ -75,8 +74,8 @@ pub(super) use table::{
 /// per dry layer: 6 GB and up.
 pub const MAX_CELLS: u64 = 1 << 26;
 
-/// Most samples of all strokes together, which take 560 MB. A pen that reports 200
-/// samples a second fills a tenth of it in an hour and a half.
+/// Most samples of all strokes together, which take 560 MB. For example, a pen that reports 200
+/// samples a second fills a tenth of this in an hour and a half.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
 /// Most actions of a script.
@@ -99,7 +98,7 @@ pub struct ValueLocation {
     pub action: Option<(usize, &'static str)>,
     /// Index of the sample in its stroke, from 0.
     pub sample: Option<usize>,
-    /// Path of the field, such as `pressure` or `canvas.cell_mm`.
+    /// Path of the field, for example `pressure` or `canvas.cell_mm`.
     pub field: String,
 }
 

@@ -29,7 +29,7 @@ pub struct StrokeScript {
     /// Title of the painting.
     #[serde(default)]
     pub title: String,
-    /// Licence of the script, such as `CC0-1.0`.
+    /// Licence of the script, for example `CC0-1.0`.
     #[serde(default)]
     pub licence: String,
     /// Size and ground of the canvas.
@@ -38,11 +38,11 @@ pub struct StrokeScript {
     /// are as wide as the canvas's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mixing: Option<Canvas>,
-    /// Path of a painting (`.exr`) to continue instead of a bare canvas. Its size, pigments,
-    /// medium and light are its own.
+    /// Path of a painting (`.exr`) that you continue instead of a bare canvas. Size, pigments,
+    /// medium and light come from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<String>,
-    /// Whether the palette with its paint and the loads of the brushes are taken from the file of
+    /// Whether you take the palette with its paint and the loads of the brushes from the file of
     /// `start` as well.
     #[serde(default, skip_serializing_if = "is_false")]
     pub table: bool,
@@ -52,7 +52,7 @@ pub struct StrokeScript {
     /// The light. Daylight from the upper left by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lighting: Option<Lighting>,
-    /// Pigment library that the script was made for: a path, or the title of a library.
+    /// Pigment library for which you made the script: a path, or the title of a library.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<String>,
     /// Pigments of the wet layer before the first action.
@@ -160,7 +160,7 @@ pub(super) enum FormatName {
     Strokes,
 }
 
-/// The version that is read and written. Serde refuses any other.
+/// The version that we read and write. Serde refuses any other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u64", into = "u64")]
 pub(super) struct FormatVersion;
@@ -207,9 +207,10 @@ pub struct SideTable {
 }
 
 impl StrokeScript {
-    /// Index of the first stroke, and name, of each brush that paints on the canvas before it was
-    /// loaded or moved over the palette, in order. Such a stroke only moves the paint that lies
-    /// there. Brushes of `kept`, which come with paint of an earlier session, are left out.
+    /// Finds the brushes that paint on the canvas before you load them or move them over the
+    /// palette. You get the index of the first such stroke and the brush's name, in order. Such a
+    /// stroke only moves the paint that lies there. We leave out brushes of `kept`, which come with
+    /// paint of an earlier session.
     #[must_use]
     pub fn unloaded_brushes(&self, kept: &BTreeSet<&str>) -> Vec<(usize, &str)> {
         let mut seen = kept.clone();
@@ -234,8 +235,8 @@ impl StrokeScript {
 }
 
 impl StrokeScript {
-    /// Checks that every number is in range and every brush is declared. Pigments are
-    /// looked up by [`StrokeScript::resolve`].
+    /// Checks that every number is in range and every brush is declared. To look up the pigments,
+    /// call [`StrokeScript::resolve`].
     ///
     /// # Errors
     /// [`ScriptError::Invalid`] with action, sample and field.
@@ -316,7 +317,6 @@ impl StrokeScript {
         Ok(())
     }
 
-    /// Limits of the script's actions.
     pub(crate) fn limits(&self) -> ActionLimits {
         ActionLimits {
             canvas_mm: self.canvas.longer_side_mm(),
@@ -390,8 +390,8 @@ impl StrokeScript {
         Self::from_json(&self.title, self.header().to_json()?.as_bytes())
     }
 
-    /// Writes the script as JSON with one action per line. Samples have four decimals, all
-    /// other numbers six significant digits. The same script gives the same bytes.
+    /// Writes the script as JSON with one action per line. Samples have four decimals, all other
+    /// numbers six significant digits. Equal scripts give equal bytes.
     ///
     /// # Errors
     /// [`ScriptError`] for values out of range (see [`StrokeScript::check`]).
@@ -403,7 +403,7 @@ impl StrokeScript {
             column: 0,
             reason: error.to_string(),
         };
-        // The actions are written one by one: as one value they would take much memory.
+        // We write the actions one by one, because they would take much memory as one value.
         let head = serde_json::to_value(self.header()).map_err(unwritable)?;
         let mut text = "{\n".to_owned();
         for (key, value) in
@@ -431,7 +431,8 @@ pub(crate) fn action_line(action: &Action) -> Result<String, serde_json::Error> 
     Ok(text)
 }
 
-/// Converts an error of the parser. If the cause is another format or version, names that.
+/// Converts an error of the parser. If the cause is another format or version, you get an error
+/// about this.
 fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     #[derive(Deserialize)]
     struct Kind {

@@ -43,16 +43,16 @@ impl StrokeScript {
         )
     }
 
-    /// The canvas before the first action, and the palette if the script has one. Numbers
-    /// are rounded to the digits of a file.
+    /// The canvas before the first action, and the palette if the script has one. We round numbers
+    /// to the digits of a file.
     ///
-    /// `start` is the painting that the script continues, if it names one. Pigments are
-    /// then those of its library, and `library` is not used.
+    /// If the script continues a painting, pass it as `start`. We then take pigments from its
+    /// library and do not use `library`.
     ///
     /// # Errors
-    /// [`ScriptStartError`] for a script that cannot be played (see
-    /// [`StrokeScript::resolve`]), for a `start` that is missing, not asked for, or of
-    /// another size or other pigments, and for a ground that cannot be made.
+    /// [`ScriptStartError`] for a script that you cannot play (see [`StrokeScript::resolve`]), for
+    /// a `start` that is missing, not asked for, or of another size or other pigments, and for a
+    /// ground that cannot be made.
     pub fn surfaces(
         &self,
         library: &PigmentLibrary,
@@ -228,12 +228,12 @@ pub struct Resolved {
 }
 
 impl StrokeScript {
-    /// Checks the script and looks its pigments up in `library`. A short name means the
-    /// pigment of the latest palette that has it.
+    /// Checks the script and looks its pigments up in `library`. If several palettes have a short
+    /// name, we take the latest.
     ///
-    /// A recipe may only name pigments of the first palette or of a palette that an
-    /// earlier action sets. Whether that palette is still set depends on what was undone,
-    /// so it is checked when the action is applied.
+    /// A recipe may only name pigments of the first palette or of a palette that an earlier action
+    /// sets. Whether this palette is still set depends on undone actions, so we check it when we
+    /// apply the action.
     ///
     /// # Errors
     /// [`ScriptError::Invalid`] for values out of range (see [`StrokeScript::check`]),
@@ -256,7 +256,6 @@ impl StrokeScript {
 /// Meaning of pigment names at one action of a script.
 #[derive(Debug)]
 pub(crate) struct PigmentNames {
-    /// Palettes set so far, with their slots.
     palettes: Vec<(PaletteSpec, Slots)>,
 }
 
@@ -270,14 +269,12 @@ impl PigmentNames {
         Ok((Self { palettes: vec![(palette.clone(), slots)] }, slots))
     }
 
-    /// Adds the palette that an action sets, if it sets one.
     pub(crate) fn add_palette_of(&mut self, action: &Action, pigments: &ActionPigments) {
         if let (Action::Palette(palette), ActionPigments::Palette(slots)) = (action, pigments) {
             self.palettes.push((palette.clone(), *slots));
         }
     }
 
-    /// Looks up the pigments that an action names.
     pub(crate) fn pigments_of(
         &self,
         at: &CheckContext,

@@ -1,10 +1,10 @@
 //! The table of actions: the numbers of each with their limits and digits, its rules, and its
 //! label.
 //!
-//! Every number is rounded to the digits of a file before it takes effect, so that a recording,
-//! which holds the rounded numbers, paints the same bits when it is played.
+//! We round every number to the digits of a file before it takes effect. A recording holds these
+//! rounded numbers, so it paints the same bits when you play it.
 //!
-//! A script saves only below the folder that its player chose.
+//! A script saves only below the folder that you choose when you play it.
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -214,8 +214,8 @@ impl Action {
         }
     }
 
-    /// The action with its numbers rounded: samples to four decimals, all others to six
-    /// significant digits. Writing and reading leaves a rounded action as it is.
+    /// This action with its numbers rounded: samples to four decimals, all others to six
+    /// significant digits. If you write and read a rounded action, it stays the same.
     #[must_use]
     pub fn rounded(&self) -> Self {
         let mut rounded = self.clone();
@@ -235,7 +235,7 @@ struct Number<'a> {
     field: Cow<'static, str>,
     value: NumberRef<'a>,
     limits: RangeInclusive<f64>,
-    /// Whether 0 is refused, although it is within the limits.
+    /// Whether we refuse 0, although it is within the limits.
     above_zero: bool,
 }
 
@@ -254,7 +254,8 @@ impl Number<'_> {
             NumberRef::Double(value) => **value,
             NumberRef::Single(value) => f64::from(**value),
         };
-        let (lowest, highest) = (*self.limits.start(), *self.limits.end());
+        let lowest = *self.limits.start();
+        let highest = *self.limits.end();
         if (lowest..=highest).contains(&value) && (value > 0.0 || !self.above_zero) {
             return Ok(());
         }
@@ -271,8 +272,7 @@ impl Number<'_> {
     }
 }
 
-/// `value` rounded to six significant digits, and never -0, which a file cannot tell
-/// from 0.
+/// `value` rounded to six significant digits. This never gives -0, which a file cannot tell from 0.
 pub(crate) fn six_digits(value: f64) -> f64 {
     digits::rounded(value) + 0.0
 }
@@ -282,7 +282,6 @@ fn number<'a>(field: &'static str, value: &'a mut f64, limits: RangeInclusive<f6
     Number { field: Cow::Borrowed(field), value, limits, above_zero: false }
 }
 
-/// A number from 0 to 1.
 fn share<'a>(field: &'static str, value: &'a mut f64) -> Number<'a> {
     number(field, value, 0.0..=1.0)
 }
@@ -339,8 +338,8 @@ pub(crate) struct ActionLimits {
 }
 
 impl ActionLimits {
-    /// Checks the numbers of an action, and that its surface exists. The names of brushes
-    /// and pigments are looked up elsewhere.
+    /// Checks the numbers of an action, and that its surface exists. We look up the names of
+    /// brushes and pigments elsewhere.
     pub(crate) fn check(&self, at: &CheckContext, action: &Action) -> Checked {
         match action {
             Action::Stroke(stroke) | Action::Cut(stroke) => return self.check_stroke(at, stroke),
@@ -420,7 +419,6 @@ fn invalid_number(at: &CheckContext, sample: &Sample, before: f64, reach_mm: f64
     at.range("twist", sample.twist_deg, -3600.0, 3600.0)
 }
 
-/// Checks the number of a tool.
 pub(crate) fn check_tool(at: &CheckContext, tool: StrokeTool) -> Checked {
     tool.check().map_err(|error| at.invalid(error.field, error.wanted, &error.found, error.hint()))
 }
@@ -452,7 +450,6 @@ fn shortened(text: &str) -> String {
     format!("{}{more}", start.escape_debug())
 }
 
-/// Checks the width of a brush head in mm.
 pub(crate) fn check_size(at: &CheckContext, field: &str, size_mm: f64) -> Checked {
     at.range(field, size_mm, 0.2, 100.0)
 }
@@ -494,7 +491,6 @@ fn check_light_names(at: &CheckContext, prefix: &str, lighting: &Lighting) -> Ch
     Ok(())
 }
 
-/// Checks the medium of a script.
 pub(super) fn check_medium(medium: &Medium) -> Checked {
     let at = CheckContext::default();
     at.range("medium.scattering_per_mm", medium.scattering_per_mm, 1e-3, 1e6)?;
@@ -527,9 +523,9 @@ fn check_recipe(at: &CheckContext, recipe: &Recipe, vehicle: f64) -> Checked {
     Ok(())
 }
 
-/// `None` if a script may save to `path`, else a description of the paths allowed. A path
-/// is relative, at most 255 bytes long, without `..`, hidden names, names of Windows
-/// devices and characters that Windows forbids, and ends in `.exr` or `.png`.
+/// Returns `None` if a script may save to `path`, else a description of the paths allowed. A path
+/// is relative, at most 255 bytes long, without `..`, hidden names, names of Windows devices and
+/// characters that Windows forbids, and ends in `.exr` or `.png`.
 pub(super) fn violation(path: &str) -> Option<&'static str> {
     if path.len() > 255 {
         return Some("a path of at most 255 bytes");
@@ -567,19 +563,18 @@ fn layer_name(layer: LayerRef, dry: &[DryLayerState]) -> String {
     found.map_or_else(|| layer_label(id, ""), DryLayerState::label)
 }
 
-/// Where a stroke is, if not on the canvas.
+/// Names the surface of a stroke, if it is not the canvas.
 fn place(on: SurfaceId) -> &'static str {
     if on.is_canvas() { "" } else { " on the palette" }
 }
 
-/// Result of a check.
 pub(crate) type Checked = Result<(), Box<InvalidValue>>;
 
 /// Action and sample that are being checked.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct CheckContext {
-    /// Index of the action from 0, and its key. `None` for the header of a script and for
-    /// an action that is in no script.
+    /// Index of the action from 0, and its key. For the header of a script and for an action
+    /// outside a script, this is `None`.
     action: Option<(usize, &'static str)>,
     sample: Option<usize>,
 }
@@ -614,7 +609,6 @@ impl CheckContext {
         })
     }
 
-    /// Checks that `value` lies in `lowest..=highest`.
     pub(crate) fn range(&self, field: &str, value: f64, lowest: f64, highest: f64) -> Checked {
         if (lowest..=highest).contains(&value) {
             return Ok(());
@@ -624,7 +618,6 @@ impl CheckContext {
         Err(self.invalid(field, &format!("{lowest} to {highest}"), &found, None))
     }
 
-    /// Checks that `value` is above 0.
     pub(super) fn above_zero(&self, field: &str, value: f64) -> Checked {
         if value > 0.0 { Ok(()) } else { Err(self.invalid(field, "above 0", &value, None)) }
     }

@@ -1,9 +1,9 @@
 //! Timelapse of a script: its canvas at chosen moments, as GIF, animated PNG, or a folder of
 //! frames.
 //!
-//! A [`Timelapse`] is the plan of the moments. [`Timelapse::play`] plays the script and hands out
-//! the frames. [`Timelapse::write`] keeps them in a folder, from which an interrupted run
-//! continues, and joins them to one file. The same script gives the same frames.
+//! A [`Timelapse`] plans the moments. [`Timelapse::play`] plays the script and hands you the
+//! frames. [`Timelapse::write`] keeps them in a folder and joins them to one file. If you interrupt
+//! it, it continues from this folder. One script always gives the same frames.
 
 #[cfg(test)]
 mod tests;
@@ -29,16 +29,17 @@ use crate::strokes::{Action, ScriptError, Squeeze, Stroke, StrokeScript, Surface
 /// Most frames of a timelapse.
 const MOST_FRAMES: usize = 100_000;
 
-/// How often a frame is taken.
+/// How often you take a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Interval {
     /// After every so many actions that change the canvas, from 1.
     Actions(usize),
-    /// After every so many seconds of painting: the time that strokes on the canvas took, without
-    /// pauses and without mixing on the palette. 0.01 to 86,400.
+    /// After every so many seconds of painting, 0.01 to 86,400. We count the time of strokes on the
+    /// canvas, without pauses and without mixing on the palette.
     Seconds(f64),
-    /// So many frames in all, 2 and up, spread evenly over the painting time, or over the actions
-    /// if no stroke took time. There are fewer if so many moments differ by no sample.
+    /// So many frames in all, 2 and up. We spread them evenly over the painting time, or over the
+    /// actions if the strokes did not take time. You get fewer if some moments do not differ by a
+    /// sample.
     Frames(usize),
 }
 
@@ -47,9 +48,10 @@ pub enum Interval {
 pub struct TimelapseSettings {
     /// How often a frame is taken. The first frame shows the start, the last one the end.
     pub interval: Interval,
-    /// Longest side of a frame in pixels, 16 to 16,384. A canvas with fewer cells keeps them.
+    /// Longest side of a frame in pixels, 16 to 16,384. If the canvas has fewer cells, you get
+    /// these.
     pub longest_px: usize,
-    /// Whether passages that were undone later are shown. They are painted in any case.
+    /// Whether you see passages that were undone later. We paint them in any case.
     pub with_undone: bool,
 }
 
@@ -86,8 +88,8 @@ impl TimelapseSettings {
     }
 }
 
-/// Which actions change the canvas and are shown: all, or those that are left at the end. An
-/// action that was undone is left if it was done again.
+/// Returns which actions change the canvas and are shown: all, or those that are left at the end.
+/// If an action was undone and then done again, it is left.
 fn shown(actions: &[Action], with_undone: bool) -> Vec<bool> {
     let changes = actions.iter().map(changes_canvas);
     if with_undone {
@@ -136,7 +138,7 @@ fn changes_canvas(action: &Action) -> bool {
     }
 }
 
-/// A moment of a script: before the action `action`, or within it, if it is a stroke, after
+/// A moment of a script: before the action `action`, or, if this is a stroke, within it after
 /// `samples` of its samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Moment {
@@ -216,7 +218,7 @@ fn seconds(sample: Option<&Sample>) -> f64 {
     sample.map_or(0.0, |sample| sample.seconds)
 }
 
-/// A script and the moments of its timelapse.
+/// A script and the moments of its timelapse. For example, this takes a frame after each action:
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -276,11 +278,11 @@ impl<'a> Timelapse<'a> {
         reduced_size((bounds.width, bounds.height), self.settings.longest_px)
     }
 
-    /// Plays the script on `session`, which must be as the script begins (see
-    /// [`StrokeScript::surfaces`]), up to the last of the frames `wanted` (indices from 0,
-    /// rising), and calls `put` with each of them. Files that the script saves are not written.
-    /// Before each action `step` is called with the share of the script that is played, 0 to 1, and
-    /// can end the play.
+    /// Plays the script on `session` up to the last of the frames `wanted` (indices from 0,
+    /// rising), and calls `put` with each of them. You must pass a session in the state in which
+    /// the script begins (see [`StrokeScript::surfaces`]). This does not write the files that the
+    /// script saves. Before each action it calls `step` with the share of the script that it has
+    /// played, 0 to 1. If you return a break from `step`, the play ends.
     ///
     /// # Errors
     /// [`TimelapseError`] if the script is invalid or the session refuses an action, and the
@@ -367,8 +369,8 @@ impl<P: FnMut(usize, Frame) -> Result<(), TimelapseError>> Taking<'_, P> {
         Ok(())
     }
 
-    /// Paints the stroke that is action `index`, and takes the frames within it. Painted in pieces
-    /// it equals the whole stroke to the bit.
+    /// Paints the stroke that is action `index`, and takes the frames within it. If we paint it in
+    /// pieces, it equals the whole stroke to the bit.
     fn paint(
         &mut self,
         session: &mut PaintingSession,
@@ -400,13 +402,13 @@ const PLAYING: f64 = 0.9;
 /// Files of a timelapse.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimelapseFiles {
-    /// The file of all frames and its format. `None` writes frames only.
+    /// The file of all frames and its format. If you pass `None`, you only get frames.
     pub animation: Option<(PathBuf, AnimationFormat)>,
-    /// Folder of the frames. Frames of the same script and settings are kept from an interrupted
-    /// run. See [`Sequence`].
+    /// Folder of the frames. After an interrupted run, we keep its frames if script and settings
+    /// agree. See [`Sequence`].
     pub frames: PathBuf,
-    /// Whether the frames stay once the animation is written or the work is ended. If the program
-    /// itself is ended they stay in any case.
+    /// Whether the frames stay once we have written the animation or you end the work. If you kill
+    /// the program itself, they stay in any case.
     pub keep_frames: bool,
     /// Frames a second.
     pub rate: FrameRate,
@@ -431,10 +433,10 @@ impl TimelapseFiles {
 }
 
 impl Timelapse<'_> {
-    /// Plays the script on `session`, which must be as the script begins, and writes the files.
-    /// `report` is told the share that is done, 0 to 1, and can end the work. Frames that stayed
-    /// from an earlier run are not taken again. Returns how many did, or `None` if the work was
-    /// ended.
+    /// Plays the script on `session` and writes the files. You must pass a session in the state in
+    /// which the script begins. This calls `report` with the share that is done, 0 to 1, and
+    /// `report` can end the work. If frames stayed from an earlier run, we do not take them again.
+    /// You get their number, or `None` if `report` ended the work.
     ///
     /// # Errors
     /// [`TimelapseError`] if the script cannot be played, or a file cannot be written.
@@ -479,7 +481,7 @@ impl Timelapse<'_> {
         digest.update(self.script.to_json()?);
         digest.update(format!("{:?}", self.settings));
         digest.update(session.canvas().library().to_json());
-        // Light is computed in f32, which differs between backends.
+        // We compute light in f32, which differs between backends.
         digest.update(session.canvas().backend());
         if self.script.start.is_some() {
             digest.update(crate::file::write(&session.canvas_mut().document()?)?);

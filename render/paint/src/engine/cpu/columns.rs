@@ -1,7 +1,7 @@
-//! Paint as the processor stores it: columns with their volume beside them, sparse dry layers,
-//! tiles saved for undo, and the paint on a head.
+//! The processor stores paint here: columns with their volume beside them, sparse dry layers, tiles
+//! saved for undo, and the paint on a head.
 //!
-//! The volume of every cell is stored, so that the penetration of the head need not sum the
+//! We store the volume of every cell, so that the penetration of the head need not sum the
 //! pigments.
 
 use graphics::field::Field;
@@ -18,7 +18,7 @@ pub(super) struct Columns {
 
 impl Columns {
     pub(super) fn new(layer: Layer) -> Self {
-        // Memory of zeros is only taken where it is written.
+        // The system only takes memory of zeros where we write to it.
         let mut volume = vec![0; layer.vehicle.values().len()];
         for (index, volume) in volume.iter_mut().enumerate() {
             let found = layer.cell(index).volume();
@@ -33,12 +33,11 @@ impl Columns {
         &self.layer
     }
 
-    /// Width in cells.
     pub(super) fn width(&self) -> usize {
         self.layer.width()
     }
 
-    /// Copies the paint in `rect`. Tiles without paint are not copied, so that the memory of a
+    /// Copies the paint in `rect`. We do not copy tiles without paint, so that the memory of a
     /// large canvas with little paint stays small.
     ///
     /// # Panics
@@ -64,7 +63,6 @@ impl Columns {
         part
     }
 
-    /// Volume of each cell in quanta, row by row.
     pub(super) fn volume(&self) -> &[u32] {
         &self.volume
     }
@@ -80,8 +78,8 @@ impl Columns {
         self.volume[index] = cell.volume();
     }
 
-    /// Replaces the cells under `part`, whose upper left cell goes to column `x` of row `y`. Where
-    /// neither has paint, nothing is written, so that no memory is taken there.
+    /// Replaces the cells under `part`. Its upper left cell goes to column `x` of row `y`. Where
+    /// neither has paint, we write nothing, so that this does not take memory.
     pub(super) fn put(&mut self, (x, y): (usize, usize), part: &Layer) {
         let width = self.layer.width();
         let pigments = self.layer.pigments.values_mut();
@@ -119,7 +117,7 @@ impl Columns {
     }
 }
 
-/// Consecutive rows of a canvas, to be changed by one thread.
+/// Consecutive rows of a canvas. One thread changes them.
 #[derive(Debug)]
 pub(super) struct Rows<'a> {
     first: usize,
@@ -168,18 +166,16 @@ pub(super) struct Row<'a> {
     pub(super) volume: &'a mut [u32],
 }
 
-/// A layer stored by tiles. Tiles without paint are not stored.
+/// A layer stored by tiles. We do not store tiles without paint.
 #[derive(Debug, Clone)]
 pub(super) struct SparseLayer {
     bounds: Rect,
-    /// Number of tiles in a row of tiles.
     tile_columns: usize,
     /// Row by row. `None` without paint.
     tiles: Vec<Option<Layer>>,
 }
 
 impl SparseLayer {
-    /// A layer without paint over `bounds`.
     pub(super) fn empty(bounds: Rect) -> Self {
         let tile_columns = bounds.width.div_ceil(TILE);
         let tiles = vec![None; tile_columns * bounds.height.div_ceil(TILE)];
@@ -194,7 +190,6 @@ impl SparseLayer {
         sparse
     }
 
-    /// The paint in `rect`, which must lie within the bounds.
     pub(super) fn part(&self, rect: Rect) -> Layer {
         let mut layer = Layer::empty(rect.width, rect.height);
         let mut covered = TileSet::default();
@@ -227,8 +222,8 @@ impl SparseLayer {
         self.tiles[tile.row * self.tile_columns + tile.column] = painted.then_some(part);
     }
 
-    /// Sets each cell of `heights` to `change(height, volume)`, with the volume of
-    /// this layer's paint in that cell. Cells of tiles without paint are left alone.
+    /// Sets each cell of `heights` to `change(height, volume)`, with the volume of this layer's
+    /// paint in that cell. We leave cells of tiles without paint alone.
     pub(super) fn for_each_column(
         &self,
         heights: &mut Field<i32>,
@@ -247,8 +242,8 @@ impl SparseLayer {
     }
 }
 
-/// Paint of a tile, one list of amounts for each slot and, last, for the vehicle. A list without
-/// paint is left out.
+/// Paint of a tile, one list of amounts for each slot and, last, for the vehicle. We leave out a
+/// list without paint.
 #[derive(Debug, Clone)]
 pub(super) struct SavedTile {
     width: usize,
@@ -257,7 +252,6 @@ pub(super) struct SavedTile {
 }
 
 impl SavedTile {
-    /// Keeps the paint of a tile.
     pub(super) fn of(paint: &Layer) -> Self {
         let totals = paint.totals();
         let amounts = std::array::from_fn(|slot| {
@@ -269,12 +263,10 @@ impl SavedTile {
         Self { width: paint.width(), height: paint.height(), amounts }
     }
 
-    /// Columns and rows of cells.
     pub(super) fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
-    /// The paint in the cell with this index, counted row by row.
     pub(super) fn cell(&self, index: usize) -> Cell {
         let amount = |slot: usize| self.amounts[slot].as_ref().map_or(0, |list| list[index]);
         Cell { pigments: std::array::from_fn(amount), vehicle: amount(SLOTS) }

@@ -1,10 +1,10 @@
 //! The paint engine on the processor, using all cores.
 //!
-//! The result does not depend on the number of threads. Memory per cell of the canvas: 44 bytes
-//! (wet paint 36, its volume 4, floor 4), of which the first 40 are taken only where there was
-//! paint. The ground takes 4 more once paint is dry. Each view that has been rendered takes 4, and
-//! 32 for each of its cells in tiles with dry paint. A dry layer takes 36 bytes for each cell of
-//! its painted tiles.
+//! The result does not depend on the number of threads. This takes 44 bytes of memory per cell of
+//! the canvas: 36 for wet paint, 4 for its volume, 4 for the floor. The system takes the first 40
+//! only where there was paint. The ground takes 4 more once you dry paint. Each view that you
+//! render takes 4, and 32 for each of its cells in tiles with dry paint. A dry layer takes 36 bytes
+//! for each cell of its painted tiles.
 
 mod columns;
 mod penetration;
@@ -33,21 +33,19 @@ use penetration::{Bed, Below};
 use render::{PaintLayers, RenderedView};
 use sub_steps::SubStepRunner;
 
-/// The paint of one painting in the machine's memory. Used through
+/// The paint of one painting in the machine's memory. You use this through
 /// [`PaintEngine`](crate::engine::PaintEngine), which documents its operations.
 #[derive(Debug)]
 pub struct CpuPaint {
     /// Height of the ground in quanta.
     ground: Arc<Field<i32>>,
-    /// Height of ground and dry paint in quanta. Shared with `ground` until paint dries.
+    /// Height of ground and dry paint in quanta. Until paint dries, this shares its memory with
+    /// `ground`.
     floor: Arc<Field<i32>>,
     wet: Columns,
-    /// Surface before the stroke.
     bed: Bed,
-    /// Covered cells, if any are.
     mask: Option<Mask>,
     brushes: Vec<HeadPaint>,
-    /// Dry layers, lowest first.
     dry: Vec<SparseLayer>,
     saved_tiles: Vec<Option<SavedTile>>,
     /// One for each [`View`], by its number.

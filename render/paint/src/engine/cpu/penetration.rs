@@ -1,8 +1,8 @@
-//! The field of pressure under and around the head during one sub-step: steps 1 and 2 of the
-//! specification in [`crate::motion`], row by row.
+//! The field of pressure under and around the head during one sub-step. This is steps 1 and 2 of
+//! the specification in [`crate::motion`], row by row.
 //!
-//! A head that lies across the rows fills little of the rectangle around it, so each row is worked
-//! on only between its ends. The surface below the wet paint comes block by block from
+//! A head that lies across the rows fills little of the rectangle around it, so we work on each row
+//! only between its ends. The surface below the wet paint comes block by block from
 //! [`crate::motion::bed`].
 
 use std::ops::Range;
@@ -19,34 +19,33 @@ use crate::motion::press::{
     CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration, pressure,
 };
 
-/// Cells on every side of the reach that repeat the nearest cell of the reach, so that flows
-/// need no bounds checks.
+/// Number of cells on every side of the reach that repeat its nearest cell, so that flows need not
+/// check bounds.
 const RIM: usize = 2;
 
-/// Tops, penetrations and pressures in quanta over the reach of a contact and a rim around it,
-/// where there is no contact.
+/// Tops, penetrations and pressures in quanta over the reach of a contact and a rim around it. The
+/// rim does not have contact.
 #[derive(Debug, Default)]
 pub(super) struct PenetrationMap {
     reach: Rect,
     tops: Vec<i32>,
     penetrations: Vec<i32>,
     pressures: Vec<i32>,
-    /// Columns in contact.
     contact: Spans,
     /// Columns that may move.
     moving: Spans,
     /// Columns that paint may leave or reach.
     changing: Spans,
-    /// Columns whose tops are computed, as flows depend on them.
+    /// Columns with tops that we compute because flows depend on them.
     seen: Spans,
-    /// Coats in quanta of the cells in contact, with the same rim, undefined elsewhere.
+    /// Coats in quanta of the cells in contact, with such a rim too. Elsewhere they are undefined.
     coats: Vec<u32>,
     /// Heights in quanta of the bed of one row of the contact.
     bed: Vec<i32>,
     /// Mean volumes of the hair over the cells of one row of the contact.
     means: Vec<u32>,
-    /// Whether each column is crowded or covered, with the same rim. Empty if none is, which is
-    /// nearly always so without a mask.
+    /// Whether each column is crowded or covered, with such a rim too. If none is, this is empty,
+    /// which is nearly always so without a mask.
     crowded: Vec<bool>,
 }
 
@@ -109,7 +108,7 @@ impl PenetrationMap {
         wet: &Columns,
         head: &HeadPaint,
     ) {
-        // A copy, which the loop need not load again after each store.
+        // We copy this, so that the loop need not load it again after each store.
         let rect = contact.rect;
         let rates = contact.rates;
         let Below { floor, bed, mask } = below;
@@ -133,7 +132,7 @@ impl PenetrationMap {
             let found = &mut self.penetrations[start..][..count];
             let coats = &mut self.coats[start..][..count];
             let inputs = touches.iter().zip(paint).zip(&*heights).zip(&*means);
-            // Without branches, so that it is compiled to vector instructions.
+            // This does not branch, so that the compiler makes vector instructions of it.
             for ((here, covered), (((&touch, paint), &bed), &mean)) in
                 found.iter_mut().zip(coats).zip(inputs)
             {
@@ -165,7 +164,7 @@ impl PenetrationMap {
         }
     }
 
-    /// Computes the tops of the columns that are seen, and of the rim beside them.
+    /// Computes the tops of the columns that we need, and of the rim beside them.
     #[inline(always)]
     fn find_tops(&mut self, floor: &Field<i32>, wet: &Columns) {
         let reach = self.reach;
@@ -174,7 +173,8 @@ impl PenetrationMap {
             let columns = self.seen.of(y);
             let volume = &wet.volume()[y * floor.width()..][columns.clone()];
             let floor = floor.row(y, columns.start, columns.len());
-            let (start, from) = (self.start(y), columns.start.saturating_sub(reach.x));
+            let start = self.start(y);
+            let from = columns.start.saturating_sub(reach.x);
             let tops = &mut self.tops[start - RIM..][..row];
             let inner = &mut tops[RIM + from..][..columns.len()];
             for ((top, &floor), &volume) in inner.iter_mut().zip(floor).zip(volume) {
@@ -217,8 +217,8 @@ impl PenetrationMap {
         joined(&self.moving.of(y.wrapping_sub(1)), &self.moving.of(y))
     }
 
-    /// Sets all bits of `found` for each of the cells of row `y` from `x` on that, or a neighbour
-    /// of which, is in contact, and none for the others.
+    /// Sets all bits of `found` for each cell of row `y` from `x` on that is in contact or has a
+    /// neighbour in contact. The others get none.
     #[inline(always)]
     pub(super) fn near_contact(&self, (x, y): (usize, usize), found: &mut [u32]) {
         let row = self.row_length();
@@ -241,8 +241,7 @@ impl PenetrationMap {
         }
     }
 
-    /// Finds the columns that do not move and that nothing flows to: those that are crowded or
-    /// covered.
+    /// Finds the columns that do not move and that nothing flows to. These are crowded or covered.
     #[inline(always)]
     fn find_crowded(&mut self, wet: &Columns, mask: Option<&Mask>) {
         let reach = self.reach;
@@ -270,8 +269,8 @@ impl PenetrationMap {
         !self.crowded.is_empty()
     }
 
-    /// Step 2: applies [`avoid_crowded_columns`] to the velocity of a cell. Some column is
-    /// crowded.
+    /// Step 2: applies [`avoid_crowded_columns`] to the velocity of a cell. Use this only if some
+    /// column is crowded.
     #[inline(always)]
     pub(super) fn avoid_crowded(&self, (x, y): (usize, usize), velocity: (i32, i32)) -> (i32, i32) {
         let row = self.row_length() as isize;
@@ -285,7 +284,7 @@ impl PenetrationMap {
         self.reach.width + 2 * RIM
     }
 
-    /// Index of the reach's first cell in row `y`. The rows of the rim are allowed too.
+    /// Index of the reach's first cell in row `y`. You may also pass the rows of the rim.
     #[inline(always)]
     fn start(&self, y: usize) -> usize {
         (y + RIM - self.reach.y) * self.row_length() + RIM
@@ -362,7 +361,6 @@ fn highest(volumes: &[u32]) -> u32 {
 /// none.
 #[derive(Debug, Default)]
 pub(super) struct Spans {
-    /// First row.
     first: usize,
     ranges: Vec<Range<usize>>,
 }
@@ -375,7 +373,6 @@ impl Spans {
         self.ranges.resize(reach.height, 0..0);
     }
 
-    /// The rows.
     pub(super) fn rows(&self) -> Range<usize> {
         self.first..self.first + self.ranges.len()
     }
@@ -400,8 +397,8 @@ impl Spans {
         }
     }
 
-    /// Sets each span to the columns within `limit` that have a neighbour in `inner`, be it aside,
-    /// above, below or diagonal, and those between them.
+    /// Sets each span to the columns within `limit` that have a neighbour in `inner` (beside,
+    /// above, below or diagonal), and to the columns between them.
     pub(super) fn surround(&mut self, inner: &Self, limit: Rect) {
         for y in limit.y..limit.y + limit.height {
             let near =
@@ -434,7 +431,7 @@ pub(super) struct Bed {
 }
 
 impl Bed {
-    /// A bed over `bounds` that was never noted.
+    /// A bed over `bounds` before you record any of it.
     pub(super) fn unknown(bounds: Rect) -> Self {
         let width = bounds.width.div_ceil(BLOCK);
         let height = bounds.height.div_ceil(BLOCK);
@@ -480,7 +477,6 @@ impl Bed {
         }
     }
 
-    /// Height in quanta at a cell.
     #[cfg(test)]
     pub(super) fn at(&self, cell: (usize, usize)) -> i32 {
         let mut height = [0];
@@ -489,14 +485,11 @@ impl Bed {
     }
 }
 
-/// Floor, bed and mask of a canvas.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Below<'a> {
     /// Height of ground and dry paint in quanta.
     pub(super) floor: &'a Field<i32>,
-    /// Surface before the stroke.
     pub(super) bed: &'a Bed,
-    /// Covered cells. `None` if all are open.
     pub(super) mask: Option<&'a Mask>,
 }
 

@@ -1,7 +1,7 @@
-//! Rendering on the processor: the reflectance of ground and dry layers is baked, and where a
-//! picture is read, the wet paint is composited over it and shaded.
+//! Rendering on the processor. We bake the reflectance of ground and dry layers. When you read a
+//! picture, we composite the wet paint over this and shade it.
 //!
-//! The baked reflectance is stored only where there is dry paint. Everywhere else it is the
+//! We store the baked reflectance only where there is dry paint. Everywhere else it is the
 //! ground's.
 
 use std::ops::Range;
@@ -23,7 +23,6 @@ pub(super) struct PaintLayers<'a> {
     /// Height of ground and dry paint, in quanta.
     pub(super) floor: &'a Field<i32>,
     pub(super) wet: &'a Columns,
-    /// Dry layers, lowest first.
     pub(super) dry: &'a [SparseLayer],
 }
 
@@ -33,17 +32,15 @@ pub(super) struct PaintLayers<'a> {
 pub(super) struct RenderedView {
     /// The scene of the last rendering. `None` before the first.
     scene: Option<Scene>,
-    /// Internal reflectance of ground and dry layers.
     baked: BakedTiles,
-    /// Height of the surface.
     tops: Tops,
 }
 
 const BLACK: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 impl RenderedView {
-    /// Bakes the tiles of `baked`, and takes over the surface of these and of `shown`. Distributed
-    /// over all cores.
+    /// Bakes the tiles of `baked`, and takes over the surface of these and of `shown`. This uses
+    /// all cores.
     pub(super) fn render(
         &mut self,
         scene: &Scene,
@@ -69,7 +66,7 @@ impl RenderedView {
         let (Some(highest), Some(lowest)) = (both.iter().next(), both.iter().last()) else {
             return;
         };
-        // Only rows between the first and the last tile are visited.
+        // We visit only rows between the first and the last tile.
         let first = highest.row * TILE;
         let end = ((lowest.row + 1) * TILE).min(bounds.height);
         let spans = spans(&both, bounds);
@@ -81,8 +78,8 @@ impl RenderedView {
         );
     }
 
-    /// The picture in `rect`: linear sRGB, with 1 as the fourth component. Black before the first
-    /// rendering. Rows are distributed over all cores.
+    /// The picture in `rect`: linear sRGB, with 1 as the fourth component. Before the first
+    /// rendering it is black. This distributes rows over all cores.
     pub(super) fn picture_in(&self, layers: &PaintLayers<'_>, rect: Rect) -> Field<[f32; 4]> {
         let mut picture = Field::filled(rect.width, rect.height, BLACK);
         let Some(scene) = self.scene.as_ref().filter(|_| !rect.is_empty()) else { return picture };
@@ -122,8 +119,7 @@ impl RenderedView {
     }
 }
 
-/// The ranges of cell columns that `tiles` cover, for each row of tiles. Adjacent
-/// tiles are merged.
+/// The ranges of cell columns that `tiles` cover, for each row of tiles. We merge adjacent tiles.
 fn spans(tiles: &TileSet, bounds: Rect) -> Vec<Vec<Range<usize>>> {
     let mut rows: Vec<Vec<Range<usize>>> = vec![Vec::new(); bounds.height.div_ceil(TILE)];
     for tile in tiles.iter() {
@@ -150,9 +146,7 @@ type TileReflectance = Vec<[f32; NODES]>;
 /// Baked reflectances by tile.
 #[derive(Debug, Default)]
 pub(super) struct BakedTiles {
-    /// Width of the canvas in cells.
     width: usize,
-    /// Number of tiles in a row of tiles.
     tile_columns: usize,
     /// Row by row. `None` without dry paint.
     tiles: Vec<Option<TileReflectance>>,
@@ -181,7 +175,7 @@ impl BakedTiles {
     }
 
     /// Copies the reflectances of row `y` from column `x` on to `row`, where there is dry paint.
-    /// Other cells of `row` are left alone.
+    /// This leaves other cells of `row` alone.
     pub(super) fn copy_row(&self, y: usize, x: usize, row: &mut [[f32; NODES]]) {
         let end = x + row.len();
         for column in x / TILE..end.div_ceil(TILE) {

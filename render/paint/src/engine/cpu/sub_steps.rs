@@ -1,7 +1,7 @@
-//! Runs sub-steps in order, each on as many threads as suit the size of its contact.
+//! Runs sub-steps in order, each on the number of threads that suits the size of its contact.
 //!
 //! Each thread moves some rows of the contact. The transfers between a row and the head above it
-//! are step 4 of the specification in [`crate::motion`]. Their loop has no branches, so that the
+//! are step 4 of the specification in [`crate::motion`]. Their loop does not branch, so that the
 //! compiler makes vector instructions of it.
 
 use std::ops::Range;
@@ -19,15 +19,15 @@ use crate::layer::Cell;
 use crate::motion::MotionConstants;
 use crate::motion::transfer::{Exchange, exchange, leaving};
 
-/// Minimum number of cells of a contact's reach per thread: a contact of 26 x 26 cells
-/// stays on one thread, one of 88 x 88 cells may use three.
+/// Minimum number of cells of a contact's reach per thread. For example, a contact of 26 x 26 cells
+/// stays on one thread, and one of 88 x 88 cells may use three.
 const CELLS_PER_BAND: usize = 2500;
 
 /// [`CELLS_PER_BAND`] on a machine with two threads. Its second thread bends the head most of the
-/// time, so on small contacts waiting for it takes longer than doing the work alone.
+/// time. On small contacts you would wait for it longer than the work takes alone.
 const CELLS_PER_BAND_OF_TWO: usize = 12_500;
 
-/// Runs sub-steps. Holds their buffers, so that no sub-step allocates.
+/// Runs sub-steps. This holds their buffers, so that sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct SubStepRunner {
     penetration: PenetrationMap,
@@ -35,7 +35,7 @@ pub(super) struct SubStepRunner {
     wick: Wick,
 }
 
-/// Number of bands that a reach is cut into, one thread each.
+/// Number of bands into which we cut a reach, one thread each.
 fn band_count(reach: Rect) -> usize {
     let threads = rayon::current_num_threads();
     let cells = if threads > 2 { CELLS_PER_BAND } else { CELLS_PER_BAND_OF_TWO };
@@ -75,7 +75,7 @@ impl SubStepRunner {
                 }
             }
         };
-        // Enter the thread pool once for all sub-steps rather than once for each.
+        // We enter the thread pool once for all sub-steps rather than once for each.
         if contacts.iter().any(|contact| band_count(contact.rect) > 1) {
             rayon::scope(|_| all());
         } else {
@@ -141,8 +141,8 @@ fn on_each_band(
     );
 }
 
-// The work that pulp compiles once per instruction set. It is not in closures, as their
-// shims are not inlined, and only inlined code is compiled for each instruction set.
+// pulp compiles this work once per instruction set. It is not in closures: the compiler does not
+// inline their shims, and it compiles only inlined code for each instruction set.
 
 struct MeasurePenetration<'a> {
     penetration: &'a mut PenetrationMap,
@@ -223,18 +223,17 @@ impl WithSimd for AddBrushGains<'_> {
     }
 }
 
-/// Rows of the canvas and the buffers of the thread that works on them. Buffers are
-/// all zero between sub-steps and are reused, so that no sub-step allocates.
+/// Rows of the canvas and the buffers of the thread that works on them. Buffers are all zero
+/// between sub-steps. We reuse them, so that sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct Band {
-    /// Rows of the canvas.
     pub(super) rows: Range<usize>,
     /// Paint that flows into these rows and into one row above and below.
     inflow: Inflow,
     /// Paint that each cell of the head gains from this band, modulo 2^32.
     gains: Cells,
-    /// Indices of the head's cells that may gain or lose paint, possibly repeated or beyond the
-    /// head.
+    /// Indices of the head's cells that may gain or lose paint. An index may occur several times or
+    /// lie beyond the head.
     changed: Vec<u32>,
     velocities: Velocities,
     exchanges: Exchanges,
@@ -248,8 +247,8 @@ impl Band {
         self.gains.grow(brush_cells);
     }
 
-    /// Steps 2 and 3 of the specification. Paint that flows in is added later, by
-    /// [`Band::add_inflow_and_transfer`].
+    /// Steps 2 and 3 of the specification. [`Band::add_inflow_and_transfer`] adds the paint that
+    /// flows in later.
     #[inline(always)]
     pub(super) fn advect(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
         self.velocities.begin(step, self.rows.start);
@@ -264,14 +263,14 @@ impl Band {
         }
     }
 
-    /// Moves the inflow that this band and the band `below` computed for each other's
-    /// border rows to the band that owns the row.
+    /// This band and the band `below` compute inflow for each other's border rows. This moves it to
+    /// the band that owns the row.
     pub(super) fn exchange_border_rows(&mut self, below: &mut Self) {
         self.inflow.exchange_border_rows(&mut below.inflow);
     }
 
-    /// The rest of step 3, and step 4 for the canvas. The head's cells are changed
-    /// later, by [`Band::add_brush_gains`].
+    /// The rest of step 3, and step 4 for the canvas. [`Band::add_brush_gains`] changes the head's
+    /// cells later.
     #[inline(always)]
     pub(super) fn add_inflow_and_transfer(&mut self, step: &SubStep<'_>, rows: &mut Rows<'_>) {
         for y in self.rows.clone() {
@@ -294,7 +293,7 @@ impl Band {
         self.exchanges.of_row(step, row.volume, y);
         let head = step.head.cells.layer();
         let cells = head.vehicle.values().len();
-        // Slices of one length, so that one check of an index is enough.
+        // We give the slices one length, so that one check of an index is enough.
         let above = (&head.pigments.values()[..cells], &head.vehicle.values()[..cells]);
         let gains = (&mut self.gains.pigments[..cells], &mut self.gains.vehicle[..cells]);
         let touches = step.touches(y);
@@ -330,7 +329,7 @@ impl Band {
     }
 }
 
-/// Exchanges of one row after another. Holds its buffers, so that no sub-step allocates.
+/// Exchanges of one row after another. This holds its buffers, so that sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct Exchanges {
     /// One for each cell in contact of a row, and those between them.
@@ -363,7 +362,7 @@ impl Exchanges {
         self.found.resize(columns.len(), Exchange { down: 0, up: 0 });
         let penetrations = step.penetration.row(y, columns.start, columns.len());
         let coats = step.penetration.coats(y, columns.start, columns.len());
-        // A copy, which the loop need not load again after each store.
+        // We copy this, so that the loop need not load it again after each store.
         let rates = step.contact.rates;
         let heads = penetrations.iter().zip(coats);
         let volumes = volumes.iter().zip(&self.brush_volumes).zip(&self.leaving);

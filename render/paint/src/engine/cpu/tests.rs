@@ -1,6 +1,6 @@
-//! Tests of the paint engine on the processor: sub-steps with random contacts against a slow
-//! reference written from the specification in [`crate::motion`], drying, layers, undo and
-//! rendering.
+//! Tests of the paint engine on the processor. We check sub-steps with random contacts against a
+//! slow reference, which we wrote from the specification in [`crate::motion`], and also drying,
+//! layers, undo and rendering.
 
 use graphics::field::Field;
 use graphics::tile::{Rect, Tile, TileSet};
@@ -541,7 +541,7 @@ pub(super) fn sub_step(
     };
     let column =
         |x: i64, y: i64| Column { top: top(x, y), pressure: pressure(motion, pressed(x, y)) };
-    // Flow from the cell at `(x, y)` to that one step on.
+    // Flow from the cell at `(x, y)` to the cell one step further.
     let flow_from = |x: i64, y: i64, (right, down): (i64, i64)| -> i32 {
         let next = column(x + right, y + down);
         let before = top(x - right, y - down);

@@ -1,7 +1,7 @@
 //! Velocities of the paint of one row (step 2 of the specification in [`crate::motion`]) and the
 //! paint that flows into the rows of a band (step 3).
 //!
-//! The loops have no branches, so that the compiler makes vector instructions of them.
+//! The loops do not branch, so that the compiler makes vector instructions of them.
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ use crate::motion::MotionConstants;
 use crate::motion::advect::{mobile_share, outflow};
 use crate::motion::press::{dragged, velocity};
 
-/// Velocities of one row after another. Holds its buffers, so that no sub-step allocates.
+/// Velocities of one row after another. This holds its buffers, so that sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct Velocities {
     /// Along x and y in 1/16384 cell a sub-step.
@@ -30,7 +30,7 @@ pub(super) struct Velocities {
     pub(super) beside: Vec<i32>,
     pub(super) below: Vec<i32>,
     touches: Vec<Touch>,
-    /// All bits set for each cell that, or a neighbour of which, is in contact, else 0.
+    /// All bits are set for each cell that is in contact or has a neighbour in contact, else 0.
     near: Vec<u32>,
     /// Flows over the left sides of the cells of the row and over the right side of its last.
     in_x: Vec<i32>,
@@ -49,8 +49,8 @@ impl Velocities {
         self.flow_in_y(step, first, 0);
     }
 
-    /// Computes the velocities of the cells of row `y` that may move. `volumes` holds the
-    /// heights of its columns in quanta. The row before it was the one above.
+    /// Computes the velocities of the cells of row `y` that may move. `volumes` holds the heights
+    /// of its columns in quanta. You must have called this for the row above just before.
     #[inline(always)]
     pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
         let columns = step.penetration.moving(y);
@@ -75,7 +75,7 @@ impl Velocities {
         let Self { x, mobile, near, touches, in_x, in_y: [above, below], .. } = self;
         step.penetration.flows_in_x(step.motion, (columns.start, y), in_x);
         let depths = step.penetration.row(y, columns.start, columns.len());
-        // Copies, which the loop need not load again after each store.
+        // We copy these, so that the loop need not load them again after each store.
         let rates = step.contact.rates;
         let motion = *step.motion;
         let from = columns.start - step.reach.x;
@@ -181,8 +181,8 @@ impl SubStep<'_> {
     }
 }
 
-/// Amounts in quanta by cell, modulo 2^32. Pigments and vehicle lie apart, as in a layer, so that
-/// the amounts of a cell take one vector and one number.
+/// Amounts in quanta by cell, modulo 2^32. We keep pigments and vehicle apart, as in a layer, so
+/// that the amounts of a cell take one vector and one number.
 #[derive(Debug, Default)]
 pub(super) struct Cells {
     pub(super) pigments: Vec<[u32; SLOTS]>,
@@ -197,7 +197,7 @@ impl Cells {
         self.vehicle.resize(count, 0);
     }
 
-    /// Removes the paint of a cell. `None` if there is no such cell.
+    /// Removes the paint of a cell. If there is no such cell, you get `None`.
     #[inline(always)]
     pub(super) fn take(&mut self, at: usize) -> Option<Cell> {
         let pigments = self.pigments.get_mut(at)?;
@@ -206,8 +206,8 @@ impl Cells {
     }
 }
 
-/// Paint by cell, row by row. None between sub-steps. Holds its buffers, so that no sub-step
-/// allocates.
+/// Paint by cell, row by row. Between sub-steps there is none. This holds its buffers, so that
+/// sub-steps do not allocate.
 #[derive(Debug, Default)]
 pub(super) struct Inflow {
     width: usize,
@@ -227,13 +227,12 @@ impl Inflow {
         self.flows.resize(rows, false);
     }
 
-    /// Whether paint flows into or out of row `y`.
     pub(super) fn has_flow(&self, y: usize) -> bool {
         self.flows[y]
     }
 
-    /// Takes what leaves the columns of `row` and adds it to the cells that it reaches. The first
-    /// column lies at column `x` of row `y`, which is neither the first row nor the last.
+    /// Takes the paint that leaves the columns of `row` and adds it to the cells that it reaches.
+    /// The first column lies at column `x` of row `y`, which is neither the first row nor the last.
     #[inline(always)]
     pub(super) fn scatter(
         &mut self,
@@ -299,8 +298,9 @@ impl Inflow {
         }
     }
 
-    /// Moves what flows into the last row of this band and the first of the band `below`, but was
-    /// computed by the other one, to the band that owns the row. Each band has a row of the other.
+    /// Each band has a row of the other. This band computes paint that flows into the first row of
+    /// the band `below`, and that band computes paint for the last row of this one. This moves the
+    /// paint to the band that owns the row.
     pub(super) fn exchange_border_rows(&mut self, below: &mut Self) {
         let last = self.flows.len() - 2;
         let beyond = self.flows.len() - 1;
@@ -310,7 +310,6 @@ impl Inflow {
         below.take_row(1, self, beyond);
     }
 
-    /// Moves row `from` of `other` to row `to`.
     fn take_row(&mut self, to: usize, other: &mut Self, from: usize) {
         let width = self.width;
         for x in 0..width {
@@ -343,7 +342,6 @@ impl Inflow {
     }
 }
 
-/// Sum of `pigments` and the pigments of `more`.
 #[inline(always)]
 fn sum(pigments: &[u32; SLOTS], more: &Cell) -> [u32; SLOTS] {
     more.plus(&Cell { pigments: *pigments, vehicle: 0 }).pigments

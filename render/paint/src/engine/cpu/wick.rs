@@ -21,14 +21,14 @@ struct Group {
 
 const BARE: Group = Group { columns: 0, mean: 0, lacks: 0, pot: EMPTY, rest: EMPTY, last: 0 };
 
-/// Figures of the columns of cells that take part, by column. Their loops have no branches, so that
-/// they are compiled to vector instructions.
+/// Figures of the columns of cells that take part, by column. Their loops do not branch, so that
+/// the compiler makes vector instructions of them.
 #[derive(Debug, Default)]
 struct Columns {
     /// Place of the column in a row of cells.
     places: Vec<usize>,
     group_of: Vec<usize>,
-    /// Volume of its cells, or what they lack, in units.
+    /// Volume of its cells, or the volume that they lack, in units.
     sums: Vec<u32>,
     /// Index of the last row with a cell that lacks paint.
     last: Vec<u32>,
@@ -38,12 +38,13 @@ struct Columns {
     lacks: Vec<u32>,
     /// Volumes in quanta of all cells, row by row.
     volumes: Vec<u32>,
-    /// Shares in parts of 65536 of the cells of one row that are given, or of the pot that they
-    /// get.
+    /// For the cells of one row, in parts of 65536: the share that a cell gives, or the share of
+    /// the pot that it gets.
     shares: Vec<u32>,
 }
 
-/// Lets paint flow along and between hairs. Holds its buffers, so that no sub-step allocates.
+/// Lets paint flow along and between hairs. This holds its buffers, so that sub-steps do not
+/// allocate.
 #[derive(Debug, Default)]
 pub(super) struct Wick {
     groups: Vec<Group>,
@@ -71,8 +72,8 @@ impl Wick {
         self.deal(rows(), &mut head.cells);
     }
 
-    /// Finds the mean of each group, and notes it for the coat. `rows` are the indices of the first
-    /// cells of the rows.
+    /// Finds the mean of each group, and stores it for the coat. `rows` are the indices of the
+    /// first cells of the rows.
     #[inline(always)]
     fn level(&mut self, rows: impl Iterator<Item = usize> + Clone, head: &mut HeadPaint) {
         let Self { groups, columns } = self;
@@ -137,7 +138,8 @@ impl Wick {
         lacks.extend(group_of.iter().map(|&group| groups[group].lacks));
     }
 
-    /// Moves a share of what cells have beyond the mean to the pots of their groups.
+    /// Where cells have more than the mean, this moves a share of the surplus to the pots of their
+    /// groups.
     #[inline(always)]
     fn give(&mut self, wicking: Wicking, rows: impl Iterator<Item = usize>, brush: &mut Paint) {
         let Self { groups, columns } = self;

@@ -1,4 +1,4 @@
-//! The buffers that hold paint on the device, and copies to and from them.
+//! The buffers that hold paint on the device. You copy paint to and from them here.
 
 use crate::layer::{Layer, SLOTS};
 use crate::motion::bed::{BLOCK, NO_BED};
@@ -9,7 +9,7 @@ use graphics::tile::Rect;
 /// Bytes of a cell's pigment amounts.
 pub(super) const PIGMENT_BYTES: u64 = 4 * SLOTS as u64;
 
-/// A layer of paint on the device. The handles are cheap to clone.
+/// A layer of paint on the device. You can clone the handles cheaply.
 #[derive(Debug, Clone)]
 pub(super) struct PaintBuffers {
     /// Eight u32 amounts per cell, by slot.
@@ -19,7 +19,7 @@ pub(super) struct PaintBuffers {
 }
 
 impl PaintBuffers {
-    /// Allocates `cells` cells without paint. `label` names them in errors.
+    /// Allocates `cells` cells without paint. You see `label` in errors.
     pub(super) fn empty(
         device: &Device,
         label: &'static str,
@@ -59,10 +59,8 @@ impl PaintBuffers {
     }
 }
 
-/// The paint on the head of a brush.
 #[derive(Debug)]
 pub(super) struct BrushBuffers {
-    /// Width and height in cells.
     pub(super) size: (usize, usize),
     /// The buffer of the vehicle also holds the mean of each cell's hair, after all vehicle.
     pub(super) paint: PaintBuffers,
@@ -130,7 +128,7 @@ pub(super) fn mask_start(canvas: Rect) -> usize {
     canvas.width * canvas.height + blocks
 }
 
-/// The buffer of the floor, of a bed that was never noted, and of a mask.
+/// The buffer of the floor, of a bed before you record any of it, and of a mask.
 pub(super) fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
     let cells = floor.values().len();
     let mask = mask_start(floor.bounds());

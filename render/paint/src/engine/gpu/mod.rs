@@ -1,7 +1,7 @@
-//! The paint engine on a graphics device. All paint stays in the device's memory and is copied back
-//! only when it is read.
+//! The paint engine on a graphics device. All paint stays in the device's memory, and we copy it
+//! back only when you read it.
 //!
-//! Calls are recorded and submitted together, when enough have gathered or when something is read.
+//! We record calls and submit them together, when enough have gathered or when you read something.
 
 mod buffers;
 mod sub_step;
@@ -27,31 +27,29 @@ use sub_step::{
     check_contact,
 };
 
-/// A recording is submitted when it holds this many bytes or commands: often enough
-/// to keep the device busy and to bound the memory of waiting commands.
+/// We submit a recording when it holds this many bytes or commands. This is often enough to keep
+/// the device busy and to bound the memory of waiting commands.
 const SUBMIT_BYTES: usize = 16 << 20;
 const SUBMIT_COMMANDS: usize = 512;
 
-/// Minimum number of cells that the buffers of a sub-step are allocated for.
+/// Minimum number of cells for which we allocate the buffers of a sub-step.
 const MIN_SUB_STEP_CELLS: usize = 1 << 14;
 
-/// The paint of one painting on a graphics device. Used through
+/// The paint of one painting on a graphics device. You use this through
 /// [`PaintEngine`](crate::engine::PaintEngine), which documents its operations.
 #[derive(Debug)]
 pub struct GpuPaint {
     device: Device,
     bounds: Rect,
-    /// Commands that were not submitted yet.
     recording: Recording,
     wet: PaintBuffers,
     /// Height of ground and dry paint of each cell in quanta, then the bed of all blocks (see
     /// [`crate::motion::bed`]), then the bits of the mask.
     floor: Buffer,
-    /// First: where the mask begins in `floor`, 0 without a mask.
+    /// First: index at which the mask begins in `floor`. Without a mask this is 0.
     mask: [u32; 4],
     brushes: Vec<BrushBuffers>,
     sub_step: SubStepBuffers,
-    /// Dry layers, lowest first.
     dry: Vec<PaintBuffers>,
     undo_tiles: UndoTiles,
     tops: Tops,
@@ -59,8 +57,8 @@ pub struct GpuPaint {
     views: [Option<ViewBuffers>; 2],
 }
 
-/// Number of cells of the largest canvas that one buffer of `adapter` can hold. The
-/// device's memory may be exhausted before.
+/// Number of cells of the largest canvas that one buffer of `adapter` can hold. You may run out of
+/// the device's memory before this.
 #[must_use]
 pub fn max_canvas_cells(adapter: &Adapter) -> u64 {
     adapter.limits.binding_bytes / PIGMENT_BYTES
@@ -71,7 +69,7 @@ impl GpuPaint {
     pub(crate) fn new(mut device: Device, floor: &Field<i32>) -> Result<Self, DeviceError> {
         let bounds = floor.bounds();
         let cells = bounds.width * bounds.height;
-        // The largest of all buffers, checked before any is allocated.
+        // This is the largest of all buffers, so we check it before we allocate any.
         device.check_size("the canvas", PIGMENT_BYTES * cells as u64)?;
         Ok(Self {
             bounds,
@@ -307,7 +305,7 @@ impl GpuPaint {
         self.tops.change(region);
         let cells = region.width * region.height;
         if self.sub_step.cells < cells {
-            // 1.5 times what is needed, so that a growing contact seldom reallocates.
+            // We take 1.5 times the size, so that a growing contact seldom reallocates.
             let cells = (cells * 3 / 2).max(MIN_SUB_STEP_CELLS);
             self.sub_step = SubStepBuffers::new(&self.device, cells)?;
         }
@@ -390,7 +388,7 @@ impl GpuPaint {
         PaintBuffers::empty(&self.device, "a dry layer", cells)
     }
 
-    /// The buffers of a view, allocated when first asked for.
+    /// The buffers of a view. We allocate them when you first ask for them.
     fn view_buffers(&mut self, view: View) -> Result<ViewBuffers, DeviceError> {
         if let Some(buffers) = &self.views[view as usize] {
             return Ok(buffers.clone());
@@ -406,7 +404,6 @@ fn as_u32(rect: Rect) -> [u32; 4] {
 }
 
 impl GpuPaint {
-    /// Covers cells of the canvas, or none.
     pub(crate) fn set_mask(&mut self, mask: Option<&Mask>) -> Result<(), DeviceError> {
         self.submit()?;
         let Some(mask) = mask else {
@@ -421,7 +418,7 @@ impl GpuPaint {
     }
 }
 
-/// Every kernel that painting on a device runs, for tests that validate them.
+/// Every kernel that painting on a device runs. Tests validate them.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
     vec![

@@ -1,8 +1,9 @@
-//! Rendering on the device: dry layers are baked, the wet layer is composited over them and shaded.
+//! Rendering on the device: we bake dry layers, composite the wet layer over them and shade the
+//! result.
 //!
 //! These are twins of [`crate::composite`] and [`crate::shade`] in f32. Tests state how close the
-//! two backends agree. Shading reads the heights of the surface around every cell. They are
-//! computed again only where the paint changed, and serve all views.
+//! two backends agree. Shading reads the heights of the surface around every cell. We compute them
+//! again only where the paint changed, and use them for all views.
 
 use graphics::gpu::{Buffer, Device, DeviceError, Kernel, Layout, Recording, Storage, layout};
 use graphics::tile::{Rect, TILE, TileSet};
@@ -34,9 +35,7 @@ struct BakeParams {
     layer: LayerOptics,
     /// Internal reflectance of the ground.
     ground: [f32; NODES],
-    /// Width and height of the canvas in cells.
     canvas: [u32; 2],
-    /// Index of the first tile in the batch.
     first_tile: u32,
     padding: u32,
 }
@@ -76,9 +75,7 @@ struct ShowParams {
     rgb_from_nodes: [[f32; 4]; NODES],
     surface: SurfaceParams,
     lamp: LampParams,
-    /// Width and height of the canvas in cells.
     canvas: [u32; 2],
-    /// Index of the first tile in the batch.
     first_tile: u32,
     padding: u32,
 }
@@ -164,16 +161,14 @@ pub(super) static SHOW: Kernel = Kernel {
 /// The layers of the canvas, as rendering reads them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CanvasBuffers<'a> {
-    /// Width and height in cells.
     pub(super) size: [u32; 2],
     pub(super) wet: &'a PaintBuffers,
     /// Height of the surface of each cell in quanta.
     pub(super) tops: &'a Buffer,
-    /// Dry layers, lowest first.
     pub(super) dry: &'a [PaintBuffers],
 }
 
-/// The buffers of one view. The handles are cheap to clone.
+/// The buffers of one view. You can clone the handles cheaply.
 #[derive(Debug, Clone)]
 pub(super) struct ViewBuffers {
     /// Internal reflectance of ground and dry layers at the eight wavelengths.
@@ -324,9 +319,7 @@ pub(super) fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct RaiseParams {
-    /// Width and height of the canvas in cells.
     canvas: [u32; 2],
-    /// Index of the first tile in the batch.
     first_tile: u32,
     padding: u32,
 }
@@ -350,30 +343,29 @@ const PARAMS: Layout = layout!(RaiseParams { canvas, first_tile, padding });
 #[derive(Debug)]
 pub(super) struct Tops {
     bounds: Rect,
-    /// Allocated when first rendered.
+    /// We allocate this at the first rendering.
     heights: Option<Buffer>,
-    /// Tiles whose paint changed since their heights were computed.
+    /// Tiles with paint that changed since we computed their heights.
     stale: TileSet,
 }
 
 impl Tops {
-    /// Heights of a canvas of `bounds`, none of which is computed yet.
+    /// Heights of a canvas of `bounds`. None is computed yet.
     pub(super) fn new(bounds: Rect) -> Self {
         Self { bounds, heights: None, stale: TileSet::all(bounds) }
     }
 
-    /// Notes that the paint in `rect` changes.
+    /// Marks the paint in `rect` as changing.
     pub(super) fn change(&mut self, rect: Rect) {
         self.stale.insert(rect);
     }
 
-    /// Notes that the paint may change everywhere.
     pub(super) fn change_all(&mut self) {
         self.stale = TileSet::all(self.bounds);
     }
 
     /// Records the computation of changed heights from wet paint and floor, and returns all
-    /// heights. The handle is cheap to clone.
+    /// heights. You can clone this handle cheaply.
     pub(super) fn record(
         &mut self,
         device: &Device,

@@ -1,7 +1,7 @@
 //! Kernels that change the paint on the device: a sub-step, drying, and tiles saved for undo.
 //!
 //! A sub-step is four kernels over the contact grown by 2 cells, and one along the hair of the
-//! head. They compute the same as [`crate::motion`], bit for bit.
+//! head. You get equal bits from these and from [`crate::motion`].
 
 use graphics::gpu::{Device, DeviceError, Kernel, Layout, Storage, layout};
 use graphics::tile::{Rect, TILE};
@@ -18,13 +18,10 @@ pub(super) struct SubStepParams {
     pub(super) rates: ExchangeRates,
     /// The contact's rectangle grown by 2 within the canvas.
     pub(super) region: [u32; 4],
-    /// The contact's rectangle.
     pub(super) contact: [u32; 4],
-    /// Width and height of the canvas in cells.
     pub(super) canvas: [u32; 2],
     /// Index of the contact's first touch in the batch.
     pub(super) first_touch: u32,
-    /// Number of cells of the head.
     pub(super) brush_cells: u32,
     /// First: index of the mask's first word in the buffer of the floor, 0 without a mask.
     pub(super) mask: [u32; 4],
@@ -131,12 +128,11 @@ pub(super) static TRANSFER: Kernel = Kernel {
 pub(super) struct BedParams {
     /// x, y, width and height in cells of the canvas.
     pub(super) tile: [u32; 4],
-    /// Width and height of the canvas in cells.
     pub(super) canvas: [u32; 2],
     pub(super) padding: [u32; 2],
 }
 
-/// Notes the surface of the paint in a tile as the bed of a stroke.
+/// Records the surface of the paint in a tile as the bed of a stroke.
 pub(super) static NOTE_BED: Kernel = Kernel {
     name: "note_bed",
     source: concat!(
@@ -153,11 +149,9 @@ pub(super) static NOTE_BED: Kernel = Kernel {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct WickParams {
-    /// Width and height of the head in cells.
     pub(super) size: [u32; 2],
     /// Share of each surplus that moves, in parts of 65536.
     pub(super) wicking: u32,
-    /// First row that takes part.
     pub(super) first_row: u32,
     /// Number of hairs in a group.
     pub(super) hairs: u32,
@@ -165,7 +159,7 @@ pub(super) struct WickParams {
     pub(super) shift: u32,
     /// Number of flows in which all groups have their turn.
     pub(super) turns: u32,
-    /// Which of them this is.
+    /// Number of this flow among them.
     pub(super) turn: u32,
 }
 
@@ -197,7 +191,6 @@ pub(super) fn check_contact(contact: &Contact, bounds: Rect, brush_cells: u32) {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct DryParams {
-    /// Width and height of the canvas in cells.
     pub(super) canvas: [u32; 2],
     /// Share of the wet paint that dries, in parts of 65536.
     pub(super) share: u32,
@@ -233,7 +226,6 @@ pub(super) static MOVE_FLOOR: Kernel = Kernel {
     storage: STORAGE,
 };
 
-/// Number of cells of a tile.
 const TILE_CELLS: usize = TILE * TILE;
 
 /// Number of tiles in one block of memory.
@@ -245,7 +237,6 @@ const TILES_PER_BLOCK: usize = 64;
 pub(super) struct UndoTileParams {
     /// x, y, width and height in cells of the canvas.
     pub(super) tile: [u32; 4],
-    /// Width and height of the canvas in cells.
     pub(super) canvas: [u32; 2],
     /// Index of the slot's first cell in its block.
     pub(super) first_cell: u32,
@@ -266,15 +257,15 @@ pub(super) static UNDO_TILE: Kernel = Kernel {
     storage: &[Storage::Write; 4],
 };
 
-/// Memory for saved tiles, allocated in blocks as slots come into use.
+/// Memory for saved tiles. We allocate it in blocks when you first use a slot.
 #[derive(Debug, Default)]
 pub(super) struct UndoTiles {
     blocks: Vec<PaintBuffers>,
 }
 
 impl UndoTiles {
-    /// The block that holds slot number `slot`, and the index of the slot's first cell
-    /// in it. Allocates the block if needed.
+    /// The block that holds slot number `slot`, and the index of the slot's first cell in it. This
+    /// allocates the block if needed.
     pub(super) fn place(
         &mut self,
         device: &Device,

@@ -1,10 +1,10 @@
-// Computes the paint of every cell after advection: its own minus what flows out, plus
-// what flows in from its eight neighbours.
+// Computes the paint of every cell after advection: its own minus the part that flows out, plus the
+// parts that flow in from its eight neighbours.
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> pigments: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> vehicle: array<u32>;
-// x: velocity, packed as in `Touch`; y: mobile share in parts of 65536.
+// x: velocity, packed as in `Touch`. y: mobile share in parts of 65536.
 @group(0) @binding(3) var<storage, read> flow_in: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read_write> moved: array<Cell>;
 
@@ -30,8 +30,8 @@ fn advect_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     for (var i = 0; i < 9; i++) {
         let direction = vec2(i % 3, i / 3) - vec2(1);
-        // Left of or above the region the difference wraps to a large number, which lies
-        // outside as well.
+        // Left of or above the region this difference wraps to a large number, which lies outside
+        // as well.
         let source = id.xy - vec2<u32>(direction);
         if i == 4 || any(source >= params.region.zw) {
             continue;

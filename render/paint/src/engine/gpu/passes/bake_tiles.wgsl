@@ -4,9 +4,7 @@ struct BakeParams {
     layer: LayerOptics,
     // Internal reflectance of the ground.
     ground: array<vec4<f32>, 2>,
-    // Width and height in cells.
     canvas: vec2<u32>,
-    // Index of the first tile in the batch.
     first_tile: u32,
     padding: u32,
 }
@@ -57,8 +55,8 @@ fn write(cell: BakedCell) {
     }
 }
 
-// Composites one dry layer over what is baked; four cells of a column of a tile, for the reason
-// told at `show_tiles`.
+// Composites one dry layer over the baked reflectance. Each invocation computes four cells of a
+// column of a tile. You find the reason at `show_tiles`.
 @compute @workgroup_size(64)
 fn bake_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = 64u * tiles[params.first_tile + id.z] + id.xy;

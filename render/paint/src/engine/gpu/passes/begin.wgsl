@@ -1,5 +1,5 @@
-// Computes the state at the start of a sub-step: penetration and volume of every cell,
-// and a copy of the head's cell above it.
+// Computes the state at the start of a sub-step: penetration and volume of every cell, and a copy
+// of the head's cell above it.
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
@@ -64,7 +64,7 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let volume_quanta = bitcast<i32>(wet);
     let top = floor_height[i] + volume_quanta;
-    // Nothing flows to or from a crowded column, so that is what a covered one is.
+    // Nothing flows to or from a crowded column, so we treat a covered one in this way.
     let seen = select(volume_quanta, bitcast<i32>(MAX_COLUMN), is_covered);
     depths[place] = vec4(depth, seen, top, bitcast<i32>(coat_quanta));
 }

@@ -1,7 +1,6 @@
 // Drying, and the floor's rise and fall with dry layers.
 
 struct DryParams {
-    // Width and height in cells.
     canvas: vec2<u32>,
     // Share of the wet paint that dries, in parts of 65536.
     share: u32,
@@ -35,7 +34,7 @@ fn dry_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     floor_height[i] += params.rise * bitcast<i32>(volume(dried));
 }
 
-// Raises or lowers the floor by a layer that exists already.
+// Raises or lowers the floor by an existing layer.
 @compute @workgroup_size(8, 8)
 fn move_floor(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= params.canvas) {

@@ -1,9 +1,9 @@
-// Notes the surface of the paint in a tile as the bed of a stroke. Each invocation notes a block.
+// Records the surface of the paint in a tile as the bed of a stroke. Each invocation records a
+// block.
 
 struct BedParams {
     // x, y, width, height in cells.
     tile: vec4<u32>,
-    // Width and height in cells.
     canvas: vec2<u32>,
     padding: vec2<u32>,
 }

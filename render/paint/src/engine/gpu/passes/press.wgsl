@@ -4,8 +4,8 @@
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
 // x: penetration, y: volume, z: top, w: coat.
 @group(0) @binding(2) var<storage, read> depths: array<vec4<i32>>;
-// x: velocity, packed as in `Touch`; y: mobile share in parts of 65536. Either both are 0
-// or neither is.
+// x: velocity, packed as in `Touch`. y: mobile share in parts of 65536. Either both are 0 or
+// neither is.
 @group(0) @binding(3) var<storage, read_write> flow_out: array<vec2<u32>>;
 
 // Top and penetration of the cell at `place`, or of the nearest cell of the region.
@@ -30,8 +30,8 @@ fn crowded(place: vec2<u32>, offset: vec2<i32>) -> bool {
     return bitcast<u32>(depths[there.y * params.region.z + there.x].y) > CROWDED_VOLUME;
 }
 
-// Twin of `avoid_crowded_columns` in press.rs. Only cells of the contact grown by 1
-// move, so all neighbours asked for lie within the region.
+// This is the twin of `avoid_crowded_columns` in press.rs. Only cells of the contact grown by 1
+// move, so all neighbours that we read lie within the region.
 fn avoid_crowded_columns(place: vec2<u32>, velocity: vec2<i32>) -> vec2<i32> {
     var allowed = velocity;
     if crowded(place, vec2(0)) {

@@ -1,9 +1,7 @@
 // Adds up the heights of floor and wet paint, which shading reads around every cell.
 
 struct RaiseParams {
-    // Width and height in cells.
     canvas: vec2<u32>,
-    // Index of the first tile in the batch.
     first_tile: u32,
     padding: u32,
 }

@@ -6,9 +6,7 @@ struct ShowParams {
     rgb_from_nodes: array<vec4<f32>, 8>,
     surface: SurfaceParams,
     lamp: LampParams,
-    // Width and height in cells.
     canvas: vec2<u32>,
-    // Index of the first tile in the batch.
     first_tile: u32,
     padding: u32,
 }
@@ -61,8 +59,8 @@ fn write(cell: LevelCell) {
     }
 }
 
-// Shows four cells of a column of a tile. A software device loads the uniforms once for all
-// four, which takes longer than their arithmetic; so no branch may divide the four.
+// Shows four cells of a column of a tile. A software device loads the uniforms once for all four,
+// and this takes longer than their arithmetic, so we do not let a branch divide the four.
 @compute @workgroup_size(64)
 fn show_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = 64u * tiles[params.first_tile + id.z] + vec2(id.x, 4u * id.y);

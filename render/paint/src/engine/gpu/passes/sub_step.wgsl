@@ -1,6 +1,6 @@
-// Uniforms and indices of one sub-step; twin of `SubStepParams` in ../sub_step.rs.
-// Rectangles are x, y, width, height in cells; `place` is a cell relative to the
-// region's upper left corner.
+// Uniforms and indices of one sub-step. This is the twin of `SubStepParams` in ../sub_step.rs.
+// Rectangles are x, y, width, height in cells. `place` is a cell relative to the region's upper
+// left corner.
 
 struct SubStepParams {
     motion: MotionConstants,
@@ -8,11 +8,9 @@ struct SubStepParams {
     // The contact's rectangle grown by 2: all cells that may change.
     region: vec4<u32>,
     contact: vec4<u32>,
-    // Width and height in cells.
     canvas: vec2<u32>,
     // Index of the contact's first touch in the batch.
     first_touch: u32,
-    // Number of cells of the head.
     brush_cells: u32,
     // x: index of the mask's first word in the buffer of the floor, 0 without a mask.
     mask: vec4<u32>,
@@ -23,8 +21,8 @@ fn canvas_index(place: vec2<u32>) -> u32 {
     return at.y * params.canvas.x + at.x;
 }
 
-// To the left of or above the contact the difference wraps to a large number, which
-// lies outside as well.
+// To the left of or above the contact this difference wraps to a large number, which lies outside
+// as well.
 fn within_contact(place: vec2<u32>) -> bool {
     return all(params.region.xy + place - params.contact.xy < params.contact.zw);
 }

@@ -1,6 +1,6 @@
-// Transfers paint between canvas and head, and writes every cell of the region back to
-// the canvas. A cell of the head is changed by atomic additions modulo 2^32, so the order
-// of its exchanges does not matter.
+// Transfers paint between canvas and head, and writes every cell of the region back to the canvas.
+// We change a cell of the head by atomic additions modulo 2^32, so the order of its exchanges does
+// not matter.
 
 @group(0) @binding(0) var<uniform> params: SubStepParams;
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;

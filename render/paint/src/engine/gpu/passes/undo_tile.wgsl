@@ -1,9 +1,7 @@
 // Saves the wet paint of a tile for undo, or swaps it with the saved paint.
 
 struct UndoTileParams {
-    // x, y, width, height in cells.
     tile: vec4<u32>,
-    // Width and height in cells.
     canvas: vec2<u32>,
     // Index of the slot's first cell in its block.
     first_cell: u32,
