@@ -242,7 +242,6 @@ impl MatchOptions {
     }
 }
 
-/// Finds every pigment of `names`.
 pub(super) fn find_all(
     library: &PigmentLibrary,
     names: &[String],
