@@ -79,7 +79,7 @@ fn refined_at_the_papers_size(bencher: Bencher<'_, '_>, smoothness: &str) {
     bencher.bench_local(|| fit_refined(black_box(&problem), &weights, how, &task));
 }
 
-/// 60 pigments, 2000 mixtures and 401 wavelengths: all that a workshop may ever measure.
+/// 60 pigments, 2000 mixtures and 401 wavelengths: more than you will ever measure in a workshop.
 #[divan::bench(sample_count = 1, sample_size = 1)]
 fn refined_of_a_large_set(bencher: Bencher<'_, '_>) {
     let grid = Grid::from_nm(380.0, 1.0, 401).expect("a grid");

@@ -1,4 +1,5 @@
-//! Calibration from absolute amounts: series of amounts and glazes of watercolour on one known backing.
+//! Calibration from absolute amounts: you paint series of amounts and glazes of watercolour on one known
+//! backing.
 
 use documents::Task;
 use rand::SeedableRng;
@@ -21,7 +22,8 @@ use pigment::PigmentId;
 use pigment::evaluate::{Viewing, delta_e};
 use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
 
-/// Collects every film of `set` that lies on a backing with known reflectance.
+/// Collects every film of `set` that lies on a backing with known reflectance. Use this before
+/// [`fit_finite`].
 ///
 /// # Errors
 /// [`MeasurementError::NoBareBacking`] for the first film on a backing without a bare reading,
@@ -66,8 +68,8 @@ pub fn films(set: &SwatchSet) -> Result<FiniteProblem, MeasurementError> {
 /// Fits K and S per unit of amount by [`fit_finite`].
 ///
 /// # Errors
-/// [`CalibrationError`] if readings cannot be used, the fit fails or `task` was cancelled. Readings below
-/// the surface's own reflection are treated as `settings` say.
+/// [`CalibrationError`] if readings cannot be used, the fit fails or `task` was cancelled. `settings` say
+/// how we treat readings below the surface's own reflection.
 pub fn calibrate_absolute(
     set: &SwatchSet,
     film: UnevenFilm,
@@ -136,7 +138,7 @@ fn measured_amounts(problem: &FiniteProblem, pigment: PigmentId) -> Option<[f64;
     })
 }
 
-/// Pigments for which less than half of the information on S comes from the films.
+/// Pigments for which less than half of our information on S comes from the films.
 fn undetermined(fit: &Refined) -> Vec<PigmentId> {
     let known = fit.scattering_known.iter().enumerate();
     known.filter(|(_, share)| **share < HALF_KNOWN).map(|(pigment, _)| PigmentId(pigment)).collect()
@@ -144,13 +146,13 @@ fn undetermined(fit: &Refined) -> Vec<PigmentId> {
 
 /// Chooses the film model that predicts unseen films best.
 ///
-/// First k2, the share of diffuse light that the surface reflects back inside, is chosen from 0, 0.3 and
-/// 0.6 (k1 stays as given), then the unevenness of the films from 0, 0.25 and 0.5. The score of a model
-/// is its mean CIEDE2000 in five-fold cross-validation over seeded folds. Another model replaces the
-/// current one only if its score is lower by more than 3 %. With fewer than 20 films the plain model (0
-/// and 0) is returned without a test. The chosen k2 serves prediction only. It does not measure the
-/// surface, because unevenness has a similar effect. `task` counts the fits, of
-/// which there are [`CHOICE_FITS`].
+/// We first choose k2, the share of diffuse light that the surface reflects back inside, from 0, 0.3 and
+/// 0.6 (k1 stays as given). Then we choose the unevenness of the films from 0, 0.25 and 0.5. The score of a
+/// model is its mean CIEDE2000 in five-fold cross-validation over seeded folds. We replace the current
+/// model only if the score of another one is lower by more than 3 %. With fewer than 20 films you get the
+/// plain model (0 and 0) without a test. Use the chosen k2 for prediction only. It does not measure the
+/// surface, because unevenness has a similar effect. `task` counts the fits, of which there are
+/// [`CHOICE_FITS`].
 ///
 /// # Errors
 /// [`FitError`] from any fit, or if `task` was cancelled.
@@ -203,14 +205,12 @@ pub fn chosen_film(
 
 /// Number of fits that [`chosen_film`] makes: five models with five folds each.
 pub const CHOICE_FITS: usize = 5 * FOLDS;
-/// Number of folds of the cross-validation.
 const FOLDS: usize = 5;
-/// Another model replaces the current one if its score is below this fraction of the current score
-/// (chosen by eye).
+/// We replace a model only if the other one's score is below this fraction of its own (chosen by eye).
 const LEAST_GAIN: f64 = 0.97;
-/// Fraction of information on S from the films below which S is called undetermined (chosen by eye).
+/// We call S undetermined if less than this fraction of the information on it comes from the films (chosen
+/// by eye).
 const HALF_KNOWN: f64 = 0.5;
-/// Seed of the folds.
 const FOLD_SEED: u64 = 2004;
 
 pub(crate) fn errors(

@@ -1,4 +1,4 @@
-//! The main job: from swatches to a pigment library with its evidence.
+//! From swatches to a pigment library with its evidence. Call this if you have swatches already.
 
 use documents::Task;
 use documents::hint::{Explain, Fault, Hint};
@@ -24,20 +24,20 @@ use pigment::{Curves, PigmentId, Recipe};
 pub struct Calibration {
     /// Fitted library. Title, licence, source and inputs are empty.
     pub library: PigmentLibrary,
-    /// Swatches as the fit used them, in order of the file, or empty for absolute amounts.
+    /// Swatches as the fit used them, in order of the file. Empty for absolute amounts.
     pub observations: Vec<Observation>,
     /// Rank and condition of the equations, or `None` for absolute amounts.
     pub condition: Option<Condition>,
-    /// Estimates of noise and smoothness that a leave-one-out fit may reuse.
+    /// Estimates of noise and smoothness. You may reuse them in a leave-one-out fit.
     pub state: Option<RefinedState>,
 }
 
 /// Fits K and S of every pigment of `set`, with S relative to the S of `reference`.
 ///
-/// Colour errors in the evidence are CIEDE2000 under `viewing`, between the colour of each swatch's K/S
-/// in a film that hides and the colour of the fitted mixture. Samples with a pigment that the data do not
-/// identify are used neither for the fit nor for its errors. A pigment known only from a masstone gets
-/// its K/S with S = 1, marked as not identified. One without a masstone is left out.
+/// The evidence states colour errors in CIEDE2000 under `viewing`. We compare the colour of each swatch's
+/// K/S in a film that hides with the colour of the fitted mixture. If the data do not identify a pigment,
+/// we use its samples neither for the fit nor for its errors. If you have only a masstone of this pigment,
+/// it gets its K/S with S = 1 and a mark that it is not identified. Without a masstone we leave it out.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used, the fit fails or `task` was cancelled.
@@ -92,9 +92,8 @@ pub fn calibrate(
 
 /// K and S by any method, with their standard deviations.
 pub(crate) struct Solution {
-    /// K and S by pigment.
     pub(crate) curves: Vec<Curves>,
-    /// Standard deviations of K and S by pigment, or `None` if they were not requested.
+    /// Standard deviations of K and S by pigment. `None` if you did not request them.
     deviations: Option<Vec<Curves>>,
     state: Option<RefinedState>,
 }
@@ -125,7 +124,6 @@ pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) 
     }
 }
 
-/// Solves `problem` by `method`.
 pub(crate) fn solve(
     problem: &Problem,
     method: Method,
@@ -141,7 +139,7 @@ pub(crate) fn solve(
         Method::Qp => plain(fit_qp(problem, task)?),
         Method::Weighted => plain(fit_weighted(problem, task)?),
         Method::Refined => {
-            // K and S must not depend on the light under which errors are computed.
+            // K and S must not depend on the light under which you compute errors.
             let weights =
                 Viewing::default().weights(problem.grid).expect("the method fits the grid");
             let Refined { curves, deviations, state, .. } =
@@ -151,8 +149,8 @@ pub(crate) fn solve(
     })
 }
 
-/// Observations of identified pigments only, with their shares reduced to these, and the places of these
-/// pigments.
+/// Observations of identified pigments only. We reduce their shares to these pigments, and return the
+/// pigments' places.
 pub(crate) fn without(
     observations: &[Observation],
     unknown: &[Unidentified],
@@ -172,7 +170,6 @@ pub(crate) fn without(
     (kept, identified)
 }
 
-/// A pigment of which only K/S is known.
 fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) -> Pigment {
     let alone = lone.samples.iter().find(|&&s| observations[s].shares[lone.pigment.index()] == 1.0);
     let sample = &observations[*alone.expect("the pigment has a masstone")];

@@ -1,5 +1,5 @@
-//! Comparison of a library with measurements: its prediction of each sample, and predictions of mixtures
-//! left out of the fit.
+//! Compares a library with measurements: how it predicts each sample, and how it predicts mixtures that we
+//! leave out of the fit.
 
 use documents::Task;
 use documents::hint::{Explain, Hint};
@@ -26,15 +26,14 @@ pub struct ComparedFilm {
     pub sample: String,
     /// Pigments of the library with their amounts. Shares sum to 1.
     pub recipe: Recipe,
-    /// Measured reflectance as a fraction: as a film that hides for shares, of the film itself for
-    /// absolute amounts.
+    /// Measured reflectance as a fraction. For shares this is a film that hides. For absolute amounts it is
+    /// the film itself.
     pub measured: Vec<f64>,
     /// Reflectance that the library predicts.
     pub predicted: Vec<f64>,
     /// CIEDE2000 between measured and predicted colour.
     pub delta_e: f64,
-    /// Whether the recipe contains a pigment without measured K and S (for example not identified, or
-    /// guessed).
+    /// Whether the recipe contains a pigment without measured K and S (e.g. not identified, or guessed).
     pub unsure: bool,
     /// Whether the fit of the library left this sample out.
     pub excluded: bool,
@@ -49,20 +48,20 @@ pub struct Comparison {
     pub rms: f64,
     /// Summary of the colour errors, over sure films.
     pub delta_e: Summary,
-    /// Samples that could not be compared, each with the names of pigments that the library lacks.
+    /// Samples that we cannot compare, each with the names of pigments that the library lacks.
     pub absent: Vec<(String, Vec<String>)>,
-    /// Wavelengths of the readings, if they are not the library's.
+    /// Wavelengths of the readings. `None` if they are the library's.
     pub resampled_from: Option<Grid>,
 }
 
 impl Comparison {
-    /// Films with measured and identified pigments only. Errors are summarised over these.
+    /// Films with measured and identified pigments only. We summarise errors over these.
     pub fn sure(&self) -> impl Iterator<Item = &ComparedFilm> {
         self.films.iter().filter(|film| !film.unsure)
     }
 
-    /// Films that `palette` can mix, without those that the fit excluded. The list is empty for absolute
-    /// amounts, because their films do not hide.
+    /// Films that you can mix with `palette`, without those that the fit excluded. The list is empty for
+    /// absolute amounts, because their films do not hide.
     #[must_use]
     pub fn measured_samples(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
         if palette.library().amounts == AmountKind::Absolute {
@@ -80,16 +79,16 @@ impl Comparison {
     }
 }
 
-/// Measurements that can be compared with a library.
+/// Measurements that you can compare with a library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparable {
     /// Samples with all pigments in the library, on the library's wavelengths.
     pub set: SwatchSet,
     /// Place in the library of each pigment of `set`.
     pub in_library: Vec<PigmentId>,
-    /// Samples that cannot be compared, each with the names of pigments that the library lacks.
+    /// Samples that we cannot compare, each with the names of pigments that the library lacks.
     pub absent: Vec<(String, Vec<String>)>,
-    /// Wavelengths of the readings, if they are not the library's.
+    /// Wavelengths of the readings. `None` if they are the library's.
     pub resampled_from: Option<Grid>,
 }
 
@@ -136,7 +135,7 @@ impl Comparable {
     /// [`MeasurementError`] if readings cannot be used.
     ///
     /// # Panics
-    /// If `library` is not the one for which the measurements were selected.
+    /// If you selected the measurements for another library.
     pub fn with(
         &self,
         library: &PigmentLibrary,
@@ -221,11 +220,11 @@ impl Comparable {
     }
 
     /// Leaves out each mixture in turn (for absolute amounts, each of 10 seeded groups), fits the others as
-    /// `library` was fitted, and predicts it. Returns `None` if the reference white was not measured, or
+    /// `library` was fitted, and predicts it. You get `None` if the reference white was not measured, or
     /// there is no mixture.
     ///
-    /// For a library without settings of its fit, [`FitSettings::default`] is assumed with dark readings
-    /// read as black.
+    /// If a library has no settings of its fit, we assume [`FitSettings::default`] and read dark readings
+    /// as black.
     ///
     /// `task` counts the mixtures that were left out.
     ///
@@ -295,7 +294,7 @@ fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> 
     let moved = |values: &[f64]| -> Result<Vec<f64>, InterpolateError> {
         let spectrum = Spectrum::<Reflectance>::new(from, values.to_vec());
         let spectrum = spectrum.expect("a reading has a value for each wavelength");
-        // Between a dark and a light band an interpolation may swing below 0.
+        // Between a dark and a light band, we may interpolate to a value below 0.
         let values = spectrum.resampled(grid, method, Extrapolation::Hold)?.into_values();
         Ok(values.into_iter().map(|value| value.max(0.0)).collect())
     };

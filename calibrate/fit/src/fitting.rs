@@ -55,14 +55,14 @@ impl FitRequest {
     }
 }
 
-/// A fitted library, with what a user should know about the fit.
+/// A fitted library, with what you should know about the fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     /// The library, with the evidence of its fit.
     pub library: PigmentLibrary,
     /// Choices that were made, and what the films and equations show.
     pub remarks: Vec<Remark>,
-    /// Swatches as the fit used them, or empty for absolute amounts.
+    /// Swatches as the fit used them. Empty for absolute amounts.
     pub observations: Vec<Observation>,
     /// Rank and condition of the equations, or `None` for absolute amounts.
     pub condition: Option<Condition>,
@@ -99,7 +99,7 @@ impl Fit {
     }
 }
 
-/// Readings with all options resolved, ready to be fitted or validated.
+/// Readings with all options resolved. You can fit or validate these.
 #[derive(Debug, Clone)]
 pub struct PreparedFit {
     /// Swatches without those that are left out.
@@ -132,11 +132,11 @@ pub enum FilmModel {
 }
 
 impl PreparedFit {
-    /// Number of steps that [`Self::new`] reports if it chooses the film model of absolute amounts.
+    /// [`Self::new`] reports this many steps if it chooses the film model of absolute amounts.
     pub const MODEL_FITS: usize = CHOICE_FITS;
 
-    /// Resolves the options: selects samples, finds the reference white and the surface. `task` counts the
-    /// fits that are made to choose the film model of absolute amounts.
+    /// Resolves the options: selects samples, and finds the reference white and the surface. `task` counts
+    /// the fits with which we choose the film model of absolute amounts.
     ///
     /// # Errors
     /// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, or
@@ -271,14 +271,14 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
     let whites: Vec<usize> = (0..set.pigments.len())
         .filter(|&index: &usize| set.pigments[index].to_lowercase().contains("white"))
         .collect();
-    // Of several in equally many samples, the first column is chosen.
+    // If several occur in equally many samples, we choose the first column.
     let commonest = whites.into_iter().rev().max_by_key(|&index| samples(index));
     commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {
         first: set.pigments.first().cloned().unwrap_or_default(),
     })
 }
 
-/// The film model of absolute amounts: as stated, else chosen by cross-validation.
+/// The film model of absolute amounts. We choose it by cross-validation if you do not state it.
 fn film_model(
     set: &SwatchSet,
     options: &FitRequest,
@@ -330,7 +330,7 @@ fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> 
     remarks
 }
 
-/// Index of `wanted` among `names`: exactly, else without regard to case.
+/// Index of `wanted` among `names`. We prefer an exact match, and else ignore letter case.
 pub(crate) fn index_of(
     names: &[String],
     wanted: &str,
@@ -349,8 +349,7 @@ fn stem(path: &str) -> String {
     stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// The surface of most paints, with k1 lowered below every reading of `set`, and the remark about this
-/// change.
+/// The surface of most paints. We lower k1 below every reading of `set`, and return a remark about this.
 pub(crate) fn usual_below_readings(
     set: &SwatchSet,
     specular: Specular,
@@ -527,7 +526,8 @@ mod tests {
     use documents::hint::Explain;
     use pigment::evaluate::delta_e;
 
-    /// Films that hide, of a white and a black paint, read without any surface, times `scale`.
+    /// Films that hide, of a white and a black paint, read without any surface. We multiply them by
+    /// `scale`.
     fn matte(scale: f64) -> Readings {
         let wavelengths: Vec<String> = (0..16).map(|i| (400 + 20 * i).to_string()).collect();
         let mut text = format!("sample,White,Black,{}\n", wavelengths.join(","));

@@ -1,6 +1,6 @@
 //! Observations of swatches: K/S, and the reflectance that the paint would have in a film that hides.
 //!
-//! Two cards can be mixed up, so this file also checks whether exchanged names explain the readings better.
+//! You can mix up two cards, so we also check here whether exchanged names explain the readings better.
 
 use spectra::optics::{
     OverBacking, Surface, SurfaceError, absorption_over_scattering, film_over_two_backings,
@@ -11,29 +11,28 @@ use crate::swatch::{Swatch, SwatchFilm, SwatchSet};
 
 pub use pigment::fit_settings::BelowSurface;
 
-/// Internal reflectance that stands for black. K/S is about 500 there. A reading nearer to the surface's
-/// own reflection contains no more information, and K/S would rise without bound.
+/// Internal reflectance that stands for black. K/S is about 500 there. You learn nothing from a reading
+/// nearer to the surface's own reflection than this, and K/S would rise without bound.
 pub const BLACK: f64 = 1e-3;
-/// Two readings over different backings that differ by at most this show a film that hides (chosen by
-/// eye).
+/// If two readings over different backings differ by at most this, the film hides (chosen by eye).
 pub const HIDING_DIFFERENCE: f64 = 0.05;
-/// Least difference of the mean reflectances of two backings from which K/S can be computed (chosen by
+/// We compute K/S from two backings only if their mean reflectances differ by at least this (chosen by
 /// eye).
 pub(crate) const LEAST_CONTRAST: f64 = 0.05;
-/// Relative difference of two thicknesses that a gauge cannot tell apart (chosen by eye).
+/// A gauge cannot tell apart two thicknesses with this relative difference (chosen by eye).
 const SAME_THICKNESS: f64 = 0.05;
-/// Internal reflectance above which a reading is refused rather than read as white (chosen by eye).
+/// Above this internal reflectance we refuse a reading. Below it we read it as white (chosen by eye).
 const ABOVE_WHITE: f64 = 1.05;
 
-/// Whether K/S of a swatch was computed from two backings, or the film was assumed to hide.
+/// Whether we computed K/S of a swatch from two backings, or assumed that the film hides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hiding {
-    /// K/S was computed from readings over two backings. The value is the largest difference of the two over
+    /// We computed K/S from readings over two backings. The value is the largest difference of the two over
     /// wavelength, in measured reflectance.
     Difference(f64),
-    /// The film was assumed to hide, because there are no two films of one thickness on backings of
-    /// different reflectance that were also read bare. The value is the largest difference of readings
-    /// over different backings, or `None` if there is only one.
+    /// We assumed that the film hides, because there are no two films of one thickness on backings of
+    /// different reflectance that you also read bare. The value is the largest difference of readings over
+    /// different backings, or `None` if there is only one.
     Assumed(Option<f64>),
 }
 
@@ -46,11 +45,11 @@ pub struct Observation {
     pub shares: Vec<f64>,
     /// K/S at each wavelength, 0 and up.
     pub ratio: Vec<f64>,
-    /// Measured reflectance of a film that hides, surface included, as `ratio` gives it. The fit aims at
-    /// this: readings that no paint under this surface can have are moved to the nearest that one can.
+    /// Measured reflectance of a film that hides, surface included, from `ratio`. The fit aims at this. If
+    /// no paint under this surface can have a reading, we move it to the nearest possible one.
     pub reflectance: Vec<f64>,
-    /// Reflectance with which a prediction is compared: like `reflectance`, but as the instrument read it
-    /// where the film was taken to hide, and where a reading was moved.
+    /// Reflectance with which we compare a prediction. It is `reflectance`, but where we assumed that the
+    /// film hides, or moved a reading, it is what the instrument read.
     pub as_read: Vec<f64>,
     /// How K/S was computed, and how far readings over different backings differ.
     pub hiding: Hiding,
@@ -63,8 +62,8 @@ pub struct Observation {
 }
 
 impl Hiding {
-    /// Whether the two readings differ by at most 0.05 at every wavelength, or `None` if hiding is
-    /// assumed.
+    /// Whether the two readings differ by at most 0.05 at every wavelength. `None` if we assumed that the
+    /// film hides.
     #[must_use]
     pub fn hides(self) -> Option<bool> {
         match self {
@@ -76,10 +75,10 @@ impl Hiding {
 
 /// Computes the observations of all swatches.
 ///
-/// Readings are first converted to reflectances below the surface. If a swatch has films of one thickness (to
-/// 5 %) over two backings of known reflectance, K/S follows from [`film_over_two_backings`]. Of several such
-/// pairs the thickest is used, and of these the one with the greatest contrast. Any other swatch is assumed
-/// to hide, and its thickest film is used.
+/// We first convert readings to reflectances below the surface. If a swatch has films of one thickness (to
+/// 5 %) over two backings of known reflectance, we get K/S from [`film_over_two_backings`]. Of several such
+/// pairs we use the thickest, and of these the one with the greatest contrast. We assume that any other
+/// swatch hides, and use its thickest film.
 ///
 /// # Errors
 /// [`MeasurementError::BelowSurface`] or `AboveWhite`, with sample and wavelength.
@@ -108,7 +107,6 @@ pub(crate) struct SurfaceConversion<'a> {
 }
 
 impl SurfaceConversion<'_> {
-    /// Converts measured reflectances of `swatch` to reflectances below the surface.
     pub(crate) fn internal(
         &self,
         swatch: &Swatch,
@@ -154,7 +152,7 @@ impl SurfaceConversion<'_> {
         reading > self.surface.measured_from_internal(1.0) + 1e-9
     }
 
-    /// Whether no paint under this surface has this reading, so that [`Self::internal`] moves it.
+    /// Whether no paint under this surface has this reading. [`Self::internal`] then moves it.
     fn is_moved(&self, reading: f64) -> bool {
         self.is_below(reading) || self.is_above(reading)
     }
@@ -299,10 +297,10 @@ fn count(swatch: &Swatch, condition: impl Fn(f64) -> bool) -> usize {
     readings.filter(|&&reading| condition(reading)).count()
 }
 
-/// Reflectance by which a film may be darker over the brighter card, to allow for the error of two
-/// readings. For the Van Gogh oils we found 0.013 at most.
+/// A film may be darker over the brighter card by this reflectance, because two readings have errors. For
+/// the Van Gogh oils we found 0.013 at most.
 const READING_ERROR: f64 = 0.02;
-/// Standard deviations of repeated readings that are taken for chance.
+/// We take this many standard deviations of repeated readings for chance.
 const CHANCE: f64 = 3.0;
 
 /// Refuses films that are darker over the brighter of two cards, which no film of paint can be.

@@ -19,7 +19,7 @@ use crate::measurement::{
 };
 use crate::swatch::SwatchSet;
 
-/// Readings of one or more measurement files. A sheet of a workbook is given as `FILE.xlsx#SHEET`.
+/// Readings of one or more measurement files. If you want a sheet of a workbook, give `FILE.xlsx#SHEET`.
 ///
 /// ```no_run
 /// let readings = calibrate::Readings::open("swatches.ti3")?.with_recipes("recipes.csv")?;
@@ -47,7 +47,7 @@ impl Readings {
         Self::open_all(&[path], &ReadingOptions::default())
     }
 
-    /// Reads several measurement files, which must have the same pigments and wavelengths.
+    /// Reads several measurement files. They must have the same pigments and wavelengths.
     ///
     /// # Errors
     /// [`ReadingsError`] with file, row and column.
@@ -58,7 +58,8 @@ impl Readings {
         Self::open_files(paths, options, false)
     }
 
-    /// Reads the spectra of files and ignores their other columns, for example recipes.
+    /// Reads only the spectra of files. Use this if you do not need their other columns, for example
+    /// recipes.
     ///
     /// # Errors
     /// [`ReadingsError`] with file, row and column.
@@ -69,8 +70,9 @@ impl Readings {
         Self::open_files(paths, options, true)
     }
 
-    /// Reads measurement files of any known format from memory: name and content of each. The name is told in
-    /// errors, and may end in `#SHEET`. White, dark and tile of the options are files on the disk.
+    /// Reads measurement files of any known format from memory. Pass the name and content of each. We use
+    /// the name in errors, and it may end in `#SHEET`. White, dark and tile of the options are files on the
+    /// disk.
     ///
     /// # Errors
     /// [`ReadingsError`] with file, row and column.
@@ -81,7 +83,7 @@ impl Readings {
         Self::of_files(files, options, false)
     }
 
-    /// Reads the spectra of files in memory, as [`Readings::open_spectra`] does from the disk.
+    /// Reads the spectra of files in memory. See [`Readings::open_spectra`] for files on the disk.
     ///
     /// # Errors
     /// [`ReadingsError`] with file, row and column.
@@ -100,8 +102,8 @@ impl Readings {
         Self::from_csv_with(file, bytes, &ReadingOptions::default())
     }
 
-    /// Reads the measurement CSV in `bytes`, the content of `file`. Of the options, `scale` and `pigments`
-    /// have a meaning for a CSV.
+    /// Reads the measurement CSV in `bytes`, the content of `file`. For a CSV we use only the options
+    /// `scale` and `pigments`.
     ///
     /// # Errors
     /// [`ReadingsError::Measurement`] with row and column.
@@ -115,7 +117,7 @@ impl Readings {
     }
 
     /// Adds the recipes of a CSV file (columns `sample`, one for each pigment, optionally `film`,
-    /// `backing`, `thickness_mm` and `reading`) to readings without recipes in their own files.
+    /// `backing`, `thickness_mm` and `reading`). Use this if the files of the readings have no recipes.
     ///
     /// # Errors
     /// [`ReadingsError::Recipes`] with the row.
@@ -123,8 +125,8 @@ impl Readings {
         self.with_recipes_of(path, None)
     }
 
-    /// Adds the recipes of a CSV file like [`Readings::with_recipes`], of the columns headed as one of
-    /// `pigments`.
+    /// Adds the recipes of a CSV file like [`Readings::with_recipes`]. We read only the columns headed as
+    /// one of `pigments`.
     ///
     /// # Errors
     /// [`ReadingsError::Recipes`] with the row.
@@ -208,7 +210,6 @@ impl Readings {
     }
 }
 
-/// Table, input and remarks of one file.
 type OfFile = (MeasurementTable, Input, Vec<Remark>);
 
 /// Tables, inputs and remarks of the files so far.
@@ -272,8 +273,8 @@ impl References {
     }
 }
 
-/// The instrument's file in `bytes`. `None` for the measurement CSV, and for unknown content, so that the
-/// CSV's reader reports the first fault.
+/// The instrument's file in `bytes`. You get `None` for the measurement CSV, and for unknown content, so
+/// that the CSV's reader reports the first fault.
 fn instrument_file(
     file: &str,
     bytes: &[u8],
@@ -291,7 +292,7 @@ fn instrument_file(
     };
     let text = &content.text;
     let known = if begins_with_samples(text) { None } else { Format::detect(file, text) };
-    // A table without numbers below its headings is no columns of numbers.
+    // If a table has no numbers below its headings, we do not read it as columns of numbers.
     let known = known.filter(|format| *format != Format::Columns || !is_measurement_csv(text));
     known.map(|_| read(file, bytes, None)).transpose()
 }
@@ -342,7 +343,7 @@ fn csv_table(
     Ok((table, remarks))
 }
 
-/// The table of a large measurement CSV, which is read in pieces, or `None` for any other file.
+/// The table of a large measurement CSV, which we read in pieces. `None` for any other file.
 fn large_csv(
     path: &Path,
     options: &ReadingOptions,

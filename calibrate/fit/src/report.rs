@@ -1,6 +1,7 @@
 //! Errors of a fit or of a validation as text, and warnings.
 //!
-//! A warning names a quantity that the data do not identify, or data that contradict each other.
+//! A warning names a quantity that the data do not identify, or data that contradict each other. For
+//! example, it names a pigment with an unknown S.
 
 use std::fmt;
 
@@ -17,11 +18,11 @@ use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, HIDING_DIFFERENCE, Hiding, Observation, SurfaceConversion};
 use crate::swatch::SwatchSet;
 
-/// Characters of a line of samples.
+/// A line of samples has at most this many characters.
 const LINE: usize = 96;
-/// Samples that are named for their share of the error.
+/// We name this many samples for their share of the error.
 const NAMED: usize = 4;
-/// Most samples in one line.
+/// We write at most this many samples in one line.
 const COLUMNS: usize = 8;
 
 /// Report of colour errors: a title, a summary and the samples, worst first.
@@ -46,7 +47,6 @@ impl<'a> ErrorReport<'a> {
         Self::new(title, delta_e, *rms, [illuminant, observer], per_sample)
     }
 
-    /// Report of errors under `[illuminant, observer]`.
     pub(crate) fn new(
         title: impl Into<String>,
         delta_e: &Summary,
@@ -66,7 +66,6 @@ impl<'a> ErrorReport<'a> {
         }
     }
 
-    /// The report with further findings below its summary.
     pub(crate) fn with_lines(self, lines: Vec<String>) -> Self {
         Self { lines, ..self }
     }
@@ -129,7 +128,6 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// All warnings of a fit of shares, the most important first.
 pub(crate) fn warnings(
     set: &SwatchSet,
     observations: &[Observation],
@@ -178,7 +176,7 @@ pub(crate) fn warnings(
     warnings
 }
 
-/// All warnings of a fit of absolute amounts.
+/// Warnings of a fit of absolute amounts.
 pub(crate) fn absolute_warnings(
     set: &SwatchSet,
     undetermined: &[PigmentId],
@@ -205,8 +203,8 @@ pub(crate) fn absolute_warnings(
     warnings
 }
 
-/// Checks readings of films and bare backings for values below the surface's own reflection: an error, or a
-/// warning where they are read as black.
+/// Checks readings of films and bare backings for values below the surface's own reflection. You get an
+/// error, or a warning if we read them as black.
 pub(crate) fn below_surface(
     set: &SwatchSet,
     surface: Surface,
@@ -242,7 +240,7 @@ fn listed(what: &str, samples: Vec<String>) -> Option<String> {
     (!samples.is_empty()).then(|| format!("{what}: {}", name_list(&samples, 8, ", ")))
 }
 
-/// Warnings about films that are assumed to hide. Films with readings that contradict this come first.
+/// Warnings about films that we assume to hide. Films with readings that contradict this come first.
 fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
     let assumed: Vec<(&Observation, f64)> =
         observations.iter().filter_map(|o| Some((o, difference(o)?))).collect();
@@ -271,11 +269,11 @@ fn difference(o: &Observation) -> Option<f64> {
     }
 }
 
-/// Spreads above the median from which an error is outlying (chosen by eye).
+/// An error is outlying if it is above the median by this many spreads (chosen by eye).
 const OUTLYING: f64 = 5.0;
 /// Standard deviation over median absolute deviation for normal errors.
 const SD_OVER_MEDIAN: f64 = 1.4826;
-/// Least CIEDE2000 of an outlying error, just above what is plainly visible (chosen by eye).
+/// An error below this CIEDE2000 is not outlying. It is just above what you plainly see (chosen by eye).
 const LEAST_OUTLIER: f64 = 2.0;
 /// Samples with an outlying error: above the median by five times the spread (1.4826 x the median absolute
 /// deviation), and above 2.
@@ -297,9 +295,7 @@ fn outliers(per_sample: &[SampleEvidence]) -> Vec<String> {
         .collect()
 }
 
-/// Errors of a set of films.
 pub(crate) struct Scores {
-    /// Root mean square error of reflectance.
     pub(crate) rms: f64,
     pub(crate) delta_e: Summary,
     pub(crate) per_sample: Vec<SampleEvidence>,
@@ -324,7 +320,6 @@ impl Scores {
         Self { rms, delta_e: summary(&per_sample), per_sample }
     }
 
-    /// Copy rounded to six significant digits, for a file.
     pub(crate) fn rounded(mut self) -> Self {
         self.per_sample.iter_mut().for_each(|s| s.delta_e = rounded(s.delta_e));
         Self {
@@ -341,7 +336,7 @@ fn summary(per_sample: &[SampleEvidence]) -> Summary {
 }
 
 /// Share of each sample in the sum of all squared colour errors, 0 to 1, the greatest first. Samples of
-/// equal shares in their order. Empty if all errors are 0.
+/// equal shares stay in their order. You get an empty list if all errors are 0.
 #[must_use]
 pub fn shares_of_squares(per_sample: &[SampleEvidence]) -> Vec<(&str, f64)> {
     let total: f64 = per_sample.iter().map(|s| s.delta_e * s.delta_e).sum();

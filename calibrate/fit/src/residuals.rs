@@ -32,8 +32,8 @@ pub struct LeftOutMixture {
     pub predicted: Vec<f64>,
 }
 
-/// Measured and predicted reflectances of mixtures that were left out of a fit in turn: what a library does
-/// not know of mixtures.
+/// Measured and predicted reflectances of mixtures that we left out of a fit in turn. They show what a
+/// library does not know of mixtures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Residuals {
@@ -115,7 +115,7 @@ impl Residuals {
         write_whole(path.as_ref(), self.to_json().as_bytes())
     }
 
-    /// Reads residuals from `text`, the content of `file`, which is only named in errors.
+    /// Reads residuals from `text`, the content of `file`. We use this name only in errors.
     ///
     /// # Errors
     /// [`ResidualsError`] if the text is not JSON, has another format or version, or values that no
@@ -177,8 +177,8 @@ impl Residuals {
         Ok(self)
     }
 
-    /// The residuals on the wavelengths `grid`, which lie within their own: by Sprague's polynomial, or
-    /// by straight lines where there are fewer than six wavelengths.
+    /// The residuals on the wavelengths `grid`, which lie within their own. We interpolate by Sprague's
+    /// polynomial, or by straight lines where there are fewer than six wavelengths.
     ///
     /// # Errors
     /// [`ResidualsError::Wavelengths`] if `grid` reaches beyond their own wavelengths.

@@ -34,11 +34,11 @@ pub struct SwatchFilm {
     pub thickness_mm: Option<f64>,
     /// Mean measured reflectance, as a fraction, on the set's grid.
     pub reflectance: Vec<f64>,
-    /// Standard deviation of repeated readings, root mean square over wavelengths, or `None` for a single
+    /// Standard deviation of repeated readings, root mean square over wavelengths. `None` for a single
     /// reading.
     pub spread: Option<f64>,
-    /// Measured reflectance of the bare backing, if it was read: the sample's own card, else the mean
-    /// over the file.
+    /// Measured reflectance of the bare backing, if you read it: the sample's own card, else the mean over
+    /// the file.
     pub bare: Option<Vec<f64>>,
 }
 
@@ -49,13 +49,13 @@ pub struct SwatchSet {
     pub grid: Grid,
     /// Names of the pigments, in order of their columns.
     pub pigments: Vec<String>,
-    /// Swatches, or empty if the files hold bare cards only.
+    /// Swatches. This is empty if the files hold bare cards only.
     pub swatches: Vec<Swatch>,
 }
 
 impl SwatchSet {
-    /// Groups the readings of `table` by sample, averages repeated readings, and assigns each film its bare
-    /// backing.
+    /// Groups the readings of `table` by sample, averages repeated readings, and finds the bare backing of
+    /// each film.
     ///
     /// # Errors
     /// [`MeasurementError::Contradiction`] if rows of one sample have different recipes,
@@ -107,11 +107,11 @@ impl SwatchSet {
         Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
-    /// Mixtures with amounts that do not sum to 100 % (or 1), with their sum in percent. The list is
-    /// empty if most mixtures have other sums: the file then states parts.
+    /// Mixtures with amounts that do not sum to 100 % (or 1), with their sum in percent. If most mixtures
+    /// have other sums, you get an empty list, because the file states parts.
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
-        // A masstone may be written as 1 where mixtures are counted in parts.
+        // You may write a masstone as 1 where you count mixtures in parts.
         let mixtures: Vec<&Swatch> = self
             .swatches
             .iter()
@@ -242,8 +242,8 @@ fn spread(readings: &[&Reading]) -> Option<f64> {
 }
 
 impl SwatchSet {
-    /// Cards under the films of this set, chosen by [`Cards::among`]. These are the standard cards if the
-    /// set is on another grid than `weights`.
+    /// Cards under the films of this set, chosen by [`Cards::among`]. You get the standard cards if the set
+    /// is on another grid than `weights`.
     #[must_use]
     pub fn cards(&self, weights: &TristimulusWeights) -> Cards {
         if self.grid != weights.grid() {

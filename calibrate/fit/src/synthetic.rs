@@ -1,4 +1,5 @@
-//! Synthetic paint of known K and S, for tests, benches and trials of a method. Nothing here was measured.
+//! Synthetic paint of known K and S. Use it for tests, benches and trials of a method. Nothing here was
+//! measured.
 
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};
@@ -33,9 +34,9 @@ impl SyntheticMixtures {
         Self::of_size(seed, noise, Grid::from_nm(400.0, 3.0, 101).expect("a grid"), 11, 71)
     }
 
-    /// The first `count` of every masstone, two tints with white of each other pigment (10 % and 40 %),
-    /// then random mixtures of two or three of `pigments`, which are two or more. Readings on `grid` have
-    /// normal noise of standard deviation `noise` in reflectance.
+    /// Makes `count` mixtures: every masstone, two tints with white of each other pigment (10 % and 40 %),
+    /// then random mixtures of two or three of `pigments`. Give two pigments or more. Readings on `grid`
+    /// have normal noise of standard deviation `noise` in reflectance.
     ///
     /// K and S are exponentials of a level plus a few smooth bumps.
     #[must_use]

@@ -1,6 +1,6 @@
 //! Validation of a fit: each mixture is predicted by a fit without its own measurement.
 //!
-//! This file holds the fits without some of the samples, their errors, and these errors as JSON.
+//! We also compute here the fits without some of the samples, their errors, and these errors as JSON.
 
 use documents::Task;
 use rayon::prelude::*;
@@ -26,8 +26,8 @@ use pigment::evaluate::{Summary, Viewing, delta_e};
 use pigment::library::{AmountKind, Evidence, PigmentLibrary, SampleEvidence};
 use pigment::{Curves, PigmentId};
 
-/// Groups that are left out in turn for absolute amounts, where each film by itself would take too long
-/// (chosen by eye).
+/// We leave out this many groups in turn for absolute amounts, where each film by itself would take too
+/// long (chosen by eye).
 pub const DEFAULT_FOLDS: usize = 10;
 
 /// Errors of mixtures that were predicted without their own measurement.
@@ -41,14 +41,14 @@ pub struct Validation {
     pub per_sample: Vec<SampleEvidence>,
     /// Mixtures that could not be left out, since a pigment would not be identified without them.
     pub needed: Vec<String>,
-    /// Summary of the colour errors that would remain if the amounts of all pigments of each mixture but
-    /// its main one were free by one common factor: the part of the errors that is not strength. `None`
-    /// for absolute amounts.
+    /// Summary of the colour errors that remain if we may multiply the amounts of all pigments of each
+    /// mixture but its main one by one common factor. This part of the errors is not strength. `None` for
+    /// absolute amounts.
     pub strength_free: Option<Summary>,
-    /// Pigments by their part of the error, the greatest first, or empty for absolute amounts.
+    /// Pigments by their part of the error, the greatest first. Empty for absolute amounts.
     pub by_pigment: Vec<PigmentError>,
-    /// Measured and predicted films of the mixtures, or empty for absolute amounts, because their films
-    /// do not hide.
+    /// Measured and predicted films of the mixtures. Empty for absolute amounts, because their films do not
+    /// hide.
     #[serde(skip)]
     pub mixtures: Vec<LeftOutMixture>,
 }
@@ -60,8 +60,8 @@ pub struct PigmentError {
     pub pigment: String,
     /// Number of mixtures with it that were left out.
     pub mixtures: usize,
-    /// Their share in the sum of all squared colour errors, 0 to 1. A mixture counts for each of its
-    /// pigments, so that the shares do not sum to 1.
+    /// Share of these mixtures in the sum of all squared colour errors, 0 to 1. A mixture counts for each
+    /// of its pigments, so the shares do not sum to 1.
     pub share: f64,
 }
 
@@ -85,7 +85,6 @@ pub struct ValidationPlan<'a> {
 }
 
 impl ValidationPlan<'_> {
-    /// Fits of parts of `set` with these settings.
     pub(crate) fn refits<'a>(
         &'a self,
         set: &'a SwatchSet,
@@ -184,9 +183,9 @@ pub(crate) fn left_out_mixture(
     }
 }
 
-/// Factors of the strength that are tried, from 1/4 to 4, evenly spaced in their logarithm.
+/// We try this many factors of the strength, from 1/4 to 4, evenly spaced in their logarithm.
 const STRENGTHS: i32 = 33;
-/// Steps in which the best of them is refined, each of which halves the distance.
+/// We refine the best of them in this many steps. Each halves the distance.
 const HALVINGS: usize = 12;
 
 /// Least `error` of any strength from 1/4 to 4.
@@ -303,7 +302,7 @@ fn summary<'a>(
     }
 }
 
-/// All that fits of parts of the same samples have in common.
+/// The fits of parts of the same samples share this.
 pub(crate) struct Refits<'a> {
     pub(crate) set: &'a SwatchSet,
     pub(crate) observations: &'a [Observation],
@@ -311,11 +310,9 @@ pub(crate) struct Refits<'a> {
     pub(crate) surface: Surface,
     pub(crate) settings: &'a FitSettings,
     pub(crate) state: Option<RefinedState>,
-    /// Of each fit.
     pub(crate) task: Task,
 }
 
-/// A fit of the other samples.
 pub(crate) struct Refit {
     grid: Grid,
     curves: Vec<Curves>,
@@ -337,7 +334,6 @@ impl Refits<'_> {
         })
     }
 
-    /// Fits all samples except the samples of `group`.
     pub(crate) fn without(&self, group: &[usize]) -> Result<Refit, CalibrationError> {
         let rest: Vec<Observation> = all_but(self.observations.len(), group)
             .iter()
@@ -388,7 +384,7 @@ impl Refit {
     }
 }
 
-/// Pigments that a report names for their part of the error.
+/// A report names this many pigments for their part of the error.
 const NAMED_PIGMENTS: usize = 4;
 
 /// A measured mixture, and a library that was fitted to all other samples.
@@ -427,8 +423,8 @@ impl FitValidation {
         ErrorReport::new(title, delta_e, *rms, light, per_sample).with_lines(self.findings())
     }
 
-    /// Measured and predicted films of the mixtures that were left out, rounded as their file has them: by
-    /// these, pigment maps know how far the library's predictions err.
+    /// Measured and predicted films of the mixtures that were left out, rounded as in their file. Pigment
+    /// maps learn from these how far the library's predictions err.
     ///
     /// # Errors
     /// [`FittingError::AbsoluteResiduals`] for absolute amounts, because their films do not hide.
@@ -448,7 +444,7 @@ impl FitValidation {
         Ok(residuals.rounded())
     }
 
-    /// Which pigments carry the error, and how much of it is strength.
+    /// Says which pigments carry the error, and how much of it is strength.
     fn findings(&self) -> Vec<String> {
         let pigments: Vec<String> = (self.errors.by_pigment.iter().take(NAMED_PIGMENTS))
             .map(|p| format!("{} {:.0} % in {}", p.pigment, 100.0 * p.share, p.mixtures))
@@ -474,8 +470,8 @@ impl FitValidation {
     }
 }
 
-/// Leaves each mixture of two pigments or more out in turn, fits the rest, and predicts it: the error of
-/// mixtures that a fit has not seen.
+/// Leaves each mixture of two pigments or more out in turn, fits the rest, and predicts it. This shows you
+/// the error of mixtures that a fit has not seen.
 ///
 /// ```no_run
 /// use calibrate::{Readings, ValidationRequest};
@@ -517,8 +513,8 @@ impl PreparedFit {
         Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
     }
 
-    /// Validates like [`validate`], with these readings and fit options. `task` receives the stages of the
-    /// first fit, and counts the mixtures that were left out.
+    /// Validates like [`validate`], with these readings and fit options. Use `task` to follow the stages of
+    /// the first fit and the mixtures that were left out.
     ///
     /// # Errors
     /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
@@ -530,7 +526,8 @@ impl PreparedFit {
         self.validate_fit(self.fit(task)?, options, task)
     }
 
-    /// Validates like [`Self::validate`], where `fit` is the fit of all samples that [`Self::fit`] made.
+    /// Validates like [`Self::validate`]. Use this if you have `fit`, the fit of all samples by
+    /// [`Self::fit`], already.
     ///
     /// # Errors
     /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
@@ -570,10 +567,10 @@ impl PreparedFit {
         Ok(FitValidation { errors, fit, folds, viewing })
     }
 
-    /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`],
-    /// and returns the library of each fit. Mixtures without which the rest cannot be fitted, or a
-    /// pigment would not be identified, are passed over, as are films of absolute amounts, which do not
-    /// hide. `task` counts the mixtures that were left out.
+    /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`], and
+    /// returns the library of each fit. We pass over a mixture if we could not fit the rest or identify
+    /// every pigment without it. We also pass over films of absolute amounts, because they do not hide.
+    /// `task` counts the mixtures that were left out.
     ///
     /// # Errors
     /// [`FittingError`] if readings cannot be used, the fit of all samples fails, or the work was cancelled.
@@ -610,8 +607,8 @@ impl PreparedFit {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// One half of the readings, ready to be fitted: all films of one pigment, and every second mixture,
-    /// from mixture `half` (0 or 1) on.
+    /// One half of the readings, ready to be fitted. You get all films of one pigment, and every second
+    /// mixture from mixture `half` (0 or 1) on.
     #[must_use]
     pub fn half(&self, half: usize) -> Self {
         let mixtures: Vec<&str> = (self.set.swatches.iter())

@@ -1,7 +1,7 @@
 //! Recipe search: `cargo bench -p impasto-pigment --bench matching`.
 //!
-//! Time limit on 2 cores: 0.5 s for recipes of up to 4 of 20 pigments. A public Python tool takes
-//! about 112 s for 13 pigments.
+//! We allow 0.5 s on 2 cores for recipes of up to 4 of 20 pigments. A public Python tool takes about 112 s
+//! for 13 pigments.
 
 use divan::{Bencher, black_box};
 use documents::Task;

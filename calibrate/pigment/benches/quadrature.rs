@@ -1,6 +1,6 @@
 //! Quadratures with effective K and S: `cargo bench -p impasto-pigment --bench quadrature`.
 //!
-//! Time limit on 2 cores: 2 s for a library of 60 pigments, with reading and the test films of the verb.
+//! We allow 2 s on 2 cores for a library of 60 pigments, with reading and the test films of the verb.
 
 use divan::{Bencher, black_box};
 use documents::Task;

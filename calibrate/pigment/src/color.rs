@@ -1,7 +1,8 @@
-//! Predicts the spectrum and colour of a mixture given by pigment names and parts.
+//! Predicts the spectrum and colour of a mixture. You give pigment names and parts, for example nine parts
+//! of white and one of blue.
 //!
-//! [`Backing`] is the ground under the film, [`Appearance`] the colour under one light in the forms that people
-//! use, and [`IlluminantChange`] names a metamerism index.
+//! [`Backing`] is the ground under the film. [`Appearance`] is the colour under one light in the forms that
+//! you use. [`IlluminantChange`] names a metamerism index.
 
 use std::str::FromStr;
 
@@ -16,14 +17,14 @@ use crate::evaluate::{BandError, Remark, Viewing, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary, RecipeError};
 use crate::recipe::Recipe;
 
-/// Greatest thickness of a film. A film of this thickness hides its ground if K and S exceed 1e-7.
+/// Greatest thickness of a film. At this thickness a film hides its ground if K and S exceed 1e-7.
 pub(crate) const THICKEST: f64 = 1e9;
 
 /// A film of given thickness over a ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmOver {
-    /// Thickness in the library's unit, above 0 and up to 1e9: 1 is the thickness at which the
-    /// reference white has S d = 1 or, for absolute amounts, the amounts of the recipe.
+    /// Thickness in the library's unit, above 0 and up to 1e9. At 1 the reference white has S d = 1. For
+    /// absolute amounts, at 1 you have the amounts of the recipe.
     pub thickness: f64,
     /// Bare ground under the film.
     pub ground: Backing,
@@ -47,11 +48,11 @@ pub struct MixtureColor {
     pub xyz: Xyz,
     /// CIELAB relative to the light's own white.
     pub lab: Lab,
-    /// Encoded sRGB, adapted from the light to the display (Bradford). Outside 0..1 where sRGB cannot
-    /// show the colour.
+    /// Encoded sRGB. We adapt it from the light to the display (Bradford). It is outside 0..1 where sRGB
+    /// cannot show the colour.
     pub srgb: Rgb,
-    /// Warnings: guessed pigments, pigments with unknown S, and a ground or a library that covers only part
-    /// of the visible band.
+    /// Warnings, e.g. about guessed pigments, pigments with unknown S, and a ground or a library that
+    /// covers only part of the visible band.
     pub remarks: Vec<Remark>,
 }
 
@@ -64,9 +65,9 @@ impl MixtureColor {
 }
 
 impl PigmentLibrary {
-    /// Predicts the colour of a mixture, given as pigments by name with their parts. In a library of relative
-    /// amounts the film hides its ground. In one of absolute amounts the parts are the amounts on the
-    /// library's area, over a perfect white.
+    /// Predicts the colour of a mixture. You give pigments by name with their parts. In a library of
+    /// relative amounts the film hides its ground. In one of absolute amounts the parts are the amounts on
+    /// the library's area, over a perfect white.
     ///
     /// ```
     /// use pigment::{PigmentLibrary, Viewing};
@@ -93,7 +94,8 @@ impl PigmentLibrary {
         }
     }
 
-    /// Predicts the colour of a mixture laid as `film` over a ground.
+    /// Predicts the colour of a mixture that you lay as `film` over a ground. Use this if the ground shows
+    /// through.
     ///
     /// # Errors
     /// [`ColorError`] as for [`Self::color`], or for a thickness or ground that is impossible.
@@ -135,7 +137,7 @@ impl PigmentLibrary {
         Ok(MixtureColor { recipe, reflectance, xyz, lab, srgb, remarks })
     }
 
-    /// Warnings about pigments of a recipe that were guessed, and about mixed pigments of unknown S.
+    /// Warnings about pigments of a recipe that we guessed, and about mixed pigments of unknown S.
     fn reservations(&self, recipe: &Recipe) -> Vec<Remark> {
         let guessed = recipe.pigments().filter(|id| self[*id].guessed);
         let mixed = recipe.pigments().filter(|id| recipe.len() > 1 && !self[*id].identified);
@@ -146,7 +148,7 @@ impl PigmentLibrary {
     }
 }
 
-/// Reasons why the colour of a mixture cannot be predicted.
+/// Reasons why we cannot predict the colour of a mixture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ColorError {
     /// The recipe cannot be mixed.
@@ -180,8 +182,8 @@ pub struct Appearance {
     pub xyz: Xyz,
     /// CIELAB relative to the light's own white.
     pub lab: Lab,
-    /// Encoded sRGB, adapted from the light to the display (Bradford). Outside 0..1 where sRGB cannot
-    /// show the colour.
+    /// Encoded sRGB. We adapt it from the light to the display (Bradford). It is outside 0..1 where sRGB
+    /// cannot show the colour.
     pub srgb: Rgb,
 }
 
@@ -234,8 +236,8 @@ impl Backing {
         Err(BackingError::Reflectance { text: reflectance.to_string() })
     }
 
-    /// Reflectance at each wavelength of `grid`. Where a measured spectrum is shorter, its end values
-    /// are held, and a warning says so.
+    /// Reflectance at each wavelength of `grid`. Where a measured spectrum is shorter, we hold its end
+    /// values, and return a warning.
     ///
     /// # Errors
     /// [`BackingError::Band`] if the spectrum has no wavelength within the grid.
@@ -279,7 +281,7 @@ impl FromStr for Backing {
     }
 }
 
-/// A backing that cannot be used.
+/// A backing that you cannot use.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum BackingError {
     /// The reflectance is not a number from 0 to 1.
@@ -306,7 +308,7 @@ pub enum BackingError {
     Interpolate(#[from] InterpolateError),
 }
 
-/// The change of lights that a special metamerism index is for.
+/// A special metamerism index tells you how much a pair differs after this change of lights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IlluminantChange<'a> {
     /// Name of the light under which the pair should match.

@@ -1,5 +1,5 @@
-//! Colours and colour differences of reflectances and their summary, remarks on a result, rounding for
-//! files, and the check that a wavelength grid covers the visible band.
+//! Colours and colour differences of reflectances and their summary, remarks on a result, and rounding for
+//! files. You can also check whether a wavelength grid covers the visible band.
 
 use std::fmt;
 
@@ -37,7 +37,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Summarises `errors`. Every number is 0 where there are none.
+    /// Summarises `errors`. If you pass none, every number is 0.
     #[must_use]
     pub fn of(errors: &[f64]) -> Self {
         Self {
@@ -57,8 +57,8 @@ impl Summary {
     }
 }
 
-/// Value that `percent` of `values` do not exceed, interpolated linearly between order statistics
-/// (Hyndman and Fan 1996, definition 7, as numpy does), 0 for no values.
+/// `percent` of `values` do not exceed this value. We interpolate linearly between order statistics
+/// (Hyndman and Fan 1996, definition 7, as numpy does). You get 0 for no values.
 #[must_use]
 pub fn percentile(values: &[f64], percent: f64) -> f64 {
     let Some(last) = values.len().checked_sub(1) else { return 0.0 };
@@ -74,18 +74,18 @@ pub fn percentile(values: &[f64], percent: f64) -> f64 {
 /// Kind of a [`Remark`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RemarkKind {
-    /// A choice that was made for the caller, or progress.
+    /// A choice that we made for you, or progress.
     Note,
     /// A warning about the result.
     Warning,
 }
 
-/// One sentence about a computation, for its user.
+/// One sentence about a computation, for you to read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
     /// Whether it is a note or a warning.
     pub kind: RemarkKind,
-    /// The sentence, in lower case and without a full stop.
+    /// The sentence. Write it in lower case and without a full stop.
     pub text: String,
     /// Advice on another choice, if a setting allows one.
     pub hint: Option<Hint>,
@@ -104,7 +104,7 @@ impl Remark {
         Self { kind: RemarkKind::Warning, text: text.into(), hint: None }
     }
 
-    /// The remark with a hint. The hint puts settings in square brackets.
+    /// The remark with a hint. Put settings in square brackets, e.g. `try [over=0.85]`.
     #[must_use]
     pub fn with_hint(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(Hint::new(hint)), ..self }
@@ -112,7 +112,7 @@ impl Remark {
 }
 
 impl fmt::Display for Remark {
-    /// Writes the sentence, `warning: ` before a warning, and the hint behind a semicolon.
+    /// Writes the sentence, with `warning: ` before a warning. A hint follows behind a semicolon.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.kind == RemarkKind::Warning {
             f.write_str("warning: ")?;
@@ -122,16 +122,16 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Rounds `value` to six significant digits: more than any reading carries, and few enough that a
-/// file has the same bytes on every machine.
+/// Rounds `value` to six significant digits. That is more than any reading carries, and few enough that you
+/// get the same bytes in a file on every machine.
 #[must_use]
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Band in nm that a grid must touch to have a colour at all.
+/// A grid must touch this band in nm to have a colour at all.
 const NEEDED_NM: [f64; 2] = [400.0, 700.0];
-/// Band in nm that a grid should cover: it holds nearly all of the luminance and chroma.
+/// A grid should cover this band in nm, because it holds nearly all of the luminance and chroma.
 pub(crate) const WANTED_NM: [f64; 2] = [420.0, 680.0];
 
 /// Part of the visible band that a grid covers.
@@ -139,7 +139,7 @@ pub(crate) const WANTED_NM: [f64; 2] = [420.0, 680.0];
 pub enum BandCoverage {
     /// 420 to 680 nm or more.
     Full,
-    /// Only a part. Colours take the end values for the rest.
+    /// Only a part. We hold the end values for the rest.
     Partial,
     /// Nothing from 400 to 700 nm.
     Missing,
@@ -161,7 +161,7 @@ impl BandCoverage {
     }
 }
 
-/// Checks that spectra on `grid` have colours. Returns a warning where the grid covers only a part of the
+/// Checks that spectra on `grid` have colours. You get a warning if the grid covers only a part of the
 /// visible band.
 ///
 /// # Errors

@@ -1,12 +1,12 @@
 //! Nonlinear least squares within bounds, by the Levenberg-Marquardt method.
 //!
-//! [`minimise`] fits many parameters (Marquardt 1963, with Nielsen's damping, 1999). A parameter at its bound
-//! with a gradient that points outwards is fixed for one step, and every trial point is projected into the
-//! bounds (Kanzow, Yamashita and Fukushima 2004, the projected variant).
+//! [`minimise`] fits many parameters (Marquardt 1963, with Nielsen's damping, 1999). If a parameter is at
+//! its bound and its gradient points outwards, we fix it for one step. We project every trial point into
+//! the bounds (Kanzow, Yamashita and Fukushima 2004, the projected variant).
 //!
-//! [`descend_within_bounds`] fits the shares of a recipe, which keep their sum. Its quadratic step comes from
-//! the primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at most nine unknowns, which are
-//! kept on the stack.
+//! [`descend_within_bounds`] fits the shares of a recipe, which keep their sum. Its quadratic step comes
+//! from the primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at most nine unknowns,
+//! which we hold on the stack.
 
 use std::ops::Range;
 
@@ -14,11 +14,11 @@ use documents::Task;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// First damping: Nielsen's choice for a start near the minimum.
+/// We begin with this damping. It is Nielsen's choice for a start near the minimum.
 const FIRST_DAMPING: f64 = 1e-3;
-/// Damping stays above this, so that the matrix keeps a Cholesky factor, chosen by eye.
+/// Damping stays above this, so that the matrix keeps a Cholesky factor. We chose it by eye.
 const LEAST_DAMPING: f64 = 1e-12;
-/// The search ends beyond this damping: steps are then below rounding.
+/// We end the search beyond this damping, because steps are then below rounding.
 const MOST_DAMPING: f64 = 1e12;
 
 /// Half the sum of squared residuals, its gradient and the Gauss-Newton matrix (lower triangle).
@@ -34,7 +34,7 @@ impl NormalEquations {
         Self { cost: 0.0, gradient: DVector::zeros(count), matrix: DMatrix::zeros(count, count) }
     }
 
-    /// Adds one residual with its derivatives over all parameters.
+    /// Adds one residual. Pass its derivatives over all parameters.
     pub(crate) fn add(&mut self, residual: f64, derivatives: &[f64], weight: f64) {
         self.cost += 0.5 * weight * residual * residual;
         let count = derivatives.len();
@@ -68,7 +68,6 @@ pub(crate) struct SparseRows {
 struct Group {
     residuals: [f64; 3],
     runs: Range<usize>,
-    /// Index of its first derivative.
     first: usize,
 }
 
@@ -87,7 +86,6 @@ impl SparseRows {
         self.groups.push(Group { residuals, runs: before..self.runs.len(), first });
     }
 
-    /// Residuals, runs and derivatives of each group.
     fn groups(&self) -> impl Iterator<Item = ([f64; 3], &[Range<usize>], &[[f64; 3]])> {
         self.groups.iter().map(|group| {
             let derivatives = &self.derivatives[group.first..];
@@ -97,8 +95,8 @@ impl SparseRows {
 }
 
 impl NormalEquations {
-    /// Equations of `count` parameters. Each column of the matrix is added up in the order of the rows,
-    /// so that its bits do not depend on the number of threads.
+    /// Equations of `count` parameters. We add up each column of the matrix in the order of the rows, so
+    /// you get the same bits for any number of threads.
     pub(crate) fn of_rows(count: usize, parts: &[SparseRows]) -> Self {
         let mut equations = Self::zeros(count);
         // Products that each column takes.
@@ -180,21 +178,19 @@ fn even_parts(work: &[usize], count: usize) -> Vec<Range<usize>> {
 /// Stopping rule of [`minimise`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stop {
-    /// Largest number of steps.
     pub(crate) iterations: usize,
     /// Stops when a step lowers the cost by less than this fraction of it.
     pub(crate) relative_decrease: f64,
 }
 
-/// Point of least cost that was found, with that cost.
 #[derive(Debug, Clone)]
 pub(crate) struct Minimum {
     pub(crate) point: DVector<f64>,
     pub(crate) cost: f64,
 }
 
-/// Minimises from `start` within `lower..=upper`. `build` returns the normal equations at a point,
-/// `cost` the cost alone. Ends early, where it is, once `task` is cancelled.
+/// Minimises from `start` within `lower..=upper`. Pass `build`, which returns the normal equations at a
+/// point, and `cost`, which returns the cost alone. If you cancel `task`, this ends early, where it is.
 pub(crate) fn minimise(
     start: DVector<f64>,
     (lower, upper): (&DVector<f64>, &DVector<f64>),
@@ -250,8 +246,8 @@ pub(crate) fn minimise(
     Minimum { point, cost: equations.cost }
 }
 
-/// Solves (A + damping D) step = -gradient for the parameters that are not held, where D is the
-/// diagonal of A kept away from zero.
+/// Solves (A + damping D) step = -gradient for the parameters that we do not hold. D is the diagonal of A,
+/// and we keep it away from zero.
 fn damped_step(
     equations: &NormalEquations,
     held: &[bool],
@@ -290,13 +286,13 @@ fn lower_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> f64 {
     total
 }
 
-/// A cost below this is good enough: it is half the square of a colour difference of 1e-4.
+/// We stop below this cost. It is half the square of a colour difference of 1e-4.
 const NEAR_ENOUGH: f64 = 0.5e-8;
-/// The descent ends beyond this damping: steps are then below rounding.
+/// We end the descent beyond this damping, because steps are then below rounding.
 const MOST_DAMPING_OF_SHARES: f64 = 1e9;
-/// The descent ends where a step is shorter than this in every unknown, chosen by eye.
+/// We end the descent where a step is shorter than this in every unknown. We chose it by eye.
 const LEAST_STEP: f64 = 1e-9;
-/// The descent ends where a step lowers the cost by less than this fraction, chosen by eye.
+/// We end the descent where a step lowers the cost by less than this fraction. We chose it by eye.
 const LEAST_DECREASE: f64 = 1e-6;
 
 /// Half a sum of squares at one point, with its gradient over the unknowns and the Gauss-Newton
@@ -311,11 +307,11 @@ pub struct Cost {
     pub matrix: [[f64; UNKNOWNS]; UNKNOWNS],
 }
 
-/// Minimises a sum of squares from `point` by the Levenberg-Marquardt method with steps that stay
-/// within `bounds` (Marquardt 1963, with Nielsen's damping of 1999), in at most `steps` steps. Moves
-/// `point` to the least cost found and returns that cost.
+/// Minimises a sum of squares from `point` by the Levenberg-Marquardt method with steps that stay within
+/// `bounds` (Marquardt 1963, with Nielsen's damping of 1999). Makes at most `steps` steps, moves `point` to
+/// the least cost found, and returns this cost.
 ///
-/// `point` must lie within the bounds.
+/// You must pass a `point` within the bounds.
 pub fn descend_within_bounds(
     mut cost_at: impl FnMut(&[f64; UNKNOWNS]) -> Cost,
     point: &mut [f64; UNKNOWNS],
@@ -373,9 +369,10 @@ fn damped(cost: &Cost, damping: f64, count: usize) -> [[f64; UNKNOWNS]; UNKNOWNS
     matrix
 }
 
-/// Most pigments of one recipe. It sets the size of the arrays below.
+/// A recipe has at most this many pigments. This sets the size of the arrays below.
 pub const MAX_PIGMENTS: usize = 8;
-/// Most unknowns of one descent: the shares of eight pigments, and the logarithm of the thickness.
+/// A descent has at most this many unknowns: the shares of eight pigments, and the logarithm of the
+/// thickness.
 pub const UNKNOWNS: usize = MAX_PIGMENTS + 1;
 
 /// Bounds of each unknown. The first `shares` unknowns keep their sum.
@@ -391,8 +388,8 @@ pub struct Bounds {
     pub upper: [f64; UNKNOWNS],
 }
 
-/// Returns the step d from `point` that minimises g d + d H d / 2 within the bounds. `matrix` must be
-/// positive definite and `point` within the bounds.
+/// Returns the step d from `point` that minimises g d + d H d / 2 within the bounds. You must pass a
+/// positive definite `matrix`, and a `point` within the bounds.
 pub(super) fn bounded_step(
     matrix: &[[f64; UNKNOWNS]; UNKNOWNS],
     gradient: &[f64; UNKNOWNS],
@@ -407,7 +404,7 @@ pub(super) fn bounded_step(
         let (down, up) = room(i);
         *held = down >= 0.0 || up <= 0.0;
     }
-    // Each round fixes or frees one unknown. Far more rounds than ever needed.
+    // Each round fixes or frees one unknown. We allow far more rounds than we ever need.
     for _ in 0..8 * UNKNOWNS {
         let slope: [f64; UNKNOWNS] = std::array::from_fn(|i| {
             gradient[i] + (0..count).map(|j| matrix[i][j] * step[j]).sum::<f64>()
@@ -499,8 +496,8 @@ fn wrongly_held(
 ) -> Option<usize> {
     let slope =
         |i: usize| gradient[i] + (0..bounds.count).map(|j| matrix[i][j] * step[j]).sum::<f64>();
-    // If no share is free, none can change alone, since their sum is fixed. The multiplier is then minus the
-    // mean slope of all shares, and the share with the slope farthest from this mean is freed.
+    // If no share is free, none can change alone, because their sum is fixed. The multiplier is then minus
+    // the mean slope of all shares, and we free the share with the slope farthest from this mean.
     let shared = multiplier.unwrap_or_else(|| {
         let shares = bounds.shares.max(1);
         -(0..bounds.shares).map(slope).sum::<f64>() / shares as f64

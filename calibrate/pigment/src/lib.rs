@@ -1,7 +1,8 @@
 //! The pigment library and its uses: mixtures, recipes, quadrature, palettes.
 //!
-//! A [`PigmentLibrary`] holds the Kubelka-Munk K and S of calibrated paints. From it follow the colour of
-//! any mixture ([`PigmentLibrary::color`]) and recipes for any colour ([`PigmentLibrary::recipes_for`]).
+//! A [`PigmentLibrary`] holds the Kubelka-Munk K and S of calibrated paints. You get the colour of any
+//! mixture from it ([`PigmentLibrary::color`]), and recipes for any colour
+//! ([`PigmentLibrary::recipes_for`]).
 //!
 //! ```text
 //! library (JSON) -> recipe -> K and S of the mixture -> film -> reflectance -> colour
@@ -22,8 +23,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Measuring and fitting are in the crate `calibrate`, instruments' files in `spectra`. Modules are ordered
-//! by dependence: each uses only modules declared above it.
+//! If you want to measure and fit paints, see the crate `calibrate`. For instruments' files, see `spectra`.
+//! Modules are ordered by dependence: each uses only modules declared above it.
 pub mod evaluate;
 pub mod recipe;
 mod least_squares;

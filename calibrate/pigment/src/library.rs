@@ -1,5 +1,5 @@
-//! The library of calibrated pigments on one wavelength grid, its JSON file, the settings of its fit, and the
-//! library that ships with impasto: the oils of Van Gogh's palette.
+//! The library of calibrated pigments on one wavelength grid, its JSON file and the settings of its fit.
+//! You also find here the library that ships with impasto: the oils of Van Gogh's palette.
 
 use std::io::{self, Read};
 use std::ops::{Index, IndexMut};
@@ -17,15 +17,15 @@ use spectra::optics::{Surface, UnevenFilm};
 
 use crate::recipe::{Curves, PigmentId, Recipe};
 
-/// Allowed range of a part. Sums with larger parts lose their small terms to rounding.
+/// We allow this range for a part. Sums with larger parts lose their small terms to rounding.
 const PARTS: std::ops::RangeInclusive<f64> = 0.0..=1e12;
-/// Least sum of parts that can be normalised.
+/// We can normalise parts only if their sum is at least this.
 const LEAST_TOTAL: f64 = 1e-12;
 
 /// Output of `impasto fit` for `measurements/van-gogh-oils.csv`.
 const VAN_GOGH_OILS: &str = include_str!("../../../measurements/van-gogh-oils.pigments.json");
 
-/// Calibrated pigments that can be mixed, with their sources.
+/// Calibrated pigments that you can mix, with their sources.
 ///
 /// ```
 /// use pigment::{PigmentLibrary, Viewing};
@@ -49,13 +49,14 @@ pub struct PigmentLibrary {
     /// Meaning of the amounts in a recipe.
     #[serde(default)]
     pub amounts: AmountKind,
-    /// Name of the pigment with S = 1 at every wavelength. `None` for absolute amounts.
+    /// Name of the pigment with S = 1 at every wavelength. `None` for absolute amounts, which have no such
+    /// pigment.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
     /// Surface of the measured films (Saunderson correction).
     pub saunderson: Surface,
-    /// Unevenness of the measured films, see [`UnevenFilm`], 0 to 2. Only absolute amounts reveal
-    /// it.
+    /// Unevenness of the measured films, see [`UnevenFilm`], 0 to 2. You can see it only from absolute
+    /// amounts.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unevenness: f64,
     /// Measurement files from which the library was made.
@@ -91,8 +92,9 @@ impl PigmentLibrary {
         }
     }
 
-    /// Finds a pigment by `name`, for example `zinc` for `Zinc White`. Tries, in this order, the exact name,
-    /// the name in any letter case, and the start of a name in any letter case if only one pigment has it.
+    /// Finds a pigment by `name`, for example `zinc` for `Zinc White`. We try, in this order, the exact
+    /// name, the name in any letter case, and the start of a name in any letter case if only one pigment
+    /// has it.
     ///
     /// # Errors
     /// [`RecipeError`] if no pigment or several match.
@@ -143,8 +145,8 @@ impl PigmentLibrary {
         Curves { grid: self.grid, absorption, scattering }
     }
 
-    /// Mean colour error of the fit in CIEDE2000, as its evidence records it: about how far a mixture is from
-    /// its prediction. `None` for a library made otherwise.
+    /// Mean colour error of the fit in CIEDE2000, as its evidence records it. You can expect a mixture to
+    /// be about this far from its prediction. `None` for a library made otherwise.
     #[must_use]
     pub fn mean_error(&self) -> Option<f64> {
         self.evidence.as_ref().map(|evidence| evidence.delta_e.mean)
@@ -156,7 +158,7 @@ impl PigmentLibrary {
         UnevenFilm { surface: self.saunderson, unevenness: self.unevenness }
     }
 
-    /// Recipe of pigments by name, each with its parts. Names are looked up by [`Self::find`].
+    /// Recipe of pigments by name, each with its parts. We look up names by [`Self::find`].
     ///
     /// # Errors
     /// [`RecipeError`] for a name that matches no pigment or several.
@@ -167,8 +169,8 @@ impl PigmentLibrary {
         parts.into_iter().map(|(name, part)| Ok((self.find(name.as_ref())?, part))).collect()
     }
 
-    /// K and S of a recipe. Parts of a relative library are normalised to sum 1, so that a given thickness
-    /// means the same film for any total of the parts.
+    /// K and S of a recipe. We normalise the parts in a relative library to sum 1, so that you get the same
+    /// film at a given thickness for any total of the parts.
     ///
     /// # Errors
     /// [`RecipeError::Parts`] unless every part is 0 to 1e12 and they sum to 1e-12 or more.
@@ -184,7 +186,7 @@ impl PigmentLibrary {
         Ok(Curves::weighted_sum(self.grid, weighted))
     }
 
-    /// Parts of a recipe as K and S are weighted by them: normalised to sum 1 in a relative library.
+    /// Parts of a recipe, as we weight K and S by them. In a relative library they sum to 1.
     ///
     /// # Errors
     /// [`RecipeError::Parts`] unless every part is 0 to 1e12 and they sum to 1e-12 or more.
@@ -204,8 +206,8 @@ impl PigmentLibrary {
         Ok(parts.iter().map(|&(id, part)| (id, part * scale)).collect())
     }
 
-    /// The library that ships: 20 oil paints of Van Gogh's palette, calibrated from the readings of
-    /// Geldof and others (2018, CC0).
+    /// The library that ships with impasto: 20 oil paints of Van Gogh's palette, which we calibrated from
+    /// the readings of Geldof and others (2018, CC0).
     ///
     /// # Panics
     /// Never: a test reads the library that is compiled in.
@@ -264,17 +266,17 @@ pub struct Pigment {
     /// Standard deviation of S at each wavelength, empty if unknown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scattering_sd: Vec<f64>,
-    /// Whether S is known. If not, `scattering` is 1 at every wavelength, and `notes` say so.
+    /// Whether we know S. If not, `scattering` is 1 at every wavelength, and `notes` say so.
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub identified: bool,
-    /// Whether K and S were guessed from a colour rather than measured.
+    /// Whether you guessed K and S from a colour. They are then not measured.
     #[serde(default, skip_serializing_if = "is_no")]
     pub guessed: bool,
     /// Least and greatest amount above 0 of the measured films. Only absolute amounts have such limits,
     /// and files of older versions do not state them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured_amounts: Option<[f64; 2]>,
-    /// Warnings about the pigment, in words for the user.
+    /// Warnings about the pigment, in words for you.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -337,7 +339,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Record of the file `path` with the content of `reader`, which is never in memory as a whole.
+    /// Record of the file `path` with the content of `reader`. We never hold the whole content in memory.
     ///
     /// # Errors
     /// The error of `reader`.
@@ -366,7 +368,7 @@ impl Input {
     }
 }
 
-/// Every setting that changes the result of a fit. Kept in the library's file.
+/// Every setting that changes the result of a fit. We save it in the library's file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitSettings {
@@ -461,7 +463,7 @@ impl PigmentLibrary {
         to_text(&Value::Object(file))
     }
 
-    /// Reads the library from `text`, the content of `file`, which is only named in errors.
+    /// Reads the library from `text`, the content of `file`. We use this name only in errors.
     ///
     /// # Errors
     /// [`LibraryError`] if the text is not JSON, has another format or version, an unknown or missing key, or
@@ -493,7 +495,7 @@ impl PigmentLibrary {
             }
         }
         let version = object.remove("version").unwrap_or(Value::Null);
-        // Files of older versions will be upgraded here, one step each.
+        // We will upgrade files of older versions here, one step each.
         if version != VERSION {
             return Err(LibraryError::Version {
                 file: file.to_owned(),

@@ -3,9 +3,9 @@
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm, infinite_film};
 
-/// Place of a pigment in a library, or in the list of pigments of a set of swatches, counted from 0.
+/// Place of a pigment in a library, or in the list of pigments of a set of swatches. We count from 0.
 ///
-/// It is valid for the library or list that it came from. See
+/// Use it only with the library or list that you got it from. See
 /// [`PigmentLibrary::find`](crate::library::PigmentLibrary::find).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PigmentId(pub usize);
@@ -20,8 +20,8 @@ impl PigmentId {
 
 /// Pigments of one library with their parts, 0 and up.
 ///
-/// In a library of relative amounts only the ratios of the parts count. In one of absolute amounts
-/// each part is an amount on the library's area.
+/// In a library of relative amounts only the ratios of the parts count, e.g. 9:1 is the same as 90:10. In
+/// one of absolute amounts each part is an amount on the library's area.
 ///
 /// ```
 /// use pigment::{PigmentLibrary, Recipe};
@@ -45,7 +45,7 @@ impl Recipe {
         Self { parts: vec![(pigment, 1.0)] }
     }
 
-    /// Pigments with their parts, in the order in which they were given.
+    /// Pigments with their parts, in the order in which you gave them.
     #[must_use]
     pub fn parts(&self) -> &[(PigmentId, f64)] {
         &self.parts
@@ -130,9 +130,9 @@ impl AsRef<[(PigmentId, f64)]> for Recipe {
 
 /// Kubelka-Munk absorption K and scattering S on a wavelength grid.
 ///
-/// K and S of a mixture are sums over its pigments, weighted by their shares (Duncan 1940). They are
-/// relative to the S of the library's reference white, or per unit of amount for a library of
-/// absolute amounts.
+/// You get K and S of a mixture as sums over its pigments, weighted by their shares (Duncan 1940). They are
+/// relative to the S of the library's reference white, or per unit of amount for a library of absolute
+/// amounts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
     /// Wavelengths of both curves.
@@ -181,24 +181,21 @@ impl Curves {
     }
 
     /// Measured reflectance of a film of `thickness` over a backing. `backing` is its bare reflectance,
-    /// measured under the same surface.
+    /// which you measured under the same surface.
     ///
-    /// Thickness 1 is the thickness at which the reference white has S d = 1, or the amounts of the
-    /// recipe where K and S are per unit of amount. A backing darker than the surface's own
-    /// reflection counts as black.
+    /// At thickness 1 the reference white has S d = 1. Where K and S are per unit of amount, at 1 you have
+    /// the amounts of the recipe. A backing darker than the surface's own reflection counts as black.
     #[must_use]
     pub fn film(&self, thickness: f64, backing: &[f64], film: UnevenFilm) -> Vec<f64> {
         film_over(&self.absorption, &self.scattering, thickness, backing, film)
     }
 }
 
-/// Measured reflectance of a film that hides, at any wavelengths.
 pub(crate) fn hiding_film(absorption: &[f64], scattering: &[f64], surface: Surface) -> Vec<f64> {
     let pairs = absorption.iter().zip(scattering);
     pairs.map(|(&k, &s)| surface.measured_from_internal(infinite_film(k, s))).collect()
 }
 
-/// Measured reflectance of a film over a backing, at any wavelengths.
 pub(crate) fn film_over(
     absorption: &[f64],
     scattering: &[f64],

@@ -1,10 +1,10 @@
 //! The smoothest reflectance that has a given colour.
 //!
-//! The method is least hyperbolic tangent slope squared (S. A. Burns, "Numerical methods for smoothest
-//! reflectance reconstruction", Color Research and Application 45, 2020). R = (1 + tanh z) / 2 stays within
-//! 0..1. Of all z with the given colour, the one with the smallest sum of squared steps over wavelength is
-//! found. R is the reflectance below the surface, so that a paint under this surface can have it. Lagrange's
-//! conditions are solved by Newton's method.
+//! We use the method of least hyperbolic tangent slope squared (S. A. Burns, "Numerical methods for
+//! smoothest reflectance reconstruction", Color Research and Application 45, 2020). R = (1 + tanh z) / 2
+//! stays within 0..1. Of all z with the given colour, we find the one with the smallest sum of squared
+//! steps over wavelength. R is the reflectance below the surface, so a paint under this surface can have
+//! it. We solve Lagrange's conditions by Newton's method.
 
 use documents::Task;
 use nalgebra::{DMatrix, DVector};
@@ -14,8 +14,8 @@ use spectra::optics::Surface;
 
 use crate::least_squares::{NormalEquations, Stop, minimise};
 
-/// Range of the reflectance below the surface: K/S from 1000 down to 5e-9, since a paint is never
-/// perfectly black or white. Chosen by eye.
+/// The reflectance below the surface stays in this range, which is K/S from 1000 down to 5e-9, because a
+/// paint is never perfectly black or white. We chose it by eye.
 const INTERNAL: [f64; 2] = [0.0005, 0.9999];
 
 /// A reflectance below the surface, with the difference between its colour and the requested one.
@@ -25,13 +25,13 @@ pub struct Recovered {
     pub internal: Vec<f64>,
     /// XYZ of the film seen through its surface, Y = 100 for white.
     pub xyz: Xyz,
-    /// CIEDE2000 from the requested colour: 0 to rounding where a paint under this surface can
-    /// have it, else the difference to a colour near the nearest possible one.
+    /// CIEDE2000 from the requested colour. If a paint under this surface can have this colour, it is 0 to
+    /// rounding. Otherwise you get the difference to a colour near the nearest possible one.
     pub delta_e: f64,
 }
 
 /// Returns the smoothest reflectance under `surface` with the colour `wanted`. If no reflectance has this
-/// colour, returns one with a colour near it.
+/// colour, you get one with a colour near it.
 #[must_use]
 pub fn smoothest_reflectance(
     weights: &TristimulusWeights,
@@ -77,8 +77,8 @@ impl Problem<'_> {
         self.weights.xyz(&reflectance)
     }
 
-    /// Newton's method on Lagrange's conditions. Each step is shortened until the residual falls.
-    /// Returns `None` if it does not converge, as for a colour that no reflectance has.
+    /// Newton's method on Lagrange's conditions. We shorten each step until the residual falls. You get
+    /// `None` if it does not converge, e.g. for a colour that no reflectance has.
     fn exact(&self, mut z: DVector<f64>) -> Option<DVector<f64>> {
         let count = z.len();
         let mut multipliers = DVector::zeros(3);
@@ -146,10 +146,10 @@ impl Problem<'_> {
         (residual, matrix)
     }
 
-    /// Reflectance with a colour near the requested one, by least squares in the local metric of CIEDE2000 at
-    /// the requested colour. A small weight keeps it smooth.
+    /// Reflectance with a colour near the requested one, by least squares in the local metric of CIEDE2000
+    /// at this colour. A small weight keeps it smooth.
     fn nearest(&self, start: DVector<f64>) -> DVector<f64> {
-        /// Weight of the squared steps of z, chosen by eye, small against one CIEDE2000.
+        /// Weight of the squared steps of z. We chose it by eye, small against one CIEDE2000.
         const SMOOTH: f64 = 1e-5;
         let white = self.weights.white();
         let wanted = Lab::from_xyz(self.wanted, white);
@@ -240,7 +240,7 @@ mod tests {
         let found = recovered(surface, random());
         let (met, missed): (Vec<_>, Vec<_>) = found.iter().partition(|(_, f)| f.delta_e < 0.05);
         assert!(met.len() > 880 && missed.len() > 50, "{} met", met.len());
-        // Only colours with a primary darker than the surface's reflection are missed.
+        // We miss only colours with a primary darker than the surface's reflection.
         for (rgb, found) in missed {
             let least = rgb.linear().0.into_iter().fold(1.0, f64::min);
             assert!(least < 0.03 && found.delta_e < 14.0, "{}: {}", rgb.to_hex(), found.delta_e);

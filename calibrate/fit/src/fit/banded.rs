@@ -1,6 +1,7 @@
 //! Symmetric banded matrices: Cholesky factor, solution of equations, and the band of the inverse.
 //!
-//! The refinement couples each wavelength only with its neighbours, so its normal equations have this form.
+//! The refinement couples each wavelength only with its neighbours, so we get normal equations of this
+//! form.
 
 use std::sync::Mutex;
 
@@ -16,7 +17,7 @@ const ENTRIES_OF_TASK: usize = 1 << 16;
 #[derive(Debug, Clone)]
 pub(crate) struct Banded {
     size: usize,
-    /// Number of entries kept below the diagonal.
+    /// The band holds this many entries below the diagonal.
     reach: usize,
     columns: Vec<f64>,
 }
@@ -55,8 +56,8 @@ impl Banded {
         self.columns[i * width] = 1.0;
     }
 
-    /// Entries of `count` columns at a time, the columns of one wavelength, for adding to them on several
-    /// threads.
+    /// Entries of `count` columns at a time, e.g. the columns of one wavelength. Use this to add to them on
+    /// several threads.
     pub(crate) fn by_columns(
         &mut self,
         count: usize,
@@ -66,7 +67,6 @@ impl Banded {
         columns.map(move |entries| ColumnsMut { width, entries })
     }
 
-    /// Product with a vector.
     pub(crate) fn times(&self, vector: &[f64]) -> Vec<f64> {
         let width = self.reach + 1;
         let mut product = vec![0.0; self.size];
@@ -107,13 +107,12 @@ impl ColumnsMut<'_> {
     }
 }
 
-/// Memory of matrices that are no longer needed, for the next ones: a large fit makes hundreds of them,
-/// and fresh memory costs as much time as the arithmetic.
+/// Memory of matrices that we no longer need, for the next ones. A large fit makes hundreds of them, and
+/// fresh memory costs as much time as the arithmetic.
 #[derive(Debug, Default)]
 pub(crate) struct Spare(Mutex<Vec<Vec<f64>>>);
 
 impl Spare {
-    /// A matrix of zeros.
     pub(crate) fn zeros(&self, size: usize, reach: usize) -> Banded {
         let Some(mut columns) = self.take(size * (reach + 1)) else {
             return Banded::zeros(size, reach);
@@ -122,7 +121,6 @@ impl Spare {
         Banded { size, reach, columns }
     }
 
-    /// A copy of `matrix`.
     pub(crate) fn copy(&self, matrix: &Banded) -> Banded {
         let Some(mut columns) = self.take(matrix.columns.len()) else { return matrix.clone() };
         let pairs = columns.par_chunks_mut(ENTRIES_OF_TASK);
@@ -132,7 +130,7 @@ impl Spare {
         Banded { columns, ..*matrix }
     }
 
-    /// Keeps the memory of `matrix`.
+    /// Keeps the memory of `matrix` for the next one.
     pub(crate) fn keep(&self, matrix: Banded) {
         if let Ok(mut kept) = self.0.lock() {
             kept.push(matrix.columns);
@@ -146,9 +144,9 @@ impl Spare {
     }
 }
 
-/// Columns that are eliminated together. They fit the nearest cache.
+/// We eliminate this many columns together. They fit the nearest cache.
 const PANEL: usize = 32;
-/// Least reach for which the columns of one panel are worth several threads.
+/// We use several threads for the columns of one panel from this reach on.
 const LEAST_PARALLEL: usize = 100;
 /// Least number of pairs of columns of one task.
 const PAIRS_OF_TASK: usize = 4;
@@ -160,7 +158,6 @@ pub(crate) struct BandedCholesky {
 }
 
 impl BandedCholesky {
-    /// The factor as a matrix.
     pub(crate) fn into_matrix(self) -> Banded {
         self.factor
     }
@@ -169,9 +166,9 @@ impl BandedCholesky {
 impl Banded {
     /// Cholesky factor, or `None` if the matrix is not positive definite.
     ///
-    /// Columns are eliminated in panels. The updates of the columns to the right run on all cores. Each
-    /// entry takes its updates in the order of columns, so that the factor is the same for any number of
-    /// threads and any width of the machine's vectors.
+    /// We eliminate columns in panels. The updates of the columns to the right run on all cores. Each entry
+    /// takes its updates in the order of columns, so you get the same factor for any number of threads and
+    /// any width of the machine's vectors.
     pub(crate) fn cholesky(mut self) -> Option<BandedCholesky> {
         let width = self.reach + 1;
         let reach = self.reach;
@@ -309,7 +306,6 @@ fn subtract_four(left: &mut [f64], right: &mut [f64], four: [&[f64]; 4]) {
 pub(crate) const TOGETHER: usize = 16;
 
 impl BandedCholesky {
-    /// Solves A x = `right`.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let size = self.factor.size;
         let width = self.factor.reach + 1;
@@ -331,8 +327,8 @@ impl BandedCholesky {
         x
     }
 
-    /// Solves A x = b for [`TOGETHER`] right sides at once, which stand side by side in each row. Each
-    /// solution equals the result of [`Self::solve`].
+    /// Solves A x = b for [`TOGETHER`] right sides at once. They stand side by side in each row. You get
+    /// the same solutions as from [`Self::solve`].
     pub(crate) fn solve_together(&self, x: &mut [[f64; TOGETHER]]) {
         pulp::Arch::new().dispatch(Together { factor: &self.factor, x });
     }
@@ -370,9 +366,8 @@ impl WithSimd for Together<'_> {
     }
 }
 
-/// Columns of the inverse that are computed together.
+/// We compute this many columns of the inverse together.
 const INVERSE_PANEL: usize = 16;
-/// Least number of rows of one task.
 const ROWS_OF_TASK: usize = 16;
 
 impl BandedCholesky {

@@ -8,20 +8,20 @@ use super::forward::{Data, Finite};
 use super::problem::{CurveTable, FitError, Layout};
 use super::refined::{Refined, Refinement, refine};
 use pigment::{Curves, Recipe};
-/// Values of S that are tried as a start, evenly spaced in their logarithm (chosen by eye).
+/// We try this many values of S as a start, evenly spaced in their logarithm (chosen by eye).
 const STARTS: i32 = 44;
-/// Least of these values of S.
+/// We begin with this value of S.
 const LEAST_START: f64 = 0.012;
-/// Ratio of the greatest to the least of these values.
+/// The greatest of these values divided by the least.
 const START_RANGE: f64 = 1000.0;
-/// Range of K in the starting point of a fit (chosen by eye).
+/// K starts within this range (chosen by eye).
 const START_K: [f64; 2] = [4e-4, 120.0];
-/// Values of K in the coarse grid of the first wavelength (chosen by eye).
+/// We try this many values of K at the first wavelength (chosen by eye).
 const COARSE_STEPS: i32 = 25;
-/// Residual at which the robust loss of a start turns linear, as a cube root of reflectance (0 to 1): 0.02,
-/// about 2 units of lightness.
+/// The robust loss of a start turns linear at this residual. It is a cube root of reflectance (0 to 1), so
+/// this is about 2 units of lightness.
 const START_KNEE: f64 = 0.02;
-/// Most Gauss-Newton steps of a start (chosen by eye).
+/// We make at most this many Gauss-Newton steps for a start (chosen by eye).
 const START_STEPS: usize = 12;
 
 /// Films of known amounts over known backings.
@@ -31,7 +31,7 @@ pub struct FiniteProblem {
     pub grid: Grid,
     /// Number of pigments.
     pub pigments: usize,
-    /// Standard deviation of repeated readings, root mean square over films, or 0 if none were repeated.
+    /// Standard deviation of repeated readings (root mean square over films). It is 0 if you repeated none.
     pub reading_sd: f64,
     /// Films on backings of known reflectance.
     pub films: Vec<MeasuredFilm>,
@@ -40,7 +40,7 @@ pub struct FiniteProblem {
 /// One film of known amounts over a known backing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredFilm {
-    /// Name of the sample, with its backing if the sample has several films.
+    /// Name of the sample. If the sample has several films, the backing follows.
     pub name: String,
     /// Pigments with their amounts on the area, above 0.
     pub recipe: Recipe,
@@ -51,7 +51,7 @@ pub struct MeasuredFilm {
 }
 
 impl FiniteProblem {
-    /// Copy with the films of indices `kept`, in that order.
+    /// Copy with only the films of indices `kept`, in this order.
     #[must_use]
     pub fn with_films(&self, kept: &[usize]) -> Self {
         Self { films: kept.iter().map(|&i| self.films[i].clone()).collect(), ..*self }
@@ -71,10 +71,10 @@ impl FiniteProblem {
 
 /// Fits K and S per unit of amount.
 ///
-/// K d and S d of a film are the sums of its amounts times K and S, and its reflectance over the
-/// backing follows from the finite layer equation. The start comes from each pigment's films without
-/// others (one S for all wavelengths, the best K at each); then the cost of the refinement is
-/// minimised, see [`super::fit_refined`].
+/// K d and S d of a film are the sums of its amounts times K and S. The finite layer equation gives its
+/// reflectance over the backing. For the start, we use the films that contain one pigment alone: one S for
+/// all wavelengths, and the best K at each. Then we minimise the cost of the refinement, see
+/// [`super::fit_refined`].
 ///
 /// # Errors
 /// [`FitError::Empty`] without films, [`FitError::Cancelled`] if `task` was cancelled.
@@ -88,7 +88,7 @@ pub fn fit_finite(
     if problem.films.is_empty() {
         return Err(FitError::Empty);
     }
-    // Bounds and starts suit amounts near 1, so amounts are divided by their median total.
+    // Bounds and starts suit amounts near 1, so we divide the amounts by their median total.
     let totals: Vec<f64> = problem.films.iter().map(|film| film.recipe.total()).collect();
     let unit = pigment::evaluate::percentile(&totals, 50.0);
     let recipes: Vec<Vec<(usize, f64)>> = problem
@@ -140,9 +140,9 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    /// K by wavelength, and the one of 44 values of S from 0.012 to 12 that fits best. No prior on S is used,
-    /// since it would outweigh the weak information of a series of amounts. Without films of this pigment
-    /// alone, K and S start at 1.
+    /// K by wavelength, and the S that fits best among 44 values from 0.012 to 12. We use no prior on S
+    /// here, because it would outweigh the weak information of a series of amounts. If no film has this
+    /// pigment alone, K and S start at 1.
     fn of(&self, pigment: usize, wavelengths: usize) -> (Vec<f64>, f64) {
         let own: Vec<(usize, f64)> = self
             .recipes
@@ -173,7 +173,7 @@ impl Start<'_> {
         (absorption, scattering)
     }
 
-    /// Log K that fits a pigment's own films best at one wavelength for a given S, with its cost: by
+    /// Log K that fits a pigment's own films best at one wavelength for a given S, with its cost. We make
     /// Gauss-Newton steps from `near`, or from the best of a coarse grid.
     fn best_absorption(
         &self,

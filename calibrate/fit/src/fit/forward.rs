@@ -1,7 +1,7 @@
 //! Models that predict films in a fit: films that hide, and films over a known backing.
 //!
-//! This file also holds what needs the equations alone, before any fit: the colour term of the cost, the rank
-//! and condition of the equations, and the pigments that the mixtures determine.
+//! We also compute here what needs only the equations, before any fit: the colour term of the cost, the
+//! rank and condition of the equations, and the pigments that the mixtures determine.
 //!
 //! The equations K = Q S of the mixtures are homogeneous except for the reference white. We know the S of a
 //! pigment only through mixtures that connect it, directly or through others, to this white.
@@ -42,7 +42,7 @@ impl Forward for Hiding {
     }
 }
 
-/// Model of films of unit thickness over known backings. The thickness is contained in the amounts.
+/// Model of films of unit thickness over known backings. The amounts contain the thickness.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Finite<'a> {
     pub(super) film: UnevenFilm,
@@ -81,12 +81,11 @@ pub(super) struct Data<'a, F> {
 pub(super) struct Linear {
     /// Predicted reflectance by sample and wavelength.
     pub(super) values: Vec<Vec<f64>>,
-    /// By sample: for each wavelength in turn, one slope for each of the sample's places.
+    /// By sample: for each wavelength in turn, one slope for each place of this sample.
     pub(super) slopes: Vec<Vec<f64>>,
 }
 
 impl<'a> Data<'a, Hiding> {
-    /// The mixtures of a problem, modelled as films that hide.
     pub(super) fn hiding(problem: &'a Problem) -> Self {
         let layout = Layout {
             pigments: problem.pigments,
@@ -133,7 +132,6 @@ impl<'a, F: Forward> Data<'a, F> {
         normal
     }
 
-    /// Places of the unknowns of sample `index` within a wavelength.
     pub(super) fn places(&self, index: usize) -> &[usize] {
         &self.places[index]
     }
@@ -160,7 +158,6 @@ impl<'a, F: Forward> Data<'a, F> {
         Linear { values, slopes }
     }
 
-    /// Values and slopes of one sample.
     fn linear_of_sample(&self, curves: &CurveTable, index: usize) -> (Vec<f64>, Vec<f64>) {
         let recipe = &self.recipes[index];
         let wavelengths = self.layout.wavelengths;
@@ -215,7 +212,6 @@ impl<'a> ColorTerm<'a> {
         Self { weights, targets }
     }
 
-    /// Colour difference of sample `index` at `reflectance`.
     pub(super) fn difference(&self, index: usize, reflectance: &[f64]) -> f64 {
         let residual = self.components(index, self.weights.xyz(reflectance));
         residual.iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -228,7 +224,7 @@ impl<'a> ColorTerm<'a> {
         ColorResidual { residual: self.components(index, xyz), slopes }
     }
 
-    /// Movement of the colour, in CIEDE2000, per unit of reflectance at each wavelength, by sample.
+    /// By sample: how far the colour moves, in CIEDE2000, per unit of reflectance at each wavelength.
     pub(super) fn sensitivity(&self, target: &[Vec<f64>]) -> Vec<Vec<f64>> {
         (0..self.targets.len())
             .map(|index| {
@@ -248,7 +244,7 @@ impl<'a> ColorTerm<'a> {
     }
 }
 
-/// How well the mixtures determine K and S, at the wavelength where they do so worst.
+/// How well the mixtures determine K and S at the worst wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
     /// Number of unknowns per wavelength.
@@ -261,12 +257,12 @@ pub struct Condition {
     pub nm: f64,
 }
 
-/// Eigenvalues of the normal matrix below this fraction of the largest are attributed to rounding.
+/// We attribute eigenvalues of the normal matrix below this fraction of the largest to rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Computes rank and condition of the derivatives of measured reflectance over log K and log S, with
-/// columns scaled to length 1. A singular value below 3e-7 of the largest counts as 0, since rounding of
-/// the normal matrix ends there.
+/// Computes rank and condition of the derivatives of measured reflectance over log K and log S. We scale
+/// columns to length 1. A singular value below 3e-7 of the largest counts as 0, because rounding of the
+/// normal matrix ends there.
 #[must_use]
 pub fn condition(problem: &Problem, curves: &[Curves]) -> Condition {
     let curves = CurveTable::off_zero(curves, [f64::NEG_INFINITY; 2]);
@@ -295,7 +291,7 @@ pub fn condition(problem: &Problem, curves: &[Curves]) -> Condition {
 /// Quantity of a pigment that the data do not identify.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
-    /// Its S. We know its K/S from a masstone.
+    /// Its S. We know only its K/S, from a masstone.
     Scattering,
     /// Both K and S.
     Everything,
@@ -312,14 +308,14 @@ pub struct Unidentified {
     pub samples: Vec<usize>,
 }
 
-/// Two recipes are equal if their shares, summed over pigments, differ by less than this.
+/// Two recipes count as equal if their shares, summed over pigments, differ by less than this.
 const SAME_RECIPE: f64 = 1e-9;
 
-/// Finds the pigments that the mixtures do not identify, given the `reference` with S = 1. `shares` are
-/// the shares of all pigments, by sample.
+/// Finds the pigments that the mixtures do not identify. You give the `reference`, which has S = 1, and the
+/// shares of all pigments by sample.
 ///
-/// A pigment is identified if it occurs in two or more samples of different recipe, at least one of them
-/// a mixture with an identified pigment.
+/// We identify a pigment if it occurs in two or more samples of different recipe, and at least one of them
+/// is a mixture with an identified pigment. For example, a masstone alone does not identify S.
 #[must_use]
 pub fn unidentified<'a>(
     shares: impl IntoIterator<Item = &'a [f64]>,

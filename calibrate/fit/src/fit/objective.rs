@@ -1,7 +1,8 @@
 //! Cost of the refinement, and the Levenberg-Marquardt steps that minimise it.
 //!
-//! The noise model sets the weight of each residual. One part of the noise is perceptually uniform (for
-//! example errors of mixing and weighing), the other is constant in reflectance (errors of the instrument).
+//! The noise model sets the weight of each residual. We split the noise in two. One part is perceptually
+//! uniform (e.g. errors of mixing and weighing), the other is constant in reflectance (errors of the
+//! instrument).
 
 use documents::Task;
 use pigment::evaluate::percentile;
@@ -11,35 +12,35 @@ use super::banded::{Banded, BandedCholesky, ColumnsMut, Spare};
 use super::forward::{ColorResidual, ColorTerm, Data, Forward, Linear};
 use super::problem::{LOWER, UPPER};
 
-/// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of 10.
-/// It only keeps unknowns that no sample determines from diverging.
+/// Every unknown is pulled towards its start with this strength, in 1 / (log unit)^2. That is a standard
+/// deviation of 10. We need it only so that unknowns which no sample determines do not diverge.
 pub(super) const RIDGE: f64 = 0.01;
-/// First damping of a descent (chosen by eye).
+/// A descent begins with this damping (chosen by eye).
 const FIRST_DAMPING: f64 = 1e-2;
 /// Damping stays above this, so that the matrix keeps a Cholesky factor.
 const LEAST_DAMPING: f64 = 1e-8;
-/// Factor by which damping falls after a step that lowers the cost (chosen by eye).
+/// We divide the damping by this after a step that lowers the cost (chosen by eye).
 const DAMPING_FALL: f64 = 5.0;
-/// Factor by which damping rises after a step that does not (chosen by eye).
+/// We multiply the damping by this after a step that does not (chosen by eye).
 const DAMPING_RISE: f64 = 6.0;
-/// Most dampings tried for one step.
+/// We try at most this many dampings for one step.
 const TRIALS: usize = 8;
-/// Longest step of one unknown, in log units (chosen by eye).
+/// We let no unknown move further than this in one step, in log units (chosen by eye).
 const LONGEST_STEP: f64 = 2.0;
-/// Added to the diagonal, so that unknowns without data have a finite step.
+/// We add this to the diagonal, so that unknowns without data have a finite step.
 const DIAGONAL_FLOOR: f64 = 1e-9;
-/// Squared relative residual at which conjugate gradients stop: a thousandth of the start.
+/// Conjugate gradients stop at this squared relative residual, which is a thousandth of the start.
 const GRADIENT_TOLERANCE: f64 = 1e-6;
-/// Most steps of conjugate gradients. The preconditioner needs about ten, so this limit is generous
-/// (chosen by eye).
+/// We make at most this many steps of conjugate gradients. The preconditioner needs about ten, so this
+/// limit is generous (chosen by eye).
 const GRADIENT_STEPS: usize = 60;
 
 /// Cost of a fit, in units of the residual's variance. It is the sum of
 ///
-/// - spectral: rho(w (cbrt R - cbrt R_measured)), with the knee at 3 standard deviations;
-/// - roughness: smoothness / 2 (second difference over wavelength)^2 of each log K and log S;
-/// - ridge: [`RIDGE`] / 2 (log - start)^2, with a strength of its own for log S;
-/// - colour: strength x rho(CIEDE2000) of each sample;
+/// - spectral: rho(w (cbrt R - cbrt R_measured)), with the knee at 3 standard deviations
+/// - roughness: smoothness / 2 (second difference over wavelength)^2 of each log K and log S
+/// - ridge: [`RIDGE`] / 2 (log - start)^2, with a strength of its own for log S
+/// - colour: strength x rho(CIEDE2000) of each sample
 ///
 /// where rho(r) = c^2 (sqrt(1 + (r/c)^2) - 1) is half a square near 0 and straight beyond the knee c.
 pub(super) struct Objective<'a, F> {
@@ -49,7 +50,7 @@ pub(super) struct Objective<'a, F> {
     pub(super) knee: f64,
     pub(super) smoothness: f64,
     pub(super) start: &'a [f64],
-    /// Strength of the pull of log S towards its start. For log K it is [`RIDGE`].
+    /// How strongly log S is pulled towards its start. For log K it is [`RIDGE`].
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
     pub(super) spare: Spare,
@@ -57,7 +58,6 @@ pub(super) struct Objective<'a, F> {
     pub(super) task: &'a Task,
 }
 
-/// Colour term of the cost.
 pub(super) struct ColorPart<'a> {
     pub(super) term: &'a ColorTerm<'a>,
     pub(super) strength: f64,
@@ -240,8 +240,8 @@ impl<F: Forward> Objective<'_, F> {
         None
     }
 
-    /// Damped Gauss-Newton step: directly from the banded factor or, with the colour term, which couples
-    /// all wavelengths, by conjugate gradients with that factor as preconditioner.
+    /// Damped Gauss-Newton step, directly from the banded factor. The colour term couples all wavelengths.
+    /// With this term we use conjugate gradients, and the factor is the preconditioner.
     fn step(&self, local: &Local, held: &[bool], damping: f64) -> Option<Vec<f64>> {
         let mut matrix = self.spare.copy(&local.matrix);
         let mut right: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
@@ -272,7 +272,7 @@ impl<F: Forward> Objective<'_, F> {
         Some(step)
     }
 
-    /// Strength of the pull of the unknown `place` towards its start.
+    /// How strongly the unknown `place` is pulled towards its start.
     pub(super) fn ridge(&self, place: usize) -> f64 {
         let layout = self.data.layout;
         let is_scattering = place % layout.per_wavelength() >= layout.pigments;
@@ -406,24 +406,24 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Least standard deviation of a residual, as a cube root of reflectance (chosen by eye).
+/// We assume at least this standard deviation of a residual, as a cube root of reflectance (chosen by eye).
 const LEAST_SD: f64 = 1e-4;
-/// Standard deviation over median absolute value for normal noise.
+/// Divide a standard deviation by the median absolute value to get this, for normal noise.
 const SD_OVER_MEDIAN: f64 = 1.4826;
-/// Ratios of the two kinds of noise that are tried besides 0, evenly spaced in their logarithm.
+/// We try this many ratios of the two kinds of noise besides 0, evenly spaced in their logarithm.
 const RATIOS: i32 = 25;
 /// Least of these ratios (chosen by eye).
 const LEAST_RATIO: f64 = 0.02;
-/// Decades that these ratios span (chosen by eye).
+/// The ratios span this many decades (chosen by eye).
 const RATIO_DECADES: f64 = 4.0;
 
-/// Expected errors of a swatch's reflectance, as standard deviations in measured reflectance.
+/// Errors that you expect of a swatch's reflectance, as standard deviations in measured reflectance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedNoise {
-    /// Error that is equal at every reflectance, of the instrument; 0 to below 1.
+    /// Error of the instrument, equal at every reflectance, 0 to below 1.
     pub constant: f64,
-    /// Error that is perceptually uniform, and so smaller in the dark: of weighing, mixing and the film;
-    /// 0 to below 1, for a swatch of typical reflectance.
+    /// Error of weighing, mixing and the film, 0 to below 1, for a swatch of typical reflectance. It is
+    /// perceptually uniform, so it is smaller in the dark.
     pub even: f64,
 }
 
@@ -440,15 +440,14 @@ impl ExpectedNoise {
 
 /// Distribution of the noise over samples and wavelengths.
 pub(super) struct Noise {
-    /// Cube roots of the measured reflectance.
     roots: Vec<Vec<f64>>,
     /// By sample and wavelength: weight of a cube-root residual that makes it perceptually uniform.
     even: Vec<Vec<f64>>,
     /// By sample and wavelength: that weight for a residual in reflectance itself.
     slope: Vec<Vec<f64>>,
     median_slope: f64,
-    /// Least standard deviation of a residual, derived from repeated readings. With few samples a fit may
-    /// come nearer to the readings than this, which would make them look too precise.
+    /// Least standard deviation of a residual, from repeated readings. With few samples a fit may come
+    /// nearer to the readings than this. You would then think them too precise.
     least_sd: f64,
 }
 
@@ -460,8 +459,8 @@ impl Noise {
                 *value /= root_slope(r);
             }
         }
-        // Weights are divided by their mean at each wavelength, so that they differ only among samples.
-        // Otherwise the ends of the band, where the eye is least sensitive, would hardly be fitted.
+        // We divide weights by their mean at each wavelength, so that they differ only among samples.
+        // Otherwise we would hardly fit the ends of the band, where the eye is least sensitive.
         for at in 0..even[0].len() {
             let mean = even.iter().map(|row| row[at]).sum::<f64>() / even.len() as f64;
             for row in &mut even {
@@ -515,8 +514,8 @@ impl Noise {
         self.slope.iter().map(|row| row.iter().map(|slope| sd(slope).recip()).collect()).collect()
     }
 
-    /// Ratio of the two kinds of noise (constant over uniform) under which the residuals of `values` are
-    /// most likely by Laplace's law.
+    /// Ratio of the two kinds of noise (constant over uniform) that makes the residuals of `values` most
+    /// likely by Laplace's law.
     pub(super) fn likeliest_ratio(&self, values: &[Vec<f64>]) -> f64 {
         let rows = values.par_iter().zip(&self.roots).zip(&self.even);
         let residuals: Vec<Vec<f64>> = rows

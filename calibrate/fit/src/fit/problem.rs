@@ -19,12 +19,11 @@ pub struct Problem {
     pub pigments: usize,
     /// Pigment with S = 1.
     pub reference: PigmentId,
-    /// Standard deviation of repeated readings, root mean square over samples, or 0 if none were
-    /// repeated.
+    /// Standard deviation of repeated readings (root mean square over samples). It is 0 if you repeated
+    /// none.
     pub(crate) reading_sd: f64,
     /// Pigments of each mixture with their shares.
     pub(crate) recipes: Vec<Vec<(usize, f64)>>,
-    /// K/S by mixture and wavelength.
     pub(crate) ratio: Vec<Vec<f64>>,
     /// Measured reflectance, as films that hide, by mixture and wavelength.
     pub(crate) reflectance: Vec<Vec<f64>>,
@@ -69,7 +68,6 @@ impl Problem {
         })
     }
 
-    /// K and S of mixture `index` at wavelength `at`.
     pub(crate) fn mixed(&self, curves: &CurveTable, index: usize, at: usize) -> (f64, f64) {
         self.recipes[index].iter().fold((0.0, 0.0), |(k, s), &(pigment, share)| {
             (k + share * curves.absorption[pigment][at], s + share * curves.scattering[pigment][at])
@@ -160,8 +158,8 @@ pub(crate) struct CurveTable {
 }
 
 impl CurveTable {
-    /// Table of `curves`, with K of at least `least[0]` and S of at least `least[1]`, since the logarithm
-    /// of 0 has no slope.
+    /// Table of `curves`. We raise K to at least `least[0]` and S to at least `least[1]`, because the
+    /// logarithm of 0 has no slope.
     pub(crate) fn off_zero(curves: &[Curves], least: [f64; 2]) -> Self {
         Self {
             absorption: curves.iter().map(|c| clamped(&c.absorption, least[0])).collect(),
@@ -169,7 +167,6 @@ impl CurveTable {
         }
     }
 
-    /// The curves by pigment.
     pub(crate) fn into_curves(self, grid: Grid) -> Vec<Curves> {
         let pairs = self.absorption.into_iter().zip(self.scattering);
         pairs.map(|(absorption, scattering)| Curves { grid, absorption, scattering }).collect()
@@ -180,15 +177,15 @@ fn clamped(curve: &[f64], least: f64) -> Vec<f64> {
     curve.iter().map(|v| v.max(least)).collect()
 }
 
-/// Lower limits of K and S, applied to a solution that may contain 0 before logarithms are taken.
+/// A solution may contain 0. We raise K and S to these values before we take logarithms.
 pub(crate) const OFF_ZERO: [f64; 2] = [1e-4, 1e-3];
 
-/// Bounds of log K and log S: from 1e-5, below which a pigment does not show, to 1e4.
+/// Bounds of log K and log S. A pigment with less than 1e-5 does not show, and we allow up to 1e4.
 pub(super) const LOWER: f64 = -11.512_925_464_970_229;
 pub(super) const UPPER: f64 = 9.210_340_371_976_184;
 
-/// Places of the unknowns: by wavelength, log K of every pigment, then log S of every pigment except the
-/// reference, with S = 1. Absolute amounts have no reference.
+/// Places of the unknowns. For each wavelength we list log K of every pigment, then log S of every pigment
+/// except the reference, which has S = 1. Absolute amounts have no reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) pigments: usize,
@@ -197,12 +194,10 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Number of unknowns per wavelength.
     pub(super) fn per_wavelength(self) -> usize {
         2 * self.pigments - usize::from(self.reference.is_some())
     }
 
-    /// Number of unknowns in all.
     pub(super) fn len(self) -> usize {
         self.per_wavelength() * self.wavelengths
     }
@@ -227,7 +222,6 @@ impl Layout {
         unknowns
     }
 
-    /// K and S of `unknowns`.
     pub(super) fn curves(self, unknowns: &[f64]) -> CurveTable {
         let per = self.per_wavelength();
         let curve = |place: usize| -> Vec<f64> {

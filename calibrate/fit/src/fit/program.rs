@@ -1,5 +1,5 @@
-//! The published quadratic program, plain and with rows weighted into errors of reflectance. This is the only
-//! file that uses the solver.
+//! The published quadratic program, plain and with rows weighted into errors of reflectance. We use the
+//! solver in this file only.
 
 use clarabel::algebra::{CscMatrix, MatrixMathMut};
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -11,15 +11,16 @@ use spectra::optics::{infinite_film_from_ratio, infinite_film_slope};
 
 use super::problem::{CurveTable, FitError, Problem};
 
-/// Unknowns from which the minimum without bounds is tried first: fewer take the solver no time.
+/// From this many unknowns on, we first try the minimum without bounds. With fewer the solver takes no
+/// time.
 const MANY: usize = 64;
-/// Pivot, on columns of length 1, below which mixtures leave a sum of pigments undetermined. The solver then
-/// gives a value in the middle of all that serve alike.
+/// Pivot, on columns of length 1, below which mixtures leave a sum of pigments undetermined. The solver
+/// then gives us a value in the middle of all that serve alike.
 const LEAST_PIVOT: f64 = 1e-4;
 
-/// Fits K and S by the method `qp`: per wavelength, minimises the sum over mixtures of (C K - Q C S)^2
-/// with K and S 0 and up and S = 1 for the reference (Baxter, Wendt and Lin 2004, section 5.2). Rows are
-/// not weighted, so dark mixtures with Q in the hundreds outweigh all others.
+/// Fits K and S by the method `qp`. At each wavelength this minimises the sum over mixtures of (C K - Q C
+/// S)^2 with K and S 0 and up and S = 1 for the reference (Baxter, Wendt and Lin 2004, section 5.2). We do
+/// not weight rows, so dark mixtures with Q in the hundreds outweigh all others.
 ///
 /// Returns K and S by pigment.
 ///
@@ -57,7 +58,7 @@ pub(super) fn solve_all(
 }
 
 /// The program at one wavelength. Its unknowns are K of every pigment, followed by S of all but the
-/// reference, each times the length of its column, since Q spans four decades.
+/// reference. We multiply each by the length of its column, because Q spans four decades.
 struct Program {
     /// Places of the unknowns among K and S of all pigments.
     free: Vec<usize>,
@@ -72,8 +73,8 @@ impl Program {
     fn new(problem: &Problem, at: usize, weights: &[f64]) -> Self {
         let n = problem.pigments;
         let reference = n + problem.reference.index();
-        // Half the quadratic form over K and all of S. The S of the reference is eliminated below. A row
-        // has twice as many entries as its mixture has pigments.
+        // Half the quadratic form over K and all of S. We eliminate the S of the reference below. A row has
+        // twice as many entries as its mixture has pigments.
         let mut form = vec![0.0; 4 * n * n];
         let mut row: Vec<(usize, f64)> = Vec::new();
         for ((recipe, ratio), weight) in problem.recipes.iter().zip(&problem.ratio).zip(weights) {
@@ -141,7 +142,7 @@ impl Program {
         Ok(self.unscaled(&solver.solution.x))
     }
 
-    /// K and S of all pigments at the minimum without bounds, if all are above 0: it is then the solution.
+    /// K and S of all pigments at the minimum without bounds. If all are above 0, this is the solution.
     /// `None` also if mixtures leave an unknown open.
     fn solve_freely(&self) -> Option<Vec<f64>> {
         let factor = self.quadratic.clone().cholesky()?;
@@ -160,16 +161,16 @@ impl Program {
     }
 }
 
-/// Number of times that the weights are computed. On the Van Gogh oils more than six gain nothing.
+/// We compute the weights this many times. On the Van Gogh oils more than six gain nothing.
 const ROUNDS: usize = 6;
-/// Least scattering of a mixture in its weight, so that weights stay finite.
+/// We assume at least this scattering of a mixture in its weight, so that weights stay finite.
 const LEAST_SCATTERING: f64 = 1e-3;
 
-/// Fits K and S by the method `weighted`: the program of [`super::fit_qp`] with each row times dR/dQ (of
-/// measured reflectance, at the observed Q) over the mixture's own scattering C S. A residual is then,
-/// to first order, an error of measured reflectance (Centore 2013 weights for reflectance too). C S
-/// comes from the round before and starts at 1. Since re-weighting can diverge, the round with the
-/// least error of reflectance is kept at each wavelength.
+/// Fits K and S by the method `weighted`. It is the program of [`super::fit_qp`], but we multiply each row
+/// by dR/dQ (of measured reflectance, at the observed Q) and divide it by the mixture's own scattering C S.
+/// A residual is then, to first order, an error of measured reflectance (Centore 2013 weights for
+/// reflectance too). We take C S from the round before. It starts at 1. Re-weighting can diverge, so at
+/// each wavelength we return the round with the least error of reflectance.
 ///
 /// Returns K and S by pigment.
 ///

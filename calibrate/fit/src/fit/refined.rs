@@ -1,6 +1,6 @@
 //! The refinement: from the weighted program to the final K and S and their standard deviations.
 //!
-//! Plans use the same equations to forecast the information that planned mixtures will give.
+//! Plans use the same equations to forecast the information that you will get from planned mixtures.
 
 use documents::Task;
 use pigment::evaluate::{Viewing, percentile};
@@ -16,44 +16,44 @@ use super::objective::{ColorPart, ExpectedNoise, Noise, Objective, RIDGE};
 use super::problem::{CurveTable, FitError, Layout, OFF_ZERO, Problem};
 use super::program::weighted;
 
-/// Knee of the spectral loss, in standard deviations (chosen by eye).
+/// The spectral loss turns linear at this many standard deviations (chosen by eye).
 const KNEE: f64 = 3.0;
-/// One over the variance of each sample's colour difference: a standard deviation of 0.32 CIEDE2000, the
-/// repeatability of a good instrument.
+/// One over the variance of each sample's colour difference. We assume a standard deviation of 0.32
+/// CIEDE2000, which is the repeatability of a good instrument.
 const COLOR_STRENGTH: f64 = 10.0;
-/// Knee of the colour loss, in medians of all colour differences (chosen by eye).
+/// The colour loss turns linear at this many medians of all colour differences (chosen by eye).
 const COLOR_KNEE: f64 = 5.0;
-/// Least median of the colour differences for that knee, in CIEDE2000: about the repeatability of a good
-/// instrument.
+/// For this knee we assume at least this median of the colour differences, in CIEDE2000. It is about the
+/// repeatability of a good instrument.
 const LEAST_MEDIAN_COLOR: f64 = 0.3;
-/// Most steps of the colour stage, which starts near its minimum (chosen by eye).
+/// We make at most this many steps in the colour stage, which starts near its minimum (chosen by eye).
 const COLOR_STEPS: usize = 12;
-/// Relative decrease of the cost at which the colour stage ends (chosen by eye).
+/// The colour stage ends when the cost falls by less than this fraction (chosen by eye).
 const COLOR_DECREASE: f64 = 1e-5;
-/// Strength of the pull of log S towards a pigment's start where amounts are absolute: a standard
-/// deviation of 0.32. Chosen by eye.
+/// How strongly log S is pulled towards a pigment's start where amounts are absolute. This is a standard
+/// deviation of 0.32. We chose it by eye.
 const SCATTERING_RIDGE: f64 = 10.0;
-/// Smoothness with which its estimation starts, for a wavelength step of 10 nm (chosen by eye).
+/// We begin to estimate the smoothness with this value, for a wavelength step of 10 nm (chosen by eye).
 const FIRST_SMOOTHNESS: f64 = 10.0;
-/// Most rounds in which noise and smoothness are estimated alternately (chosen by eye).
+/// We estimate noise and smoothness in turn in at most this many rounds (chosen by eye).
 const ESTIMATION_ROUNDS: usize = 5;
-/// Change of log smoothness below which its estimate has settled (chosen by eye).
+/// The smoothness has settled if its logarithm changes by less than this (chosen by eye).
 const SETTLED_SMOOTHNESS: f64 = 0.15;
-/// Most rounds in which the residuals' scale is set anew (chosen by eye).
+/// We set the residuals' scale anew in at most this many rounds (chosen by eye).
 const SCALE_ROUNDS: usize = 20;
-/// Rounds after which the scale may count as settled (chosen by eye).
+/// The scale may count as settled after this many rounds (chosen by eye).
 const LEAST_SCALE_ROUNDS: usize = 3;
-/// Relative change of the scale below which it has settled (chosen by eye).
+/// The scale has settled if it changes by less than this fraction (chosen by eye).
 const SETTLED_SCALE: f64 = 0.1;
-/// Largest factor by which the scale may fall in one round. If it fell faster, samples that are still fitted
-/// badly in early rounds would be treated as outliers for good. Chosen by eye.
+/// We let the scale fall at most by this factor in one round. If it fell faster, we would treat samples
+/// that early rounds still fit badly as outliers for good. We chose it by eye.
 const SCALE_FALL: f64 = 3.0;
 /// Steps of a round before and after the scale has settled (chosen by eye).
 const SCALE_STEPS: [usize; 2] = [5, 60];
-/// Relative decrease of the cost at which the descent of a round ends (chosen by eye).
+/// The descent of a round ends when the cost falls by less than this fraction (chosen by eye).
 const SCALE_DECREASE: f64 = 1e-6;
 
-/// Result of a refinement, with what it estimated about the noise.
+/// Result of a refinement, and what we learn from it about the noise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refined {
     /// K and S by pigment.
@@ -61,14 +61,14 @@ pub struct Refined {
     /// Standard deviations of K and S by pigment, 0 for the S of the reference, or `None` if they were
     /// not requested.
     pub deviations: Option<Vec<Curves>>,
-    /// By pigment, the fraction (0 to 1) of the information on S that comes from the data rather than
-    /// from the prior, or empty if standard deviations were not requested.
+    /// By pigment: the fraction (0 to 1) of our information on S that comes from the data. The rest comes
+    /// from the prior. This is empty if you did not request standard deviations.
     pub scattering_known: Vec<f64>,
     /// Estimates of noise and smoothness.
     pub state: RefinedState,
 }
 
-/// Two numbers estimated from the data, which leave-one-out fits may reuse.
+/// Two numbers that we estimate from the data. You may reuse them in leave-one-out fits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RefinedState {
     /// Ratio of the noise that is constant in reflectance to the perceptually uniform noise, 0 to 200.
@@ -82,9 +82,10 @@ pub struct RefinedState {
 pub struct Refinement {
     /// Smoothing of K and S over wavelength.
     pub smoothness: Smoothness,
-    /// Estimates of another fit of nearly the same data, to be reused, or `None` to estimate them.
+    /// Estimates of another fit of nearly the same data, if you want to reuse them. Pass `None` to estimate
+    /// them.
     pub state: Option<RefinedState>,
-    /// Whether standard deviations are computed. Predictions do without them.
+    /// Whether to compute standard deviations. You do not need them for predictions.
     pub deviations: bool,
 }
 
@@ -104,15 +105,14 @@ impl Refinement {
 
 /// Fits K and S by the method `refined`.
 ///
-/// The cost is a robust loss of the residuals in measured reflectance, on a perceptually uniform scale
-/// (cube root, weighted by the movement of CIEDE2000 with reflectance at that wavelength), plus the
-/// roughness of log K and log S over wavelength. From its minimum the robust colour difference of each
-/// sample under D65 (for which `weights` are computed) is added. K and S stay within 1e-5 to 1e4.
+/// We minimise a robust loss of the residuals in measured reflectance, on a perceptually uniform scale
+/// (cube root, weighted by the movement of CIEDE2000 with reflectance at this wavelength), plus the
+/// roughness of log K and log S over wavelength. From this minimum on, we add the robust colour difference
+/// of each sample under D65 (for which you compute `weights`). K and S stay within 1e-5 to 1e4.
 ///
-/// The variance of a residual is a sum of two: one perceptually uniform, one constant in reflectance.
-/// Their ratio is the one under which the residuals are most likely (Laplace's law). The smoothness is
-/// the one under which the data are most likely (MacKay 1992, eq. 2.18). Both are taken from
-/// `how.state` instead, if given.
+/// The variance of a residual is a sum of two: one is perceptually uniform, one is constant in reflectance.
+/// We take the ratio that makes the residuals most likely (Laplace's law), and the smoothness that makes
+/// the data most likely (MacKay 1992, eq. 2.18). If you pass `how.state`, we take both from there.
 ///
 /// # Errors
 /// [`FitError`] from [`super::fit_weighted`], from which the refinement starts, and
@@ -133,8 +133,8 @@ pub fn fit_refined(
 /// Refines `start` under any optical model.
 ///
 /// # Errors
-/// [`FitError::Cancelled`] if `task` was cancelled: the loops below then end early, and the last check
-/// refuses what they leave.
+/// [`FitError::Cancelled`] if `task` was cancelled. The loops below then end early, and the last check
+/// refuses the unfinished result.
 pub(super) fn refine<F: Forward>(
     data: &Data<'_, F>,
     start: &CurveTable,
@@ -165,7 +165,7 @@ pub(super) fn refine<F: Forward>(
         knee: KNEE,
         smoothness: state.smoothness,
         start: &origin,
-        // Films over a single backing contain little information on S, so S is kept near its start.
+        // We learn little about S from films over a single backing, so we hold S near its start.
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
         spare: Spare::default(),
@@ -222,7 +222,8 @@ pub(super) fn refine<F: Forward>(
     Ok(Refined { curves: curves.into_curves(grid), deviations, scattering_known, state })
 }
 
-/// Descends for one estimate of noise and smoothness, while the residuals' scale is set anew from their median in each round, until it settles.
+/// Descends for one estimate of noise and smoothness. In each round we set the residuals' scale anew from
+/// their median, until it settles.
 fn settle<F: Forward>(
     objective: &mut Objective<'_, F>,
     noise: &Noise,
@@ -272,16 +273,15 @@ fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f6
     determined / objective.roughness(unknowns).max(f64::MIN_POSITIVE)
 }
 
-/// Least K and S for the slopes of [`linear_deviations`].
 const LEAST: f64 = 1e-4;
 
 /// Standard deviations of K and S at the minimum of `objective`.
 ///
-/// The larger of two estimates: from the normal matrix, priors included, as if all residuals were
-/// independent; and from the spread of the samples' own gradients, H^-1 (sum of g g') H^-1 with g the
-/// gradient of one sample over all wavelengths (Liang and Zeger 1986). The second takes into account
-/// that a sample painted wrongly is wrong at every wavelength, but is 0 where the few samples of a
-/// pigment are fitted exactly.
+/// We return the larger of two estimates. The first is the normal matrix with its priors, as if all
+/// residuals were independent. The second is the spread of the samples' own gradients, H^-1 (sum of g g')
+/// H^-1 with g the gradient of one sample over all wavelengths (Liang and Zeger 1986). The second one takes
+/// into account that a sample which you painted wrongly is wrong at every wavelength. But it is 0 where the
+/// few samples of a pigment are fitted exactly.
 pub(super) fn standard_deviations<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -316,8 +316,8 @@ pub(super) fn standard_deviations<F: Forward>(
     CurveTable { absorption, scattering }
 }
 
-/// Sum over samples of the squared steps that their own gradients alone would make, by unknown. Samples
-/// are added in their order, on any number of threads. Incomplete if the fit is cancelled.
+/// Sum over samples of the squared steps that their own gradients alone would make, by unknown. We add
+/// samples in their order, on any number of threads. The sum is incomplete if you cancel the fit.
 fn spread_of_gradients<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -354,11 +354,11 @@ fn spread_of_gradients<F: Forward>(
     spread
 }
 
-/// By pigment, the fraction (0 to 1) of the information on its log S that comes from the data rather than
-/// from the prior (median over wavelength).
+/// By pigment: the fraction (0 to 1) of our information on its log S that comes from the data and not from
+/// the prior (median over wavelength).
 ///
-/// Compares the data's information on log S, with the pigment's own K unknown, with the ridge.
-/// `objective` must have no smoothness, which would count the prior of one wavelength as data of its
+/// We compare the data's information on log S, with the pigment's own K unknown, with the ridge. Pass an
+/// `objective` without smoothness. Otherwise we would count the prior of one wavelength as data of its
 /// neighbours.
 pub(super) fn share_of_scattering_known<F: Forward>(
     objective: &Objective<'_, F>,
@@ -385,9 +385,9 @@ pub(super) fn share_of_scattering_known<F: Forward>(
 
 /// Standard deviations of K and S for a fit that has none of its own, by pigment and wavelength.
 ///
-/// Each wavelength is treated by itself: the variance of its residuals of measured reflectance times the
-/// inverse of the normal matrix of their derivatives over K and S. A value that no mixture determines
-/// gets a deviation of its own size or more. The S of the reference gets 0.
+/// We treat each wavelength by itself. The result is the variance of its residuals of measured reflectance
+/// times the inverse of the normal matrix of their derivatives over K and S. A value that no mixture
+/// determines gets a deviation of its own size or more. The S of the reference gets 0.
 #[must_use]
 pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
     // The program may set a pigment to 0, where the slopes are not finite.
@@ -427,7 +427,6 @@ pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
 #[derive(Debug, Clone)]
 pub(crate) struct AssumedPaints {
     pub(crate) surface: Surface,
-    /// Paint with S = 1.
     pub(crate) reference: PigmentId,
     /// K and S by paint; at least one.
     pub(crate) curves: Vec<Curves>,
@@ -480,7 +479,6 @@ impl Slopes {
         Self { layout: data.layout, places, slopes }
     }
 
-    /// Number of unknowns per wavelength.
     pub(crate) fn unknowns(&self) -> usize {
         self.layout.per_wavelength()
     }
@@ -495,12 +493,11 @@ impl Slopes {
         self.layout.scattering(paint)
     }
 
-    /// Slopes of mixture `index` at wavelength `at`, one for each of its places.
     pub(crate) fn at(&self, index: usize, at: usize) -> &[f64] {
         let count = self.places[index].len();
         &self.slopes[index][at * count..(at + 1) * count]
     }
 }
 
-/// Information that a fit has on each log K and log S before any data, from its prior.
+/// Before any data, a fit knows this much about each log K and log S from its prior.
 pub(crate) const PRIOR_INFORMATION: f64 = RIDGE;

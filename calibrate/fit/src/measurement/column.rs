@@ -1,14 +1,13 @@
 //! Meaning of the columns of a measurement file, found from their headers.
 //!
-//! Programs of instruments write a title or lines about the measurement above the headings, and spreadsheets
-//! write a line `sep=;`. This file finds the row of headings, the column of names, and columns of colour
-//! coordinates, which are skipped.
+//! Instruments' programs write a title or lines about the measurement above the headings, and spreadsheets
+//! write a line `sep=;`. We find here the row of headings, the column of names, and columns of colour
+//! coordinates, which we skip.
 
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 
 use super::error::MeasurementError;
 
-/// Meaning of one column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Column {
     Sample,
@@ -24,7 +23,6 @@ pub(super) enum Column {
     Wavelength(f64),
 }
 
-/// Kind of table that a file should hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TableKind {
     /// Readings, with wavelengths.
@@ -33,9 +31,9 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row with its cells at `place`: one meaning per column. `pigments` are the headings that
-/// name pigments; without them, every other heading does. Checks that there is a column of names, that no
-/// name occurs twice and that wavelengths rise or fall throughout.
+/// Reads a header row with its cells at `place`, and returns one meaning per column. If you pass
+/// `pigments`, only these headings name pigments. Otherwise every unknown heading does. We check that there
+/// is a column of names, that no name occurs twice and that wavelengths rise or fall throughout.
 pub(super) fn columns(
     place: &dyn Fn(usize) -> CellPlace,
     headers: &[String],
@@ -43,7 +41,7 @@ pub(super) fn columns(
     pigments: Option<&[String]>,
 ) -> Result<Vec<Column>, MeasurementError> {
     let file = || headers.first().map_or_else(String::new, |_| place(0).file);
-    // A header such as R254 may be a pigment (Pigment Red 254) or a wavelength.
+    // A header such as R254 may be a pigment (e.g. Pigment Red 254) or a wavelength.
     let letters = kind == TableKind::Readings
         && !headers.iter().any(|header: &String| {
             let lower = header.trim().to_ascii_lowercase();
@@ -58,7 +56,7 @@ pub(super) fn columns(
             columns.push(Column::Sample);
             continue;
         }
-        // Row numbers that programs for statistics write first have no heading.
+        // We know row numbers, which programs for statistics write first, by their missing heading.
         if names[..=index].iter().all(|name| name.is_empty()) {
             columns.push(Column::Ignored);
             continue;
@@ -134,7 +132,6 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// Whether `heading` names a wavelength at which paint is measured.
 pub(super) fn is_wavelength_heading(heading: &str) -> bool {
     let nm = wavelength_of_header(&heading.trim().to_ascii_lowercase());
     nm.is_some_and(|nm| MEASURABLE_NM.contains(&nm))
@@ -152,14 +149,13 @@ fn is_letter_and_number(lower: &str) -> bool {
     number.is_some_and(|number| number.trim().parse::<f64>().is_ok())
 }
 
-/// Whether `word` is a word of a heading, in any case.
 fn has_word(heading: &str, word: &str) -> bool {
     let words = heading.split(|c: char| !c.is_ascii_alphabetic());
     words.into_iter().any(|found| found.eq_ignore_ascii_case(word))
 }
 
-/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which paint is
-/// measured. `letters` says whether `R400` is a wavelength: beside plain numbers it is a pigment.
+/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which you measure paint.
+/// `letters` says whether `R400` is a wavelength. Beside plain numbers it is a pigment.
 fn column(name: &str, letters: bool) -> Option<Column> {
     let lower = name.to_ascii_lowercase();
     let pigment = || Some(Column::Pigment(name.to_owned()));
@@ -186,7 +182,7 @@ fn column(name: &str, letters: bool) -> Option<Column> {
     }
 }
 
-/// Whether a column headed `name` is read as a pigment, in a file with plain numbers as wavelengths.
+/// Whether we read a column headed `name` as a pigment, in a file with plain numbers as wavelengths.
 #[must_use]
 pub fn names_a_pigment(name: &str) -> bool {
     let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
@@ -247,9 +243,9 @@ const NO_PIGMENTS: [&str; 47] = [
     "filter",
 ];
 
-/// Headings of names in lower case without spaces and signs, the most specific first. Later ones name
-/// samples only in tables without the earlier: running numbers, and the word that stands above the names
-/// where wavelengths are the headings of all other columns.
+/// Headings of names in lower case without spaces and signs, the most specific first. We use a later one
+/// only if a table lacks the earlier ones. Such are running numbers, and the word above the names where all
+/// other columns are wavelengths.
 const NAMES: [&str; 19] = [
     "sample",
     "samplename",
@@ -275,16 +271,16 @@ const NAMES: [&str; 19] = [
 /// First of [`NAMES`] that names samples only where all other columns are wavelengths.
 const OVER_NAMES: &str = "wavelength";
 
-/// Place of a heading among those that name samples, 0 for the most specific, or `None` for any other
-/// heading.
+/// Place of a heading among those that name samples, 0 for the most specific. `None` for any other heading.
 pub(super) fn name_rank(heading: &str) -> Option<usize> {
     let letters = heading.chars().filter(|c| c.is_alphanumeric());
     let plain: String = letters.flat_map(char::to_lowercase).collect();
     NAMES.iter().position(|name| *name == plain)
 }
 
-/// The column of names among `headings`. `is_wavelength` says which of the headings are wavelengths: where
-/// all the others are, an unnamed first column holds the names, and so does one headed `wavelength`.
+/// The column of names among `headings`. You say with `is_wavelength` which of the headings are
+/// wavelengths. If all the others are, we take an unnamed first column for the names, and also one headed
+/// `wavelength`.
 pub(super) fn name_column(
     headings: &[&str],
     is_wavelength: impl Fn(&str) -> bool,
@@ -313,13 +309,12 @@ pub(super) fn filled_column(places: &[usize], rows: &[CsvRow]) -> Option<usize> 
         .copied()
 }
 
-/// Most lines above the headings of a table (chosen by eye).
+/// We look for the headings in this many lines at most (chosen by eye).
 const MOST_ABOVE: usize = 200;
 
 /// Separators of cells, in the order in which they are tried.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
-/// Where the headings of a table stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct HeadingRow {
     /// The character between cells, an ASCII character.
@@ -329,9 +324,9 @@ pub(super) struct HeadingRow {
 }
 
 impl HeadingRow {
-    /// The headings of a table in `text`. The first line is that row if a cell of it is `sample`.
-    /// Otherwise the row is the one with the most wavelengths (of a file of recipes, the most cells)
-    /// among those with a column for names.
+    /// Finds the headings of a table in `text`. If a cell of the first line is `sample`, it is this line.
+    /// Otherwise we take the row with the most wavelengths (of a file of recipes, the most cells) among
+    /// those with a column for names.
     pub(super) fn of(text: &str, kind: TableKind) -> Option<Self> {
         let mut best: Option<(usize, Self)> = None;
         let mut offset = 0;
@@ -364,13 +359,13 @@ impl HeadingRow {
         let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
         let line = text[offset..].lines().next().unwrap_or_default();
         let count = |separator: &u8| line.bytes().filter(|byte| byte == separator).count();
-        // The first of several: the maximum is searched from behind.
+        // We search the maximum from behind, to get the first of several.
         let separator = SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',');
         Self { separator, offset }
     }
 }
 
-/// How much a row looks like headings, or `None` if it has no column for names, or only that.
+/// How much a row looks like headings. `None` if it has no column for names, or only this column.
 fn score(cells: &[String], kind: TableKind) -> Option<usize> {
     let names: Vec<&str> = cells.iter().map(String::as_str).collect();
     let wavelengths = names.iter().filter(|cell| is_wavelength_heading(cell)).count();
@@ -408,7 +403,8 @@ pub(super) fn plain_heading(heading: &str) -> String {
     if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
 }
 
-/// Coordinates of colour that are known by standing together, as tables of instruments write them.
+/// Coordinates of colour as tables of instruments write them. We recognise them because they stand
+/// together.
 const COORDINATES: [&[&str]; 6] = [
     &["L", "a", "b"],
     &["L", "C", "h"],
@@ -418,7 +414,7 @@ const COORDINATES: [&[&str]; 6] = [
     &["R", "G", "B"],
 ];
 
-/// Whether the heading at `index` is a coordinate of a colour, of which another stands beside it.
+/// Whether the heading at `index` is a coordinate of a colour, and another one stands beside it.
 pub(super) fn is_coordinate(headings: &[String], index: usize) -> bool {
     let has = |name: &str| headings.iter().any(|heading| heading.trim() == name);
     let own = headings[index].trim();

@@ -1,4 +1,4 @@
-//! Reads a measurement CSV, large ones in pieces, so that only the readings are in memory at once.
+//! Reads a measurement CSV. We read a large one in pieces, so that only the readings are in memory at once.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
@@ -26,8 +26,9 @@ impl MeasurementTable {
         Self::from_csv_with(file, bytes, scale, None)
     }
 
-    /// Reads the measurement table in `bytes`; of its columns only those headed as one of `pigments` are
-    /// pigments. Without `pigments`, all are that are not known as something else and hold amounts.
+    /// Reads the measurement table in `bytes`. Only the columns headed as one of `pigments` are pigments.
+    /// If you pass `None`, we take every column that we do not know as something else and that holds
+    /// amounts.
     ///
     /// # Errors
     /// [`MeasurementError`] with row and column.
@@ -40,8 +41,8 @@ impl MeasurementTable {
         Self::read(CsvRows::open(file, bytes, TableKind::Readings, pigments)?, scale)
     }
 
-    /// Reads only the spectra of the table: all other columns but the names are ignored, and the table has
-    /// no pigments.
+    /// Reads only the spectra of the table. We ignore all other columns but the names, and the table has no
+    /// pigments.
     ///
     /// # Errors
     /// [`MeasurementError`] with row and column.
@@ -81,8 +82,8 @@ impl MeasurementTable {
     }
 }
 
-/// Whether a text is the CSV of this module rather than an instrument's file: some line names a column of
-/// samples and wavelengths, or the first line a column `sample`.
+/// Whether we read a text as the CSV of this module and not as an instrument's file. Some line must name a
+/// column of samples and wavelengths, or the first line a column `sample`.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
     HeadingRow::of(text, TableKind::Readings).is_some() || RawRows::turned(text).is_some()
@@ -99,39 +100,36 @@ pub fn begins_with_samples(text: &str) -> bool {
     })
 }
 
-/// Bytes of one piece, about.
+/// A piece has about this many bytes.
 const PIECE: usize = 2 << 20;
-/// Least size of a file that is read in pieces.
+/// We read a file in pieces if it has more bytes than this.
 const LARGE: u64 = 32 << 20;
-/// Fewest readings from which pigments are judged.
+/// We need this many readings to see which columns are pigments.
 const LEAST_ROWS: usize = 3;
-/// Most bytes of lines before the first row of readings.
+/// We look for the first row of readings in this many bytes.
 const HEAD: usize = 1 << 20;
 
-/// A large measurement CSV on the disk.
 #[derive(Debug)]
 pub(crate) struct LargeCsv {
     path: PathBuf,
     file: String,
-    /// Bytes of a piece.
     piece: usize,
     /// Lines down to the header, with their ends.
     head: Vec<u8>,
 }
 
-/// Treatment of a large CSV's columns.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LargeCsvChoice<'a> {
     pub(crate) scale: ScaleChoice,
-    /// Headings of the pigments; by default they are found.
+    /// Headings of the pigments. Pass `None` to let us find them.
     pub(crate) pigments: Option<&'a [String]>,
     /// Whether all columns but names and wavelengths are ignored.
     pub(crate) spectra_only: bool,
 }
 
 impl LargeCsv {
-    /// Opens `path` if it is a measurement CSV of more than 32 MB with line feeds. This gives `None` for
-    /// all other files.
+    /// Opens `path` if it is a measurement CSV of more than 32 MB with line feeds. You get `None` for all
+    /// other files.
     ///
     /// # Errors
     /// The system's error if the file cannot be read.
@@ -159,12 +157,11 @@ impl LargeCsv {
         Ok(is_csv.then(|| Self { path: path.to_owned(), file, piece, head }))
     }
 
-    /// Name of the file as the caller gave it.
     pub(crate) fn file(&self) -> &str {
         &self.file
     }
 
-    /// Reads the table, in two passes: the first finds pigments and unit, the second the readings.
+    /// Reads the table in two passes. In the first we find pigments and unit, in the second we read.
     ///
     /// # Errors
     /// [`LargeCsvError`] with row and column.
@@ -194,7 +191,7 @@ impl LargeCsv {
                 ..choice
             };
             let found = self.readings(known, choice.scale == ScaleChoice::ByFile);
-            // A column of notes may be empty in whole pieces, which makes it look like amounts of 0.
+            // A column of notes may be empty in whole pieces. We would then take it for amounts of 0.
             if let Err(LargeCsvError::Measurement(MeasurementError::Sheet(CsvTableError::Cell {
                 place,
                 ..
@@ -272,8 +269,8 @@ impl LargeCsv {
         })
     }
 
-    /// Passes the file on in pieces of whole rows. Each begins with the header and as many empty lines as
-    /// keep its rows at their numbers.
+    /// Passes the file on in pieces of whole rows. Each begins with the header. We add empty lines so that
+    /// rows have the same numbers as in the file.
     fn each_piece(
         &self,
         mut read: impl FnMut(&[u8]) -> Result<(), MeasurementError>,
@@ -316,7 +313,6 @@ fn quotes(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| **byte == b'"').count()
 }
 
-/// A large CSV that cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LargeCsvError {
     #[error(transparent)]

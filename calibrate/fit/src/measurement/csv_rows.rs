@@ -1,7 +1,7 @@
 //! Rows of a measurement CSV or of a CSV of recipes, and their readings.
 //!
-//! A table may also have a column for each sample. Columns that look like pigments but hold no amounts are
-//! found here.
+//! A table may also have a column for each sample. We also find here the columns that look like pigments
+//! but hold no amounts.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use super::column::{
 use super::error::MeasurementError;
 use super::table::{Film, Reading, Scale, ScaleChoice};
 
-/// Greatest reflectance of a reading, as a fraction. A value above is a mistaken unit.
+/// No reflectance is greater than this fraction. If you see a greater value, its unit is wrong.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 
 /// The finite number in a cell. With decimal commas, a point may separate thousands.
@@ -39,7 +39,7 @@ fn shared(name: &str, known: &mut BTreeSet<Arc<str>>) -> Arc<str> {
     new
 }
 
-/// Makes the column of names the first of those headed as one in which every row has a name.
+/// Makes the column of names the first of those headed as one where every row has a name.
 fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]) {
     let Some(taken) = columns.iter().position(|column| *column == Column::Sample) else { return };
     let mut places: Vec<(Option<usize>, usize)> = (0..columns.len())
@@ -55,8 +55,8 @@ fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]
     }
 }
 
-/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, the
-/// commas in quoted readings are decimal signs, since no reflectance has thousands. Only amounts could
+/// Whether commas in the cells of numbers are decimal signs. If commas separate the cells as well, we take
+/// commas in quoted readings for decimal signs, because no reflectance has thousands. Only amounts could
 /// have them.
 fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
     let decides = |column: &Column| match column {
@@ -69,7 +69,7 @@ fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> boo
     })
 }
 
-/// Largest amount of a pigment. Beyond it sums lose their small terms.
+/// We allow no larger amount of a pigment. Beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
@@ -87,7 +87,7 @@ pub(super) struct CsvRows {
     /// Whether the rows come from a sheet of a workbook.
     is_sheet: bool,
     pub(super) spectra_only: bool,
-    /// Messages about readings that are not taken: of other sheets, without the specular component.
+    /// Messages about readings that we leave out, e.g. of other sheets, or without the specular component.
     pub(super) left_out: Vec<String>,
 }
 
@@ -156,14 +156,13 @@ impl CsvRows {
         })
     }
 
-    /// The header `index`, from 0.
     pub(super) fn header_place(&self, index: usize) -> CellPlace {
         let row = self.heading_rows.as_ref().map_or(self.heading_row, |rows| rows[index]);
         CellPlace::new(&self.file, row, &self.headers[index])
     }
 
-    /// The cell of `row` below the header `index`, from 0; of a table with a column for each sample, in the
-    /// column of the sample.
+    /// The cell of `row` below the header `index`, from 0. If the table has a column for each sample, this
+    /// is in the column of the sample.
     fn place(&self, row: &CsvRow, index: usize) -> CellPlace {
         match &self.heading_rows {
             Some(rows) => {
@@ -177,7 +176,6 @@ impl CsvRows {
         }
     }
 
-    /// Names of the pigment columns.
     pub(super) fn pigments(&self) -> Vec<String> {
         let names = self.columns.iter().filter_map(|column| match column {
             Column::Pigment(name) => Some(name.clone()),
@@ -206,13 +204,12 @@ impl CsvRows {
             .collect()
     }
 
-    /// One reading for every row.
     pub(super) fn readings(&self) -> Result<Vec<Reading>, MeasurementError> {
         let mut backings = BTreeSet::new();
         self.rows.iter().map(|row| self.reading(row, &mut backings)).collect()
     }
 
-    /// The reading of a row. `backings` holds the names of the rows before, so that readings share them.
+    /// The reading of a row. `backings` holds the names of the rows before. Readings share these.
     fn reading(
         &self,
         csv_row: &CsvRow,
@@ -335,7 +332,6 @@ fn largest(reading: &Reading) -> f64 {
 pub(super) struct RawRows {
     /// The character between cells.
     pub(super) separator: u8,
-    /// Row of the headings in the file, from 1.
     pub(super) heading_row: u64,
     pub(super) headings: Vec<String>,
     pub(super) rows: Vec<CsvRow>,
@@ -344,7 +340,7 @@ pub(super) struct RawRows {
 }
 
 impl RawRows {
-    /// The table in `text`. Without a row that looks like headings, the first is taken for it.
+    /// The table in `text`. If no row looks like headings, we take the first.
     pub(super) fn of(text: &str, kind: TableKind) -> Self {
         if let Some(turned) = Self::turned(text).filter(|_| kind == TableKind::Readings) {
             return turned;
@@ -377,10 +373,10 @@ impl RawRows {
         Self { separator, heading_row, headings, rows, heading_rows: None }
     }
 
-    /// A table with a column for each sample and a row for each wavelength, if its first row holds the names
-    /// of the samples and other rows tell what they are: films, backings, amounts.
+    /// A table with a column for each sample and a row for each wavelength. Its first row must hold the
+    /// names of the samples, and other rows must say what they are: films, backings, amounts.
     ///
-    /// Without such rows it is a spectrum a column, as instruments write them.
+    /// Without such rows each column is a spectrum, as instruments write them.
     pub(super) fn turned(text: &str) -> Option<Self> {
         let first = HeadingRow::first(text);
         let line = text[first.offset..].lines().next().unwrap_or_default();
@@ -428,13 +424,14 @@ fn byte(cells: &csv::StringRecord) -> u64 {
     cells.position().map_or(0, csv::Position::byte)
 }
 
-/// Fewest rows of paint from which a column is judged by its amounts (chosen by eye).
+/// We judge a column by its amounts if there are at least this many rows of paint (chosen by eye).
 const LEAST_ROWS: usize = 3;
-/// Share by which sums of amounts may differ and still be one whole.
+/// Sums of amounts may differ by this share, and we still take them for one whole.
 const WHOLE: f64 = 1e-3;
 
-/// Places of the pigment columns that hold no amounts: text in every cell, amounts of bare cards, or
-/// values in every row without which the amounts of each row sum to one whole (1 or 100).
+/// Places of the columns that we took for pigments but that hold no amounts. These have text in every cell,
+/// or amounts of bare cards, or values in every row without which the amounts of each row sum to one whole
+/// (1 or 100).
 pub(super) fn without_amounts(
     columns: &[Column],
     rows: &[CsvRow],

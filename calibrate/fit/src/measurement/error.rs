@@ -7,7 +7,7 @@ use documents::hint::{Explain, Hint};
 use spectra::csv_table::{CellPlace, CsvTableError};
 use spectra::instrument::{InstrumentError, MeasuredQuantity};
 
-/// The k1 that lies below the reading `least` by a little, with the three digits in which k1 is written.
+/// A k1 that lies a little below the reading `least`, with the three digits that we write.
 pub(crate) fn k1_below(least: f64) -> f64 {
     (least * 0.95 * 1000.0).floor() / 1000.0
 }

@@ -1,9 +1,9 @@
-//! Tables of spectrometer readings of paint, from a CSV or from an instrument's file.
+//! Tables of spectrometer readings of paint. You read them from a CSV or from an instrument's file.
 //!
-//! In the CSV each row is a reading. Columns are named, in any order: `sample` (or another heading of names,
-//! such as `Name`), then optionally `film`,
-//! `backing`, `thickness_mm`, `replicate`, then one for each pigment (amount), then the wavelengths in nm.
-//! Readings without amounts take them from a CSV of recipes.
+//! In the CSV each row is a reading. You name the columns, in any order: `sample` (or another heading of
+//! names, e.g. `Name`), then optionally `film`, `backing`, `thickness_mm`, `replicate`, then one for each
+//! pigment (amount), then the wavelengths in nm. If readings have no amounts, we take them from a CSV of
+//! recipes.
 mod error;
 mod table;
 mod column;

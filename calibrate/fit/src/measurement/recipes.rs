@@ -1,4 +1,4 @@
-//! Recipes in a file of their own, joined to the readings by the names of samples.
+//! Recipes in a file of their own. We join them to the readings by the names of samples.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use super::error::MeasurementError;
 use super::table::{Film, MeasurementTable, Reading};
 use spectra::csv_table::CellPlace;
 
-/// Most names that an error lists.
+/// An error lists at most this many names.
 const NAMES: usize = 12;
 
 /// Recipes from a CSV: one row for each sample, or for each reading of it.
@@ -36,9 +36,9 @@ struct StatedColumns {
 
 impl Recipes {
     /// Reads the recipes in `bytes`, the content of `file`. Columns are `sample`, then optionally `film`,
-    /// `backing`, `thickness_mm`, and one for each pigment (those headed as one of `pigments`, if given).
-    /// Where one sample was read several times, over
-    /// two backings or bare, a column `reading` holds the name of each reading in the measurement file.
+    /// `backing`, `thickness_mm`, and one for each pigment. If you pass `pigments`, we read only columns
+    /// headed as one of them. If you read one sample several times, e.g. over two backings or bare, a
+    /// column `reading` holds the name of each reading in the measurement file.
     ///
     /// # Errors
     /// [`RecipesError`] with the row.
@@ -85,8 +85,8 @@ impl Recipes {
         Ok(Self { pigments, file: file.to_owned(), rows, columns, remarks })
     }
 
-    /// Adds these recipes to `table`. Readings of paint without a recipe are left out, which a remark of
-    /// the table says, and so are recipes without a reading.
+    /// Adds these recipes to `table`. We leave out readings of paint without a recipe, and recipes without
+    /// a reading. A remark of the table says so.
     ///
     /// # Errors
     /// [`RecipesError::Twice`] if the table has pigments of its own, [`RecipesError::NoneMatched`] if no

@@ -10,23 +10,23 @@ use super::error::MeasurementError;
 use super::table::{Film, MeasurementTable, Reading, Scale, ScaleChoice, grid_of, on_grid};
 use spectra::csv_table::CellPlace;
 
-/// Wavelengths in nm that a table of readings may have.
+/// A table of readings may have these wavelengths in nm.
 const BAND: RangeInclusive<f64> = MEASURABLE_NM;
 
-/// Wavelengths in nm at which a reading must be valid: they determine nearly all of the colour. Beyond
-/// them lamps and detectors are weak, and exported files hold noise.
+/// A reading must be valid at these wavelengths in nm, because they determine nearly all of the colour.
+/// Beyond them lamps and detectors are weak, and exported files hold noise.
 const SOUND: RangeInclusive<f64> = 400.0..=700.0;
 
-/// A negative reading above minus this fraction counts as 0 with noise: dark paint under little light,
-/// or a dark reading a little too high. Chosen by eye.
+/// We read a value above minus this fraction as 0 with noise. It comes from dark paint under little light,
+/// or from a dark reading a little too high. We chose it by eye.
 const NOISE_BELOW_ZERO: f64 = 0.02;
 
-/// Greatest reflectance that a surface can have, as a fraction. A reading above is a mistaken unit.
+/// No surface has a greater reflectance, as a fraction. If you see a greater reading, its unit is wrong.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 /// Treatment of an instrument's spectra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RecordChoice {
-    /// Percent or fraction; by default what the file states, else what its largest value suggests.
+    /// Percent or fraction. By default we use what the file states, else what its largest value suggests.
     pub scale: ScaleChoice,
     /// Whether transmittance counts as reflectance. Some programs state transmittance although the
     /// spectrometer measured a surface against a white tile.
@@ -34,14 +34,14 @@ pub struct RecordChoice {
 }
 
 impl MeasurementTable {
-    /// Reads `records`, the spectra of `file`, as readings of paint. Only spectra of reflectance, or of a
-    /// quantity that the file does not state, are used. The name of a record is the sample. Records of
-    /// one name are repeated readings. The table has no pigments and no backings.
+    /// Reads `records`, the spectra of `file`, as readings of paint. We use only spectra of reflectance, or
+    /// of a quantity that the file does not state. The name of a record is the sample. Records of one name
+    /// are repeated readings. The table has no pigments and no backings.
     ///
-    /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
-    /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
-    /// spectrum is refused if most of its values are impossible, or one from 400 to 700 nm is. Spectra on
-    /// different wavelengths are interpolated to the grid of the coarsest, where all overlap.
+    /// We cut off wavelengths outside 200 to 2500 nm. Outside 400 to 700 nm we cut off the ends of a
+    /// spectrum up to their last impossible value. Values down to -2 % count as 0, with a remark. We refuse
+    /// a spectrum if most of its values are impossible, or one from 400 to 700 nm is. If spectra have
+    /// different wavelengths, we interpolate them to the grid of the coarsest, where all overlap.
     ///
     /// # Errors
     /// [`MeasurementError`] with the line on which the spectrum begins.
@@ -97,7 +97,6 @@ fn name(raw: &str) -> String {
     if plain.is_empty() { "unnamed".to_owned() } else { plain.to_owned() }
 }
 
-/// A record that is being converted to a reading.
 struct Spectrum<'a> {
     record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,
@@ -106,7 +105,8 @@ struct Spectrum<'a> {
     scale: Scale,
 }
 
-/// Selects the records that are readings. The others are named in `remarks`, or refused if all are.
+/// Selects the records that are readings. We name the others in `remarks`, and refuse them if all are
+/// others.
 fn reflectances<'a>(
     file: &str,
     records: &'a [MeasuredSpectrum],
@@ -184,7 +184,7 @@ fn scale(
 }
 
 impl Spectrum<'_> {
-    /// Largest value where readings must be valid; of all values, if it has none there.
+    /// Largest value where readings must be valid. If there is none, this is the largest of all values.
     fn largest(&self) -> f64 {
         let all = || self.wavelengths_nm.iter().zip(&self.values);
         let sound = all().filter(|(nm, _)| SOUND.contains(nm)).map(|(_, value)| *value);
@@ -221,8 +221,8 @@ impl Spectrum<'_> {
         }
     }
 
-    /// Converts the values to fractions. Cuts off the ends up to their last impossible value, outside the
-    /// band in which readings must be valid.
+    /// Converts the values to fractions. Outside the band in which readings must be valid, we cut off the
+    /// ends up to their last impossible value.
     fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
         let factor = self.scale.to_fraction();
         let is_valid =

@@ -34,13 +34,13 @@ impl Film {
 pub struct Reading {
     /// File name as the caller gave it.
     pub file: Arc<str>,
-    /// Row in the file, the header being row 1.
+    /// Row in the file. The header is row 1.
     pub row: u64,
     /// Name of the sample.
     pub sample: String,
     /// Whether paint or a bare backing was read.
     pub film: Film,
-    /// Name of the backing, or empty if the file does not state it.
+    /// Name of the backing. This is empty if the file does not state it.
     pub backing: Arc<str>,
     /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
@@ -61,15 +61,15 @@ pub struct MeasurementTable {
     pub resampled_from: Option<usize>,
     /// Unit in which the file is written.
     pub scale: Scale,
-    /// Readings in order of the file; at least one.
+    /// Readings in order of the file. There is at least one.
     pub readings: Vec<Reading>,
-    /// Decisions that reading the file required, in words for the user.
+    /// Decisions that we made while reading the file, in words for you.
     pub remarks: Vec<String>,
 }
 
 impl MeasurementTable {
-    /// Joins the readings of several files in one table. Pigments are identified by name. A sample that
-    /// occurs in two files is one sample with repeated readings.
+    /// Joins the readings of several files in one table. We identify pigments by name. If a sample occurs
+    /// in two files, it is one sample with repeated readings.
     ///
     /// # Errors
     /// [`MeasurementError::Grid`] if the wavelengths differ, [`MeasurementError::Empty`] without a
@@ -130,10 +130,10 @@ pub enum Scale {
 /// How the unit of a file is determined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ScaleChoice {
-    /// By the largest value of the whole file: above 2 the unit is percent.
+    /// By the largest value of the whole file. Above 2 we take the unit for percent.
     #[default]
     ByFile,
-    /// The unit is known.
+    /// You know the unit.
     Known(Scale),
 }
 
@@ -142,7 +142,6 @@ impl Scale {
         if largest > 2.0 { Self::Percent } else { Self::Fraction }
     }
 
-    /// Factor that converts values to fractions.
     pub(super) fn to_fraction(self) -> f64 {
         match self {
             Self::Percent => 0.01,
@@ -158,7 +157,6 @@ impl Scale {
     }
 }
 
-/// Maximum number of names that a hint lists (chosen by eye).
 const LISTED: usize = 8;
 
 /// Mean of the repeated readings of one film or card.
@@ -184,7 +182,8 @@ pub struct AveragedSpectra {
 }
 
 impl MeasurementTable {
-    /// Averages repeated readings of one sample on one backing with one thickness.
+    /// Averages repeated readings of one sample on one backing with one thickness. Use this if you need one
+    /// spectrum for each.
     #[must_use]
     pub fn averaged(&self) -> AveragedSpectra {
         let mut groups: Vec<Vec<&Reading>> = Vec::new();
@@ -221,8 +220,8 @@ fn is_same_film(a: &Reading, b: &Reading) -> bool {
 }
 
 impl AveragedSpectra {
-    /// The spectrum with exactly this name, or else all of the sample with this name, in their
-    /// order.
+    /// The spectrum with exactly this name. If there is none, you get all spectra of the sample with this
+    /// name, in their order.
     ///
     /// # Errors
     /// [`SpectrumNameError::Unknown`] if there is none.
@@ -266,7 +265,7 @@ pub enum SpectrumNameError {
         /// Names of all samples.
         samples: Vec<String>,
     },
-    /// The sample has several spectra, of which one is needed.
+    /// The sample has several spectra, and you need one of them.
     #[error("`{name}` has several spectra")]
     Several {
         /// Name of the sample.

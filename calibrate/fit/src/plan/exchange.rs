@@ -1,5 +1,7 @@
 //! Designs of a plan: the pool of recipes, the design for unknown paint, and the design of greatest
 //! information.
+//! We estimate the information on K and S from a library of similar paint. Fedorov's exchange then improves
+//! the design one recipe at a time.
 //!
 //! The information on K and S is estimated from a library of similar paint. Fedorov's exchange then
 //! improves the design one recipe at a time.
@@ -15,18 +17,19 @@ use spectra::Grid;
 use super::paints::{PaintSet, PlanError, Purpose, SwatchRecipe};
 use crate::fit::{AssumedPaints, ExpectedNoise, PRIOR_INFORMATION, Slopes};
 
-/// Most sweeps over the design. Fewer are needed in practice.
+/// We sweep at most this often over the design. In practice fewer sweeps are enough.
 const SWEEPS: usize = 30;
-/// Least gain of log det, summed over wavelengths, for which a recipe is exchanged; above rounding.
+/// We exchange a recipe only if log det, summed over wavelengths, gains more than this. It is above
+/// rounding.
 const LEAST_GAIN: f64 = 1e-9;
 
 /// Improves a design, a list of indices into the pool, until no exchange of one recipe for another gains
 /// information. The result has as many recipes as `start`, each once. The first `kept` recipes of `start`
 /// stay. The others are in order of the pool.
 ///
-/// Fedorov's exchange (1972): each recipe in turn is replaced by the one that adds most to log det of the
-/// information. There are two starts, `start` itself and a greedy design, of which the better result is
-/// returned, so it is never worse than `start`. Nothing is random.
+/// This is Fedorov's exchange (1972). We replace each recipe in turn by the one that adds most to log det
+/// of the information. We start twice, from `start` itself and from a greedy design, and return the better
+/// result. So it is never worse than `start`. Nothing is random.
 ///
 /// # Errors
 /// [`Cancelled`] once `task` is cancelled.
@@ -60,7 +63,7 @@ fn exchanged(
     task: &Task,
 ) -> Result<Vec<usize>, Cancelled> {
     for _ in 0..SWEEPS {
-        // Computed anew in each sweep, so that rounding errors do not add up.
+        // We compute this anew in each sweep, so that rounding errors do not add up.
         let mut state = State::of(information, &design);
         let mut changed = false;
         for place in kept..design.len() {
@@ -145,8 +148,8 @@ impl<'a> State<'a> {
 /// wavelengths.
 ///
 /// It is the Fisher information of the fit's own residuals: reflectances of films that hide, surface
-/// included, under its noise model, plus the little information of the fit's prior. Smoothness over
-/// wavelength is left out, so that predicted deviations are rather too large.
+/// included, under its noise model, plus the little information of the fit's prior. We leave out smoothness
+/// over wavelength, so you get predicted deviations that are rather too large.
 #[derive(Debug, Clone)]
 pub struct Information {
     pub(super) slopes: Slopes,
@@ -154,8 +157,8 @@ pub struct Information {
     grid: Grid,
 }
 
-/// Predicted standard deviations of one paint's K and S, relative to K and S (that is, of their
-/// logarithms), as the median over wavelength.
+/// Predicted relative standard deviations of one paint's K and S, as medians over wavelength. They are the
+/// standard deviations of log K and log S.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeDeviation {
     /// Relative standard deviation of K.
@@ -213,8 +216,8 @@ impl Information {
         sum / (wavelengths * self.slopes.unknowns()) as f64
     }
 
-    /// D-efficiency of `design` against `other`. A value of 0.8 means that 80 % as many readings of `other`
-    /// would give the same information.
+    /// D-efficiency of `design` against `other`. For example, 0.8 means that you get the same information
+    /// from 80 % as many readings of `other`.
     #[must_use]
     pub fn efficiency(&self, design: &[usize], other: &[usize]) -> f64 {
         (self.log_determinant(design) - self.log_determinant(other)).exp()
@@ -284,10 +287,10 @@ const SHADE: u32 = 9;
 /// shade of every colour with black at 9:1, each colour mixed 1:1 with the next, then the rest of the
 /// pool in its order, the strongest tints first.
 ///
-/// The ratios were measured on the Van Gogh oils. Of two tints of one pigment with zinc white, the
-/// optimal design most often contained 4:1, 1:4 and 1:19, and of shades with bone black 4:1 and 9:1. With
-/// masstones and the two tints, 11 of 17 pigments had a D-efficiency above 0.9. Weak ones, for which 4:1
-/// is better, had 0.56 to 0.72.
+/// We measured the ratios on the Van Gogh oils. Of two tints of one pigment with zinc white, the optimal
+/// design most often contained 4:1, 1:4 and 1:19, and of shades with bone black 4:1 and 9:1. With masstones
+/// and the two tints, 11 of 17 pigments had a D-efficiency above 0.9. Weak ones, for which 4:1 is better,
+/// had 0.56 to 0.72.
 ///
 /// # Errors
 /// [`PlanError::Swatches`] for fewer swatches than unknowns per wavelength, or more than the pool holds.
@@ -308,7 +311,7 @@ pub fn usual(
     Ok(design)
 }
 
-/// Number of swatches of the usual design where no number is requested.
+/// This many swatches are in the usual design if you request no number.
 #[must_use]
 pub fn usual_count(paints: &PaintSet, pool: &[SwatchRecipe]) -> usize {
     rounds(paints, pool).len().max(paints.unknowns()).min(pool.len())

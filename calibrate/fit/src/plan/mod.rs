@@ -1,9 +1,9 @@
-//! Plans of swatches: which mixtures to prepare, so that a fit identifies K and S of every pigment.
+//! Plans of swatches: which mixtures you prepare, so that a fit identifies K and S of every pigment.
 //!
-//! A design is a list of indices into one pool of recipes, [`candidates`]. The [`usual`] design needs no
-//! knowledge of the paint. The [`optimal`] one is chosen for its [`Information`], estimated from a library of
-//! similar paint (D-optimality: Fedorov 1972, Theory of Optimal Experiments). [`plan`] takes pigments and
-//! gives recipes with grams and an empty measurement file.
+//! A design is a list of indices into one pool of recipes, [`candidates`]. You need no knowledge of the
+//! paint for the [`usual`] design. We choose the [`optimal`] one for its [`Information`], which we estimate
+//! from a library of similar paint (D-optimality: Fedorov 1972, Theory of Optimal Experiments). You give
+//! [`plan`] the pigments, and it gives you recipes with grams and an empty measurement file.
 
 mod paints;
 mod exchange;
@@ -20,11 +20,12 @@ pub use exchange::{Information, RelativeDeviation, candidates, optimal, usual, u
 pub use paints::{MeasurementForm, PaintSet, PlanError, Purpose, SwatchRecipe};
 pub use request::PlanRequest;
 
-/// Expected error of an instrument, as a standard deviation of reflectance.
+/// We expect this error of an instrument, as a standard deviation of reflectance.
 const INSTRUMENT_ERROR: f64 = 0.002;
-/// Expected error of weighing, mixing and film for a prior without evidence (chosen by eye).
+/// We expect this error of weighing, mixing and film if a prior has no evidence (chosen by eye).
 const MIXING_ERROR: f64 = 0.01;
-/// Lower limit of that error, for a prior that reproduces its samples almost exactly (chosen by eye).
+/// We expect at least this error, because some priors reproduce their samples almost exactly (chosen by
+/// eye).
 const LEAST_MIXING_ERROR: f64 = 1e-4;
 
 /// One swatch of a plan.
@@ -51,7 +52,7 @@ pub struct Forecast {
     pub noise: ExpectedNoise,
 }
 
-/// Swatches to prepare, so that a fit identifies every pigment.
+/// Swatches that you prepare, so that a fit identifies every pigment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// Paints of the plan.
@@ -79,7 +80,7 @@ pub struct Plan {
 /// # Ok::<(), calibrate::plan::PlanError>(())
 /// ```
 ///
-/// Many swatches of many paints take minutes, and `task` can end the plan before.
+/// Many swatches of many paints take minutes. You can end the plan before with `task`.
 ///
 /// # Errors
 /// [`PlanError`] for impossible names, masses, noise or numbers of swatches, or if `task` was cancelled.
@@ -146,8 +147,8 @@ impl Plan {
         totals
     }
 
-    /// Empty measurement file (CSV) to be filled in: bare cards and every swatch over a white and a black
-    /// card, with the amounts in grams.
+    /// Empty measurement file (CSV) for you to fill in: bare cards and every swatch over a white and a
+    /// black card, with the amounts in grams.
     #[must_use]
     pub fn form(&self, form: &MeasurementForm) -> Vec<u8> {
         let swatches = self.swatches.iter().map(|swatch| (swatch.name.as_str(), &swatch.grams));
@@ -207,7 +208,7 @@ fn best_design(
     Ok((design, forecast))
 }
 
-/// Refuses a plan from which a fit would not identify every pigment.
+/// Refuses a plan if a fit would not identify every pigment.
 fn check_identified(paints: &PaintSet, recipes: &[SwatchRecipe]) -> Result<(), PlanError> {
     let shares = |recipe: &SwatchRecipe| -> Vec<f64> {
         let shares = recipe.shares();
@@ -222,18 +223,17 @@ fn check_identified(paints: &PaintSet, recipes: &[SwatchRecipe]) -> Result<(), P
     Err(PlanError::Unidentified { paints: names.collect() })
 }
 
-/// Mass of a swatch, and the balance that weighs it.
+/// Mass of a swatch, and the balance with which you weigh it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weighing {
-    /// Mass of paint in one swatch, in grams.
     grams: f64,
     /// Step of the balance in grams.
     resolution: f64,
 }
 
-/// Least number of balance steps in a part: half a step is then 1 % of it.
+/// A part has at least this many balance steps. Half a step is then 1 % of it.
 const STEPS: f64 = 50.0;
-/// Share of the weakest tint that every plan needs: 1 part in 5.
+/// Every plan needs a tint this weak: 1 part in 5.
 const NEEDED_SHARE: f64 = 0.2;
 
 impl Weighing {
@@ -255,13 +255,13 @@ impl Weighing {
         Ok(Self { grams, resolution })
     }
 
-    /// Smallest share that can be weighed to 1 %: fifty steps of the balance.
+    /// Smallest share that you can weigh to 1 %: fifty steps of the balance.
     #[must_use]
     pub fn least_share(&self) -> f64 {
         STEPS * self.resolution / self.grams
     }
 
-    /// Paints of `recipe` with their masses in grams, rounded to the balance's step.
+    /// Paints of `recipe` with the masses in grams that you weigh, rounded to the balance's step.
     #[must_use]
     pub fn grams(&self, recipe: &SwatchRecipe) -> Recipe {
         let steps = |share: f64| (share * self.grams / self.resolution).round();

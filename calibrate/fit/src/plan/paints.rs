@@ -8,7 +8,7 @@ use spectra::Grid;
 
 use crate::measurement::names_a_pigment;
 
-/// The paints to be measured: the white, the colours, the black.
+/// The paints that you measure: the white, the colours, the black.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PaintSet {
     /// Names of all paints: the white, the colours in their given order, the black.
@@ -21,7 +21,7 @@ impl PaintSet {
     /// Place of the white, with S = 1.
     pub const WHITE: PigmentId = PigmentId(0);
 
-    /// Collects the paints. White and black may be named among the colours too.
+    /// Collects the paints. You may name white and black among the colours too.
     ///
     /// # Errors
     /// [`PlanError::Name`] for a name that a column of a measurement file cannot have,
@@ -66,8 +66,8 @@ impl PaintSet {
         &self.names[paint.index()]
     }
 
-    /// Number of unknowns per wavelength, which is the least number of swatches: K of every paint, S of
-    /// all but the white.
+    /// Number of unknowns per wavelength: K of every paint, and S of all but the white. You need at least
+    /// this many swatches.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         2 * self.names.len() - 1
@@ -147,7 +147,7 @@ impl Purpose {
         }
     }
 
-    /// Information that the swatch gives, in a few words.
+    /// Information that you get from this swatch, in a few words.
     #[must_use]
     pub fn why(self) -> &'static str {
         match self {
@@ -160,7 +160,7 @@ impl Purpose {
     }
 }
 
-/// Names of the cards on which every film is laid, and which are read bare.
+/// You lay every film on these cards, and read them bare.
 const BACKINGS: [&str; 2] = ["white", "black"];
 
 /// Layout of the empty measurement file.

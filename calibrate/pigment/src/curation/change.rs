@@ -13,8 +13,8 @@ use crate::library::{AmountKind, Pigment, PigmentLibrary, RecipeError};
 use crate::recipe::PigmentId;
 use crate::smooth_reflectance::smoothest_reflectance;
 
-/// Renames pigments by `(old, new)` pairs, all at once, so that two names can be exchanged. Everything
-/// else stays, including the words of the evidence.
+/// Renames pigments by `(old, new)` pairs, all at once, so you can exchange two names. Everything else
+/// stays, including the words of the evidence.
 ///
 /// # Errors
 /// [`CurationError`] for an unknown name, and for a new name that is empty or taken.
@@ -45,7 +45,8 @@ pub fn renamed(
     Ok(result)
 }
 
-/// Sets the Colour Index name of pigments by `(pigment, name)` pairs. An empty name removes it.
+/// Sets the Colour Index name of pigments by `(pigment, name)` pairs, e.g. `("Cobalt Blue", "PB28")`. An
+/// empty name removes it.
 ///
 /// # Errors
 /// [`CurationError`] for an unknown pigment.
@@ -65,8 +66,8 @@ pub fn with_color_indices(
 
 /// Selects the pigments of `keep` (all, if empty) except those of `without`, in the library's order.
 ///
-/// The errors of single samples are dropped, since no library records what a sample contained. The
-/// summary stays, with a note that it belongs to the whole fit.
+/// We drop the errors of single samples, because no library records what a sample contained. The summary
+/// stays, with a note that it belongs to the whole fit.
 ///
 /// # Errors
 /// [`CurationError`] for an unknown name, if no pigment is left, and if the reference would be left out.
@@ -118,12 +119,12 @@ fn find(file: &str, library: &PigmentLibrary, name: &str) -> Result<PigmentId, C
 /// Scales K and S to the S of `reference`, a name that [`PigmentLibrary::find`] accepts. Absolute amounts
 /// become shares.
 ///
-/// Every K and S is divided by the reference's S at that wavelength, so every mixture keeps its K/S and every
-/// film that hides keeps its colour. Films that do not hide change, because thickness 1 now refers to another
-/// white. Standard deviations are divided too, except for S of the two references: the new one gets 0, and
-/// the old one gets the relative deviation that S of the new one had. A pigment with unknown S keeps its K/S
-/// with S = 1. The unevenness and the evidence of absolute amounts are dropped, since they do not apply to
-/// films that hide.
+/// We divide every K and S by the reference's S at that wavelength, so every mixture keeps its K/S and
+/// every film that hides keeps its colour. Films that do not hide change, because thickness 1 now refers to
+/// another white. We divide standard deviations too, except for S of the two references. The new one gets
+/// 0, and the old one gets the relative deviation that S of the new one had. A pigment with unknown S keeps
+/// its K/S with S = 1. We drop the unevenness and the evidence of absolute amounts, because they do not
+/// apply to films that hide.
 ///
 /// # Errors
 /// [`CurationError`] if the pigment is missing, or its S is unknown or 0.
@@ -193,11 +194,11 @@ fn divided_by_white(white: &Pigment, curve: &[f64]) -> Vec<f64> {
 }
 
 /// Resamples the library to `grid`: K and S by `method` (clipped at 0), standard deviations by straight
-/// lines. The evidence is kept, with a note that it belongs to the old grid.
+/// lines. The evidence stays, with a note that it belongs to the old grid.
 ///
-/// Resampling loses detail: the Van Gogh oils, thinned to 20 nm and brought back to 10 nm, change by 0.05
-/// CIEDE2000 on average with Sprague's polynomial and by 0.39 with linear interpolation (100 mixtures with
-/// white, as compared by `library diff`).
+/// You lose detail by this. For example, the Van Gogh oils, thinned to 20 nm and brought back to 10 nm,
+/// change by 0.05 CIEDE2000 on average with Sprague's polynomial and by 0.39 with linear interpolation (100
+/// mixtures with white, as compared by `library diff`).
 ///
 /// # Errors
 /// [`CurationError::Grid`] beyond the library's band, unless its end values are held, and for Sprague's
@@ -256,10 +257,10 @@ fn curve(
     Ok(spectrum.resampled(to, method, ends)?.into_values().into_iter().map(rounded).collect())
 }
 
-/// S of a glaze, relative to the reference white: it hides little. Chosen by eye.
+/// S of a glaze, relative to the reference white. It hides little. We chose it by eye.
 const GLAZE_SCATTERING: f64 = 0.02;
-/// Largest CIEDE2000 between two colours that count as equal. Rounding K and S in a file changes a colour by
-/// far less.
+/// We count two colours as equal up to this CIEDE2000. Rounding K and S in a file changes a colour by far
+/// less.
 const SAME_COLOR: f64 = 0.05;
 
 /// Kind of paint that a guessed pigment makes.
@@ -271,7 +272,7 @@ pub enum Body {
     Glaze,
 }
 
-/// A guessed pigment, with the difference between its colour and the requested one.
+/// A guessed pigment, and how far its colour is from the one that you requested.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guess {
     /// The pigment, with its mark `guessed` set.
@@ -283,10 +284,10 @@ pub struct Guess {
 }
 
 /// Makes a pigment for `library`'s grid and surface with the colour `wanted` under D65 for the CIE 1931
-/// observer: K and S follow from the smoothest reflectance of that colour ([`smoothest_reflectance`]).
+/// observer. We take K and S from the smoothest reflectance of this colour ([`smoothest_reflectance`]).
 /// `color` describes the colour in the pigment's notes.
 ///
-/// A colour does not determine how a paint mixes. Only measurements do.
+/// A colour does not tell you how a paint mixes. Only measurements do.
 ///
 /// # Errors
 /// [`CurationError`] for a library of absolute amounts, and where no paint under the library's surface
@@ -348,9 +349,8 @@ pub fn guessed_pigment(
     Ok(Guess { pigment, delta_e, hex })
 }
 
-/// Adds to `library` a pigment of a colour (`#rrggbb`, or `L,a,b` under D65), see
-/// [`guessed_pigment`]. The first paint of an empty library becomes its reference white if it
-/// hides.
+/// Adds a pigment of a colour to `library`. Write the colour as `#rrggbb`, or as `L,a,b` under D65, and see
+/// [`guessed_pigment`]. The first paint of an empty library becomes its reference white if it hides.
 ///
 /// # Errors
 /// [`CurationError`] for an empty name or one that the library has, a text that is not a colour,
@@ -379,8 +379,8 @@ pub fn add_guessed(
     Ok(guess)
 }
 
-/// Returns the K of a film of unit thickness with S = `scattering` that reflects `internal` over white,
-/// by bisection in the logarithm of K, since the reflectance falls with K.
+/// Returns the K of a film of unit thickness with S = `scattering` that reflects `internal` over white. We
+/// bisect the logarithm of K, because the reflectance falls with K.
 fn glaze_absorption(internal: f64, scattering: f64) -> f64 {
     let mut low = -25.0f64;
     let mut high = 15.0f64;

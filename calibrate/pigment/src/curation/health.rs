@@ -1,5 +1,5 @@
-//! Checks of a library for faults and doubtful values, and colour differences between two libraries of the
-//! same pigments, as in quality control of batches.
+//! Checks of a library for faults and doubtful values. You can also compare two libraries of the same
+//! pigments, as in quality control of batches.
 
 use rand::SeedableRng;
 use rand::seq::index;
@@ -16,7 +16,7 @@ use crate::recipe::{PigmentId, Recipe};
 pub enum Severity {
     /// The library contradicts itself.
     Fault,
-    /// A value that deserves a look.
+    /// You should look at this value.
     Warning,
 }
 
@@ -65,27 +65,26 @@ impl Health {
     }
 }
 
-/// Grid step in nm above which a library is too coarse for the absorption bands of most pigments, chosen by
-/// eye.
+/// Above this grid step in nm a library is too coarse for the absorption bands of most pigments. We chose
+/// it by eye.
 const COARSE_STEP_NM: f64 = 20.0;
-/// Mean CIEDE2000 of a fit above which it is poor, chosen by eye.
+/// A fit with a mean CIEDE2000 above this is poor. We chose it by eye.
 const POOR_FIT: f64 = 3.0;
-/// Greatest deviation of the reference's S from 1 that rounding to six digits in a file explains, with some
-/// margin.
+/// Rounding to six digits in a file explains this deviation of the reference's S from 1, with some margin.
 const UNIT_ROUNDING: f64 = 1e-5;
-/// A value above or below both its neighbours by more than this factor counts as a jump, chosen by
-/// eye.
+/// If a value is above or below both its neighbours by more than this factor, we count it as a jump. We
+/// chose it by eye.
 const JUMP: f64 = 1.5;
-/// Median relative standard deviation of K or S above which little more than its order of magnitude is known,
-/// chosen by eye.
+/// Above this median relative standard deviation of K or S, you know little more than its order of
+/// magnitude. We chose it by eye.
 const UNCERTAIN: f64 = 0.5;
-/// Largest colour difference in CIEDE2000 that nobody can see, chosen by eye.
+/// Nobody can see a colour difference up to this CIEDE2000. We chose it by eye.
 const ALIKE: f64 = 0.3;
-/// A masstone counts as black if its reflectance exceeds the surface's own reflection by less than this,
-/// chosen by eye.
+/// We count a masstone as black if its reflectance exceeds the surface's own reflection by less than this.
+/// We chose it by eye.
 const BLACK: f64 = 0.0005;
 
-/// Checks `library`. Colours are computed under `viewing`.
+/// Checks `library`. We compute colours under `viewing`.
 #[must_use]
 pub fn health(library: &PigmentLibrary, viewing: &Viewing) -> Health {
     let weights = viewing.weights(library.grid).expect("a method for the grid");
@@ -340,8 +339,8 @@ impl Difference {
     }
 }
 
-/// Compares pigments of equal name, and up to `pairs` mixtures of two, drawn with `seed` from all
-/// possible pairs. Each library is evaluated on its own grid and under its own surface.
+/// Compares pigments of equal name, and up to `pairs` mixtures of two, which we draw with `seed` from all
+/// possible pairs. We evaluate each library on its own grid and under its own surface.
 #[must_use]
 pub fn difference(
     first: &PigmentLibrary,

@@ -7,7 +7,7 @@ use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::hiding_film;
 
-/// Two batches of one white differ by less than this, in CIEDE2000, chosen by eye.
+/// Two batches of one white differ by less than this, in CIEDE2000. We chose it by eye.
 const SAME_WHITE: f64 = 1.0;
 
 /// A library with the name of its file.
@@ -54,20 +54,20 @@ pub struct MergeSettings {
 /// Result of a merge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Merged {
-    /// Merged library on the first's grid and relative to its reference. It has no evidence, which
-    /// belongs to a single fit.
+    /// Merged library on the first's grid and relative to its reference. It has no evidence, because
+    /// evidence belongs to a single fit.
     pub library: PigmentLibrary,
     /// Pigments found in two libraries: name, file of the second, CIEDE2000 between the masstones.
     pub common: Vec<(String, String, f64)>,
-    /// Reservations about the merged library, in words for the user.
+    /// Reservations about the merged library, in words for you.
     pub warnings: Vec<String>,
 }
 
 /// Merges the pigments of `first` and `others` into one library.
 ///
-/// Relative libraries are scaled to one reference white ([`with_reference`]), so that one paint has
-/// S = 1 in all of them. Each pigment gets a note that names its library and the error of that fit.
-/// Inputs, licences and sources are united.
+/// We scale relative libraries to one reference white ([`with_reference`]), so that one paint has S = 1 in
+/// all of them. Each pigment gets a note that names its library and the error of that fit. We unite inputs,
+/// licences and sources.
 ///
 /// # Errors
 /// [`CurationError`] where libraries cannot be combined, or one name stands for two pigments and
@@ -239,7 +239,7 @@ fn amount_word(kind: AmountKind) -> &'static str {
     }
 }
 
-/// Returns a warning where another surface is accepted as the first's.
+/// Returns a warning if you accept another surface as the first's.
 fn check_surface(
     base: &PigmentLibrary,
     first: &Source,

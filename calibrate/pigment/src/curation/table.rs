@@ -1,7 +1,7 @@
 //! A library as a table or as swatches.
 //!
-//! The CSV table of K and S has one row per curve, with the columns `pigment`, `quantity` and the wavelengths in
-//! nm. Swatches are the masstone of each pigment and its tints.
+//! The CSV table of K and S has one row per curve, with the columns `pigment`, `quantity` and the
+//! wavelengths in nm. You can also make swatches: the masstone of each pigment and its tints.
 
 use documents::hint::Explain;
 use spectra::Grid;
@@ -15,7 +15,7 @@ use crate::evaluate::{Viewing, rounded};
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// Names of the curves in the order in which they are written. The last one is used for pigments with unknown
+/// Names of the curves in the order in which we write them. We use the last one for pigments with unknown
 /// S.
 const QUANTITIES: [&str; 5] =
     ["absorption", "scattering", "absorption_sd", "scattering_sd", "absorption_over_scattering"];
@@ -77,8 +77,8 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
     String::from_utf8(bytes).expect("records of text are valid UTF-8")
 }
 
-/// Reads a library from `text`, the content of `file`, in the form that [`to_csv`] writes. `K`, `S` and
-/// `K/S` are accepted as names of the quantities. A pigment with K/S only becomes one of unknown S.
+/// Reads a library from `text`, the content of `file`, in the form that [`to_csv`] writes. You may name the
+/// quantities `K`, `S` and `K/S`. If you give only K/S of a pigment, its S is unknown.
 ///
 /// # Errors
 /// [`TableError`] with row and column.
@@ -262,7 +262,7 @@ fn framed(
         (None, [only]) => Some(only.clone()),
         (None, _) => return Err(TableError::NoReference { file: file.to_owned(), whites }),
     };
-    // Reading the JSON form back applies the checks of every library file.
+    // We read the JSON form back, to apply the checks of every library file.
     Ok(PigmentLibrary::from_json(file, &library.to_json())?)
 }
 

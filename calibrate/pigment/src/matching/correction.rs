@@ -1,10 +1,11 @@
-//! Correcting a batch of paint: additions to the pot that bring its measured colour to a target.
+//! Correcting a batch of paint: you learn what to add to the pot, so that its measured colour becomes the
+//! target.
 //!
-//! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says. The predicted K is
-//! therefore scaled at each wavelength until K / S agrees with the measured film, and S stays as predicted. The
-//! additions are mixed into this paint. The measurement then already contains the errors of the recipe and of
-//! the model at the pot's colour, and only the errors of the additions remain (after Allen 1974, correction by
-//! the batch's own reflectance).
+//! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says. We therefore
+//! scale the predicted K at each wavelength until K / S agrees with the measured film. S stays as
+//! predicted. Then we mix the additions into this paint. The measurement already contains the errors of the
+//! recipe and of the model at the pot's colour, so only the errors of the additions remain (after Allen
+//! 1974, correction by the batch's own reflectance).
 //!
 //! The search returns the smallest addition that brings the colour near enough to the target.
 
@@ -27,20 +28,20 @@ use crate::least_squares::MAX_PIGMENTS;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// Least internal reflectance that is used. Smaller readings say nothing about K / S.
+/// We use no internal reflectance below this. Smaller readings say nothing about K / S.
 const LEAST_INTERNAL: f64 = 1e-4;
-/// CIEDE2000 (by spectrum percent of reflectance) from the target that is near enough, unless options say
-/// otherwise: about the smallest difference that an eye sees side by side.
+/// This far from the target is near enough, in CIEDE2000 (by spectrum in percent of reflectance), unless
+/// options say otherwise. It is about the smallest difference that you see side by side.
 pub const USUAL_CORRECTION: f64 = 0.5;
 
-/// A pot of paint that was mixed and measured.
+/// A pot of paint that you mixed and measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Batch {
-    /// Names of the pigments that were mixed, with their parts in any unit.
+    /// Names of the pigments that you mixed, with their parts in any unit.
     pub made: Vec<(String, f64)>,
     /// Mass of the paint in the pot in grams, above 0.
     pub grams: f64,
-    /// Measured reflectance of a film of the paint that hides.
+    /// Measured reflectance of a film of this paint that hides.
     pub reflectance: Spectrum<Reflectance>,
 }
 
@@ -98,8 +99,8 @@ pub struct Correction {
     pub grams: f64,
     /// CIEDE2000 of the corrected paint from the target under each light.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square of `delta_e` over the lights. When matching by spectrum, root mean square of
-    /// the differences of reflectance, in percent.
+    /// Weighted root mean square of `delta_e` over the lights. If you match by spectrum, root mean square
+    /// of the differences of reflectance, in percent.
     pub distance: f64,
     /// Root mean square of the differences of reflectance from a measured target, in percent.
     pub rms_percent: Option<f64>,
@@ -107,7 +108,7 @@ pub struct Correction {
     pub lab: Vec<Lab>,
     /// Measured reflectance of the corrected paint on the library's grid.
     pub reflectance: Vec<f64>,
-    /// Pigments of which the whole stock is added.
+    /// Pigments of which you add the whole stock.
     pub out_of_stock: Vec<PigmentId>,
 }
 
@@ -124,19 +125,19 @@ pub struct Corrections {
     pub batch_rms_percent: Option<f64>,
     /// CIEDE2000 of the batch from what its recipe predicts, under each light.
     pub recipe_delta_e: Vec<f64>,
-    /// Whether the batch is within the tolerance and needs no correction.
+    /// Whether the batch is within the tolerance, so that you need not correct it.
     pub is_near: bool,
     /// Whether the corrections bring it within the tolerance.
     pub reaches: bool,
-    /// Corrections within the tolerance, the least addition first. If there are none, those that come
-    /// nearest, the nearest first. Empty if the batch needs none.
+    /// Corrections within the tolerance, the least addition first. If there are none, you get those that
+    /// come nearest, the nearest first. Empty if you need not correct the batch.
     pub corrections: Vec<Correction>,
     /// Warnings about the spectra.
     pub remarks: Vec<Remark>,
 }
 
 impl PigmentLibrary {
-    /// Searches what to add to `batch` so that it gets the colour of `target`. The least addition comes
+    /// Searches what you add to `batch` so that it gets the colour of `target`. The least addition comes
     /// first.
     ///
     /// ```
@@ -357,7 +358,7 @@ fn correction(
     addition: Addition,
     grams: f64,
 ) -> Correction {
-    /// Relative distance from the stock below which all of it is used.
+    /// We use all of the stock if we are this near to it, as a fraction.
     const AT_LIMIT: f64 = 1e-6;
     let total = addition.total() * grams;
     let Addition { mut amounts, mixture } = addition;
@@ -383,25 +384,25 @@ fn correction(
     }
 }
 
-/// The least addition is searched for at most this many sets of pigments.
+/// We search the least addition for at most this many sets of pigments.
 const MOST_SETS: usize = 400;
-/// Amounts that are tried between the least and the greatest, in equal ratios, chosen by eye.
+/// We try this many amounts between the least and the greatest, in equal ratios. We chose it by eye.
 const AMOUNTS: usize = 24;
-/// Halvings of the last ratio of amounts, down to about 0.1 % of the amount.
+/// We halve the last ratio of amounts this often, down to about 0.1 % of the amount.
 const HALVINGS: usize = 9;
 
-/// Limits of an addition to a pot. Amounts are fractions of the paint that is in the pot.
+/// Limits of an addition to a pot. We give amounts as fractions of the paint in the pot.
 pub(super) struct Additions<'a> {
     /// The library, with the paint in the pot as its last pigment.
     pub(super) library: &'a PigmentLibrary,
     pub(super) conditions: &'a [ViewingCondition],
-    /// Pigments that may be added.
+    /// Pigments that you may add.
     pub(super) allowed: Vec<PigmentId>,
     /// Most pigments to add, 1 to 7.
     pub(super) at_most: usize,
     /// Greatest amount of each pigment of the library, infinite without a limit.
     pub(super) stock: Vec<f64>,
-    /// Least amount of one pigment, above 0.
+    /// Least amount of one pigment that you can weigh, above 0.
     pub(super) least: f64,
     /// Greatest sum of all additions.
     pub(super) most: f64,
@@ -409,7 +410,6 @@ pub(super) struct Additions<'a> {
     pub(super) tolerance: f64,
 }
 
-/// An addition that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Addition {
     /// Pigments in rising order, each with its amount as a fraction of the paint in the pot.
@@ -419,7 +419,6 @@ pub(super) struct Addition {
 }
 
 impl Addition {
-    /// Sum of all amounts.
     pub(super) fn total(&self) -> f64 {
         self.amounts.iter().map(|(_, amount)| amount).sum()
     }
@@ -462,7 +461,7 @@ impl Additions<'_> {
     }
 
     /// The additions of each set of pigments that come within the tolerance, the least first. If none does,
-    /// those that come nearest, the nearest first.
+    /// you get those that come nearest, the nearest first.
     pub(super) fn find(&self, forward: &Forward<'_>, target: &Target) -> (Vec<Addition>, bool) {
         let whole = self.request(None);
         let found = search(forward, &whole, target, &Task::default().steps(0));
@@ -544,7 +543,7 @@ impl Additions<'_> {
         self.addition(best)
     }
 
-    /// The nearest mixture in which the additions are `added` in all. `None` if the stock does not suffice.
+    /// The nearest mixture in which you add `added` in all. `None` if the stock does not suffice.
     fn of_amount(
         &self,
         forward: &Forward<'_>,
@@ -585,7 +584,7 @@ impl Additions<'_> {
             .filter(|(pigment, _)| **pigment != self.pot())
             .map(|(&pigment, share)| (pigment, share / pot))
             .collect();
-        // A smaller set without this pigment is searched by itself.
+        // We search a smaller set without this pigment by itself.
         let is_whole = amounts.iter().all(|(_, amount)| *amount >= self.least * (1.0 - 1e-6));
         is_whole.then_some(Addition { amounts, mixture })
     }
@@ -611,7 +610,7 @@ fn least_between(
 
 /// Drops additions that need further pigments and are hardly better than another one.
 fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
-    /// Gain below which a further pigment is not worth weighing, as a fraction, chosen by eye.
+    /// You do not weigh a further pigment for a gain below this fraction. We chose it by eye.
     const LEAST_GAIN: f64 = 0.02;
 
     let needed = additions.iter().filter(|addition| {

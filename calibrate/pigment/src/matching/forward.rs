@@ -64,7 +64,7 @@ impl<'a> Forward<'a> {
         })
     }
 
-    /// Computes the measured reflectance of `shares` of `pigments` at a thickness. Leaves it in
+    /// Computes the measured reflectance of `shares` of `pigments` at a thickness. You find it in
     /// `scratch`, with its slopes over K d and S d (over K and S for a film that hides).
     fn reflect(
         &self,
@@ -105,7 +105,6 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// Measured reflectance of a recipe on the library's grid.
     pub(super) fn reflectance(
         &self,
         pigments: &[PigmentId],
@@ -140,8 +139,8 @@ impl<'a> Forward<'a> {
         squares.sum::<f64>().sqrt()
     }
 
-    /// Cost at `unknowns`: a share for each of `pigments`, followed by the logarithm of the
-    /// thickness where `chooses_thickness`.
+    /// Cost at `unknowns`. Pass a share for each of `pigments`, followed by the logarithm of the thickness
+    /// if `chooses_thickness`.
     pub(super) fn cost(
         &self,
         target: &Target,
@@ -221,8 +220,8 @@ fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
     }
 }
 
-/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The slopes of
-/// CIELAB are exact. The slopes of the difference formula are difference quotients.
+/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). We compute
+/// the slopes of CIELAB exactly, and the slopes of the difference formula by difference quotients.
 fn residuals_with_slopes(
     metric: Metric,
     wanted: Lab,

@@ -1,9 +1,9 @@
 //! Recipes for a colour.
 //!
-//! Finds which pigments of a library, and how much of each, come nearest to a target under one light or
-//! several, or to its spectrum. Every set of pigments is tried, from one pigment up to the requested number.
-//! The shares of each set are found by least squares in the difference itself, starting from the best recipe
-//! of a set with one pigment fewer.
+//! You learn which pigments of a library, and how much of each, come nearest to a target under one light or
+//! several, or to its spectrum. We try every set of pigments, from one pigment up to the number that you
+//! request. For each set we find the shares by least squares in the difference itself. We start from the
+//! best recipe of a set with one pigment fewer.
 
 mod target;
 mod request;

@@ -287,7 +287,6 @@ impl MatchOptions {
     }
 }
 
-/// Finds every pigment of `names`.
 pub(super) fn find_all(
     library: &PigmentLibrary,
     names: &[String],

@@ -1,4 +1,4 @@
-//! Selection and order of the recipes that are returned, and recipes in small whole parts.
+//! We select and order here the recipes that we return, and make recipes in small whole parts.
 
 use documents::{Steps, Task};
 use rayon::prelude::*;
@@ -31,9 +31,9 @@ pub struct RecipeMatch {
     /// weights of a search by spectrum, else evenly over the shared wavelengths. `None` for a target that
     /// was not measured.
     pub rms_percent: Option<f64>,
-    /// Special metamerism index (CIE 15:2018, section 9.2, in CIEDE2000) for the change from the first light
-    /// to each later one. Empty for a target that was not measured. `None` for a recipe that is black under
-    /// the first light.
+    /// Special metamerism index (CIE 15:2018, section 9.2, in CIEDE2000) for the change from the first
+    /// light to each later one. Empty if you did not measure the target. `None` for a recipe that is black
+    /// under the first light.
     pub metamerism: Vec<Option<f64>>,
     /// Colour of the recipe under each viewing condition.
     pub lab: Vec<Lab>,
@@ -41,8 +41,7 @@ pub struct RecipeMatch {
     pub reflectance: Vec<f64>,
     /// Pigments at the least or greatest absolute amount that was measured. The search keeps to this range.
     pub at_limit: Vec<(PigmentId, AmountLimit)>,
-    /// Price of one unit of the mixture, or of all absolute amounts together. `None` if prices are
-    /// unknown.
+    /// Price of one unit of the mixture, or of all absolute amounts together. `None` if you give no prices.
     pub cost: Option<f64>,
 }
 
@@ -57,13 +56,12 @@ pub enum AmountLimit {
 
 /// Searches recipes of `library` for `target` and returns the best first.
 ///
-/// Recipes that are equally near (within the request's tolerance of the nearest) are ordered by price
-/// where prices are known, then by the number of pigments, then by distance in steps of
-/// [`USUAL_TOLERANCE`], then by their smallest share, the greatest first. The others follow by distance.
-/// A recipe that adds a pigment to another one of the list without coming nearer by more than the
-/// tolerance is left out.
+/// Some recipes are equally near (within the request's tolerance of the nearest). We order them by price if
+/// you give prices, then by the number of pigments, then by distance in steps of [`USUAL_TOLERANCE`], then
+/// by their smallest share, the greatest first. The others follow by distance. We leave out a recipe that
+/// adds a pigment to another one of the list without coming nearer by more than the tolerance.
 ///
-/// `task` counts the sets of pigments that have been tried. If it is cancelled, each thread finishes its
+/// `task` counts the sets of pigments that we have tried. If you cancel it, each thread finishes its
 /// current recipe.
 ///
 /// # Errors
@@ -81,8 +79,8 @@ pub fn recipes(
     Ok(recipes_and_nearest(library, target, request, task)?.0)
 }
 
-/// Recipes, and the distance of the nearest of all, which the list may leave out because another is as near
-/// within the tolerance.
+/// Recipes, and the distance of the nearest of all. You may not find that one in the list, if another is as
+/// near within the tolerance.
 pub(super) fn recipes_and_nearest(
     library: &PigmentLibrary,
     target: &Target,
@@ -114,11 +112,11 @@ pub(super) fn recipes_and_nearest(
     Ok((recipes.collect(), nearest))
 }
 
-/// Number of recipes in whole parts searched for each one returned. More are searched because those that add
-/// pigments to a better recipe without coming nearer are left out later. Chosen by eye.
+/// We search this many recipes in whole parts for each one that we return, because later we leave out those
+/// that add pigments to a better recipe without coming nearer. We chose it by eye.
 const SPARE_RECIPES: usize = 5;
 
-/// A candidate with its whole parts, if these were asked for.
+/// A candidate with its whole parts, if you asked for these.
 type Found = (Option<Vec<u32>>, Candidate);
 
 fn ranked(
@@ -166,7 +164,7 @@ fn smallest_share(c: &Candidate) -> f64 {
     c.shares.iter().copied().fold(1.0, f64::min)
 }
 
-/// Price of a candidate. Without prices it is 0 for all, which leaves their order unchanged.
+/// Price of a candidate. If you give no prices, it is 0 for all, which leaves their order unchanged.
 fn cost(library: &PigmentLibrary, request: &MatchRequest, candidate: &Candidate) -> f64 {
     let parts = candidate.pigments.iter().zip(&candidate.shares);
     let of_one: f64 =
@@ -247,18 +245,18 @@ fn at_limit(
 /// Relative distance from a limit below which an amount lies at it.
 const AT_LIMIT: f64 = 1e-6;
 
-/// Most recipes of one set that are tried one by one: four pigments in up to 19 parts. It bounds
-/// the time of a search and was chosen by eye.
+/// We try at most this many recipes of one set one by one: four pigments in up to 19 parts. It bounds the
+/// time of a search. We chose it by eye.
 const MOST_RECIPES: u64 = 4_000;
 
-/// Returns the nearest recipe in whole parts, at most `most` in total, for each candidate's pigments.
-/// Candidates for which the least share allows no such recipe are dropped. Once the search is cancelled, the
-/// remaining candidates are dropped too.
+/// Returns the nearest recipe in whole parts, at most `most` in total, for each candidate's pigments. We
+/// drop a candidate if the least share allows no such recipe. If you cancel the search, we drop the
+/// remaining candidates too.
 ///
-/// First, for every total, the shares are rounded, and single parts are moved from pigment to pigment while
-/// that brings the recipe nearer. Then all recipes are tried of those sets that could still be among the
-/// `wanted` nearest. A set cannot if its recipe with free shares is already too far, since whole parts never
-/// come nearer. Sets with more than 4000 recipes keep the rounded recipe.
+/// First, for every total, we round the shares, and move single parts from pigment to pigment while this
+/// brings the recipe nearer. Then we try all recipes of those sets that could still be among the `wanted`
+/// nearest. A set cannot if its recipe with free shares is already too far, because whole parts never come
+/// nearer. A set with more than 4000 recipes keeps the rounded recipe.
 pub(super) fn in_whole_parts(
     forward: &Forward<'_>,
     request: &MatchRequest,
@@ -361,7 +359,7 @@ impl Set<'_> {
         let mut best: Option<(Vec<u32>, f64)> = None;
         let pigments = self.candidate.pigments.len();
         for total in pigments as u32..=most {
-            // All compositions of the total, in order of the first parts.
+            // We try all compositions of the total, in order of the first parts.
             let mut parts = vec![1; pigments];
             parts[pigments - 1] = total - (pigments as u32 - 1);
             loop {

@@ -1,5 +1,5 @@
-//! The search for recipes by name: options in, recipes out, with a fallback for distant targets, and the
-//! recipes as JSON for programs.
+//! The search for recipes by name. You pass options and get recipes. If the target is far from all of them,
+//! we also search in another way. You can write the recipes as JSON for programs.
 
 use documents::Task;
 use documents::hint::Hint;
@@ -15,15 +15,15 @@ use crate::color::IlluminantChange;
 use crate::evaluate::{Remark, WANTED_NM, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary};
 
-/// Largest distance at which a target counts as reached, in CIEDE2000 or percent of reflectance. Larger
-/// differences are clearly visible side by side. Chosen by eye.
+/// We count a target as reached up to this distance, in CIEDE2000 or percent of reflectance. You clearly
+/// see larger differences side by side. We chose it by eye.
 const REACHED: f64 = 1.0;
 
-/// CIEDE2000 of the nearest recipe above which recipes are also searched by CIE 1976: CIEDE2000 was made for
-/// differences up to about 5 units (CIE 142:2001).
+/// If the nearest recipe is further than this in CIEDE2000, we also search recipes by CIE 1976. CIEDE2000
+/// was made for differences up to about 5 units (CIE 142:2001).
 const FAR: f64 = 5.0;
 
-/// A search for recipes of one library, prepared for any number of targets.
+/// A search for recipes of one library. You prepare it once for any number of targets.
 #[derive(Debug, Clone)]
 pub struct RecipeSearch<'a> {
     pub(super) library: &'a PigmentLibrary,
@@ -31,7 +31,7 @@ pub struct RecipeSearch<'a> {
     pub request: MatchRequest,
     /// Origin of the request's tolerance.
     pub tolerance_origin: ToleranceOrigin,
-    /// Choices made in preparing the search, and warnings.
+    /// Choices that we made in preparing the search, and warnings.
     pub remarks: Vec<Remark>,
 }
 
@@ -42,31 +42,31 @@ pub struct RecipeMatches {
     pub target: Target,
     /// Recipes in the order of [`recipes`](super::recipes).
     pub recipes: Vec<RecipeMatch>,
-    /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000,
-    /// empty otherwise, and by spectrum.
+    /// Nearest recipe by CIE 1976, if all recipes differ from the target by more than 5 CIEDE2000.
+    /// Otherwise, and for a search by spectrum, it is empty.
     pub by_cie1976: Vec<RecipeMatch>,
-    /// Choices made in the search, and warnings.
+    /// Choices that we made in the search, and warnings.
     pub remarks: Vec<Remark>,
     nearest: f64,
     beyond_measured: Option<f64>,
 }
 
 impl RecipeMatches {
-    /// Least distance of any recipe that was found, in the unit of the metric. The list may leave that recipe out for
-    /// another one that is as near within the tolerance.
+    /// Least distance of any recipe that we found, in the unit of the metric. You may not find this recipe
+    /// in the list if another one is as near within the tolerance.
     #[must_use]
     pub fn nearest(&self) -> f64 {
         self.nearest
     }
 
-    /// Least distance of any recipe, in the unit of the metric, if amounts could lie outside the range that was measured
-    /// of each pigment. `None` if that would bring no recipe visibly nearer.
+    /// Least distance of any recipe, in the unit of the metric, if you allow amounts outside the range that
+    /// was measured of each pigment. `None` if this brings no recipe visibly nearer.
     #[must_use]
     pub fn beyond_measured(&self) -> Option<f64> {
         self.beyond_measured
     }
 
-    /// Advice for a target from which all recipes differ visibly. `None` if one is nearer than 1
+    /// Advice for a target if you see that all recipes differ from it. `None` if one is nearer than 1
     /// CIEDE2000, or 1 % of reflectance.
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
@@ -74,8 +74,8 @@ impl RecipeMatches {
         (!self.is_reached()).then(|| Hint::new(advice))
     }
 
-    /// Whether a recipe differs from the target by no more than can be seen: 1 CIEDE2000, or 1 % of
-    /// reflectance.
+    /// Whether you cannot see the difference between a recipe and the target: it is at most 1 CIEDE2000, or
+    /// 1 % of reflectance.
     #[must_use]
     pub fn is_reached(&self) -> bool {
         self.nearest() <= REACHED
@@ -121,7 +121,7 @@ impl PigmentLibrary {
 }
 
 impl RecipeSearch<'_> {
-    /// Searches recipes for one target. `task` counts the sets of pigments that were tried in the first of
+    /// Searches recipes for one target. `task` counts the sets of pigments that we tried in the first of
     /// the searches that a target may take.
     ///
     /// # Errors
@@ -176,7 +176,8 @@ impl RecipeSearch<'_> {
     }
 }
 
-/// The spectrum of a measured target on the grid of a library. A search by spectrum fails if there is none.
+/// The spectrum of a measured target on the grid of a library. If there is none, you cannot search by
+/// spectrum.
 pub(super) fn spectrum_of(
     target: &ColorTarget,
     grid: Grid,
@@ -213,8 +214,9 @@ pub(super) fn spectrum_of(
 
 impl RecipeSearch<'_> {
     /// The result for one target as JSON. It holds the target's name, Lab by light, `hex` and `in_gamut`,
-    /// then `reached`, `nearest`, `beyond_measured`, measure and tolerance, then `recipes` and `by_cie1976`,
-    /// each as [`Self::recipe_json`]. With `grams`, the mass of the mixture, recipes contain amounts.
+    /// then `reached`, `nearest`, `beyond_measured`, measure and tolerance, then `recipes` and
+    /// `by_cie1976`, each as [`Self::recipe_json`]. If you pass `grams`, the mass of the mixture, recipes
+    /// contain amounts.
     #[must_use]
     pub fn to_json(&self, matched: &RecipeMatches, grams: Option<f64>) -> Value {
         let [recipes, by_cie1976] = [&matched.recipes, &matched.by_cie1976].map(|recipes| {
@@ -240,9 +242,9 @@ impl RecipeSearch<'_> {
         })
     }
 
-    /// One recipe: pigments with their shares, distance, errors and colours by light, reflectance. Only
-    /// where they are known: parts, amounts, `rms_percent`, metamerism, thickness, and the cost of `grams`,
-    /// or of a unit of mass.
+    /// One recipe: pigments with their shares, distance, errors and colours by light, reflectance. You also
+    /// find parts, amounts, `rms_percent`, metamerism, thickness, and the cost of `grams` or of a unit of
+    /// mass, if they are known.
     #[must_use]
     pub fn recipe_json(&self, recipe: &RecipeMatch, grams: Option<f64>) -> Value {
         let amount_key = if self.is_absolute() { "amount" } else { "grams" };
@@ -330,7 +332,7 @@ impl RecipeSearch<'_> {
 
 /// Encoded sRGB of `lab`, seen adapted to its light.
 fn displayed(lab: Lab) -> Rgb {
-    // Lab is relative to its white, so any white serves for the round trip.
+    // Lab is relative to its white, so we can take any white for the round trip.
     let white = RgbSpace::Srgb.white();
     RgbSpace::Srgb.encoded_from_xyz(lab.to_xyz(white), white, Adaptation::Bradford)
 }

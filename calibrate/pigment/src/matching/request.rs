@@ -1,5 +1,5 @@
-//! A request for recipes with pigments given by their places in a library, the film that a recipe makes, and
-//! the reasons why there are no recipes.
+//! A request for recipes. You give pigments by their places in a library, and the film that a recipe makes.
+//! You also find here the reasons why there are no recipes.
 
 use documents::Cancelled;
 use documents::hint::Explain;
@@ -16,14 +16,15 @@ use crate::recipe::PigmentId;
 const LARGEST_WEIGHT: f64 = 1e9;
 /// Range of whole parts of one recipe.
 const WHOLE_PARTS: std::ops::RangeInclusive<u32> = 1..=1000;
-/// Range of K d + S d, averaged over pigments and wavelengths, of the usual wash: from nearly clear to
-/// nearly hiding. Chosen by eye.
+/// K d + S d, averaged over pigments and wavelengths, of the usual wash lies in this range, from nearly
+/// clear to nearly hiding. We chose it by eye.
 const USUAL_WASH: [f64; 2] = [0.01, 10.0];
 
-/// CIEDE2000 within which recipes are equally near, where nothing is known about the library's own error.
+/// Recipes within this CIEDE2000 are equally near, if we know nothing about the library's own error.
 pub const USUAL_TOLERANCE: f64 = 0.05;
 
-/// Root mean square in percent of reflectance within which recipes are equally near by spectrum. Chosen by eye.
+/// Recipes within this root mean square in percent of reflectance are equally near by spectrum. We chose it
+/// by eye.
 pub const USUAL_SPECTRUM_TOLERANCE: f64 = 0.2;
 
 /// A pigment that every recipe must contain.
@@ -35,9 +36,9 @@ pub struct RequiredPigment {
     pub share: Option<f64>,
 }
 
-/// Limits of the recipes to be searched, with pigments by their places in a library.
+/// Limits of the recipes that you search. You give pigments by their places in a library.
 ///
-/// [`MatchOptions`](super::MatchOptions) states the same by name.
+/// Use [`MatchOptions`](super::MatchOptions) to state this by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatchRequest {
     /// Lights under which recipes are judged, at least one.
@@ -52,13 +53,13 @@ pub struct MatchRequest {
     pub required: Vec<RequiredPigment>,
     /// Most pigments of one recipe, 1 to 8.
     pub at_most: usize,
-    /// Least share of a pigment that takes part, 0 to below 1: the smallest share that a painter can weigh or
-    /// cut off with a knife.
+    /// Least share of a pigment that takes part, 0 to below 1. It is the smallest share that you can weigh
+    /// or cut off with a knife.
     pub least_share: f64,
     /// Most parts of a recipe in whole parts, 1 to 1000. `None` for shares of any size.
     pub whole_parts: Option<u32>,
     /// Least and greatest absolute amount of each pigment of the library, above 0. `None` for any amount.
-    /// Empty for no limits. A fixed share has no limit.
+    /// Empty for no limits. If you fix a share, it has no limit.
     pub amounts: Vec<Option<[f64; 2]>>,
     /// Price of one unit of amount by pigment of the library, 0 and up, empty if unknown.
     pub costs: Vec<f64>,
@@ -120,7 +121,7 @@ impl MatchRequest {
     }
 
     /// Least and greatest share of a pigment that takes part in a film of this thickness, which is the sum
-    /// of all absolute amounts. The least exceeds the greatest where the film allows no share.
+    /// of all absolute amounts. If the film allows no share, you get a least one above the greatest.
     pub(super) fn share_bounds_at(&self, pigment: PigmentId, thickness: f64) -> (f64, f64) {
         let (least, most) = self.share_bounds(pigment);
         match self.amount_bounds(pigment) {
@@ -201,9 +202,9 @@ impl MatchRequest {
         Ok(())
     }
 
-    /// Usual film of `library`: one that hides or, for absolute amounts, a wash over `ground` from nearly
-    /// clear to nearly hiding (the mean of K + S over pigments and wavelengths, times the thickness, is
-    /// 0.01 to 10).
+    /// Usual film of `library`. It hides its ground. For absolute amounts it is a wash over `ground` from
+    /// nearly clear to nearly hiding: the mean of K + S over pigments and wavelengths, times the thickness,
+    /// is 0.01 to 10.
     #[must_use]
     pub fn usual_film(library: &PigmentLibrary, ground: Vec<f64>) -> FilmKind {
         if library.amounts == AmountKind::Relative {
@@ -243,8 +244,8 @@ pub enum FilmKind {
     },
 }
 
-/// Thickness of a film in the library's unit: 1 is the thickness at which the reference white has
-/// S d = 1. For absolute amounts, the sum of all amounts.
+/// Thickness of a film in the library's unit. At 1 the reference white has S d = 1. For absolute amounts
+/// this is the sum of all amounts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Thickness {
     /// This thickness, above 0.
@@ -264,7 +265,7 @@ impl Thickness {
     }
 }
 
-/// A request for recipes that cannot be met.
+/// A request for recipes that we cannot meet.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 #[fault(Setting)]
 pub enum MatchError {

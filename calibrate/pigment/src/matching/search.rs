@@ -13,16 +13,16 @@ use super::target::Target;
 use crate::least_squares::{Bounds, Cost, UNKNOWNS, descend_within_bounds};
 use crate::recipe::PigmentId;
 
-/// Distance of the nearest recipe beyond which a target is out of reach, and sets are searched from more
+/// A target is out of reach if the nearest recipe is further than this. We then search sets from more
 /// starting points.
 const FAR: f64 = 2.0;
 
-/// Most sets of one size that are tried: all sets of four out of 30 pigments. For a larger library
-/// only the nearest smaller recipes are extended.
+/// We try at most this many sets of one size: all sets of four out of 30 pigments. For a larger library we
+/// extend only the nearest smaller recipes.
 const MOST_SETS: usize = 30_000;
 
-/// Returns the nearest recipe of each set of pigments that was tried, nearest first. Each set is one of
-/// the `steps`, about [`expected`] in all. A search that was cancelled has not tried all sets.
+/// Returns the nearest recipe of each set of pigments that we tried, nearest first. Each set is one of the
+/// `steps`, about [`expected`] in all. If you cancel the search, it has not tried all sets.
 pub(super) fn search(
     forward: &Forward<'_>,
     request: &MatchRequest,
@@ -73,7 +73,7 @@ pub(super) fn search(
     found
 }
 
-/// Number of sets that will be tried, doubled where each is also rounded to whole parts.
+/// We will try this many sets. The number is doubled if we also round each to whole parts.
 pub(super) fn expected(request: &MatchRequest) -> usize {
     let fixed = request.required.len();
     let free = request.allowed.len() - fixed.min(request.allowed.len());
@@ -90,8 +90,8 @@ pub(super) fn expected(request: &MatchRequest) -> usize {
 
 type Sets = BTreeMap<Vec<PigmentId>, Option<Candidate>>;
 
-/// The sets that the search starts from: all required pigments together, or every pigment by itself
-/// where none is required.
+/// We start from these sets: all required pigments together, or every pigment by itself if you require
+/// none.
 fn first_sets(request: &MatchRequest) -> Sets {
     let mut required: Vec<PigmentId> = request.required.iter().map(|r| r.pigment).collect();
     required.sort_unstable();
@@ -124,11 +124,11 @@ fn distance(candidate: &Option<Candidate>) -> f64 {
     candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
 }
 
-/// Least mean of K + S that is assumed for a pigment, so that its start share is finite.
+/// We assume at least this mean of K + S for a pigment, so that its start share is finite.
 const LEAST_STRENGTH: f64 = 1e-6;
-/// Share at which a new pigment enters the recipe that it extends, chosen by eye.
+/// A new pigment enters the recipe that it extends with this share. We chose it by eye.
 const ENTRY_SHARE: f64 = 0.01;
-/// Least share above its lower bound with which a pigment starts, chosen by eye.
+/// A pigment starts at least this much above its lower bound. We chose it by eye.
 const LEAST_START: f64 = 1e-3;
 
 /// Mean of K + S over wavelength, by pigment: a measure of how much a share of it changes the colour.
@@ -229,15 +229,17 @@ impl Candidate {
     }
 }
 
-/// Most steps of a descent. Measured: one set in a hundred needs more than 20.
+/// A descent has at most this many steps. We measured that one set in a hundred needs more than 20.
 const STEPS: usize = 40;
-/// Colour difference that counts as much as an amount beyond its limit by a factor of e, chosen by eye.
+/// If an amount is beyond its limit by a factor of e, this counts as much as this colour difference. We
+/// chose it by eye.
 const PENALTY: f64 = 30.0;
 
-/// First and last step of the thickness where amounts are at their limits, as a fraction, chosen by eye.
+/// First and last step of the thickness where amounts are at their limits, as a fraction. We chose them by
+/// eye.
 const FIRST_STEP: f64 = 0.25;
 const LAST_STEP: f64 = 1e-3;
-/// The step is halved where the distance stays above this fraction of the one before, chosen by eye.
+/// We halve the step if the distance stays above this fraction of the one before. We chose it by eye.
 const LEAST_GAIN: f64 = 0.999;
 
 /// Returns the recipe found from `start` within the bounds. `None` if no film of the request holds
@@ -268,7 +270,7 @@ pub(super) fn descend(
         return Some(free);
     }
     // The film is now about as thick as is best within the limits, which at one thickness are bounds of
-    // shares. Nearby thicknesses are tried in halving steps.
+    // shares. We try nearby thicknesses in halving steps.
     let mut at_thickness = |near: &Candidate, thickness: f64| {
         let start = within_limits(request, &Candidate { thickness, ..near.clone() })?;
         let range = (thickness, thickness);
@@ -289,8 +291,8 @@ pub(super) fn descend(
     Some(best)
 }
 
-/// Descends with the thickness in a range: with limits of amounts as bounds of the shares if `bounds_hold`,
-/// for which the thickness must be fixed, else with a penalty beyond them.
+/// Descends with the thickness in a range. If `bounds_hold`, the limits of amounts are bounds of the
+/// shares, and you must fix the thickness. Otherwise there is a penalty beyond the limits.
 fn descend_within(
     forward: &Forward<'_>,
     request: &MatchRequest,
@@ -397,7 +399,7 @@ pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Optio
     }
     let mut shares: Vec<f64> =
         recipe.shares.iter().zip(&bounds).map(|(share, b)| share.clamp(b.0, b.1)).collect();
-    // The missing amount is divided in proportion to the room that each share has.
+    // We divide the missing amount in proportion to the room that each share has.
     let missing = 1.0 - shares.iter().sum::<f64>();
     let room =
         |(share, b): (&f64, &(f64, f64))| if missing > 0.0 { b.1 - share } else { share - b.0 };

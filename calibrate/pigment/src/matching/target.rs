@@ -1,5 +1,5 @@
-//! Targets of a search: a colour under one light or several, or a spectrum, with the lights under which recipes
-//! are judged and the measure of difference.
+//! Targets of a search. You give a colour under one light or several, or a spectrum, with the lights under
+//! which we judge recipes and the measure of difference.
 
 use std::str::FromStr;
 
@@ -33,7 +33,7 @@ pub struct ColorTarget {
 /// The ways in which a [`ColorTarget`] states its colour.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TargetColor {
-    /// CIELAB, to be matched under every light. An sRGB colour is adapted (Bradford) from the white of the
+    /// CIELAB, which you match under every light. We adapt an sRGB colour (Bradford) from the white of the
     /// display to the white of the light, which leaves its CIELAB unchanged.
     Lab(Lab),
     /// A measured reflectance. Its colour depends on the light.
@@ -53,7 +53,7 @@ impl ColorTarget {
         Self { name: color.to_hex(), color: TargetColor::Lab(ColorCode::Srgb(color).lab()) }
     }
 
-    /// Colours to be matched under each of `conditions`.
+    /// Colours that a recipe should match under each of `conditions`.
     ///
     /// # Errors
     /// None in practice: the method is chosen to fit the grid of the spectrum.
@@ -99,8 +99,8 @@ impl Target {
         Self { name: name.to_owned(), lab: vec![lab; conditions.len()], spectrum: None }
     }
 
-    /// Target with the colours of a measured reflectance. Its spectrum is left out, since that needs the grid
-    /// of a library ([`SpectralTarget::new`]).
+    /// Target with the colours of a measured reflectance. We leave out its spectrum, because we would need
+    /// the grid of a library ([`SpectralTarget::new`]).
     ///
     /// # Errors
     /// None in practice: the method is chosen to fit the grid of the spectrum.
@@ -117,7 +117,7 @@ impl Target {
     }
 }
 
-/// Percent of reflectance in 1: differences of spectra are reported in percent.
+/// 1 is this many percent of reflectance. We report differences of spectra in percent.
 const PERCENT: f64 = 100.0;
 
 /// A measured reflectance on the grid of a library, with a weight for each wavelength.
@@ -130,8 +130,8 @@ pub struct SpectralTarget {
 }
 
 impl SpectralTarget {
-    /// Target on `grid`, the wavelengths of a library. `conditions` are used by
-    /// [`SpectrumWeights::Observer`] only. `None` if target and grid share less than two wavelengths, or no
+    /// Target on `grid`, the wavelengths of a library. We use `conditions` only for
+    /// [`SpectrumWeights::Observer`]. `None` if target and grid share less than two wavelengths, or no
     /// light falls on those they share.
     ///
     /// # Errors
@@ -230,8 +230,8 @@ fn visual_weights(
 pub struct ViewingCondition {
     /// Light and observer.
     pub viewing: Viewing,
-    /// Weight of the colour difference under this light, above 0 and below 1e9. Only the ratios of
-    /// several weights matter.
+    /// Weight of the colour difference under this light, above 0 and below 1e9. Only the ratios of several
+    /// weights matter, e.g. 2 and 1 is the same as 4 and 2.
     pub weight: f64,
 }
 
@@ -249,11 +249,11 @@ pub enum Metric {
     /// CIEDE2000, which is valid for differences up to about 5.
     #[default]
     Ciede2000,
-    /// CIE 1976, which orders large differences better: by CIEDE2000 a grey may be nearer to a brilliant
-    /// magenta than a dull magenta is.
+    /// CIE 1976, which orders large differences better. For example, by CIEDE2000 a grey may be nearer to a
+    /// brilliant magenta than a dull magenta is.
     Cie1976,
     /// Root mean square of the differences of reflectance in percent, over the wavelengths that target and
-    /// library share. The lights only serve to report colours. The target must be a measured spectrum.
+    /// library share. We use the lights only to report colours. The target must be a measured spectrum.
     Spectrum(SpectrumWeights),
 }
 

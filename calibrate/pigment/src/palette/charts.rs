@@ -1,8 +1,9 @@
-//! Charts of a palette as painters make them: hiding power, tinting strength, mixing charts, tints, drawdowns,
-//! and mixtures of two paints in steps.
+//! Charts of a palette as you make them by hand: hiding power, tinting strength, mixing charts, tints,
+//! drawdowns, and mixtures of two paints in steps.
 //!
-//! The steps are computed in five ways, after Baxter, Wendt and Lin 2004, figure 10: measured swatches,
-//! Kubelka-Munk mixing over the whole spectrum, at eight and at three wavelengths, and mixing of linear RGB.
+//! We compute the steps in five ways, after Baxter, Wendt and Lin 2004, figure 10: measured swatches,
+//! Kubelka-Munk mixing over the whole spectrum, at eight and at three wavelengths, and mixing of linear
+//! RGB.
 
 use spectra::color::{Lab, Xyz, delta_e_ciede2000};
 
@@ -13,21 +14,22 @@ use crate::library::{AmountKind, PigmentLibrary};
 use crate::quadrature::{Quadrature, QuadratureFailure};
 use crate::recipe::{Curves, PigmentId, Recipe};
 
-/// Contrast ratio Yb / Yw from which a film is said to hide (ISO 6504-3).
+/// We say that a film hides from this contrast ratio Yb / Yw on (ISO 6504-3).
 pub const HIDING_CONTRAST: f64 = 0.98;
 
-/// A film also hides if the luminance factors Y over both cards differ by at most this. For a black film the
-/// ratio is meaningless, and a difference of 0.02 (Y = 100 for white) is 0.2 of L*, which is invisible.
+/// A film also hides if the luminance factors Y over both cards differ by at most this. For a black film
+/// the ratio is meaningless, and a difference of 0.02 (Y = 100 for white) is 0.2 of L*, which you cannot
+/// see.
 const UNSEEN: f64 = 0.02;
 
-/// Value of K d + S d of the strongest paint at the greatest thickness that is tried, chosen by eye.
+/// At the greatest thickness that we try, K d + S d of the strongest paint is this. We chose it by eye.
 const THICKEST: f64 = 1e5;
-/// Number of thicknesses tried per decade.
+/// We try this many thicknesses per decade.
 const STEPS: usize = 8;
-/// Number of decades tried.
+/// We try this many decades.
 const DECADES: usize = 9;
 
-/// Thickness in mm from which on a film of white oil paint hides. A brush lays 0.05 mm at least.
+/// A film of white oil paint hides from this thickness in mm on. With a brush you lay 0.05 mm at least.
 const WHITE_HIDES_MM: f64 = 0.05;
 
 /// Whether a film can hide its ground.
@@ -35,7 +37,7 @@ const WHITE_HIDES_MM: f64 = 0.05;
 pub enum Hides {
     /// It hides from this thickness on, in the library's unit (for absolute amounts, an amount).
     From(f64),
-    /// It does not hide at any thickness that is tried.
+    /// It does not hide at any thickness that we try.
     Never {
         /// Contrast ratio Yb / Yw of the thickest film.
         contrast: f64,
@@ -62,13 +64,13 @@ impl Hides {
     }
 }
 
-/// Computes the hiding power of every paint: the least thickness from which on the luminance of the
-/// film over the black card is at least 0.98 of that over the white card, Yb / Yw (ISO 6504-3:2019),
-/// under the palette's light and observer.
+/// Computes the hiding power of every paint, under the palette's light and observer. This is the least
+/// thickness from which on the luminance of the film over the black card is at least 0.98 of its luminance
+/// over the white card, Yb / Yw (ISO 6504-3:2019).
 ///
-/// A film so dark that Y over the two cards differs by at most 0.02 (Y = 100 for white) hides as well.
-/// Thicknesses are tried from the thickest down, eight per decade, and the crossing is then bisected, because
-/// the ratio may fall with thickness in a film that is clear at some wavelengths.
+/// A film so dark that Y over the two cards differs by at most 0.02 (Y = 100 for white) hides as well. We
+/// try thicknesses from the thickest down, eight per decade, and then bisect the crossing, because the
+/// ratio may fall with thickness in a film that is clear at some wavelengths.
 #[must_use]
 pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
     palette
@@ -124,12 +126,12 @@ fn contrast([black, white]: [f64; 2]) -> f64 {
     if white > 0.0 { black / white } else { 1.0 }
 }
 
-/// Parts of white to one of paint in the tints that are compared: 10 % of paint, which most sets of
-/// swatches contain.
+/// We compare tints with this many parts of white to one of paint. That is 10 % of paint, which most sets
+/// of swatches contain.
 pub const TINT_PARTS: f64 = 9.0;
 
-/// K/S of a tint that has [`TintingStrength::white_parts`] parts of white, at the wavelength where it absorbs
-/// most: 1, which is an internal reflectance of 0.27.
+/// We choose [`TintingStrength::white_parts`] so that K/S of the tint is this where it absorbs most. It is
+/// an internal reflectance of 0.27.
 pub const TINT_DEPTH: f64 = 1.0;
 
 /// Tinting strength of one paint.
@@ -145,18 +147,18 @@ pub struct TintingStrength {
     pub strength: f64,
     /// `strength` in percent of the strength of the standard paint.
     pub percent: f64,
-    /// Parts of white to one of paint that make a tint of K/S = 1 at that wavelength. `None` for a
-    /// paint that is lighter than that by itself, or for absolute amounts.
+    /// Parts of white to one of paint that you mix to get a tint of K/S = 1 at that wavelength. `None` for
+    /// a paint that is lighter than that by itself, or for absolute amounts.
     pub white_parts: Option<f64>,
 }
 
 /// Computes the tinting strength of every paint but the white, relative to `standard` (by default
 /// the strongest paint).
 ///
-/// ISO 787-24 compares tints by K/S where the tint of one part in nine parts of the reference white
-/// absorbs most. The white's own K/S is subtracted, so that a paint of twice the absorption has
-/// twice the strength. A library of absolute amounts has no white paint. There K of one unit of
-/// amount is the strength.
+/// ISO 787-24 compares tints by K/S where the tint of one part in nine parts of the reference white absorbs
+/// most. We subtract the white's own K/S, so that a paint of twice the absorption has twice the strength.
+/// In a library of absolute amounts you have no white paint, and we take K of one unit of amount as the
+/// strength.
 #[must_use]
 pub fn tinting_strengths(
     palette: &Palette<'_>,
@@ -212,11 +214,11 @@ fn ratio(k: f64, s: f64) -> f64 {
     if s > 0.0 { k / s } else { 0.0 }
 }
 
-/// Parts of white (or of water) to one of paint in a ladder of tints.
+/// A ladder of tints has these parts of white (or of water) to one of paint.
 pub const TINTS: [f64; 5] = [0.0, 1.0, 3.0, 9.0, 27.0];
 
-/// Parts of white (or of water) to one of the mixture in the tinted half of a chart, where dark
-/// mixtures show their hue.
+/// The tinted half of a chart has this many parts of white (or of water) to one of the mixture. There you
+/// see the hue of dark mixtures.
 pub const CHART_TINT: f64 = 3.0;
 
 /// Colours of every paint mixed with every other, one part to one.
@@ -297,8 +299,8 @@ pub struct Drawdown {
     pub masstone: Appearance,
 }
 
-/// Computes drawdowns of every paint at each of `thicknesses` (0 and up, in the library's unit, for absolute
-/// amounts, in washes of the paint).
+/// Computes drawdowns of every paint at each of `thicknesses`. Give them from 0 up in the library's unit,
+/// for absolute amounts in washes of the paint.
 #[must_use]
 pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
     let film = palette.library().film();
@@ -333,10 +335,10 @@ pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
         .collect()
 }
 
-/// A measured share replaces a regular step within this distance, which is just below half a step.
+/// A measured share replaces a regular step within this distance. It is just below half a step.
 const NEAR: f64 = 0.045;
 
-/// Two sets of wavelengths that painting could use in place of the spectrum. Both are fitted to the library
+/// Two sets of wavelengths that you could paint with in place of the spectrum. We fit both to the library
 /// (method `library`), so that they differ only in number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PainterRules {
@@ -396,13 +398,13 @@ impl MixingRow {
 /// One mixing ratio, computed in every way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedStep {
-    /// Share of the second paint, 0 to 1. The measured share where there is a measured sample.
+    /// Share of the second paint, 0 to 1. If you measured a sample, this is its share.
     pub share: f64,
     /// Name of the measured sample with this share.
     pub sample: Option<String>,
     /// Colours in the order of [`MixingRow::ALL`]. `None` where nothing was measured.
     pub colors: [Option<Appearance>; 5],
-    /// CIEDE2000 of each row against the measured colour or, where there is none, against the full
+    /// CIEDE2000 of each row against the measured colour. If you measured none, it is against the full
     /// spectrum.
     pub errors: [Option<f64>; 5],
 }
@@ -417,8 +419,8 @@ pub struct GradedMixture {
 }
 
 impl GradedMixture {
-    /// Mean error of a row over the mixed steps, with their number: over the measured steps if `measured`,
-    /// else over those that were not measured. `None` without such steps.
+    /// Mean error of a row over the mixed steps, with their number. Pass `measured` for the measured steps,
+    /// or false for the others. `None` without such steps.
     #[must_use]
     pub fn mean_error(&self, row: MixingRow, measured: bool) -> Option<(f64, usize)> {
         let mixed = self.steps.iter().filter(|step| step.share > 0.0 && step.share < 1.0);
@@ -429,10 +431,10 @@ impl GradedMixture {
     }
 }
 
-/// Grades from the first paint of `pair` to the second in steps of one tenth. Where a swatch of the
-/// two was measured, its share replaces the nearest step (a step is added if none lies within 4.5 %).
+/// Grades from the first paint of `pair` to the second in steps of one tenth. If you measured a swatch of
+/// the two, its share replaces the nearest step. We add a step if none lies within 4.5 %.
 ///
-/// Linear RGB is not clipped to the gamut of sRGB, so its ends are the masstones' own colours.
+/// We do not clip linear RGB to the gamut of sRGB, so its ends are the masstones' own colours.
 #[must_use]
 pub fn graded(
     palette: &Palette<'_>,
@@ -448,7 +450,7 @@ pub fn graded(
             .map(|(share, sample)| {
                 let recipe = Recipe::from([(pair.0, 1.0 - share), (pair.1, share)]);
                 let mixture = palette.mixture(&recipe);
-                // Linear RGB is a linear map of XYZ, so XYZ can be interpolated instead.
+                // Linear RGB is a linear map of XYZ, so we can interpolate XYZ instead.
                 let straight: [f64; 3] =
                     std::array::from_fn(|i| (1.0 - share) * ends[0][i] + share * ends[1][i]);
                 let white = palette.weights().white();
@@ -479,8 +481,8 @@ pub fn graded(
 }
 
 /// Chooses up to three pairs of paints: the two pairs with the most measured steps, and the paints of the
-/// highest and the lowest b* (each as masstone or tint). Linear interpolation predicts mixtures of this last
-/// pair poorly.
+/// highest and the lowest b* (each as masstone or tint). This last pair shows how poorly linear
+/// interpolation predicts mixtures.
 #[must_use]
 pub fn default_pairs(
     palette: &Palette<'_>,
@@ -548,7 +550,7 @@ fn steps_of(
     })
 }
 
-/// Tenths and measured shares in rising order. Of several samples with the same share, the first is kept.
+/// Tenths and measured shares in rising order. Of several samples with the same share, we use the first.
 fn shares(
     pair: (PigmentId, PigmentId),
     measured: &[MeasuredSample],

@@ -1,5 +1,5 @@
-//! The colours that a palette can mix, and its colour wheel: tubes, tints and mixing lines in the plane of a*
-//! and b*.
+//! The colours that you can mix from a palette, and its colour wheel: tubes, tints and mixing lines in the
+//! plane of a* and b*.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::color::Appearance;
 use crate::evaluate::Viewing;
 use crate::recipe::{PigmentId, Recipe};
 
-/// Number of mixing ratios of a pair, even in the logarithm of the ratio, since a little of a strong
+/// We mix each pair in this many ratios, even in the logarithm of the ratio, because a little of a strong
 /// paint changes a weak one quickly.
 const RATIOS: i32 = 21;
 /// Largest ratio of a pair, chosen by eye.
@@ -28,7 +28,6 @@ const BLACKS: [f64; 2] = [0.03, 0.2];
 const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
 /// Number of random mixtures of three or four paints. Every other one has white.
 const RANDOM: usize = 6000;
-/// Seed of the random mixtures.
 const SEED: u64 = 2004;
 
 /// One mixture and its colour.
@@ -52,19 +51,20 @@ pub struct Gamut {
 /// Outline of a gamut: the outermost sample in each of many equal sectors around a centre.
 ///
 /// Gamuts of paints are not convex, so this is not a convex hull. The outline lies inside the true one,
-/// because some mixtures that were not sampled reach further out.
+/// because we do not sample every mixture, and some reach further out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
     /// Centre of the sectors, in the plane's coordinates.
     pub center: [f64; 2],
-    /// By sector, counter-clockwise from the first axis: the outermost sample, `None` if the sector
-    /// holds no sample.
+    /// By sector, counter-clockwise from the first axis: the outermost sample. `None` if the sector holds
+    /// no sample.
     pub sectors: Vec<Option<([f64; 2], usize)>>,
 }
 
-/// Samples the colours that a palette can mix: every paint and pair, alone and with parts of white or of the
-/// darkest paint (for washes, also in larger amounts). 6000 seeded mixtures of three or four paints, half of
-/// them with white, and mixtures of two samples where a cell of CIELAB between them is empty.
+/// Samples the colours that you can mix from a palette: every paint and pair, alone and with parts of white
+/// or of the darkest paint (for washes, also in larger amounts). We add 6000 seeded mixtures of three or
+/// four paints, half of them with white. We also add mixtures of two samples if a cell of CIELAB between
+/// them is empty.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| Recipe::single(p)).collect();
@@ -108,7 +108,7 @@ impl Gamut {
         Boundary::around([0.0, 0.0], sectors, places)
     }
 
-    /// Outline in chromaticity x, y around the light's white. Samples of Y below 0.5 are left out, since
+    /// Outline in chromaticity x, y around the light's white. We leave out samples of Y below 0.5, because
     /// their chromaticity is meaningless.
     #[must_use]
     pub fn in_xy(&self, sectors: usize) -> Boundary {
@@ -194,8 +194,8 @@ impl Boundary {
     }
 }
 
-/// Chromaticities x, y of monochromatic light from 380 to 700 nm at 1 nm, each with its wavelength in
-/// nm. Wavelengths where the observer's functions are 0 are left out.
+/// Chromaticities x, y of monochromatic light from 380 to 700 nm at 1 nm, each with its wavelength in nm.
+/// We leave out wavelengths where the observer's functions are 0.
 #[must_use]
 pub fn spectral_locus(viewing: &Viewing) -> Vec<(f64, [f64; 2])> {
     let [x, y, z] = viewing.observer.functions();
@@ -207,8 +207,8 @@ pub fn spectral_locus(viewing: &Viewing) -> Vec<(f64, [f64; 2])> {
     .collect()
 }
 
-/// Chromaticities x, y of the sRGB primaries as they appear under `white` (Bradford adaptation from
-/// the display's white).
+/// Chromaticities x, y of the sRGB primaries as you see them under `white` (Bradford adaptation from the
+/// display's white).
 #[must_use]
 pub fn srgb_primaries(white: Xyz) -> [[f64; 2]; 3] {
     let columns = RgbSpace::Srgb.xyz_from_linear();
@@ -263,11 +263,10 @@ fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
         .collect()
 }
 
-/// Number of sectors of an outline.
 const SECTORS: usize = 72;
 
-/// Mixtures within this difference of L* count as equally light. Mixtures are sampled, so a narrower range
-/// would leave gaps.
+/// We count mixtures within this difference of L* as equally light. We only sample mixtures, so a narrower
+/// range would leave gaps.
 const BAND: f64 = 5.0;
 
 /// Colours of two paints mixed in all ratios.
@@ -279,7 +278,7 @@ pub struct MixingLine {
     pub colors: Vec<(f64, Appearance)>,
 }
 
-/// Everything that a chart of a palette in a* and b* shows.
+/// Everything that you see in a chart of a palette in a* and b*.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColorWheel {
     /// Colour of every paint alone, in the library's order.
@@ -297,7 +296,7 @@ pub struct ColorWheel {
 pub struct NearestMixture<'a> {
     /// The sampled mixture.
     pub sample: &'a GamutSample,
-    /// CIEDE2000 between the two. Mixtures between the sampled ones may come nearer.
+    /// CIEDE2000 between the two. You may come nearer with mixtures between the sampled ones.
     pub delta_e: f64,
 }
 
@@ -329,7 +328,8 @@ pub fn color_wheel(palette: &Palette<'_>) -> ColorWheel {
 }
 
 impl ColorWheel {
-    /// Outline of the mixtures with L* within 5 of `lightness`, or of all mixtures.
+    /// Outline of the mixtures with L* within 5 of `lightness`. If you pass `None`, the outline of all
+    /// mixtures.
     #[must_use]
     pub fn region(&self, lightness: Option<f64>) -> Boundary {
         let range =
@@ -352,11 +352,11 @@ impl ColorWheel {
 const CELL: f64 = 3.0;
 /// Height of a cell in L*, chosen by eye.
 const CELL_HEIGHT: f64 = 10.0;
-/// Number of passes. A gap of two or three cells is filled by mixtures of several passes.
+/// We make this many passes. Mixtures of several passes fill a gap of two or three cells.
 const PASSES: usize = 4;
 
 /// For each empty cell of CIELAB between two opposite neighbours that hold a sample, returns the mixture of
-/// these two in equal parts. Mixtures found in one pass are samples for the next.
+/// these two in equal parts. The mixtures of one pass are samples for the next.
 pub(super) fn mixtures_between<'a>(
     palette: &Palette<'_>,
     samples: impl Iterator<Item = (&'a Recipe, &'a Appearance)>,
@@ -369,7 +369,8 @@ pub(super) fn mixtures_between<'a>(
     for _ in 0..PASSES {
         let mut added: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
         for (&[band, a, b], recipe) in &cells {
-            // Four of the eight directions. The cell on the other side of the gap covers the opposite ones.
+            // We look in four of the eight directions. The cell on the other side of the gap covers the
+            // opposite ones.
             for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
                 let gap = [band, a + da, b + db];
                 let Some(other) = cells.get(&[band, a + 2 * da, b + 2 * db]) else { continue };
@@ -398,7 +399,6 @@ fn cell_index(value: f64, side: f64) -> i32 {
     (value / side).floor() as i32
 }
 
-/// Mixture of one half of each recipe.
 fn halves(first: &Recipe, second: &Recipe) -> Recipe {
     let mut mixed = first.scaled(0.5);
     second.iter().for_each(|&(paint, share)| mixed.add(paint, 0.5 * share));

@@ -1,5 +1,5 @@
-//! Pairs of mixtures that match under one light and differ under another, and the colour shift of each paint
-//! from one light to another.
+//! Pairs of mixtures that match under one light and differ under another. You also learn how far each
+//! paint's colour shifts from one light to another.
 
 use spectra::color::{
     Adaptation, Lab, Xyz, adapt, delta_e_cie76, delta_e_ciede2000, metamerism_index,
@@ -11,9 +11,9 @@ use crate::color::Appearance;
 use crate::evaluate::Viewing;
 use crate::recipe::{PigmentId, Recipe};
 
-/// Shares of the first paint at which each pair is tried, chosen by eye.
+/// We try each pair at these shares of the first paint. We chose them by eye.
 const SHARES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
-/// Parts of white with which each mixture is tried, chosen by eye.
+/// We try each mixture with these parts of white. We chose them by eye.
 const WHITES: [f64; 3] = [0.0, 1.5, 6.0];
 
 /// Two colours that nearly match under the first light.
@@ -25,10 +25,10 @@ pub struct Metamers {
     pub recipes: [Recipe; 2],
     /// By light: the colours of the two.
     pub colors: Vec<[Appearance; 2]>,
-    /// By light: CIEDE2000 between the two, uncorrected.
+    /// By light: CIEDE2000 between the two. We do not correct it for the first light.
     pub differences: Vec<f64>,
-    /// By light: the special metamerism index (CIE 15:2018, section 9.2), in which the second colour
-    /// is corrected for the difference under the first light, 0 for the first light.
+    /// By light: the special metamerism index (CIE 15:2018, section 9.2). We correct the second colour for
+    /// the difference under the first light, so the index of this light is 0.
     pub indices: Vec<f64>,
 }
 
@@ -40,13 +40,13 @@ struct Candidate {
     lab: Lab,
 }
 
-/// Finds pairs that differ by less than `alike` CIEDE2000 under the first of `lights` and differ most
-/// under another one by the metamerism index. Returns at most `count` pairs, the worst first. No
-/// colour occurs twice.
+/// Finds pairs that differ by less than `alike` CIEDE2000 under the first of `lights` and differ most under
+/// another one by the metamerism index. You get at most `count` pairs, the worst first. No colour occurs
+/// twice.
 ///
-/// Candidates are the measured samples, every paint, and every two paints at five ratios, with and
-/// without white. Two mixtures of the same pigments do not count, and neither do pairs with L* below
-/// 5, for which the index is dominated by noise.
+/// We try the measured samples, every paint, and every two paints at five ratios, with and without white.
+/// We do not count two mixtures of the same pigments, nor pairs with L* below 5, because noise dominates
+/// their index.
 #[must_use]
 pub fn metamers(
     palette: &Palette<'_>,
@@ -57,8 +57,8 @@ pub fn metamers(
 ) -> Vec<Metamers> {
     let mut candidates = candidates(palette, lights, measured);
     candidates.retain(|candidate| candidate.lab.lightness >= 5.0);
-    // CIEDE2000 is at least the lightness difference divided by its largest weight. With candidates sorted by
-    // lightness, each is therefore compared only with those in a window.
+    // CIEDE2000 is at least the lightness difference divided by its largest weight. We sort candidates by
+    // lightness, so we need to compare each only with those in a window.
     candidates.sort_by(|a, b| a.lab.lightness.total_cmp(&b.lab.lightness));
     let window = 1.8 * alike;
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
@@ -89,8 +89,8 @@ pub fn metamers(
     chosen
 }
 
-/// Whether two colours differ by `alike` CIEDE2000 or less. The cheap Euclidean distance is tested
-/// first: it is less than eight times CIEDE2000, except for the most vivid blues.
+/// Whether two colours differ by `alike` CIEDE2000 or less. We test the cheap Euclidean distance first. It
+/// is less than eight times CIEDE2000, except for the most vivid blues.
 fn near_in_lab(first: Lab, second: Lab, alike: f64) -> bool {
     delta_e_cie76(first, second) <= 8.0 * alike && delta_e_ciede2000(first, second) <= alike
 }
@@ -156,10 +156,10 @@ fn candidate(lights: &[TestLight], name: String, recipe: Recipe, reflectance: &[
     Candidate { name, recipe, paints, xyz, lab }
 }
 
-/// Lights that a palette is shown under, besides its own.
+/// We show a palette under these lights, besides its own.
 const LIGHTS: [&str; 3] = ["D65", "A", "FL11"];
 
-/// A light that a palette is shown under.
+/// A light under which you see a palette.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TestLight {
     /// Name of the light.
@@ -195,8 +195,8 @@ pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
     std::iter::once(first).chain(others).collect()
 }
 
-/// Computes the shift of each recipe from the first of `lights` to each of them: the difference that
-/// remains after the eye has adapted, 0 for a paint of constant colour.
+/// Computes the shift of each recipe from the first of `lights` to each of them. This is the difference
+/// that you still see when your eye has adapted. It is 0 for a paint of constant colour.
 #[must_use]
 pub fn color_shifts(
     palette: &Palette<'_>,

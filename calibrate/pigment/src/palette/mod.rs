@@ -1,8 +1,8 @@
 //! Properties of a palette: how its paints hide, tint, mix, and change with the light.
 //!
 //! In a library of relative amounts a recipe stands for a film that hides. In one of absolute amounts the
-//! paper is the white: a share of 1 is one wash of the pigment (see [`Palette::wash`]), and a recipe is
-//! thinned with water if its shares sum to less than 1.
+//! paper is the white. A share of 1 is then one wash of the pigment (see [`Palette::wash`]), and you thin a
+//! recipe with water if its shares sum to less than 1.
 //!
 //! Pigments with unknown scattering take no part in any mixture.
 

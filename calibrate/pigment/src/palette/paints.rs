@@ -1,5 +1,5 @@
-//! The paints of a library that can be mixed, the colours of their mixtures, and the black and white cards that
-//! films are drawn down over.
+//! The paints of a library that you can mix, the colours of their mixtures, and the black and white cards
+//! over which you draw films down.
 
 use documents::hint::Explain;
 use spectra::{Grid, TristimulusWeights};
@@ -9,8 +9,8 @@ use crate::evaluate::Viewing;
 use crate::library::{AmountKind, PigmentLibrary};
 use crate::recipe::{Curves, PigmentId, Recipe, film_over, hiding_film};
 
-/// Depth of a wash: the fraction of the way from the bare paper to a film that hides, at the wavelength
-/// of greatest absorption. Chosen by eye.
+/// A wash goes this fraction of the way from the bare paper to a film that hides, at the wavelength of
+/// greatest absorption. We chose it by eye.
 const WASH_DEPTH: f64 = 0.9;
 
 /// A library under one light and observer, with the cards on which its films lie.
@@ -58,8 +58,8 @@ impl<'a> Palette<'a> {
         Ok(palette)
     }
 
-    /// This palette with no more than these pigments, for example the tubes at hand. Without the reference
-    /// white the lightest of them lightens the others.
+    /// This palette with no more than these pigments, for example the tubes that you have. Without the
+    /// reference white the lightest of them lightens the others.
     ///
     /// # Errors
     /// [`PaletteError::NothingToMix`] if none of them can be mixed.
@@ -96,19 +96,19 @@ impl<'a> Palette<'a> {
         &self.cards
     }
 
-    /// Pigments that can be mixed, in the library's order.
+    /// Pigments that you can mix, in the library's order.
     #[must_use]
     pub fn paints(&self) -> &[PigmentId] {
         &self.paints
     }
 
-    /// Pigments that are left out because their scattering is not identified.
+    /// Pigments that we leave out because their scattering is not identified.
     #[must_use]
     pub fn left_out(&self) -> Vec<PigmentId> {
         self.library.ids().filter(|&p| !self.library[p].identified).collect()
     }
 
-    /// Name of a pigment, marked if its K and S are guessed.
+    /// Name of a pigment. It has a mark if you guessed its K and S.
     #[must_use]
     pub fn label(&self, pigment: PigmentId) -> String {
         let pigment = &self.library[pigment];
@@ -132,8 +132,8 @@ impl<'a> Palette<'a> {
         words.collect::<Vec<_>>().join(" + ")
     }
 
-    /// Paint that lightens others: the reference white, or the lightest paint of a library without one.
-    /// `None` for absolute amounts, where the paper takes its place.
+    /// Paint that lightens others. It is the reference white, or the lightest paint of a library without
+    /// one. `None` for absolute amounts, where you use the paper instead.
     #[must_use]
     pub fn white(&self) -> Option<PigmentId> {
         self.white
@@ -147,9 +147,10 @@ impl<'a> Palette<'a> {
 
     /// Amount of a pigment in its own wash. 1 for relative amounts.
     ///
-    /// For absolute amounts a wash has the amount at which the reflectance over the white card, at the
+    /// For absolute amounts we choose the amount so that the reflectance over the white card, at the
     /// wavelength of greatest absorption, is nine tenths of the way from the bare card to a film that
-    /// hides. Washes of strong and weak pigments are thus equally deep. 1 for a pigment without K and S.
+    /// hides. You thus get equally deep washes of strong and weak pigments. It is 1 for a pigment without K
+    /// and S.
     #[must_use]
     pub fn wash(&self, pigment: PigmentId) -> f64 {
         self.washes.get(pigment.index()).copied().unwrap_or(1.0)
@@ -241,7 +242,7 @@ impl<'a> Palette<'a> {
         reference.unwrap_or_else(|| self.by_luminance(|a, b| b > a))
     }
 
-    /// First paint in the order `better` of the luminance of films.
+    /// First paint by luminance of films, in the order `better`.
     fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> PigmentId {
         let all = self.paints.iter().map(|&p| (p, self.color(&Recipe::single(p)).xyz.y));
         all.reduce(|a, b| if better(a.1, b.1) { b } else { a }).expect("a palette has a paint").0
@@ -269,8 +270,8 @@ impl<'a> Palette<'a> {
     }
 }
 
-/// Returns the value between `thin` and `thick` at which `reached` turns true, by 60 bisections of the
-/// logarithm. The error is far below the rounding of values in a file.
+/// Returns the value between `thin` and `thick` at which `reached` turns true. We bisect the logarithm 60
+/// times, so the error is far below the rounding of values in a file.
 pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> f64 {
     let mut below = thin.ln();
     let mut above = thick.ln();
@@ -285,7 +286,7 @@ pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> 
     above.exp()
 }
 
-/// A library that makes no palette.
+/// A library from which you cannot make a palette.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum PaletteError {
     /// No pigment has an identified scattering.
@@ -317,9 +318,9 @@ pub struct Cards {
     pub black: Vec<f64>,
     /// Reflectance of the white card, as a fraction at each wavelength.
     pub white: Vec<f64>,
-    /// Whether the black card was measured. If not, it is the standard's.
+    /// Whether you measured the black card. If not, it is the standard's.
     pub black_measured: bool,
-    /// Whether the white card was measured. If not, it is the standard's.
+    /// Whether you measured the white card. If not, it is the standard's.
     pub white_measured: bool,
 }
 
@@ -327,9 +328,9 @@ pub struct Cards {
 const BLACK: f64 = 0.05;
 /// Reflectance of the standard white card: ISO 6504-3 asks for Y = 80 within 2.
 const WHITE: f64 = 0.80;
-/// Greatest Y of a measured backing that counts as a black card, chosen by eye.
+/// A measured backing counts as a black card up to this Y. We chose it by eye.
 const DARKEST_CARD: f64 = 10.0;
-/// Least Y of a measured backing that counts as a white card, chosen by eye.
+/// A measured backing counts as a white card from this Y on. We chose it by eye.
 const LIGHTEST_CARD: f64 = 60.0;
 
 impl Cards {
@@ -344,9 +345,9 @@ impl Cards {
         }
     }
 
-    /// Chooses the cards among measured bare backings, each a reflectance on the grid of `weights`:
-    /// the darkest if its Y is 10 or less, the lightest if its Y is 60 or more. A missing card is
-    /// replaced by the standard's.
+    /// Chooses the cards among measured bare backings. Give each as a reflectance on the grid of `weights`.
+    /// We take the darkest if its Y is 10 or less, and the lightest if its Y is 60 or more. The standard's
+    /// card replaces a missing one.
     #[must_use]
     pub fn among(bare: impl IntoIterator<Item = Vec<f64>>, weights: &TristimulusWeights) -> Self {
         let mut bare: Vec<Vec<f64>> = bare.into_iter().collect();

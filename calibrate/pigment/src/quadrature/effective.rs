@@ -1,5 +1,5 @@
-//! A quadrature with effective K and S of every pigment at its wavelengths, and the films to which it is fitted:
-//! films that hide their ground or lie over one, with their exact colours.
+//! A quadrature with effective K and S of every pigment at its wavelengths. We fit it to films that hide
+//! their ground or lie over one, with their exact colours.
 
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};
@@ -18,8 +18,8 @@ use crate::recipe::{Curves, PigmentId};
 /// A quadrature that carries K and S of every pigment of a library at its wavelengths.
 ///
 /// A wavelength of a quadrature stands for a band of the spectrum. The K and S of a pigment at the
-/// wavelength itself are not the best that stand for the band: fitted ones, called effective here,
-/// keep the colours of mixtures and films several times better.
+/// wavelength itself are not the best ones for this band. If we fit them, we keep the colours of mixtures
+/// and films several times better. We call fitted ones effective.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectiveQuadrature {
     /// Wavelengths and weights.
@@ -64,7 +64,6 @@ impl EffectiveQuadrature {
         QuadratureError::of(&self.errors(library, films))
     }
 
-    /// Colour error of each film.
     pub(super) fn errors(&self, library: &PigmentLibrary, films: &FilmSet) -> Vec<f64> {
         films
             .films
@@ -93,14 +92,14 @@ impl EffectiveQuadrature {
     }
 }
 
-/// Optical thicknesses (K + S) d of films over a ground, as the mean over wavelengths: from a
-/// stain to a film that hides. Chosen by eye.
+/// Films over a ground have optical thicknesses (K + S) d in this range, as the mean over wavelengths: from
+/// a stain to a film that hides. We chose it by eye.
 const THICKNESSES: [f64; 2] = [0.03, 10.0];
 
-/// Least share of the weaker pigment of a tint. Chosen by eye.
+/// The weaker pigment of a tint has at least this share. We chose it by eye.
 const LEAST_TINT: f64 = 0.003;
 
-/// Internal reflectances of the even grounds that films are fitted over: black and white paper.
+/// We fit films over even grounds of these internal reflectances: black and white paper.
 const EVEN_GROUNDS: [f64; 2] = [0.0, 0.85];
 
 /// Pigments with their shares, which sum to 1, or with their amounts.
@@ -135,8 +134,8 @@ struct Draw<'a> {
 
 impl FilmSet {
     /// Draws `count` films that hide their ground, of one to four pigments. Each number of pigments is
-    /// equally likely, the pigments are drawn uniformly, and the shares are uniform over all that sum to
-    /// 1. The same seed gives the same films.
+    /// equally likely. We draw the pigments uniformly, and the shares are uniform over all that sum to 1.
+    /// You get the same films from the same seed.
     #[must_use]
     pub fn hiding(
         library: &PigmentLibrary,
@@ -149,8 +148,8 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Draws `count` films like [`FilmSet::hiding`] does, of optical thicknesses (K + S) d from 0.03 to 10,
-    /// each over the colour of another such mixture, in half of them lightened.
+    /// Draws `count` films like [`FilmSet::hiding`] does, of optical thicknesses (K + S) d from 0.03 to 10.
+    /// Each lies over the colour of another such mixture. In half of them we lighten this colour.
     #[must_use]
     pub fn over_grounds(
         library: &PigmentLibrary,
@@ -163,8 +162,8 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Films for fitting, from other random streams than the films of the public draws: every
-    /// pigment alone, mixtures, tints, and films over black and white.
+    /// Films for fitting: every pigment alone, mixtures, tints, and films over black and white. We draw
+    /// them from other random streams than the films of the public draws.
     pub(super) fn for_fitting(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
@@ -324,7 +323,7 @@ impl Quadrature {
 
 impl EffectiveQuadrature {
     /// The rule as [`Quadrature::to_json`] with its `error` over films that hide, `error_over_grounds`, and
-    /// K and S of each pigment of `library`, for which the quadrature was fitted, at the wavelengths.
+    /// K and S of each pigment at the wavelengths. Pass the `library` for which you fitted the quadrature.
     #[must_use]
     pub fn to_json(
         &self,

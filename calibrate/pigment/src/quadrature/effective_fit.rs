@@ -1,5 +1,5 @@
-//! Fits effective K and S together with the weights and the wavelengths to films of a library, by least
-//! squares.
+//! Fits effective K and S together with the weights and the wavelengths. We fit them to films of a library,
+//! by least squares.
 
 use std::ops::Range;
 
@@ -16,32 +16,31 @@ use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, SparseRows, Stop, minimise};
 use crate::library::PigmentLibrary;
 
-/// Films of the training set for each pigment, and at least.
+/// The training set has this many films for each pigment, and at least this many in all.
 const FILMS_A_PIGMENT: usize = 120;
 const LEAST_FILMS: usize = 2000;
-/// Further films drawn for each pigment. The ones with the largest errors after the first fit join the
-/// training.
+/// We draw this many further films for each pigment. The ones with the largest errors after the first fit
+/// join the training.
 const CANDIDATES_A_PIGMENT: usize = 400;
 const LEAST_CANDIDATES: usize = 8000;
-/// Share of the further films that joins the training. Any from 1.5 to 3 % does as well.
+/// This share of the further films joins the training. Any from 1.5 to 3 % does as well.
 const WORST: f64 = 0.02;
-/// Seed of the films of both fits.
 const SEED: u64 = 2004;
-/// Stopping rules of the two fits. A later step gains less than the choice of the films does.
+/// Stopping rules of the two fits. You gain less by a later step than by the choice of the films.
 const FIRST_STOP: Stop = Stop { iterations: 100, relative_decrease: 1e-3 };
 const SECOND_STOP: Stop = Stop { iterations: 20, ..FIRST_STOP };
 
 impl EffectiveQuadrature {
     /// Fits wavelengths, weights, and K and S of every pigment, so that films of `library` keep their
-    /// colours. This is least squares in CIEDE2000 over films that hide, tints, and thin films over black and
-    /// white.
+    /// colours. This is least squares in CIEDE2000 over films that hide, tints, and thin films over black
+    /// and white.
     ///
-    /// There are two fits. The first keeps the wavelengths of [`Quadrature::library`]. The second begins
-    /// where it ends, moves the wavelengths too, and adds the worst of many further films, judged by their
-    /// colour error after the first fit. Few films show the edge of a pigment's absorption next to a line of
-    /// a lamp, and a small random set misses them.
+    /// We fit twice. The first fit keeps the wavelengths of [`Quadrature::library`]. The second begins
+    /// where it ends, moves the wavelengths too, and adds the worst of many further films, which we judge
+    /// by their colour error after the first fit. Few films show the edge of a pigment's absorption next to
+    /// a line of a lamp, and a small random set misses them.
     ///
-    /// Many wavelengths of many pigments take minutes, and `task` can end the fit before.
+    /// Many wavelengths of many pigments take minutes. You can end the fit before with `task`.
     ///
     /// # Errors
     /// [`QuadratureFailure`] for 0 nodes, or more than 32, or if `task` was cancelled.
@@ -75,12 +74,13 @@ impl EffectiveQuadrature {
 const LARGEST_WEIGHT: f64 = 1e3;
 /// Greatest change of the logarithm of K or S.
 const LARGEST_CHANGE: f64 = 6.0;
-/// Weight of the squared change of each logarithm, which keeps K and S that no film shows at the
-/// values of the library.
+/// Weight of the squared change of each logarithm. If no film shows a K or S, this keeps it at the value of
+/// the library.
 const PRIOR: f64 = 1e-3;
 /// Least K or S that can change, relative to the sum of both at the wavelength.
 const LEAST: f64 = 1e-5;
-/// Films that one task adds up. Fixed, so that sums do not depend on the number of threads.
+/// One task adds up this many films. The number is fixed, so that sums do not depend on the number of
+/// threads.
 const CHUNK: usize = 128;
 
 /// Whether the wavelengths may move.
@@ -92,9 +92,9 @@ pub(super) enum Nodes {
     Free,
 }
 
-/// Films that a quadrature should give the right colours. The unknowns are, in this order, three weights for
-/// each wavelength but the last (its weights follow from the white), the wavelengths, and the changes of log
-/// K and log S by pigment and wavelength.
+/// Films that a quadrature should give the right colours. The unknowns are, in this order, three weights
+/// for each wavelength but the last (we get its weights from the white), the wavelengths, and the changes
+/// of log K and log S by pigment and wavelength.
 #[derive(Debug)]
 pub(super) struct Problem {
     start: EffectiveQuadrature,
@@ -121,7 +121,7 @@ impl Problem {
     pub(super) fn add_worst(&mut self, candidates: FilmSet, errors: &[f64], count: usize) {
         let mut worst: Vec<(Film, f64)> =
             candidates.films.into_iter().zip(errors.iter().copied()).collect();
-        // A stable sort: of films with the same error, the one drawn first.
+        // We use a stable sort. Of films with the same error, we take the one drawn first.
         worst.sort_by(|a, b| b.1.total_cmp(&a.1));
         worst.truncate(count);
         for (film, _) in worst {
@@ -144,7 +144,6 @@ impl Problem {
         4 * self.nodes() - 3
     }
 
-    /// The point from which the search begins.
     pub(super) fn first_point(&self) -> DVector<f64> {
         let n = self.nodes();
         let rule = &self.start.rule;
@@ -156,7 +155,7 @@ impl Problem {
         point
     }
 
-    /// The fit from `point`, or where it stands once it was cancelled.
+    /// The fit from `point`. If you cancel it, you get where it stands.
     pub(super) fn solve(
         &self,
         point: DVector<f64>,
@@ -197,7 +196,6 @@ impl Problem {
         (lower, upper)
     }
 
-    /// The quadrature at a point of the search.
     pub(super) fn at(&self, point: &DVector<f64>) -> EffectiveQuadrature {
         let n = self.nodes();
         let mut found = self.start.clone();

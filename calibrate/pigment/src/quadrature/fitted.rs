@@ -1,4 +1,4 @@
-//! Nodes and weights fitted to the mixtures of a library, and the comparison of all methods of choosing
+//! Nodes and weights that we fit to the mixtures of a library. You can also compare all methods of choosing
 //! wavelengths, for several numbers of them.
 
 use std::ops::RangeInclusive;
@@ -16,19 +16,17 @@ use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, Stop, minimise};
 use crate::library::PigmentLibrary;
 
-/// Number of random mixtures in the training set, besides all masstones, chosen by eye.
+/// We train with this many random mixtures, besides all masstones. We chose it by eye.
 const TRAINING: usize = 700;
-/// Seed of the training set.
 const TRAINING_SEED: u64 = 2004;
-/// Stopping rule of each fit.
 const STOP: Stop = Stop { iterations: 120, relative_decrease: 1e-6 };
-/// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a good
-/// fit never reaches it.
+/// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a
+/// good fit never reaches this.
 const LARGEST_WEIGHT: f64 = 1e3;
 
 impl Quadrature {
-    /// Fits nodes and weights so that the mixtures of `library` keep their colours: least squares in
-    /// CIEDE2000 over its masstones and seeded random mixtures, from several starts.
+    /// Fits nodes and weights so that the mixtures of `library` keep their colours. This is least squares
+    /// in CIEDE2000 over its masstones and seeded random mixtures, from several starts.
     ///
     /// # Errors
     /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
@@ -47,10 +45,10 @@ impl Quadrature {
 
 /// Returns the best of several fits.
 ///
-/// The unknowns are the n nodes and, in each channel, all weights but the last, which follows from the sum
-/// for the white. The residuals are differences from the exact colours in the local metric of CIEDE2000. The
-/// starts are the nodes of `start`, the same nodes moved towards or away from their mean, and evenly spaced
-/// nodes.
+/// The unknowns are the n nodes and, in each channel, all weights but the last, which we get from the sum
+/// for the white. The residuals are differences from the exact colours in the local metric of CIEDE2000. We
+/// start from the nodes of `start`, from the same nodes moved towards or away from their mean, and from
+/// evenly spaced nodes.
 fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let problem = Problem::new(start, training);
     let count = start.nodes_nm.len();
@@ -135,7 +133,7 @@ impl<'a> Problem<'a> {
         for (index, xyz) in self.training.xyz.iter().enumerate() {
             let reflectance: Vec<f64> =
                 nodes.iter().map(|&nm| self.reflectance(index, nm).0).collect();
-            // Relative errors give dark colours the weight that the eye gives them.
+            // With relative errors we give dark colours the weight that the eye gives them.
             let weight = (xyz.y + 1.0).recip().powi(2);
             for (channel, value) in xyz.to_array().into_iter().enumerate() {
                 equations[channel].add(-value, &reflectance, weight);
@@ -293,7 +291,7 @@ pub struct QuadratureTrial {
     pub error: QuadratureError,
 }
 
-/// Number of random mixtures that trials are tested on, the default of `impasto quadrature`.
+/// We test trials on this many random mixtures. It is the default of `impasto quadrature`.
 const MIXTURES: usize = 1000;
 /// Seed of these mixtures, the default of `impasto quadrature`.
 const SEED: u64 = 1;
@@ -314,8 +312,8 @@ impl QuadratureMethod {
 }
 
 impl QuadratureTrial {
-    /// Computes each method with each of `counts` wavelengths, ordered by method, and its error on
-    /// 1000 random mixtures of `library`. Uses all cores.
+    /// Computes each method with each of `counts` wavelengths, ordered by method, and its error on 1000
+    /// random mixtures of `library`. This uses all cores.
     ///
     /// # Errors
     /// [`QuadratureFailure::Count`] if a count is not 1 to 32.

@@ -1,6 +1,6 @@
 //! A few wavelengths that replace the whole spectrum under one light.
 //!
-//! Baxter, Wendt and Lin 2004, section 5.3: painting carries each pigment's K and S at a few
+//! Baxter, Wendt and Lin 2004, section 5.3: when you paint, you carry each pigment's K and S at a few
 //! wavelengths only, chosen for the light of the studio. There are three methods to choose these
 //! wavelengths and their weights:
 //!
@@ -10,8 +10,8 @@
 //! | `moments` | the nodes of `gauss` | exact for polynomials of degree n - 1 under each of x E, y E and z E |
 //! | `library` | fitted together with the weights to the mixtures of a pigment library | fitted |
 //!
-//! [`EffectiveQuadrature`] begins with `library` and fits, besides nodes and weights, K and S of every pigment
-//! at the nodes. Painting computes with it.
+//! [`EffectiveQuadrature`] begins with `library`. It fits nodes and weights, and also K and S of every
+//! pigment at the nodes. We use it for painting.
 
 mod rule;
 mod effective;

@@ -19,7 +19,7 @@ use crate::evaluate::{Viewing, percentile};
 use crate::library::PigmentLibrary;
 use crate::recipe::{Curves, PigmentId, Recipe, hiding_film};
 
-/// A few wavelengths with the weights that turn reflectances at them into XYZ.
+/// A few wavelengths with weights. Use them to turn reflectances at these wavelengths into XYZ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrature {
     /// Wavelengths in nm, in rising order.
@@ -44,13 +44,14 @@ pub struct QuadratureError {
 /// Limits of fitted nodes in nm: the band of the CIE's observers.
 pub(super) const NODE_BAND_NM: [f64; 2] = [360.0, 830.0];
 
-/// Most nodes of a quadrature, about as many as a library has wavelengths. Chosen by eye.
+/// A quadrature has at most this many nodes, about as many as a library has wavelengths. We chose it by
+/// eye.
 const MAX_NODES: usize = 32;
 
 impl Quadrature {
-    /// Computes the published rule of `count` nodes: Gaussian nodes of the nonnegative weight
-    /// (x + y + z) E at 1 nm. The weight of each node is divided among the channels in the ratio of
-    /// x, y and z there (Baxter, Wendt and Lin 2004, section 5.3).
+    /// Computes the published rule of `count` nodes: Gaussian nodes of the nonnegative weight (x + y + z) E
+    /// at 1 nm. We divide the weight of each node among the channels in the ratio of x, y and z there
+    /// (Baxter, Wendt and Lin 2004, section 5.3).
     ///
     /// # Errors
     /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
@@ -102,8 +103,8 @@ impl Quadrature {
         xyz.into()
     }
 
-    /// Interpolates values on `grid`, for example K or S, linearly at the nodes. End values are held beyond
-    /// the grid.
+    /// Interpolates values on `grid`, for example K or S, linearly at the nodes. Beyond the grid we hold
+    /// the end values.
     #[must_use]
     pub fn at_nodes(&self, grid: Grid, values: &[f64]) -> Vec<f64> {
         self.nodes_nm.iter().map(|&nm| on_line(grid, values, nm).0).collect()
@@ -131,7 +132,6 @@ impl Quadrature {
 }
 
 impl QuadratureError {
-    /// Summary of the errors of several colours.
     pub(super) fn of(errors: &[f64]) -> Self {
         Self {
             mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
@@ -141,8 +141,8 @@ impl QuadratureError {
     }
 }
 
-/// Value and slope at `nm` of the piecewise linear curve through values on a grid. End values are held
-/// beyond the grid.
+/// Value and slope at `nm` of the piecewise linear curve through values on a grid. Beyond the grid we hold
+/// the end values.
 pub(super) fn on_line(grid: Grid, values: &[f64], nm: f64) -> (f64, f64) {
     let last = values.len() - 1;
     let position = (nm - grid.start_nm()) / grid.step_nm();
@@ -166,7 +166,7 @@ struct Light {
 
 impl Light {
     fn of(viewing: &Viewing) -> Self {
-        // On the grid of the CIE tables nothing is interpolated.
+        // On the grid of the CIE tables we interpolate nothing.
         let weights = TristimulusWeights::new(
             Grid::cie(),
             &viewing.illuminant,
@@ -233,9 +233,9 @@ pub struct MixtureSet {
 }
 
 impl MixtureSet {
-    /// Draws `count` mixtures of one to four pigments. Each number of pigments is equally likely,
-    /// the pigments are drawn uniformly, and the shares are uniform over all that sum to 1. The same
-    /// seed gives the same mixtures.
+    /// Draws `count` mixtures of one to four pigments. Each number of pigments is equally likely. We draw
+    /// the pigments uniformly, and the shares are uniform over all that sum to 1. You get the same mixtures
+    /// from the same seed.
     #[must_use]
     pub fn random(
         library: &PigmentLibrary,
@@ -246,8 +246,8 @@ impl MixtureSet {
         Self::from_stream(library, weights, count, seed, 0)
     }
 
-    /// Mixtures for fitting a quadrature, from another random stream than [`MixtureSet::random`],
-    /// so that no seed makes the two sets share mixtures.
+    /// Mixtures for fitting a quadrature. We use another random stream than [`MixtureSet::random`], so that
+    /// no seed makes the two sets share mixtures.
     pub(super) fn for_fitting(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
@@ -328,10 +328,10 @@ impl MixtureSet {
 
 /// Nodes and weights of the Gaussian rule for a discrete weight function.
 ///
-/// The discretised Stieltjes procedure finds the three-term recurrence of the orthogonal polynomials
-/// (Gautschi 1982, 2004, section 2.2.3.1). The nodes are the eigenvalues of the Jacobi matrix, and the
-/// weights follow from its eigenvectors (Golub and Welsch 1969). Exact for polynomials up to degree 2 n - 1
-/// summed over the points of the weight function.
+/// We find the three-term recurrence of the orthogonal polynomials by the discretised Stieltjes procedure
+/// (Gautschi 1982, 2004, section 2.2.3.1). The nodes are the eigenvalues of the Jacobi matrix, and we get
+/// the weights from its eigenvectors (Golub and Welsch 1969). The rule is exact for polynomials up to
+/// degree 2 n - 1 summed over the points of the weight function.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussRule {
     /// Nodes in rising order, in the unit of the points.
@@ -393,8 +393,8 @@ impl GaussRule {
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let weights: Vec<f64> =
             order.iter().map(|&i| total * eigen.eigenvectors[(0, i)].powi(2)).collect();
-        // Column i of the eigenvectors holds the polynomials at node i, scaled to length 1. That
-        // length is the root of the weight.
+        // Column i of the eigenvectors holds the polynomials at node i, scaled to length 1. This length is
+        // the root of the weight.
         let at_nodes = (0..count)
             .map(|k| {
                 order
