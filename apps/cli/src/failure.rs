@@ -38,12 +38,13 @@ impl Failure {
         Self::with_hint(message, hint, USAGE)
     }
 
-    /// The failure as one of the command, whatever its cause: for the value of an option.
+    /// Counts this failure as one of the command, whatever its cause. Use this for the value of an
+    /// option.
     pub(crate) fn of_option(self) -> Self {
         Self { status: USAGE, ..self }
     }
 
-    /// Puts `message` first; the messages so far become its causes.
+    /// Puts `message` first. The messages so far become its causes.
     pub(crate) fn within(mut self, message: impl Into<String>) -> Self {
         self.messages.insert(0, message.into());
         self
@@ -130,7 +131,7 @@ pub(crate) fn with_options(hint: &Hint) -> String {
 /// Digits in a row from which a number is written with an exponent.
 const LONG: usize = 20;
 
-/// A message whose very long numbers have an exponent: 1e300 written out has 301 digits.
+/// Gives very long numbers of a message an exponent. For example, 1e300 written out has 301 digits.
 fn short_numbers(message: &str) -> String {
     let is_part = |c: char| c.is_ascii_digit() || c == '.';
     let mut told = String::new();
