@@ -1,6 +1,5 @@
-//! Options and files of an animation: a folder of frames that can be resumed, and one file.
-//!
-//! Options of a timelapse of a script, and its files.
+//! Options and files of an animation: a folder of frames that you can resume, and one file. The
+//! options of a timelapse of a script, and its files, are here too.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -44,7 +43,6 @@ pub(crate) struct Animation {
 pub(crate) struct Recording {
     animation: Animation,
     sequence: Sequence,
-    /// Number of frames.
     frames: usize,
 }
 
@@ -207,7 +205,7 @@ pub(crate) struct TimelapseOptions {
     timelapse_undone: bool,
 }
 
-/// A timelapse whose files were checked to be writable.
+/// A timelapse. We have checked that you can write its files.
 pub(crate) struct OpenTimelapse {
     settings: TimelapseSettings,
     files: TimelapseFiles,

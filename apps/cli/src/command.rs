@@ -1,5 +1,5 @@
-//! The command line as a whole: options of every verb, verbs in groups, and what is made of it for
-//! shells and readers: completions and manual pages.
+//! The command line as a whole: the options of every verb, and verbs in groups. We also make
+//! completions and manual pages of it.
 
 use std::path::PathBuf;
 
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// How much is told beside results.
+    /// How much we print beside results.
     pub(crate) fn voice(&self) -> Voice {
         match (self.quiet, self.verbose) {
             (true, _) => Voice::Quiet,

@@ -1,9 +1,7 @@
-//! Output of a verb: results, remarks and patches of colour.
-//!
-//! Lines that graphics drivers and their libraries print to standard error by themselves, such as
-//! "XDG_RUNTIME_DIR is invalid or not set in the environment".
-//!
-//! Quotes the command line so that it can be typed again.
+//! Output of a verb: results, remarks and patches of colour. We also catch lines that graphics
+//! drivers and their libraries print to standard error by themselves, for example "XDG_RUNTIME_DIR
+//! is invalid or not set in the environment", and quote the command line so that you can type it
+//! again.
 
 use std::io::Write;
 use std::path::Path;
@@ -21,8 +19,8 @@ pub struct Screen {
     pub colors: bool,
     /// Whether remarks go to a terminal, so that a progress bar can be shown.
     pub progress: bool,
-    /// Whether standard error is this program's own, so that what graphics drivers print there may
-    /// be caught. Not so where other threads print at the same time, as in tests.
+    /// Whether standard error is this program's own, so that we may catch the lines that graphics
+    /// drivers print there. This is not so where other threads print at the same time, as in tests.
     pub owns_errors: bool,
 }
 
@@ -85,7 +83,7 @@ impl Console<'_> {
         Ok(())
     }
 
-    /// Tells that a file or a folder was written.
+    /// Says that we wrote a file or a folder.
     pub(crate) fn wrote(&mut self, path: &Path) -> Result<()> {
         self.remark(format!("Wrote {}", path.display()))
     }
@@ -95,7 +93,7 @@ impl Console<'_> {
         self.told(Voice::Usual, text)
     }
 
-    /// Prints one line of what is told on request.
+    /// Prints one line that you see only with `--verbose`.
     pub(crate) fn detail(&mut self, text: impl AsRef<str>) -> Result<()> {
         self.told(Voice::Verbose, text)
     }
@@ -148,8 +146,8 @@ impl Console<'_> {
     }
 }
 
-/// Calls `call`, and keeps what it prints to standard error from the terminal: with `--verbose` it is
-/// told afterwards, line by line.
+/// Calls `call`, and keeps its lines on standard error from the terminal. With `--verbose` we print
+/// them afterwards, line by line.
 pub(crate) fn without_noise<T>(console: &mut Console<'_>, call: impl FnOnce() -> T) -> Result<T> {
     if !console.screen.owns_errors {
         return Ok(call());

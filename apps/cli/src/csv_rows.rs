@@ -1,8 +1,6 @@
-//! Rows of JSON as a table of CSV.
-//!
-//! Numbers in sentences and tables, without zeros and signs that say nothing.
-//!
-//! A colour as a patch and a code, marked where the display cannot show it.
+//! Rows of JSON as a table of CSV. You also find here how we write numbers in sentences and tables,
+//! without zeros and signs that say nothing, and a colour as a patch and a code, marked where the
+//! display cannot show it.
 
 use serde_json::Value;
 use spectra::color::{Lab, Rgb, RgbSpace};
@@ -20,8 +18,9 @@ const COLORS: [(&str, &[&str]); 5] = [
 ];
 
 impl Console<'_> {
-    /// Prints objects as CSV, one row each, with the columns of all of them in the order in which they
-    /// come. Objects within become columns of their own, `outer_inner`; colours become a column for each value.
+    /// Prints objects as CSV, one row each, with the columns of all of them in the order in which
+    /// they come. Objects within become columns of their own, e.g. `outer_inner`. Colours become a
+    /// column for each value.
     pub(crate) fn csv_rows(&mut self, rows: &[Value]) -> Result<()> {
         let rows: Vec<Vec<(String, String)>> = rows.iter().map(cells).collect();
         let mut headings: Vec<&str> = Vec::new();

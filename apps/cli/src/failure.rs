@@ -50,7 +50,7 @@ impl Failure {
         Self { status: USAGE, ..self }
     }
 
-    /// Puts `message` first; the messages so far become its causes.
+    /// Puts `message` first. The messages so far become its causes.
     pub(crate) fn within(mut self, message: impl Into<String>) -> Self {
         self.messages.insert(0, message.into());
         self
@@ -137,7 +137,7 @@ pub(crate) fn with_options(hint: &Hint) -> String {
 /// Digits in a row from which a number is written with an exponent.
 const LONG: usize = 20;
 
-/// A message whose very long numbers have an exponent: 1e300 written out has 301 digits.
+/// Gives very long numbers of a message an exponent. For example, 1e300 written out has 301 digits.
 fn short_numbers(message: &str) -> String {
     let is_part = |c: char| c.is_ascii_digit() || c == '.';
     let mut told = String::new();

@@ -33,7 +33,7 @@ use console::Console;
 pub use console::Screen;
 
 /// Runs the program with `arguments`, the first of which is the program's name, and returns its
-/// exit status. Results are written to `out`; remarks, warnings and errors to `err`.
+/// exit status. We write results to `out`, and remarks, warnings and errors to `err`.
 pub fn run(
     arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     out: &mut dyn Write,

@@ -1,4 +1,4 @@
-//! The pigment library of a verb: named first among its words, else the default one.
+//! The pigment library of a verb. You name it first among the words, else we take the default one.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ pub(crate) const VARIABLE: &str = "IMPASTO_LIBRARY";
 #[derive(Debug)]
 pub(crate) struct ChosenLibrary {
     pub(crate) library: PigmentLibrary,
-    /// Its file; `None` for the oils that ship.
+    /// Its file, `None` for the oils that ship.
     pub(crate) path: Option<PathBuf>,
 }
 
@@ -40,7 +40,7 @@ pub(crate) fn default_path() -> Option<PathBuf> {
     path.map(PathBuf::from)
 }
 
-/// Reads the library at `path`; without one the default library, which is told.
+/// Reads the library at `path`. Without a path we read the default library and say so.
 pub(crate) fn chosen(path: Option<&Path>, console: &mut Console<'_>) -> Result<ChosenLibrary> {
     if path.is_none() && default_path().is_none() {
         console.remark(format!(
@@ -50,7 +50,7 @@ pub(crate) fn chosen(path: Option<&Path>, console: &mut Console<'_>) -> Result<C
     quietly_chosen(path, console)
 }
 
-/// Like [`chosen`], for verbs whose help names the library that ships as the default.
+/// Like [`chosen`]. Use this for verbs with a help that names the shipped library as the default.
 pub(crate) fn quietly_chosen(
     path: Option<&Path>,
     console: &mut Console<'_>,
@@ -64,8 +64,8 @@ pub(crate) fn quietly_chosen(
     Ok(ChosenLibrary { library, path: Some(path) })
 }
 
-/// Reads the library at `path`, or the one that [`VARIABLE`] names if there is no path; an error of the
-/// latter names the variable. `None` if there is neither.
+/// Reads the library at `path`, or the one that [`VARIABLE`] names if you give no path. Errors of
+/// the second name the variable. Returns `None` if there is neither.
 pub(crate) fn named_or_default(path: Option<&Path>) -> Result<Option<(PathBuf, PigmentLibrary)>> {
     let Some(own) = path.map(Path::to_owned).or_else(default_path) else { return Ok(None) };
     let read = PigmentLibrary::open(&own).map_err(Failure::from);

@@ -1,6 +1,5 @@
-//! Manual pages: those that clap makes, with examples to copy, exit status and environment.
-//!
-//! Examples in the help of every verb.
+//! Manual pages. We add examples, exit status and environment to the pages that clap makes, and
+//! examples to the help of every verb.
 
 use std::io;
 
@@ -91,7 +90,7 @@ fn entry(page: &mut Roff, term: Inline, text: &str) {
     page.text([roman(text)]);
 }
 
-/// Examples of the help, whose lines stay whole so that they can be copied.
+/// Examples of the help. Their lines stay whole so that you can copy them.
 fn examples(command: &Command, page: &mut Roff) {
     let Some(help) = command.get_after_help().map(ToString::to_string) else { return };
     page.control("SH", ["EXAMPLES"]);

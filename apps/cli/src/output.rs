@@ -1,6 +1,5 @@
-//! Output files: checked before the slow part of a verb, then written whole or not at all.
-//!
-//! A folder of intermediate stages as PNG.
+//! Output files. We check them before the slow part of a verb, then write them whole or not at all.
+//! A folder of intermediate stages as PNG is here too.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -149,7 +148,7 @@ impl Output {
         &self.path
     }
 
-    /// Failure for an output whose file another one has.
+    /// Failure for an output that has the same file as another one.
     pub(crate) fn used_twice(&self) -> Failure {
         Failure::usage(
             format!("{}: two outputs have this file name", self.path.display()),
@@ -171,7 +170,8 @@ impl Output {
         console.wrote(&self.path)
     }
 
-    /// Replaces the file by `content`, or creates it. For files of a folder, which is told as one.
+    /// Replaces the file by `content`, or creates it. Use this for files of a folder that we report
+    /// as one.
     pub(crate) fn put(&self, content: impl AsRef<[u8]>) -> Result<()> {
         Ok(write_whole(&self.path, content.as_ref())?)
     }
@@ -182,7 +182,7 @@ pub(crate) fn is_stream(path: &Path) -> bool {
     path == Path::new(STANDARD_INPUT)
 }
 
-/// A folder that stages can be written to; it is made with the first.
+/// A folder that you can write stages to. We make it with the first stage.
 pub(crate) struct StageFolder(OutputFolder);
 
 impl StageFolder {

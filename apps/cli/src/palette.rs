@@ -1,6 +1,4 @@
-//! Pigments of a library named in a list.
-//!
-//! The option `--cost`: prices of pigments.
+//! Pigments of a library that you name in a list, and their prices (the option `--cost`).
 
 use std::path::Path;
 
@@ -23,9 +21,9 @@ pub(crate) fn pigment_names(lists: &[String], library: &PigmentLibrary) -> Vec<S
     names.map(str::to_owned).collect()
 }
 
-/// The parts of a list, which commas separate. The longest part whose name, as `name_of` finds it
-/// in the part, is that of a pigment of the library is one part, whatever commas it has; so are
-/// brackets.
+/// The parts of a list, which commas separate. A pigment's own commas do not separate. For example,
+/// `Madder (old, dry)` is one part. We take the longest part in which `name_of` finds a pigment of
+/// the library. Brackets stay together too.
 pub(crate) fn listed<'t>(
     list: &'t str,
     library: &PigmentLibrary,

@@ -1,8 +1,6 @@
-//! Export options of a painting, and the files that they write.
-//!
-//! Pictures that are no painting: sheets, pictures with marks, pictures in a map's brushwork.
-//!
-//! Options of the canvas that a picture is painted on.
+//! Export options of a painting, and the files that they write. Pictures that are not paintings are
+//! here too, e.g. sheets, pictures with marks, pictures in a map's brushwork, and the options of
+//! the canvas that you paint a picture on.
 
 use std::path::{Path, PathBuf};
 
@@ -90,7 +88,7 @@ enum Kind {
 }
 
 impl Kind {
-    /// The kind of a file; `None` for other endings. Without a name it is a picture.
+    /// The kind of a file, `None` for other endings. Without a name it is a picture.
     fn of(path: &Path) -> Option<Self> {
         if is_stream(path) {
             return Some(Self::Picture);
@@ -130,7 +128,7 @@ impl Exports {
         self.output.iter().any(|path| Kind::of(path) == Some(kind))
     }
 
-    /// The one file of a kind: that of its own option, or of `--output`.
+    /// The one file of a kind, from its own option or from `--output`.
     fn one(&self, kind: Kind, own: Option<&PathBuf>) -> Result<Option<PathBuf>> {
         let named = self.output.iter().filter(|path| Kind::of(path) == Some(kind));
         let all: Vec<&PathBuf> = own.into_iter().chain(named).collect();
@@ -144,7 +142,7 @@ impl Exports {
         }
     }
 
-    /// Refuses a file of `--output` whose ending names no kind.
+    /// Refuses a file of `--output` if its ending names no kind.
     fn check_endings(&self) -> Result<()> {
         let Some(path) = self.output.iter().find(|path| Kind::of(path).is_none()) else {
             return Ok(());

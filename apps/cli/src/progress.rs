@@ -55,7 +55,7 @@ impl Progress {
         Self { bar, done }
     }
 
-    /// A task whose steps move the bar. `before` steps of the bar are done when it begins.
+    /// A task that moves the bar with its steps. `before` steps of the bar are done when it begins.
     pub(crate) fn task(&self, before: usize) -> Task {
         let bar = self.bar.clone();
         Task::observed(move |progress| bar.set_position(before as u64 + progress.done))
@@ -88,8 +88,8 @@ pub(crate) fn waited<T>(label: &'static str, console: &Console<'_>, work: impl F
     work()
 }
 
-/// Spinner for work without countable steps. Shown only on a terminal, after one second; cleared
-/// when dropped.
+/// Spinner for work without countable steps. You see it only on a terminal, after one second.
+/// Dropping it clears it.
 pub(crate) struct Waiting {
     bar: ProgressBar,
     done: Arc<AtomicBool>,
@@ -106,7 +106,7 @@ impl Waiting {
         Self { bar, done }
     }
 
-    /// A task whose stages follow `label` on the screen.
+    /// A task that shows its stages after `label` on the screen.
     pub(crate) fn task(&self, label: &'static str) -> Task {
         let bar = self.bar.clone();
         Task::observed(move |progress| bar.set_message(format!("{label}: {}", progress.stage)))

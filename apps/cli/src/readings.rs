@@ -1,12 +1,7 @@
-//! Options for measurement files (format, units, references of counts), and reading them.
-//!
-//! Options and inputs that several verbs share: light, observer and pigment library.
-//!
-//! Options that convert the counts of a spectrometer to reflectance: white, dark and tile.
-//!
-//! Spectra of a measurement file that an option names as `FILE` or `FILE#NAME`.
-//!
-//! Target colours: `#rrggbb`, CIELAB, or measured spectra.
+//! Options for measurement files (format, units, references of counts), and reading them. This file
+//! also holds what several verbs share: light, observer and pigment library, the white, dark and
+//! tile that convert the counts of a spectrometer to reflectance, spectra that you name as `FILE`
+//! or `FILE#NAME`, and target colours (for example `#rrggbb`, CIELAB, or measured spectra).
 
 use std::path::{Path, PathBuf};
 
@@ -128,7 +123,7 @@ pub(crate) fn spectra(
     Ok(readings.table)
 }
 
-/// Warns of files that are named twice, whose readings count twice.
+/// Warns of files that you name twice, since we then count their readings twice.
 pub(crate) fn remark_repeated(paths: &[PathBuf], console: &mut Console<'_>) -> Result<()> {
     let whole = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
     let all: Vec<PathBuf> = paths.iter().map(whole).collect();
@@ -187,8 +182,8 @@ pub(crate) fn color_weights(
     Ok(viewing.weights(grid)?)
 }
 
-/// Warns if `grid` covers only a part of the visible band; an error if it has no visible
-/// wavelength.
+/// Warns if `grid` covers only a part of the visible band. Without any visible wavelength this
+/// fails.
 pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> Result<()> {
     console.remarks(&check_visible_band(grid)?)
 }
@@ -282,7 +277,7 @@ impl ReferencingOptions {
         self.reference_files().map_or_else(Vec::new, |files| files.paths())
     }
 
-    /// Reference files to be opened by the library; `None` without a white.
+    /// Reference files for the library to open, `None` without a white.
     pub(crate) fn reference_files(&self) -> Option<ReferenceFiles> {
         let mut files = ReferenceFiles::new(self.white_reading.as_ref()?);
         files.dark = match self.dark_reading.as_slice() {

@@ -12,7 +12,7 @@ use graphics::picture_formats::begins_like_picture;
 
 use crate::failure::{Failure, Result};
 
-/// Number of triangles of a built-in model; chosen by eye.
+/// Number of triangles of a built-in model, chosen by eye.
 const TRIANGLES: usize = 60_000;
 /// Smallest width or height of a picture, in pixels.
 const LEAST: u64 = 16;

@@ -1,8 +1,5 @@
-//! Options for the surface reflection of a paint film.
-//!
-//! The option `--over`: the ground under a film, a grey or a measured spectrum.
-//!
-//! The option `--grid`: regular wavelengths as `FIRST,LAST,STEP`.
+//! Options for the surface reflection of a paint film, for the ground under a film (`--over`, e.g.
+//! a grey or a measured spectrum), and for regular wavelengths (`--grid`, as `FIRST,LAST,STEP`).
 
 use calibrate::Backing;
 use clap::{Args, ValueEnum};
@@ -34,7 +31,7 @@ pub(crate) struct SurfaceOptions {
 }
 
 impl SurfaceOptions {
-    /// Surface given by `--saunderson`; `None` if the option is absent.
+    /// Surface that you give by `--saunderson`, `None` if the option is absent.
     pub(crate) fn surface(&self) -> Result<Option<Surface>> {
         let surface = self.saunderson.as_deref().map(|text| {
             let refused = |error: RequestError| {
@@ -49,7 +46,8 @@ impl SurfaceOptions {
         surface.transpose()
     }
 
-    /// Surface given by `--saunderson`; if it is absent, that of most paints.
+    /// Surface that you give by `--saunderson`. If it is absent, this is the surface of most
+    /// paints.
     pub(crate) fn surface_or_usual(&self) -> Result<Surface> {
         Ok(self.surface()?.unwrap_or_else(|| Surface::of_most_paints(self.specular())))
     }
@@ -68,7 +66,7 @@ impl SurfaceOptions {
     }
 }
 
-/// Maximum number of names that the hint lists; chosen by eye.
+/// Maximum number of names that the hint lists, chosen by eye.
 const LISTED: usize = 8;
 
 /// Parses `--over`: a reflectance from 0 to 1, `white`, `black`, or one spectrum of a file.

@@ -1,5 +1,5 @@
-//! Techniques of painting as verbs use them: the options of their settings, and the work of their painters
-//! behind a bar.
+//! Techniques of painting as verbs use them: the options of their settings, and the work of their
+//! painters behind a bar.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use crate::output::StageFolder;
 use crate::progress::followed;
 use crate::readings::{is_toml, text};
 
-/// A technique with presets, whose settings a verb takes as options.
+/// A technique with presets and settings that a verb takes as options.
 pub(crate) trait Styled: Technique + std::fmt::Debug {
     /// The settings without `--preset`, as the help describes them.
     const USUAL: &'static str;
@@ -102,7 +102,7 @@ impl<T: Styled> StyleOptions<T> {
     }
 }
 
-/// Parses the name of a preset; an error lists the names.
+/// Parses the name of a preset. Errors list the names.
 fn preset_names<P: Preset>() -> impl TypedValueParser<Value = P> {
     let names = PossibleValuesParser::new(P::ALL.iter().map(|preset| preset.name()));
     names.try_map(|name| name.parse::<P>())

@@ -1,6 +1,5 @@
-//! `impasto color`: colours of measured spectra in several systems, and colour differences.
-//!
-//! Table and rows of the colours of measured spectra.
+//! `impasto color` prints colours of measured spectra in several systems, and colour differences,
+//! as a table or as rows.
 
 use std::path::{Path, PathBuf};
 
@@ -157,7 +156,7 @@ impl Color {
     }
 }
 
-/// Refuses FILE#SAMPLE, which other verbs take, and tells the option `--sample`.
+/// Refuses FILE#SAMPLE, which other verbs take, and says that you can use the option `--sample`.
 fn refuse_sample(path: &Path) -> Result<()> {
     let text = path.display().to_string();
     let is_sheet = split_file_and_sheet(&text).1.is_some();
@@ -216,7 +215,7 @@ pub(super) struct ColorTable {
     pub(super) lights: Vec<Viewing>,
     /// White point of each light.
     pub(super) whites: Vec<Xyz>,
-    /// Spectrum from which differences are told.
+    /// We print differences from this spectrum.
     pub(super) standard: Option<Row>,
     pub(super) space: ColorTableRgbSpace,
     pub(super) columns: Vec<ColumnName>,

@@ -1,6 +1,5 @@
-//! `impasto paint`: paints a recorded script or a photograph.
-//!
-//! `impasto paint --from`: separates a photograph into pigments, or paints it in strokes.
+//! `impasto paint` paints a recorded script. With `--from` it paints a photograph in strokes, or
+//! separates it into pigments if you ask for this.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -282,7 +281,7 @@ fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> Resu
     Ok(())
 }
 
-/// Checks that a file can be written, whose folder is made later.
+/// Checks that you can write a file in a folder that we make later.
 fn check_save(path: &Path, inputs: &[PathBuf]) -> Result<()> {
     match (path.parent(), path.file_name().and_then(|name| name.to_str())) {
         (Some(parent), Some(name)) if !parent.exists() && parent != Path::new("") => {

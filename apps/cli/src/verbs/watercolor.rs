@@ -1,13 +1,6 @@
-//! `impasto watercolor`: paints photographs and meshes as watercolors.
-//!
-//! Options for painting with calibrated pigments instead of the colour model of Bousseau et al.
-//! (2006).
-//!
-//! Options and files of single pictures: the finished one, and the stages before it.
-//!
-//! Settings of one watercolor, and the summary of the result.
-//!
-//! One run: the picture of a photograph or a mesh, or the frames of a moving camera.
+//! `impasto watercolor` paints photographs and meshes as watercolors. You can paint with calibrated
+//! pigments instead of the colour model of Bousseau et al. (2006), write the stages before a
+//! picture, or the frames of a moving camera.
 
 use std::path::PathBuf;
 
@@ -302,7 +295,7 @@ struct Summary {
     regions: Option<usize>,
     /// Number of frames of an animation, and the number of these that existed already.
     frames: Option<(usize, usize)>,
-    /// Names of the pigments; empty without a library.
+    /// Names of the pigments. Without a library this is empty.
     pigments: Vec<String>,
 }
 
@@ -401,7 +394,7 @@ impl Job {
     }
 }
 
-/// Names of the pigments that the glazes use; empty without glazes.
+/// Names of the pigments that the glazes use. Without glazes this is empty.
 fn pigment_names(glazes: Option<&GlazePainter>) -> Vec<String> {
     glazes.iter().flat_map(|glazes| glazes.pigments()).map(str::to_owned).collect()
 }

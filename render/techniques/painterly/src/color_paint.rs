@@ -1,5 +1,5 @@
-//! Pigments for the colours of a painted picture: each pixel a film of the mixture that shows its
-//! colour, as high as the brushwork of the map stands there.
+//! Pigments for the colours of a painted picture. Each pixel becomes a film of the mixture that
+//! shows its colour. This film is as high as the brushwork of the map there.
 
 use std::sync::Arc;
 
@@ -35,9 +35,9 @@ const PIXELS: usize = 1024;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColorPaintSettings {
     /// Films of at least `least_mm`, also in the furrows of the brushwork. Above `most_mm` the
-    /// mixture no longer changes. Films hide what lies below them, or may let it show.
+    /// mixture no longer changes. You choose whether films hide what lies below them.
     pub films: SeparationSettings,
-    /// Whether the black of the picture is raised to a tone that the pigments reach, so that
+    /// Whether we raise the black of the picture to a tone that the pigments reach, so that
     /// differences in shadows survive.
     pub raised_black: bool,
 }
@@ -60,7 +60,7 @@ pub struct FilmHeight {
 }
 
 impl FilmHeight {
-    /// Films as high as the brushwork of a map, 0.12 mm for maps without relief.
+    /// Films as high as the brushwork of a map. For maps without relief this is 0.12 mm.
     #[must_use]
     pub fn of(map: &ArtMap) -> Self {
         let heights = map.keys.iter().filter_map(|key| key.tile.height_mm.as_ref());
@@ -96,7 +96,7 @@ pub struct ColorPaint {
 
 impl ColorPaint {
     /// Finds the mixtures of the pigments `slots` of `library` for all colours, over `ground` under
-    /// the light of `lighting`. Takes seconds.
+    /// the light of `lighting`. This takes seconds.
     ///
     /// # Errors
     /// [`ColorPaintError`] for a light or a ground that cannot be used with the library, an empty
@@ -123,10 +123,11 @@ impl ColorPaint {
     }
 
     /// Up to eight pigments of `library` that come nearest to the colours of a painted picture.
-    /// Takes seconds.
+    /// This takes seconds.
     ///
     /// # Errors
-    /// As [`Self::new`], and [`SeparationError::NoPigment`] if the library has no pigment to use.
+    /// The errors of [`Self::new`], and [`SeparationError::NoPigment`] if you cannot use any
+    /// pigment of the library.
     pub fn palette(
         painted: &PaintedPicture,
         library: &PigmentLibrary,
@@ -173,14 +174,14 @@ impl ColorPaint {
         &self.films
     }
 
-    /// Linear sRGB that is painted for an encoded colour: the colour itself, or with black raised.
+    /// Linear sRGB that we paint for an encoded colour: the colour itself, or with black raised.
     #[must_use]
     pub fn target(&self, color: [f32; 4]) -> [f32; 3] {
         target(&self.linear, self.black, color)
     }
 
     /// Paint of each pixel: the mixture of its colour, as high as the film of its brushwork. Where
-    /// strokes cover a pixel in part, its paint is thinner by as much.
+    /// strokes cover only a share of a pixel, its paint is thinner by this share.
     ///
     /// # Panics
     /// If the colours and heights of `painted` differ in size.

@@ -1,9 +1,9 @@
-//! The coordinates in which strokes are mixed, and the map's brushwork on the model's colours.
+//! The coordinates in which we mix strokes, and the map's brushwork on the model's colours.
 //!
-//! Yan and others (2008), equations 9 and 10: the mean of all texels of the map is taken from each
-//! texel, and what is left is added to the colour of the splat, lightness and chroma with a share
-//! of their own. Both are linear, so the detail is laid out with the map, and the weighted mean of
-//! the splats' colours is added to the weighted mean of details.
+//! We follow Yan and others (2008), equations 9 and 10. We take the mean of all texels of the map
+//! from each texel, and add the rest to the colour of the splat. Lightness and chroma each have
+//! their own share. Both steps are linear, so we lay the detail out with the map, and add the
+//! weighted mean of the splats' colours to the weighted mean of details.
 
 use artmap::map::ArtMap;
 use glam::Vec3;
@@ -33,7 +33,7 @@ pub(super) enum Coordinates {
 /// Kind of subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SubjectKind {
-    /// A model. Its colours are without light: tones add the light.
+    /// A model. Its colours are without light. Tones add this light.
     Model,
     /// A picture. Its colours have their light already.
     Picture,
@@ -122,8 +122,9 @@ impl Coloring {
         own
     }
 
-    /// Colour that is taken from the texels of a tile (linear sRGB) of a map: the mean of all its tiles, or
-    /// on pictures of this one, since they have their lightness already.
+    /// Colour that we take from the texels of a tile (linear sRGB) of a map. This is the mean of
+    /// all its tiles. On pictures it is the mean of this tile, since pictures have their lightness
+    /// already.
     pub(super) fn mean(&self, map: usize, tile: &Picture) -> Vec3 {
         if !self.of_model || self.kind == SubjectKind::Model {
             return self.maps[map].mean;
@@ -132,7 +133,7 @@ impl Coloring {
         moments(&texels).0
     }
 
-    /// Colours that texels of linear sRGB of a map add to a pixel, when `mean` is taken from them.
+    /// Colours that texels of linear sRGB of a map add to a pixel, once you take `mean` from them.
     pub(super) fn details(&self, map: usize, mean: Vec3, texels: &Picture) -> Vec<Vec3> {
         let share = self.maps[map].share;
         self.mapped(texels).into_iter().map(|color| (color - mean) * share).collect()

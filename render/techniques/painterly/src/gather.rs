@@ -1,5 +1,5 @@
-//! Passes 2 and 3: weighted sums of the strokes at each pixel of a square, and the sums divided by
-//! their weights.
+//! Passes 2 and 3. We sum the strokes at each pixel of a square with their weights, and divide the
+//! sums by the weights.
 //!
 //! Weights are Gaussians to a power, so that the strongest stroke of a place shows most. A first
 //! round sums the weights alone. The second looks up the map only where a weight matters.
@@ -13,12 +13,12 @@ use super::coloring::Coloring;
 use super::splats::{Lie, SIDE, Square, StrokeSplat, Values, bowl, bring_forward, nearness};
 use super::tones::Tones;
 
-/// This share of the sum is taken from each weight, and what has no more is left out: a step of 8
-/// bits. So splats come in without a step.
+/// We take this share of the sum, a step of 8 bits, from each weight and leave out the weights that
+/// have no more. So splats come in without a step.
 const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
-/// Factor of weights before they are raised to a power, so that the weights of a thin cover do not
-/// vanish among the numbers of f32.
+/// We multiply weights by this before we raise them to a power, so that the weights of a thin cover
+/// do not vanish among the numbers of f32.
 const SCALE: f32 = 8.0;
 
 /// Sums of weights below this are lost.
@@ -31,7 +31,6 @@ pub(super) struct Sums {
     pub(super) bytes: [[[f32; 4]; SIDE]; SIDE],
     /// Colours of the splats times weights.
     pub(super) color: [[[f32; 3]; SIDE]; SIDE],
-    /// Weights of what was summed.
     pub(super) weight: Values,
     /// Sum of the splats' parts in the cover.
     pub(super) cover: Values,
@@ -57,13 +56,12 @@ pub(super) struct Gather<'a> {
     pub(super) list: &'a [u32],
     pub(super) splats: &'a [StrokeSplat],
     pub(super) tones: &'a Tones,
-    /// How often weights are squared.
     pub(super) squarings: u32,
     /// Weight of the lowest furrow, before it is squared, relative to the highest ridge.
     pub(super) furrow: f32,
     /// Whether splats have colours of their own.
     pub(super) colored: bool,
-    /// Whether the map is looked up, else only the weights of all splats are summed.
+    /// Whether we look up the map. If not, we sum only the weights of all splats.
     pub(super) textured: bool,
     pub(super) into: &'a mut Gathered,
 }
@@ -154,7 +152,7 @@ impl pulp::WithSimd for Gather<'_> {
     }
 }
 
-/// Weighs the splats that reach out before the mesh: the ones of the nearest surface count.
+/// Weighs the splats that reach out before the mesh. Only the splats of the nearest surface count.
 #[inline(always)]
 fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gathered) {
     let mut nearest = [[f32::INFINITY; SIDE]; SIDE];
@@ -169,7 +167,6 @@ fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gat
     }
 }
 
-/// Looks up the map and sums it.
 #[inline(always)]
 fn sum(
     square: &Square,
@@ -307,7 +304,6 @@ const OVERHANG: [f32; 2] = [0.7, 0.9];
 /// How much further the highest ridges of a stroke reach beyond an outline than its furrows.
 const BRISTLES: f32 = 1.0;
 
-/// Makes pixels of sums.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Divide<'a> {
     pub(super) tones: &'a Tones,
@@ -319,8 +315,8 @@ pub(super) struct Divide<'a> {
 }
 
 impl Divide<'_> {
-    /// The pixel of a square: encoded sRGB with cover, and height. `covered` says whether the mesh
-    /// is seen there: then it is never bare where any stroke reaches.
+    /// The pixel of a square: encoded sRGB with cover, and height. `covered` says whether you see
+    /// the mesh there. Then it is never bare where any stroke reaches.
     #[inline(always)]
     pub(super) fn pixel(
         &self,
@@ -378,13 +374,14 @@ impl Divide<'_> {
         if over <= 0.0 { [0.0, under] } else { [over, (1.0 - over) * under] }
     }
 
-    /// Whether nothing lies below these strokes.
+    /// Whether these strokes are the lowest.
     #[inline(always)]
     fn lowest(&self) -> bool {
         self.thin <= THIN
     }
 
-    /// How high the brushwork stands, 0 to 1 of the map's heights, its lightness in maps without.
+    /// How high the brushwork stands, 0 to 1 of the map's heights. For maps without relief this is
+    /// the lightness.
     #[inline(always)]
     fn ridge(&self, sums: &Sums, row: usize, column: usize) -> f32 {
         let channel = if self.tones.step[3] > 0.0 { 3 } else { 0 };

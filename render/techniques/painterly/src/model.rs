@@ -16,15 +16,15 @@ use graphics::surface::PackedMesh;
 /// size of the settings: the height of a picture of 4 : 3, less a margin.
 const FILLED: f32 = 0.69;
 
-/// Strokes are kept up to this many times the density that a model needs which fills the picture.
+/// We keep strokes up to this many times the density that a model needs which fills the picture.
 const MORE: f32 = 2.0;
 
 /// Radians by which a surface bends within half a stroke where usual settings show smaller ones.
 const BEND: f32 = 0.6;
 
 impl Painter {
-    /// Paints a mesh, from any camera, in the brushwork of an art map. Lays the map out and finds the
-    /// strokes: what does not depend on the view.
+    /// Paints a mesh, from any camera, in the brushwork of an art map. This lays the map out and
+    /// finds the strokes, since neither depends on the view. For example:
     ///
     /// ```
     /// use artmap::map::ArtMap;
@@ -52,8 +52,8 @@ impl Painter {
     /// that strokes must have.
     ///
     /// # Errors
-    /// As [`Self::of_model`], and [`PainterError::Regions`] for regions that the mesh does not
-    /// have, [`PainterError::Directions`] for guides that do not lie on the mesh.
+    /// The errors of [`Self::of_model`], [`PainterError::Regions`] for regions that the mesh does
+    /// not have, and [`PainterError::Directions`] for guides that do not lie on the mesh.
     pub fn of_model_with(
         mesh: &Mesh,
         brushwork: &Brushwork<'_>,
@@ -68,7 +68,6 @@ impl Painter {
     }
 }
 
-/// A mesh as a subject.
 fn subject(
     mesh: &Mesh,
     brushwork: &Brushwork<'_>,
@@ -339,7 +338,7 @@ mod baseline_tests {
 
     #[test]
     fn strokes_pop_far_less_than_a_texture_of_the_screen_and_than_random_ones() {
-        // Over 6 degrees a texture that stands still has lost the model as random strokes have.
+        // Over 6 degrees a texture that stands still loses the model as much as random strokes do.
         for (shape, degrees, steps, least) in [
             (SampleModel::Sphere, 1.5, 1, 1.05),
             (SampleModel::TorusKnot, 1.5, 1, 1.05),

@@ -1,5 +1,5 @@
-//! The paint of one or several maps in common slots, laid out for painting: a packed slice for each
-//! tone, at several sizes, and a layer of paint made of amounts in mm.
+//! The paint of one or several maps in common slots, laid out for painting as a packed slice for
+//! each tone, at several sizes. You can also make a layer of paint from amounts in mm here.
 
 use artmap::map::{ArtMap, Between};
 use artmap::sample::{PaintOfSamples, TexelPaint};
@@ -23,8 +23,9 @@ const GROUPS: usize = (SLOTS + 1).div_ceil(LANES);
 /// Sums of packed amounts, a group after the other.
 pub(super) type PackedSums = [[f32; LANES]; GROUPS];
 
-/// Paint of all tones of some maps, in the order and sizes of `Tones`. Only what some texel has is
-/// stored, in 65,535 steps: the mean of many texels is the mean of their amounts.
+/// Paint of all tones of some maps, in the order and sizes of `Tones`. We store only the channels
+/// that some texel has, in 65,535 steps, so that the mean of many texels is the mean of their
+/// amounts.
 #[derive(Debug, Clone)]
 pub(super) struct PaintTones {
     pub(super) of: PaintOfSamples,
@@ -41,7 +42,6 @@ pub(super) struct PaintTones {
 /// The paint of one tone at one size.
 #[derive(Debug, Clone)]
 struct Packed {
-    /// Width and height.
     size: usize,
     /// The groups of each texel, one texel after the other. The last group is filled with zeros.
     texels: Vec<[u16; LANES]>,
@@ -81,9 +81,9 @@ impl PaintTones {
         Ok(Some(laid))
     }
 
-    /// Adds to packed sums, times a weight, the paint between four texels of a slice at a size: that
-    /// to the upper left of `place`, with the shares of its neighbours to the right and below in
-    /// 256ths.
+    /// Adds to packed sums, times a weight, the paint between four texels of a slice at a size. You
+    /// give the texel to the upper left by `place`, and the shares of its neighbours to the right
+    /// and below in 256ths.
     #[inline(always)]
     pub(super) fn add(
         &self,
@@ -206,7 +206,7 @@ pub(super) fn joined(
 /// Why maps cannot make one painting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum PaintOfMapsError {
-    /// Pigments are of several libraries.
+    /// The pigments come from several libraries.
     #[error("the maps have pigments of different libraries")]
     #[hint("make all maps of samples with the same pigment library")]
     Libraries,

@@ -1,6 +1,6 @@
-//! The painter: strokes and pictures of a subject from any camera, layer by layer, one layer over
-//! the other. With the maps and regions of a subject, the ground of its paintings, and the reasons
-//! why it cannot be painted.
+//! The painter makes strokes and pictures of a subject from any camera, layer by layer, one layer
+//! over the other. This file also holds the maps and regions of a subject, the ground of its
+//! paintings, and the reasons why you cannot paint it.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ use super::tones::{ToneMemory, Tones};
 /// Cover around which the strokes of upper layers end.
 const THIN_ABOVE: f32 = 0.7;
 
-/// Distance of strokes in mm where a map does not give it: the distance of a small flat brush.
+/// Distance of strokes in mm if a map does not give it. This is the distance of a small flat brush.
 const STROKE_MM: f64 = 3.0;
 
 /// Most pixels of a picture.
@@ -46,7 +46,8 @@ const MOST_PIXELS: usize = 1 << 28;
 /// the brushwork of art maps.
 #[derive(Debug)]
 pub struct Painter {
-    /// Where pictures are made. Paintings, and what decides on strokes, stay on the processor.
+    /// Where we make pictures. Paintings, and everything that decides on strokes, stay on the
+    /// processor.
     compute: Compute,
     memory: ToneMemory,
     model: Model,
@@ -55,8 +56,8 @@ pub struct Painter {
     layers: Vec<Layered>,
     tones: Tones,
     settings: Settings,
-    /// The paint of the maps, if they have any. Maps that cannot be joined in paint still have
-    /// colours.
+    /// The paint of the maps, if they have any. If maps cannot be joined in paint, you can still
+    /// use their colours.
     paint: Result<Option<PaintTones>, PaintOfMapsError>,
     /// Films of the subject's own colours.
     film: FilmHeight,
@@ -132,8 +133,8 @@ impl Painter {
         })
     }
 
-    /// Makes pictures on another device. They agree with the processor's to rounding. Strokes,
-    /// stages and paintings are the same to the bit.
+    /// Makes pictures on another device. They agree with the processor's to rounding. This does not
+    /// change strokes, stages and paintings, which stay the same to the bit.
     ///
     /// # Errors
     /// [`PainterError::Device`] for maps that the device cannot hold.
@@ -145,7 +146,7 @@ impl Painter {
     }
 
     /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds.
-    /// The same input gives the same bits on any number of threads.
+    /// If you pass the same input, you get the same bits on any number of threads.
     ///
     /// # Errors
     /// [`PainterError::Size`] for a picture without pixels or with more than 2^28,
@@ -190,7 +191,7 @@ impl Painter {
     /// layer, the lowest first.
     ///
     /// # Errors
-    /// As [`Self::paint`].
+    /// The errors of [`Self::paint`].
     pub fn splats(
         &mut self,
         camera: &Camera,
@@ -259,16 +260,16 @@ impl Painter {
         divide(&self.tones, &self.layers[layer], layer, &self.settings.overlap)
     }
 
-    /// Distance of the middle of the subject in front of the eye, at least the near plane's
-    /// distance.
+    /// Distance of the middle of the subject in front of the eye. This is at least the distance of
+    /// the near plane.
     fn distance(&self, camera: &Camera) -> f32 {
         let [low, high] = self.bounds;
         let [_, _, back] = camera.axes();
         (camera.eye - (low + high) / 2.0).dot(back).max(camera.near)
     }
 
-    /// Whether the camera may see the subject from inside: a corner of the bounding box lies before
-    /// its near plane, or behind the eye.
+    /// Whether the camera may see the subject from inside. This is so if a corner of the bounding
+    /// box lies before its near plane, or behind the eye.
     pub(super) fn holds(&self, camera: &Camera) -> bool {
         let [low, high] = self.bounds;
         let [_, _, back] = camera.axes();
@@ -283,21 +284,22 @@ impl Painter {
         &self.settings
     }
 
-    /// Share of strokes that continue a neighbour, 0 to 1, 0 with random offsets.
+    /// Share of strokes that continue a neighbour, 0 to 1. With random offsets this is 0.
     #[must_use]
     pub fn matched(&self) -> f64 {
         self.matched
     }
 
     /// Takes pigments for the colours of the subject from this library instead of the maps'
-    /// library: the pigments of a palette, or up to eight that suit the picture.
+    /// library. If you pass a palette, we use its pigments. If not, we use up to eight that suit
+    /// the picture.
     pub fn set_pigments(&mut self, library: Arc<PigmentLibrary>, palette: Option<Slots>) {
         self.pigments = Some((library, palette));
         self.ground = None;
     }
 
-    /// The library of pigments for the colours of the subject: the one that was set, the maps' own,
-    /// or the Van Gogh oils, and the palette, if one was set.
+    /// The library of pigments for the colours of the subject, and the palette if you set one. The
+    /// library is the one that you set, the maps' own, or the Van Gogh oils.
     pub(super) fn pigments(&self) -> (Arc<PigmentLibrary>, Option<Slots>) {
         self.pigments
             .clone()
@@ -365,7 +367,8 @@ fn kept(
 
 #[cfg(test)]
 mod exact_tests {
-    //! Pictures of paintings, made from eight wavelengths, against exact spectra of the same amounts.
+    //! We compare pictures of paintings, made from eight wavelengths, with exact spectra of the
+    //! same amounts.
 
     use std::sync::Arc;
 
@@ -466,8 +469,8 @@ mod exact_tests {
     }
 }
 
-/// Paints one layer over another of the same size. Heights add up, as a dry layer lies on the one
-/// below.
+/// Paints one layer over another of the same size. Heights add up, since a dry layer lies on the
+/// one below.
 pub(super) fn over(mut lower: PaintedPicture, upper: &PaintedPicture) -> PaintedPicture {
     let colors = lower.color.values_mut().par_iter_mut().zip(upper.color.values());
     colors.for_each(|(lower, upper)| {
@@ -499,7 +502,7 @@ pub(super) struct BuiltGround {
 }
 
 impl BuiltGround {
-    /// The ground of a painting of this size and width of cells. It is kept for the next one.
+    /// The ground of a painting of this size and width of cells. We keep it for the next one.
     pub(super) fn kept(
         kept: &mut Option<Self>,
         spec: &GroundSpec,
@@ -596,7 +599,7 @@ pub enum PainterError {
 /// Maps with their names, and the regions that are painted with one or another.
 #[derive(Debug, Clone)]
 pub struct Brushwork<'a> {
-    /// At least one. The first is for everything that no region covers.
+    /// At least one map. We use the first for everything that no region covers.
     pub maps: Vec<(&'a str, &'a ArtMap)>,
     /// Regions, which call maps by their names.
     pub regions: Regions,

@@ -27,22 +27,23 @@ struct Mixed {
 }
 
 impl Painter {
-    /// Paints the subject as [`Self::paint`] does, with pigments: a painting with a dry layer for
-    /// each layer of strokes, a cell for each pixel.
+    /// Paints the subject as [`Self::paint`] does, but with pigments. You get a painting with a dry
+    /// layer for each layer of strokes and a cell for each pixel.
     ///
-    /// Where colours are the maps', amounts are the weighted means of the amounts that strokes
-    /// show, so strokes that overlap do not pile up within a layer. Where they are the subject's,
-    /// each cell is a film of the mixture that shows its colour, as high as the brushwork: of up to
+    /// If colours are the maps', amounts are the weighted means of the amounts that strokes show,
+    /// so strokes that overlap do not pile up within a layer. If they are the subject's, each cell
+    /// is a film of the mixture that shows its colour, as high as the brushwork. We mix it of up to
     /// eight pigments of the library ([`Self::set_pigments`]) that suit the picture.
     ///
-    /// Cells are as wide as the first map's strokes demand: `strokes.width_px` of them to the
-    /// distance of its strokes in mm (3 mm where the map does not give it).
+    /// The width of a cell follows from the first map. For example, if its strokes are 3 mm apart
+    /// and `strokes.width_px` is 30, a cell is 0.1 mm wide. We take 3 mm where the map does not
+    /// give the distance of its strokes.
     ///
     /// # Errors
-    /// As [`Self::paint`], and [`PainterError::NoPaint`] for the colours of maps without pigments,
-    /// [`PainterError::Maps`] for maps with pigments that do not go together,
-    /// [`PainterError::Colors`] for a library that cannot paint colours, [`PainterError::Ground`]
-    /// for a ground that cannot be made.
+    /// The errors of [`Self::paint`], [`PainterError::NoPaint`] for the colours of maps without
+    /// pigments, [`PainterError::Maps`] for maps with pigments that do not go together,
+    /// [`PainterError::Colors`] for a library that cannot paint colours, and
+    /// [`PainterError::Ground`] for a ground that we cannot make.
     pub fn painting(
         &mut self,
         camera: &Camera,
@@ -83,7 +84,6 @@ impl Painter {
         Ok(Mixed { layers: layers.collect(), of: paint.of.clone() })
     }
 
-    /// Mixtures for the colours of the subject.
     fn mixed_as_subject(
         &mut self,
         camera: &Camera,
@@ -115,13 +115,13 @@ impl Painter {
 const FAR: f32 = 0.15;
 
 impl Painter {
-    /// The steps to the picture that [`Self::paint`] gives: depth. Of each layer the strokes (each
-    /// in a colour of its own where it is the strongest), their directions (as hues: red level,
-    /// cyan upright), their tones and what they paint, the height of the brushwork, and the
-    /// picture.
+    /// The steps to the picture that [`Self::paint`] gives. You get the depth first. For each layer
+    /// you get the strokes (each in a colour of its own where it is the strongest), their
+    /// directions (as hues: red level, cyan upright), their tones and what they paint, the height
+    /// of the brushwork, and the picture.
     ///
     /// # Errors
-    /// As [`Self::paint`].
+    /// The errors of [`Self::paint`].
     pub fn stages(
         &mut self,
         camera: &Camera,
@@ -257,14 +257,15 @@ pub enum CompositingError {
 }
 
 impl Painter {
-    /// The picture that [`Self::paint`] gives as an OpenEXR file of 32-bit floats: `R`, `G`, `B` in
-    /// linear sRGB times the cover, `A` the cover, `Z` the distance of the subject in front of the
-    /// eye (infinite where there is none), `height` of the brushwork in mm, and `direction.x`,
-    /// `direction.y`, the unit direction of the strongest stroke of the uppermost layer that shows
-    /// (x to the right, y downwards, 0 where there is none).
+    /// The picture that [`Self::paint`] gives, as an OpenEXR file of 32-bit floats. `R`, `G`, `B`
+    /// are linear sRGB times the cover, `A` is the cover, `Z` is the distance of the subject in
+    /// front of the eye (infinite where there is none), and `height` is the height of the brushwork
+    /// in mm. `direction.x` and `direction.y` are the unit direction of the strongest stroke of the
+    /// uppermost layer that you see (x to the right, y downwards, 0 where there is none).
     ///
     /// # Errors
-    /// As [`Self::paint`], and [`CompositingError::Export`] for pictures that OpenEXR cannot hold.
+    /// The errors of [`Self::paint`], and [`CompositingError::Export`] for pictures that OpenEXR
+    /// cannot hold.
     pub fn exr_frame(
         &mut self,
         camera: &Camera,

@@ -1,7 +1,7 @@
-//! The three passes over all squares of a picture, on the processor or as one kernel on a graphics
-//! device, with an invocation for each pixel.
+//! The three passes over all squares of a picture. You run them on the processor, or as one kernel
+//! on a graphics device with an invocation for each pixel.
 //!
-//! Lists of splats are made on the processor for both forms, and every pixel sums in their order.
+//! We make lists of splats on the processor for both forms, and every pixel sums in their order.
 //! Amounts of paint in mm are weighted means with the same weights as the colours.
 
 use graphics::compute::{Compute, GpuCompute, GreyImage, Plane};
@@ -27,15 +27,14 @@ pub struct PaintedPicture {
 }
 
 impl PaintedPicture {
-    /// A picture without strokes.
     pub(super) fn bare((width, height): (usize, usize)) -> Self {
         let color = Field::filled(width, height, [0.0; 4]);
         Self { color, height_mm: Field::filled(width, height, 0.0) }
     }
 }
 
-/// Paints splats over a mesh of this depth (0 near to 1, nothing). Each pixel sums the splats that
-/// reach it in their order, so the picture does not depend on threads.
+/// Paints splats over a mesh of this depth (0 near, 1 where there is nothing). Each pixel sums the
+/// splats that reach it in their order, so the picture does not depend on threads.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost, never on the processor.
@@ -115,7 +114,7 @@ fn painted_on_cpu(
 
 #[cfg(test)]
 mod device_tests {
-    //! The device's form against the processor's, which is the specification.
+    //! We compare the device's form with the processor's, which is the specification.
 
     use artmap::map::{ArtMap, Between};
     use documents::hint::Explain;
@@ -446,8 +445,8 @@ pub(super) static PASSES: Kernel = Kernel {
     ],
 };
 
-/// Encoded sRGB with cover, and heights in mm, of splats over a mesh of this depth. `tones` are
-/// those that `divide` names, on this device.
+/// Encoded sRGB with cover, and heights in mm, of splats over a mesh of this depth. You pass the
+/// `tones` that `divide` names, on this device.
 pub(super) fn painted_on_device(
     gpu: &mut GpuCompute,
     tones: &DeviceTones,
@@ -567,7 +566,7 @@ pub(super) fn amounts(
     found
 }
 
-/// Sums what the strokes of one surface show in a square: paint, and the height that separates
+/// Sums the paint that the strokes of one surface show in a square, and the height that separates
 /// ridges from furrows.
 struct Sum<'a> {
     square: &'a Square,

@@ -1,5 +1,5 @@
-//! Photographs and other pictures as subjects: a plane, or a relief, with their form (depth, flow,
-//! guides) and their colours at the size of the strokes of each layer.
+//! Photographs and other pictures as subjects. We paint them on a plane or a relief. You can give
+//! them a form (depth, flow, guides). Each layer sees their colours at the size of its strokes.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -38,8 +38,8 @@ const TENSOR: f64 = 0.6;
 const MORE: f32 = 1.02;
 
 impl Painter {
-    /// Paints a photograph or another picture in the brushwork of an art map. Lays the map out and
-    /// finds the strokes.
+    /// Paints a photograph or another picture in the brushwork of an art map. This lays the map out
+    /// and finds the strokes. For example:
     ///
     /// ```
     /// use artmap::map::ArtMap;
@@ -65,12 +65,12 @@ impl Painter {
         Self::of_picture_with(picture, &Brushwork::of(map), &PictureForm::default(), settings)
     }
 
-    /// Paints a picture with several maps, each for some regions of the picture, and with a form:
-    /// depth, flow, guides.
+    /// Paints a picture with several maps, each for some regions of the picture, and with a form.
+    /// You can give, for example, depth, flow or guides.
     ///
     /// # Errors
-    /// As [`Self::of_picture`], and [`PainterError::Regions`] for regions that pictures cannot
-    /// have.
+    /// The errors of [`Self::of_picture`], and [`PainterError::Regions`] for regions that pictures
+    /// cannot have.
     pub fn of_picture_with(
         picture: &Photograph,
         brushwork: &Brushwork<'_>,
@@ -84,7 +84,6 @@ impl Painter {
     }
 }
 
-/// A picture as a subject.
 fn subject(
     picture: &Photograph,
     brushwork: &Brushwork<'_>,
@@ -138,8 +137,8 @@ fn subject(
     })
 }
 
-/// A plane, or a relief that looks the same from the camera of the picture. It goes on beyond the
-/// picture by a margin, so that strokes cover the edges too.
+/// A plane, or a relief that looks the same from the camera of the picture. We continue it beyond
+/// the picture by a margin, so that strokes cover the edges too.
 fn plane(view: PictureView, depth: Option<&Field<f32>>, settings: &Settings, largest: f32) -> Mesh {
     let most = MOST_VERTICES[usize::from(depth.is_some())];
     let strokes = settings.reference_px / settings.strokes.width_px;
@@ -324,7 +323,8 @@ mod flow_tests {
     }
 }
 
-/// Values of red and green this near the middle give no direction: the middle of 8 bits is none.
+/// If red and green are this near the middle, they give no direction, since 8 bits do not hold the
+/// exact middle.
 const STILL: f32 = 0.01;
 
 /// Form of a picture. The default has none.
@@ -334,8 +334,8 @@ pub struct PictureForm {
     pub depth: Option<Field<f32>>,
     /// Directions and flow of strokes.
     pub flow: Option<FlowPicture>,
-    /// Places, 0 to 1 over the width and height of the picture, and directions of strokes there, of
-    /// any length, in px (x to the right, y downwards).
+    /// Places, 0 to 1 over the width and height of the picture, and the direction of strokes at
+    /// each. A direction is in px (x to the right, y downwards). You can give it any length.
     pub guides: Vec<[[f32; 2]; 2]>,
 }
 
@@ -378,8 +378,9 @@ impl PictureForm {
 }
 
 impl FlowPicture {
-    /// Reads a picture of arrows: red to the right and green upwards, both about one half. Blue is
-    /// the strength. Neutral pixels (one half each), and pixels of no strength, have no arrow.
+    /// Reads a picture of arrows. Red points to the right and green upwards, both about one half.
+    /// Blue is the strength. You leave a place without an arrow by neutral pixels (one half each),
+    /// or pixels of no strength.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -399,7 +400,7 @@ impl FlowPicture {
         Ok(Self { arrows: Field::from_values(width, height, arrows) })
     }
 
-    /// Arrows from values.
+    /// Uses these arrows.
     #[must_use]
     pub fn of(arrows: Field<[f32; 2]>) -> Self {
         Self { arrows }
@@ -439,7 +440,7 @@ pub(super) fn layer_colors(photograph: &Photograph, settings: &Settings) -> Vec<
         let picture = at_strokes(photograph, own.reference_px / own.strokes.width_px * CELLS);
         let lab = lab_from_linear(&picture);
         let shown = number.checked_sub(1).map(|_| {
-            // What strokes of the layer below can show of it.
+            // This blur leaves what strokes of the layer below can show.
             let sigma = f64::from(CELLS / 2.0 / settings.layers.ratio);
             let below = blurred(&lab, sigma);
             let pairs = lab.values().par_iter().zip(below.values());
@@ -455,7 +456,6 @@ pub(super) fn layer_colors(photograph: &Photograph, settings: &Settings) -> Vec<
 }
 
 impl LayerColors {
-    /// The colours as a texture.
     pub(super) fn texture(&self) -> Texture {
         Texture {
             width: self.picture.width() as u32,
@@ -473,7 +473,8 @@ impl LayerColors {
         }
     }
 
-    /// The L* below and above which lie one hundredth of the picture each.
+    /// One hundredth of the picture is darker than the first L*, and one hundredth is lighter than
+    /// the second.
     pub(super) fn range(&self) -> [f32; 2] {
         let mut lightness: Vec<f32> = self.lab.values().iter().map(|lab| lab[0]).collect();
         lightness.sort_unstable_by(f32::total_cmp);
@@ -485,7 +486,8 @@ impl LayerColors {
     }
 }
 
-/// Mean colours of a picture in about so many cells along its longer side, not more than it has.
+/// Mean colours of a picture in about so many cells along its longer side. A picture with fewer
+/// pixels keeps them.
 fn at_strokes(photograph: &Photograph, cells: f32) -> Picture {
     let (width, height) = photograph.size();
     let longer = width.max(height) as f32;

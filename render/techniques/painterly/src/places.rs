@@ -38,10 +38,9 @@ pub(super) struct Place {
     pub(super) region: u16,
 }
 
-/// Where strokes of a layer show.
+/// The places where you see strokes of a layer.
 #[derive(Debug, Clone)]
 pub(super) enum Detail {
-    /// Everywhere.
     Everywhere,
     /// Where the surface bends more within this length, in units of the model, than settings let
     /// pass (radians).
@@ -62,7 +61,6 @@ pub(super) struct Surface {
     pub(super) regions: Arc<RegionMap>,
 }
 
-/// The directions of strokes on a mesh.
 #[derive(Debug)]
 pub(super) struct Directions {
     lines: DirectionField,
@@ -74,8 +72,8 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// Strokes along `lines` of a mesh. Flow has the signs and strengths, up to 1, of the arrows
-    /// that are given for its vertices, if any.
+    /// Strokes along `lines` of a mesh. If you give arrows for its vertices, flow has their signs
+    /// and strengths, up to 1.
     pub(super) fn new(mesh: &Mesh, lines: DirectionField, given: Option<&[[f32; 3]]>) -> Self {
         let arrows = match given {
             None => lines.oriented(FADE_RINGS),
@@ -120,7 +118,6 @@ impl Directions {
 }
 
 impl Surface {
-    /// The place of a feature.
     pub(super) fn place(&self, feature: &Feature) -> Place {
         let Self { mesh, packed, directions, .. } = self;
         let triangle = mesh.triangles[feature.face as usize];
@@ -231,7 +228,6 @@ pub(super) fn colors(mesh: &Mesh, packed: &PackedMesh) -> Vec<(Vec3, f64)> {
         .collect()
 }
 
-/// A subject.
 #[derive(Debug)]
 pub(super) struct Subject {
     /// Its surface for the strokes of each layer, the lowest first, at least one.

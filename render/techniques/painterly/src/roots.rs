@@ -1,12 +1,12 @@
-//! Strokes at rest: what each feature of the model carries, whatever the view, and the places in
-//! the map at which strokes continue their neighbours.
+//! Strokes at rest: the stroke that each feature of the model carries, whatever the view, and the
+//! places in the map at which strokes continue their neighbours.
 //!
-//! Strokes are placed one after the other, each beside those that are placed already. Candidates
-//! are the places at which one of the neighbours would go on, and random ones. The candidate that
-//! differs least from what the neighbours show is taken. This happens once for a model, at the size
-//! that strokes have where the model fills the picture. Seen larger or smaller, strokes go on in
-//! each other within patches of some splats ([`Start`]). Patches are small, because a change of
-//! size moves strokes by their way from the patch's origin.
+//! We place strokes one after the other, each beside those that we have placed already. Candidates
+//! are the places at which one of the neighbours would go on, and random ones. We take the
+//! candidate that differs least from the neighbours. This happens once for a model, at the size
+//! that strokes have where the model fills the picture. If you see it larger or smaller, strokes go
+//! on in each other within patches of some splats ([`Start`]). Patches are small, because a change
+//! of size moves strokes by their way from the patch's origin.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -26,7 +26,6 @@ const ALIKE: f32 = 0.6;
 /// Numbers of a feature's random offsets.
 const RANDOM: [u64; 2] = [16, 17];
 
-/// A stroke of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Root {
     pub(super) place: Place,
@@ -38,9 +37,9 @@ pub(super) struct Root {
     pub(super) tone: Option<f32>,
 }
 
-/// The place in the map that the centre of a stroke shows. Strokes of one patch of the model go on
-/// in the map as they do on the model, at whatever size they are seen: each adds its way from the
-/// origin of its patch.
+/// The place in the map that you see at the centre of a stroke. Strokes of one patch of the model
+/// go on in the map as they do on the model, at whatever size you see them. Each adds its way from
+/// the origin of its patch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Start {
     /// Place in the map of the origin of the patch, in widths of the map.
@@ -76,14 +75,14 @@ pub(super) fn way(from: (&Feature, &Place), to: (&Feature, &Place)) -> Vec2 {
     )
 }
 
-/// Whether the strokes of two places continue each other: on one side of the surface, and of one
-/// region.
+/// Whether the strokes of two places continue each other. This needs one side of the surface and
+/// one region.
 pub(super) fn alike(one: &Place, other: &Place) -> bool {
     one.normal.dot(other.normal) > ALIKE && one.region == other.region
 }
 
-/// The strokes of a subject. Those up to some density are kept. All others are made when they are
-/// asked for, and continue the nearest kept one.
+/// The strokes of a subject. We keep those up to some density. We make all others when you ask for
+/// them. Each of these continues the nearest kept one.
 #[derive(Debug)]
 pub(super) struct Roots {
     surface: Surface,
@@ -113,17 +112,14 @@ impl Roots {
         Self { surface, coloring, lightness, seeds, kept, features, grid: None }
     }
 
-    /// How a stroke is painted.
     pub(super) fn style(&self, root: &Root) -> &Style {
         &self.surface.regions.styles[usize::from(root.place.region)]
     }
 
-    /// How strokes are painted, by region.
     pub(super) fn styles(&self) -> &[Style] {
         &self.surface.regions.styles
     }
 
-    /// Number of kept strokes.
     pub(super) fn count(&self) -> usize {
         self.kept.len()
     }
@@ -133,9 +129,9 @@ impl Roots {
         self.surface.regions.sizes()
     }
 
-    /// These strokes for another density. The strokes of all features below a priority are kept,
-    /// and start where `starts` says instead of anywhere. `reach` is half the length of a stroke in
-    /// units of the model.
+    /// These strokes for another density. We keep the strokes of all features below a priority.
+    /// They start where `starts` says instead of anywhere. `reach` is half the length of a stroke
+    /// in units of the model.
     pub(super) fn keeping(
         mut self,
         features: &Features,
@@ -157,7 +153,6 @@ impl Roots {
         self
     }
 
-    /// The stroke of a feature.
     pub(super) fn of(&self, feature: &Feature) -> Root {
         match self.seeds.binary_search(&feature.seed) {
             Ok(index) => self.kept[index],
@@ -221,7 +216,6 @@ const OFFSETS_RANDOM: u64 = 64;
 /// Number of a feature's first random candidate.
 const FIRST_RANDOM: u64 = 32;
 
-/// Most neighbours of a stroke.
 const NEIGHBOURS: usize = 10;
 
 /// Radius of a patch of the model that goes on in the map, in half lengths of splats.
@@ -258,7 +252,6 @@ const PROBES: [[f32; 2]; 21] = [
     [-0.65, 0.2],
 ];
 
-/// Strokes to match.
 pub(super) struct Matching<'a> {
     pub(super) features: &'a [Feature],
     pub(super) roots: &'a [Root],
@@ -503,7 +496,6 @@ impl Matching<'_> {
 /// Points in cubes of one size.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grid {
-    /// Side of a cube.
     side: f32,
     /// Cube and index of each point, sorted.
     order: Vec<([i32; 3], u32)>,

@@ -1,8 +1,8 @@
-//! Strokes in the picture: lists of the splats that reach each square of pixels, their weights in
-//! one square, and pass 1, the nearest splat before the mesh.
+//! Strokes in the picture. We list the splats that reach each square of pixels, find their weights
+//! in one square, and do pass 1, the nearest splat before the mesh.
 //!
-//! Strokes reach beyond the outline of their surface. Where several surfaces do, the nearest one
-//! shows, hidden by the mesh as any surface is.
+//! Strokes reach beyond the outline of their surface. Where several surfaces do this, you see the
+//! nearest one. The mesh hides it like any surface.
 
 use graphics::field::Field;
 use graphics::lanes::{greater, lesser};
@@ -147,14 +147,11 @@ pub(super) type Values = [[f32; SIDE]; SIDE];
 /// Depth of a pixel without a surface.
 const NOTHING: f32 = 1.0;
 
-/// A square of pixels.
 #[derive(Debug, Clone)]
 pub(super) struct Square {
-    /// Centre of its first pixel.
     pub(super) first: [f32; 2],
     /// Depth of the mesh at each pixel, 1 where there is none and beyond the picture.
     pub(super) depths: Values,
-    /// Least and greatest depth.
     range: [f32; 2],
 }
 
@@ -165,7 +162,7 @@ pub(super) enum Lie {
     Hidden,
     /// On the mesh everywhere.
     On,
-    /// Not the same everywhere: some pixels show something else behind it, or before it.
+    /// Mixed: at some pixels you see something else behind the splat, or before it.
     Mixed,
 }
 
@@ -185,7 +182,6 @@ impl Square {
         Self { first: [x as f32 + 0.5, y as f32 + 0.5], depths, range }
     }
 
-    /// How a splat lies to the mesh.
     #[inline(always)]
     pub(super) fn lie(&self, splat: &StrokeSplat) -> Lie {
         const HALF: f32 = (SIDE - 1) as f32 / 2.0;

@@ -1,13 +1,15 @@
-//! The strokes of a view: which splats are drawn, where, how large, and with which tone. Strokes
-//! along outlines and strokes that move along the surface, in loops that close, are here too.
+//! The strokes of a view. We decide which splats we draw, where, how large, and with which tone.
+//! Strokes along outlines and strokes that move along the surface, in loops that close, are here
+//! too.
 //!
-//! A splat's weight is continuous in camera, light and time: it fades with its rank, so that the
-//! density in the picture stays, and where the surface or the stroke turns away from the eye.
+//! A splat's weight is continuous in camera, light and time. It fades with the rank of the splat,
+//! so that the density in the picture stays. It also fades where the surface or the stroke turns
+//! away from the eye.
 //!
 //! Strokes along outlines are narrow, in the darkest tone, before all others. The normal at an
 //! outline is across the direction to the eye. A line of even width on the screen takes all places
-//! up to a cosine that depends on how the surface bends: at a distance of w behind the outline of a
-//! ball of radius R the cosine is sqrt(2 w / R).
+//! up to a cosine that depends on how the surface bends. For example, at a distance of w behind the
+//! outline of a ball of radius R this cosine is sqrt(2 w / R).
 
 use glam::{Mat2, Vec2, Vec3};
 use graphics::coherence::{Density, Features, Projection, SeenFeature};
@@ -31,7 +33,7 @@ const COVERING: [f32; 2] = [0.0, 0.2];
 /// direction of strokes that run towards the eye is not stable.
 const LENGTH: [f32; 2] = [0.05, 0.35];
 
-/// Weight of strokes that run towards the eye: they show where there are no others.
+/// Weight of strokes that run towards the eye. With this they show only where there are no others.
 const FORESHORTENED: f32 = 0.01;
 
 /// Ratio of distances within which places are about as far as the middle of the model.
@@ -73,7 +75,7 @@ pub(super) fn ranks(settings: &Settings) -> [f32; 2] {
     [end * (1.0 - settings.overlap.fade), end]
 }
 
-/// The splats to draw, hidden ones included, in an order that does not depend on the sight.
+/// The splats to draw, hidden ones included. Their order does not depend on the sight.
 pub(super) fn splats(
     features: &Features,
     roots: &Roots,
@@ -150,7 +152,7 @@ fn splat(
     brushed.splat(seen, (root, style), tones, sight)
 }
 
-/// How a stroke is laid down in the picture.
+/// How we lay a stroke down in the picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Brushed {
     /// Directions across and along the stroke in the picture, shorter than 1 where it is
@@ -239,8 +241,9 @@ impl Sight<'_> {
     }
 }
 
-/// Distance by which strokes go on in each other: the distance of the middle of the model for all
-/// places that are about as far, so that strokes do not slide in the map while the model turns.
+/// Distance by which strokes go on in each other. For all places that are about as far as the
+/// middle of the model, this is the distance of the middle, so that strokes do not slide in the map
+/// while the model turns.
 fn calm_distance(own: f32, middle: f32) -> f32 {
     let [nearest, farthest] = [middle / CALM, middle * CALM];
     if own < nearest {
@@ -277,8 +280,8 @@ const STRENGTH: f32 = 256.0;
 /// Part of a splat in the cover beyond outlines.
 const COVER: f32 = 1.0;
 
-/// The splats of outlines, in an order that does not depend on the sight, none for lines of no
-/// width.
+/// The splats of outlines, in an order that does not depend on the sight. If lines have no width,
+/// this is empty.
 pub(super) fn outlines(
     features: &Features,
     roots: &Roots,
@@ -359,10 +362,10 @@ fn strength(sharpness: u32) -> f32 {
     (0..sharpness.max(1).ilog2()).fold(STRENGTH, |weight, _| weight.sqrt())
 }
 
-/// Where strokes stand in a loop, 0 to below 1. A whole number of loops later it is the same to
-/// the bit.
+/// Where strokes stand in a loop, 0 to below 1. If you add a whole number of loops, you get the
+/// same bits.
 ///
-/// `seconds` is divided by the duration in f64, so that times which are whole multiples of a frame
+/// We divide `seconds` by the duration in f64, so that times which are whole multiples of a frame
 /// rate do not drift.
 pub(super) fn phase(seconds: f64, settings: &FlowSettings) -> f32 {
     let loops = seconds / f64::from(settings.loop_seconds);
@@ -373,7 +376,7 @@ pub(super) fn phase(seconds: f64, settings: &FlowSettings) -> f32 {
 }
 
 /// How much lighter a stroke is, -1 to 1, at a `phase` of a loop with so many changes to lighter
-/// and darker. `own` (0 to 1) is where the stroke stands at the beginning.
+/// and darker. `own` (0 to 1) says where this stroke stands at the beginning.
 pub(super) fn twinkled(twinkles: u32, phase: f32, own: f32) -> f32 {
     let at = phase * twinkles as f32 + own;
     let at = at - at.floor();

@@ -28,11 +28,11 @@ pub struct Subject<'a> {
     pub form: &'a Form,
     /// The maps, and the regions that they are for.
     pub brushwork: &'a Brushwork<'a>,
-    /// Where pictures are made ([`Painter::on`]).
+    /// Where we make pictures ([`Painter::on`]).
     pub compute: Compute,
 }
 
-/// How a subject is seen.
+/// How you see a subject.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     /// The camera.

@@ -1,5 +1,5 @@
-//! Material for the tests: a map made by code and its strokes, and a graphics device with a measure
-//! of how far its pictures are from the processor's.
+//! Material for the tests. We make a map and its strokes by code, open a graphics device, and
+//! measure how far its pictures are from the processor's.
 
 use super::passes::PaintedPicture;
 use super::splats::StrokeSplat;
@@ -12,7 +12,6 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::io::Write;
 
-/// Width and height of the tiles.
 pub(super) const SIZE: usize = 128;
 
 /// Distance of neighbouring strokes in texels.

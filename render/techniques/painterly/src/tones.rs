@@ -1,5 +1,5 @@
-//! The maps laid out for painting: a packed slice for each tone, at several sizes, and the same in
-//! the memory of a graphics device.
+//! We lay the maps out for painting as a packed slice for each tone, at several sizes. The memory
+//! of a graphics device can hold them too.
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ use super::coloring::Coloring;
 /// Change of intensity between slices, of 255 (k of Yan and others 2008, equation 7).
 const STEP: f64 = 5.0;
 
-/// Sizes below this are not halved.
+/// We do not halve sizes below this.
 pub(super) const LEAST_SIZE: usize = 16;
 
 /// Heights further than this many standard deviations from the mean are cut.
@@ -57,10 +57,9 @@ struct Slice {
     sizes: Vec<Texels>,
 }
 
-/// A tile of one tone at one size. A fifth of the memory of numbers.
+/// A tile of one tone at one size. Bytes take a fifth of the memory that numbers need.
 #[derive(Debug, Clone)]
 pub(super) struct Texels {
-    /// Width and height.
     pub(super) size: usize,
     /// Texels with a column and a row more, which repeat the first: a byte for each channel, in the
     /// order 0, 2, 1, 3.
@@ -131,7 +130,6 @@ impl Tones {
         first + if off(below, slices, wanted) <= off(above, slices, wanted) { below } else { above }
     }
 
-    /// Mean L* of a slice.
     pub(super) fn tone(&self, slice: usize) -> f32 {
         self.slices[slice].tone
     }
@@ -159,7 +157,6 @@ impl Tones {
         &self.slices[slice].sizes[halvings]
     }
 
-    /// The values of bytes.
     #[inline(always)]
     pub(super) fn values(&self, bytes: [f32; CHANNELS]) -> [f32; CHANNELS] {
         std::array::from_fn(|i| self.low[i] + self.step[i] * bytes[i])
@@ -203,7 +200,7 @@ impl Texels {
     /// Returns 256 times the interpolated bytes.
     #[inline(always)]
     pub(super) fn between(&self, column: usize, row: usize, across: u32, down: u32) -> [f32; 4] {
-        // Nothing of this wraps. Said so, tests are as fast as programs.
+        // Nothing here wraps. We say this with `wrapping_*`, so that tests are as fast as programs.
         let stride = self.size.wrapping_add(1);
         let at = row.wrapping_mul(stride).wrapping_add(column);
         let above = pair(&self.packed, at);
@@ -366,7 +363,7 @@ impl ToneMemory {
         }
     }
 
-    /// The tones on a device.
+    /// The tones on a device. Call this only if you put them there.
     ///
     /// # Panics
     /// If they are in the processor's memory.

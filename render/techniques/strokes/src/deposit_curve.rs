@@ -1,7 +1,7 @@
 //! Thickness of the film that a loaded brush lays, measured with trial strokes.
 //!
-//! A head leaves a film nearly in proportion to the paint that it holds. How much depends on its
-//! shape, its size and its pressure, so it is measured, not modelled.
+//! A head leaves a film nearly in proportion to the paint that it holds. The ratio depends on the
+//! shape, the size and the pressure of the head. We measure this instead of modelling it.
 
 use super::planned_strokes::{COVER, poses};
 use super::settings::Plan;

@@ -13,8 +13,8 @@ use paint::separation::{
 
 use super::stroke_painter::black_compensated;
 
-/// Thin films through which the ground shows, from a coarse table: the layer is a start to
-/// paint over, not a copy of the photograph.
+/// Thin films through which the ground shows, from a coarse table. You start from this layer and
+/// paint over it. It is not a copy of the photograph.
 const THIN: SeparationSettings = SeparationSettings {
     lattice: 17,
     least_mm: 0.002,
@@ -35,9 +35,9 @@ pub enum FirstLayerError {
     Separation(#[from] SeparationError),
 }
 
-/// Paint of a dry layer that shows `photograph` on the ground of `document` in paint of its wet
-/// pigments, under its light. The photograph is as large as the canvas allows without
-/// stretching it, in the middle. The rest of the canvas stays bare.
+/// Paint of a dry layer that shows `photograph` on the ground of `document`, in its wet pigments
+/// and under its light. We place the photograph in the middle, as large as the canvas allows
+/// without stretching it. The rest of the canvas stays bare.
 ///
 /// # Errors
 /// [`FirstLayerError`] for an unknown light and for pigments that give no separation.

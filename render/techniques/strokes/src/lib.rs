@@ -4,7 +4,7 @@
 //! photograph -> canvas -> palette, separation -> for each brush: plan -> paint -> compare
 //! ```
 //!
-//! [`StrokePainter`] does all of it. [`plan_layer`] plans the strokes of one brush along the
+//! Use [`StrokePainter`] for all of this. [`plan_layer`] plans the strokes of one brush along the
 //! structure of the picture. [`Painter`] paints them, coarse to fine.
 
 mod settings;

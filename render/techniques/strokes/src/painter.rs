@@ -25,14 +25,14 @@ use spectra::color::delta_e_ciede2000;
 
 /// Brushes below this width in mm are rounds, others filberts (chosen by eye).
 const ROUND_BELOW_MM: f64 = 3.0;
-/// Pigments with a smaller share than this are left out of a recipe. The limit is low
-/// because strong blues tint white at shares far below 0.001.
+/// We leave out pigments with a smaller share than this. The limit is low because strong blues tint
+/// white at shares far below 0.001.
 const LEAST_PART: f64 = 1e-6;
 /// Times that each brush compares the canvas with the target and paints the difference.
 const ROUNDS: u64 = 2;
 
-/// Paints a target picture on a bare canvas in strokes. [`super::StrokePainter`] sets all
-/// of it up for a photograph.
+/// Paints a target picture on a bare canvas in strokes. If you have a photograph,
+/// [`super::StrokePainter`] sets all of this up for you.
 #[derive(Debug, Clone, Copy)]
 pub struct Painter<'a> {
     /// Picture to paint, one colour per cell of the canvas, in tones that paint reaches (see
@@ -82,9 +82,9 @@ impl Count<'_> {
 }
 
 impl Painter<'_> {
-    /// Paints on the bare canvas of `session`, which `script` describes. All actions are
-    /// added to the script, which then gives the same painting bit for bit. `task` counts the
-    /// strokes of all those planned so far.
+    /// Paints on the bare canvas of `session`, which `script` describes. We add all actions to the
+    /// script. If you play it, you get this painting again, bit for bit. `task` counts the strokes
+    /// of all those planned so far.
     ///
     /// # Errors
     /// [`PainterError`] for brushes that do not suit the canvas, if the device was lost, or if
@@ -152,7 +152,7 @@ impl Painter<'_> {
         Ok(ColorErrors::between(self.separation, &wanted, &painted))
     }
 
-    /// Mean of [`Painter::errors`], which is found much faster than what is in gamut.
+    /// Mean of [`Painter::errors`]. This is much faster, since it does not ask what is in gamut.
     fn mean_error(&self, target: &LevelTarget, painted: &Picture) -> f64 {
         let film = self.separation.film();
         let painted = blurred(painted, target.blur_cells);
@@ -201,7 +201,7 @@ fn shape(size_mm: f64) -> HeadShape {
     if size_mm < ROUND_BELOW_MM { HeadShape::Round } else { HeadShape::Filbert }
 }
 
-/// White where `picture` is dark and black elsewhere, so that the first coat also covers a ground
+/// White where `picture` is dark and black elsewhere. With this the first coat also covers a ground
 /// that looks like the picture.
 fn unlike(picture: &Picture) -> Picture {
     let values = picture

@@ -1,10 +1,10 @@
 //! Strokes of one level: where the canvas differs from the target, in the target's colour,
 //! along the structure of the picture.
 //!
-//! After Litwinowicz 1997 and Hertzmann 1998: from coarse to fine brushes, each level against
-//! the target blurred to its brush ([`LevelTarget`]), and only where the canvas differs from it.
-//! A curved stroke grows both ways from its start ([`trace_path`]) until its colour fits the
-//! target less than the canvas does.
+//! We follow Litwinowicz 1997 and Hertzmann 1998. We go from coarse to fine brushes. Each level
+//! compares the canvas with the target blurred to its brush ([`LevelTarget`]), and paints only
+//! where they differ. A curved stroke grows both ways from its start ([`trace_path`]) until its
+//! colour fits the target less than the canvas does.
 
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
@@ -127,8 +127,8 @@ pub(super) fn plan_strokes(
     strokes.into_iter().map(|(_, stroke)| stroke).collect()
 }
 
-/// Least thickness in mm of a stroke of this L* by the brush of `level`: lights stand out, darks
-/// are thin, and the first coat is lean.
+/// Least thickness in mm of a stroke of this L* by the brush of `level`. For example, lights stand
+/// out, darks are thin, and the first coat is lean.
 fn impasto_mm(plan: &Plan, level: usize, lightness: f64) -> f64 {
     let light = (lightness / 100.0).clamp(0.0, 1.0).powi(2);
     let lean = if level == 0 && plan.sizes_mm.len() > 1 { LEAN } else { 1.0 };
@@ -204,9 +204,9 @@ fn lines(cells: usize, step: f64, random: &mut ChaCha8Rng) -> Vec<usize> {
     lines
 }
 
-/// Sets the difference to 0 where a stroke covers the canvas: one coat per level is enough,
-/// and the next level paints what remains. The ends of a stroke, where the brush comes down and
-/// leaves, do not count.
+/// Sets the difference to 0 where a stroke covers the canvas. One coat per level is enough, and the
+/// next level paints the rest. This does not apply to the ends of a stroke, where the brush comes
+/// down and leaves.
 fn cover(difference: &mut Field<f32>, path: &[[f64; 2]], size: f64) {
     let radius = COVER * size / 2.0;
     let apart = path.windows(2).map(|ends| between(ends[0], ends[1])).fold(1e-9, f64::max);
@@ -271,7 +271,6 @@ pub(super) fn poses(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> 
         .collect()
 }
 
-/// Distance of two points.
 fn between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
@@ -285,7 +284,7 @@ const DETAIL: f32 = 16.0;
 /// Factor on differences where the target does not change at all (chosen by eye).
 const SMOOTH: f32 = 0.5;
 
-/// All that the strokes of a level need of the target, which stays while the canvas changes.
+/// All that the strokes of a level need of the target. This stays while the canvas changes.
 #[derive(Debug)]
 pub(super) struct LevelTarget {
     /// Index of the brush in the plan.
@@ -296,7 +295,6 @@ pub(super) struct LevelTarget {
     pub(super) blur_cells: f64,
     /// The target, blurred.
     pub(super) picture: Picture,
-    /// The target in CIELAB.
     pub(super) lab: Field<[f32; 3]>,
     /// Directions of its structure.
     pub(super) flow: OrientationField,

@@ -68,9 +68,9 @@ pub struct StrokePainter {
 /// A photograph that has been painted in strokes.
 #[derive(Debug)]
 pub struct PaintedPhotograph {
-    /// The session on the painted canvas. It cannot undo.
+    /// The session on the painted canvas. You cannot undo here.
     pub session: PaintingSession,
-    /// The strokes. Played on a bare canvas, they give the same painting bit for bit.
+    /// The strokes. If you play them on a bare canvas, you get this painting bit for bit.
     pub script: StrokeScript,
     /// Report of each brush, coarse to fine.
     pub levels: Vec<LevelReport>,
@@ -87,8 +87,8 @@ impl PaintedPhotograph {
 }
 
 impl StrokePainter {
-    /// Fits the photograph to a canvas, chooses the pigments and computes the separation,
-    /// which takes some seconds. The light is the one of [`Lighting::default`].
+    /// Fits the photograph to a canvas, chooses the pigments and computes the separation. This
+    /// takes some seconds. The light is the one of [`Lighting::default`].
     ///
     /// # Errors
     /// [`StrokePainterError`] for settings out of range, unknown pigments, and pigments that
@@ -166,8 +166,8 @@ impl StrokePainter {
         self.paint_with(opened.engine, task)
     }
 
-    /// Paints with an engine that has been opened over the heights of
-    /// [`StrokePainter::ground`]. For `task` see [`StrokePainter::paint`].
+    /// Paints with an engine that you opened over the heights of [`StrokePainter::ground`]. For
+    /// `task` see [`StrokePainter::paint`].
     ///
     /// # Errors
     /// [`StrokePainterError`] if the engine was opened over another ground, if its device
@@ -274,7 +274,7 @@ pub struct SeparatedFiles {
 }
 
 impl StrokePainter {
-    /// Separates the photograph into a map of each pigment. Write the files with
+    /// Separates the photograph into a map of each pigment. You can write the files with
     /// [`save_files`](paint::export::save_files).
     ///
     /// # Errors
@@ -329,8 +329,8 @@ pub fn black_compensated(picture: &Picture, black: f32) -> Picture {
     Field::from_values(picture.width(), picture.height(), values)
 }
 
-/// Priming in a dark tone of the mean colour of `picture`: what strokes leave open looks like a
-/// shadow of the picture.
+/// Priming in a dark tone of the mean colour of `picture`. If strokes leave some of it open, this
+/// looks like a shadow of the picture.
 pub(super) fn toned_priming(picture: &Picture) -> Primer {
     let mut sum = [0.0; 3];
     for color in picture.values() {

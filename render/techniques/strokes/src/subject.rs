@@ -25,7 +25,7 @@ impl Technique for StrokePainter {
     type Settings = StrokeSettings;
     type Preset = StrokePreset;
     type Subject<'a> = Subject<'a>;
-    /// An engine that has been opened over the heights of [`StrokePainter::ground`].
+    /// An engine that you opened over the heights of [`StrokePainter::ground`].
     type View<'a> = PaintEngine;
     type Picture = PaintedPhotograph;
     type Error = StrokePainterError;

@@ -1,7 +1,7 @@
 //! Paints a 3D model as a watercolour.
 //!
-//! `cargo run --release -p impasto-watercolor --example watercolor_model -- MODEL.obj OUT.png`;
-//! without arguments it paints the sample still life into `watercolor.png`.
+//! Run `cargo run --release -p impasto-watercolor --example watercolor_model -- MODEL.obj OUT.png`.
+//! If you give no arguments, this paints the sample still life into `watercolor.png`.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it did")]
 

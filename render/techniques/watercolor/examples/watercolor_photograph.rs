@@ -1,7 +1,8 @@
 //! Paints a photograph as a watercolour.
 //!
-//! `cargo run --release -p impasto-watercolor --example watercolor_photograph -- PHOTOGRAPH OUT.png`;
-//! without arguments it paints the still life of the README into `watercolor.png`.
+//! Run `cargo run --release -p impasto-watercolor --example watercolor_photograph -- PHOTOGRAPH
+//! OUT.png`. If you give no arguments, this paints the still life of the README into
+//! `watercolor.png`.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it did")]
 

@@ -34,20 +34,18 @@ pub struct GlazePainter {
     paper: Vec<f64>,
     light: Light,
     lighting: Lighting,
-    /// The recipes, once the pigments are chosen.
     glazes: Option<Glazes>,
 }
 
 impl GlazePainter {
-    /// Makes a painter for paper with the measured reflectance `paper` on the library's
-    /// grid. Colours are matched under `light`. Paintings store `lighting`, which should
-    /// name that light.
+    /// Makes a painter for paper with the measured reflectance `paper` on the library's grid. We
+    /// match colours under `light`. Paintings store `lighting`, which should name this light.
     #[must_use]
     pub fn new(library: PigmentLibrary, paper: Vec<f64>, light: Light, lighting: Lighting) -> Self {
         Self { library, palette: None, paper, light, lighting, glazes: None }
     }
 
-    /// Paints with these pigments. Without them, up to eight pigments are chosen that come
+    /// Paints with these pigments. If you do not set them, we choose up to eight pigments that come
     /// closest to the colours of the first wash.
     #[must_use]
     pub fn with_palette(self, palette: Slots) -> Self {
@@ -66,8 +64,8 @@ impl GlazePainter {
         Primer::Color(ColorPrimer { rgb }).reflectance(library)
     }
 
-    /// Chooses the pigments by this wash unless they are known, and finds the recipes of
-    /// their glazes unless they are known. Takes seconds the first time.
+    /// Chooses the pigments by this wash and finds the recipes of their glazes, unless both are
+    /// known. This takes seconds the first time.
     ///
     /// # Errors
     /// [`GlazeError`] if the library has no pigment to use, or the palette is empty.
@@ -86,9 +84,9 @@ impl GlazePainter {
         Ok(glazes.insert(found))
     }
 
-    /// Paints `wash` with glazes: a painting of one dry layer over the paper. `textures` and
-    /// `settings` are those for its size. The first wash chooses the pigments
-    /// ([`Self::choose`]).
+    /// Paints `wash` with glazes. The result is a painting of one dry layer over the paper. You
+    /// pass the `textures` and `settings` for the size of the wash. The first wash chooses the
+    /// pigments ([`Self::choose`]).
     ///
     /// # Errors
     /// [`GlazeError`] if the library has no pigment to use, or the palette is empty.
@@ -112,7 +110,7 @@ impl GlazePainter {
         &self.light
     }
 
-    /// Names of the pigments in use. Empty before they are chosen.
+    /// Names of the pigments in use. This is empty before you choose them.
     #[must_use]
     pub fn pigments(&self) -> Vec<&str> {
         let slots = self.glazes.as_ref().map(|glazes| *glazes.slots()).unwrap_or_default();
@@ -126,7 +124,7 @@ const HEIGHTS: SeparationSettings = SeparationSettings {
     least_mm: 0.0002,
     most_mm: 0.1,
     hides: false,
-    // A wash has few colours, and effects change them by more than the error of the table.
+    // A wash has few colours, and effects change them by more than this table errs.
     refined: false,
 };
 
@@ -145,15 +143,14 @@ pub struct Glazes {
     slots: Slots,
     paper: Vec<f64>,
     separation: Separation,
-    /// Linear sRGB of the bare paper.
     white: [f32; 3],
     /// Linear value of the darkest grey that the glazes reach.
     black: f32,
 }
 
 impl Glazes {
-    /// Finds the recipes with the pigments `slots` of `library` over paper that measures
-    /// `paper`, a reflectance on the library's grid, under `light`. Takes seconds.
+    /// Finds the recipes with the pigments `slots` of `library` over paper that measures `paper`, a
+    /// reflectance on the library's grid, under `light`. This takes seconds.
     ///
     /// # Errors
     /// [`GlazeError`] for an empty palette.
@@ -216,18 +213,18 @@ impl Glazes {
         self.separation.film()
     }
 
-    /// Height in mm of each slot in the glaze for an encoded sRGB colour. Colours are
-    /// relative to the paper: white is next to no paint.
+    /// Height in mm of each slot in the glaze for an encoded sRGB colour. Colours are relative to
+    /// the paper, e.g. white is next to no paint.
     #[must_use]
     pub fn heights_mm(&self, color: [f32; 4]) -> [f32; SLOTS] {
         self.separation.heights_mm(target_color(color, self.white, self.black))
     }
 
-    /// Paints `wash` as [`crate::paint`] does, but with glazes: a painting of one
-    /// dry layer over the paper. The glaze of each pixel is the recipe for its colour after all
-    /// effects, over white where the brush left the paper bare. The relief of `lighting` is
-    /// multiplied so that it shades the paper as the settings do. `textures` and `settings` are
-    /// those for its size.
+    /// Paints `wash` as [`crate::paint`] does, but with glazes. The result is a painting of one dry
+    /// layer over the paper. Each pixel has the recipe for its colour after all effects, over white
+    /// where the brush left the paper bare. We multiply the relief of `lighting` so that it shades
+    /// the paper as the settings do. You pass the `textures` and `settings` for the size of the
+    /// wash.
     ///
     /// # Panics
     /// If sizes differ.

@@ -1,11 +1,11 @@
 //! Watercolor from photographs and meshes.
 //!
-//! After Bousseau, Kaplan, Thollot and Sillion, "Interactive watercolor rendering with
-//! temporal coherence and abstraction" (NPAR 2006). A photograph is abstracted to flat
-//! regions ([`PhotographPainter`]), a mesh is shaded in a few steps of light
-//! ([`ModelPainter`]). The resulting [`Wash`] then goes through the same effects ([`paint()`])
-//! or becomes a painting of calibrated pigments ([`GlazePainter`]). The style is a value,
-//! [`Settings`], with [`Preset`]s to start from.
+//! This follows Bousseau, Kaplan, Thollot and Sillion, "Interactive watercolor rendering with
+//! temporal coherence and abstraction" (NPAR 2006). A photograph is abstracted to flat regions
+//! ([`PhotographPainter`]), a mesh is shaded in a few steps of light ([`ModelPainter`]). You then
+//! pass the resulting [`Wash`] through the effects ([`paint()`]), or turn it into a painting of
+//! calibrated pigments ([`GlazePainter`]). The style is a value, [`Settings`]. You can start from a
+//! [`Preset`], for example `Preset::Landscape`.
 //!
 //! Colours are encoded sRGB in 0..1, as in the paper, so that equal changes of density look
 //! about equal.

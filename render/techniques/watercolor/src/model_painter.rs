@@ -30,15 +30,16 @@ const WAVE_TEXELS: usize = 32;
 /// Octaves of the grain, the finer of the two feature noises.
 const GRAIN_OCTAVES: usize = 2;
 
-/// Samples along each side of a pixel by default: enough for smooth silhouettes.
+/// Samples along each side of a pixel if you do not set them. This is enough for smooth
+/// silhouettes.
 const USUAL_SAMPLES: usize = 2;
 
-/// Least and greatest width and height of the map of cast shadows, in pixels. Between them it
-/// is as large as the picture.
+/// Least and greatest width and height of the map of cast shadows, in pixels. Between these limits
+/// it is as large as the picture.
 const LEAST_SHADOW_PX: usize = 512;
 const MOST_SHADOW_PX: usize = 2048;
 
-/// Paints one mesh from any camera, in pictures of one size.
+/// Paints one mesh from any camera, in pictures of one size. For example:
 ///
 /// ```
 /// use graphics::camera::Framing;
@@ -83,13 +84,13 @@ enum Noise {
 struct ShadedFrame {
     /// Toon-shaded colour with coverage.
     color: ColorImage,
-    /// Flow and dispersion of this frame. `None` if they do not move with the mesh.
+    /// Flow and dispersion of this frame. This is `None` if they do not move with the mesh.
     noise: Option<[GreyImage; 2]>,
 }
 
 impl ModelPainter {
-    /// Paints `mesh` in pictures of `width` x `height` pixels. The lengths of `settings` are
-    /// adapted to this size ([`Settings::for_size`]).
+    /// Paints `mesh` in pictures of `width` x `height` pixels. We adapt the lengths of `settings`
+    /// to this size ([`Settings::for_size`]).
     ///
     /// # Errors
     /// [`ModelPainterError`] if the paper's scan or the picture of greys cannot be read, or
@@ -135,7 +136,8 @@ impl ModelPainter {
         })
     }
 
-    /// Averages `samples` x `samples` samples for each pixel, at least 1 and by default 2.
+    /// Averages `samples` x `samples` samples for each pixel, at least 1. Without this there are 2
+    /// x 2.
     #[must_use]
     pub fn with_samples(mut self, samples: usize) -> Self {
         self.toon.samples = samples.max(1);
@@ -182,16 +184,17 @@ impl ModelPainter {
     /// Paints the mesh as `camera` sees it. The picture is encoded sRGB, covered everywhere.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn paint(&mut self, camera: &Camera) -> Result<Field<[f32; 4]>, DeviceError> {
         self.paint_stages(camera, None)
     }
 
-    /// Paints the mesh as `camera` sees it. `observer` is called with the picture after each
-    /// stage.
+    /// Paints the mesh as `camera` sees it. We call `observer` with the picture after each stage.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn paint_stages(
         &mut self,
         camera: &Camera,
@@ -207,11 +210,12 @@ impl ModelPainter {
         self.compute.download(&color)
     }
 
-    /// The shaded mesh and the textures of this frame in the processor's memory, for glazes
-    /// ([`super::GlazePainter::paint`]).
+    /// The shaded mesh and the textures of this frame in the processor's memory. You need them for
+    /// glazes ([`super::GlazePainter::paint`]).
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn wash(&mut self, camera: &Camera) -> Result<(Wash, Textures), DeviceError> {
         let ShadedFrame { color, noise } = self.shaded(camera)?;
         let TextureImages { flow, dispersion, paper, touch, .. } = &self.textures;
@@ -236,7 +240,8 @@ impl ModelPainter {
     /// The colours of the surface without light, encoded sRGB with coverage.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn unlit(&mut self, camera: &Camera) -> Result<Field<[f32; 4]>, DeviceError> {
         let Self { compute, model, toon, width, height, .. } = self;
         let samples = toon.samples;
@@ -317,7 +322,7 @@ impl Noise {
         }
     }
 
-    /// Draws flow and dispersion for one view. `None` if they do not move with the mesh.
+    /// Draws flow and dispersion for one view. Returns `None` if they do not move with the mesh.
     fn frame(
         &self,
         compute: &mut Compute,

@@ -1,17 +1,17 @@
 //! The wash of a photograph: its flat colours after the effects that only photographs have.
 //!
-//! Washes run into their neighbours while they are wet: the steps of a smooth gradient run
-//! together where the photograph has no outline, so that a sky has no hard arcs, and at random
-//! places colours flow across weak outlines along a turbulent displacement, which makes
-//! feathers. Then darks are lifted, whites are reserved as bare paper, and brush strokes end in
-//! a ragged margin before the border.
+//! Washes run into their neighbours while they are wet. The steps of a smooth gradient run together
+//! where the photograph has no outline, for example in a sky, which then has no hard arcs. At
+//! random places colours flow across weak outlines along a turbulent displacement. This makes
+//! feathers. Then we lift darks and leave whites as bare paper. Brush strokes end in a ragged
+//! margin before the border.
 //!
-//! Large pictures are enlarged from flat regions found in a smaller one. Each pixel weighs the
-//! colours around it by a cubic B-spline and takes the heaviest one, so that outlines are smooth
-//! curves. Where the two heaviest are nearly equal they mix, over about a pixel.
+//! We find flat regions in a smaller picture and enlarge them. Each pixel weighs the colours around
+//! it by a cubic B-spline and takes the heaviest one, so that outlines are smooth curves. Where the
+//! two heaviest are nearly equal they mix, over about a pixel.
 //!
-//! All of it happens on the processor, before the effects of water and paper, and is the same
-//! for colours and for glazes of pigments.
+//! We do all this on the processor, before the effects of water and paper. It is the same for
+//! colours and for glazes of pigments.
 
 use graphics::blurred;
 use graphics::field::Field;
@@ -24,9 +24,9 @@ use crate::effects::edges_on_cpu;
 use crate::settings::{MarginSettings, Settings, WetSettings};
 use crate::textures::Quantiles;
 
-/// The wash in `width` x `height` pixels. `original` and `flat` are the photograph and its flat
-/// colours in the size of abstraction, at most this one. `abstraction` are the settings for that
-/// size, `settings` the ones for the picture.
+/// The wash in `width` x `height` pixels. You pass the photograph as `original` and its flat
+/// colours as `flat`, both in the size of abstraction, which is at most the size of the wash.
+/// `abstraction` are the settings for that size, `settings` the ones for the picture.
 pub(super) fn photograph_wash(
     (original, flat): (&Field<[f32; 4]>, &Field<[f32; 4]>),
     (width, height): (usize, usize),
@@ -70,7 +70,6 @@ pub(super) fn photograph_wash(
     wash
 }
 
-/// The margin of a picture of one size.
 struct Margin {
     width_px: f32,
     ragged_px: f32,
@@ -79,8 +78,8 @@ struct Margin {
 }
 
 impl Margin {
-    /// The margin of a picture of `width` x `height` pixels. `None` if it is painted to its
-    /// borders.
+    /// The margin of a picture of `width` x `height` pixels. This is `None` if the picture is
+    /// painted to its borders.
     fn new(width: usize, height: usize, settings: &MarginSettings) -> Option<Self> {
         let MarginSettings { width_px, ragged_px, seed } = *settings;
         let mut noise = random(seed, 47);
@@ -145,7 +144,6 @@ impl<'a> Enlarged<'a> {
         Self { flat, step }
     }
 
-    /// The colour of a pixel.
     fn at(&self, x: usize, y: usize) -> [f32; 4] {
         let [(columns, across), (rows, down)] = self.taps(x, y);
         let middle = self.flat[(columns[1], rows[1])];
@@ -247,8 +245,8 @@ struct Running {
     share: Field<[f32; 1]>,
 }
 
-/// The colours of `flat` that run into each other. `original` is the photograph in this size.
-/// `None` if nothing runs.
+/// The colours of `flat` that run into each other, `None` if nothing runs. You pass the photograph
+/// in this size as `original`.
 fn running(
     original: &Field<[f32; 4]>,
     flat: &Field<[f32; 4]>,
@@ -299,8 +297,8 @@ fn contrast(original: &Field<[f32; 4]>, length: f32) -> Field<[f32; 1]> {
     Field::from_values(edges.width(), edges.height(), values)
 }
 
-/// The contrast of the nearest outlines, falling with the distance: an outline of a blur of
-/// `own` px keeps about its contrast in its middle.
+/// The contrast of the nearest outlines. It falls with the distance. An outline of a blur of `own`
+/// px keeps about its contrast in its middle.
 fn spread(contrast: &Field<[f32; 1]>, sigma: f32, own: f32) -> Field<[f32; 1]> {
     let gain = 2.5 * sigma / own.max(0.6);
     mapped(&blurred(contrast, f64::from(sigma)), |[near]| [gain * near])
@@ -316,7 +314,7 @@ fn covered_blur(color: &Field<[f32; 4]>, sigma: f32) -> Field<[f32; 4]> {
     })
 }
 
-/// How wet the paper is, 0 to 1. The settings say over which share of the picture.
+/// How wet the paper is, 0 to 1. The settings say how much of the picture this covers.
 fn wet_places(width: usize, height: usize, settings: &WetSettings) -> Field<f32> {
     let mut noise = random(settings.seed, 41);
     let octaves = [Hills::new(&mut noise), Hills::new(&mut noise)];

@@ -1,8 +1,8 @@
 //! Photographs to watercolors.
 //!
-//! A photograph is abstracted to flat regions with smooth outlines (Bousseau et al. 2006,
-//! section 4.1): a segmentation by mean shift, then an opening and a closing that round the
-//! outlines. The regions become the wash that the effects of water and paper are applied to.
+//! We abstract a photograph to flat regions with smooth outlines (Bousseau et al. 2006, section
+//! 4.1). A segmentation by mean shift finds the regions. Then an opening and a closing round the
+//! outlines. The regions become the wash that you apply the effects of water and paper to.
 
 use documents::hint::Explain;
 use graphics::compute::Compute;
@@ -21,7 +21,7 @@ use super::textures::{PaperTextureError, Textures};
 /// pictures are enlarged.
 const REGIONS_LONGER_SIDE_PX: usize = 1600;
 
-/// Paints photographs as watercolors, by default on the processor.
+/// Paints photographs as watercolors, by default on the processor. For example:
 ///
 /// ```
 /// use graphics::picture::Photograph;
@@ -42,7 +42,7 @@ pub struct PhotographPainter {
     masks: Masks,
 }
 
-/// A photograph made ready for painting: its wash and the textures of the picture.
+/// A photograph that is ready for painting, with its wash and the textures of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedPhotograph {
     /// The photograph in the size in which we look for regions, encoded sRGB with coverage: as
@@ -69,7 +69,7 @@ impl PreparedPhotograph {
 }
 
 impl PhotographPainter {
-    /// A painter of this style. Its lengths are adapted to the size of each picture
+    /// A painter of this style. We adapt its lengths to the size of each picture
     /// ([`Settings::for_size`]).
     #[must_use]
     pub fn new(settings: Settings) -> Self {
@@ -82,7 +82,7 @@ impl PhotographPainter {
         Self { compute, ..self }
     }
 
-    /// Sets the width of pictures in pixels, 1 and up. Without it see
+    /// Sets the width of pictures in pixels, 1 and up. If you do not set it, the width is
     /// [`Photograph::usual_width_px`].
     #[must_use]
     pub fn with_width_px(self, width_px: usize) -> Self {
@@ -108,7 +108,7 @@ impl PhotographPainter {
         self.compute.name()
     }
 
-    /// Paints a photograph. The picture is encoded sRGB, covered everywhere.
+    /// Paints a photograph. The picture is encoded sRGB and covered everywhere.
     ///
     /// # Errors
     /// [`PhotographPainterError`] if the width is 0, a setting is out of its range, the
@@ -121,9 +121,9 @@ impl PhotographPainter {
         Ok(self.finish(prepared)?)
     }
 
-    /// Abstracts a photograph and makes the textures of its picture: all that comes before
-    /// the effects, which [`Self::paint_prepared`] and glazes
-    /// ([`super::GlazePainter::paint`]) apply.
+    /// Abstracts a photograph and makes the textures of its picture. You need this before you apply
+    /// the effects with [`Self::paint_prepared`], or paint with glazes
+    /// ([`super::GlazePainter::paint`]).
     ///
     /// # Errors
     /// [`PhotographPainterError`] if the width is 0, a setting is out of its range, the
@@ -147,11 +147,12 @@ impl PhotographPainter {
         Ok(PreparedPhotograph { original, segmented, regions, wash, textures, settings })
     }
 
-    /// Applies all effects. The picture is encoded sRGB, covered everywhere. `observer` is
-    /// called with the picture after each stage.
+    /// Applies all effects. The picture is encoded sRGB and covered everywhere. We call `observer`
+    /// with the picture after each stage.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn paint_prepared(
         &mut self,
         prepared: &PreparedPhotograph,
@@ -165,7 +166,8 @@ impl PhotographPainter {
     /// Applies all effects as [`Self::paint_prepared`] does, in the memory of `prepared`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn finish(&mut self, prepared: PreparedPhotograph) -> Result<Field<[f32; 4]>, DeviceError> {
         let PreparedPhotograph { original, segmented, wash, textures, settings, .. } = prepared;
         drop((original, segmented));
@@ -227,8 +229,8 @@ impl Default for RegionSettings {
 }
 
 impl From<&AbstractionSettings> for RegionSettings {
-    /// Rounds lengths to pixels and clamps them to what segmentation and smoothing take.
-    /// `settings` are those for the size of the picture.
+    /// Rounds lengths to pixels and clamps them to values that segmentation and smoothing take. You
+    /// pass the `settings` for the size of the picture.
     fn from(settings: &AbstractionSettings) -> Self {
         let AbstractionSettings { spatial_px, range_luv, tone_luv, least_region_px, brush_px } =
             *settings;
@@ -258,8 +260,8 @@ pub struct AbstractedPhotograph {
     pub regions: usize,
 }
 
-/// Abstracts `photograph` to a picture of `width_px` pixels. Its height follows from the
-/// proportions of the photograph.
+/// Abstracts `photograph` to a picture of `width_px` pixels. The height keeps the proportions of
+/// the photograph.
 ///
 /// # Errors
 /// [`AbstractionError`] if the width is 0, a setting is out of its range, or the device fails.

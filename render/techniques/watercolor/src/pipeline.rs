@@ -1,8 +1,8 @@
 //! From flat colours to a watercolor: the effects in their order.
 //!
-//! Wobble, edges, flow, dispersion and paper as in Bousseau et al. 2006, figure 4, then the
-//! dry brush and the shading of the paper. A [`Wash`] is the picture that effects are applied
-//! to: flat colours, and where effects are weaker.
+//! We apply wobble, edges, flow, dispersion and paper in the order of Bousseau et al. 2006, figure
+//! 4, then the dry brush and the shading of the paper. You apply the effects to a [`Wash`], which
+//! holds flat colours and says where effects are weaker.
 
 use graphics::compute::{ColorImage, Compute, GreyImage};
 use graphics::field::Field;
@@ -74,7 +74,7 @@ impl Stage {
     }
 }
 
-/// Called with the picture after each stage: encoded sRGB with coverage.
+/// We call this with the picture after each stage. The picture is encoded sRGB with coverage.
 pub type StageObserver<'a> = &'a mut dyn FnMut(Stage, Field<[f32; 4]>);
 
 /// The textures of one frame.
@@ -86,9 +86,9 @@ pub struct FrameTextures<'a> {
     pub dispersion: &'a GreyImage,
     /// Heights of the paper, 0 to 1.
     pub paper: &'a PaperImage,
-    /// Touch of the dry brush. Without it the heights of the paper decide.
+    /// Touch of the dry brush. If this is `None`, the heights of the paper decide.
     pub touch: Option<(&'a GreyImage, &'a Quantiles)>,
-    /// Change of density by back-runs, 0 to 1, with 0.5 for none.
+    /// Change of density by back-runs, 0 to 1. At 0.5 nothing changes.
     pub back_runs: Option<&'a GreyImage>,
 }
 
@@ -101,15 +101,16 @@ impl<'a> From<&'a TextureImages> for FrameTextures<'a> {
     }
 }
 
-/// Paints `wash`: applies all effects and composites the result on the paper. `settings` are
-/// the ones for its size ([`Settings::for_size`]).
+/// Paints `wash`: applies all effects and composites the result on the paper. You pass the
+/// `settings` for its size ([`Settings::for_size`]).
 ///
 /// With an `observer` every stage is computed by itself and downloaded. On the processor the
 /// result is bit for bit the same as without an observer, where we apply all changes of
 /// density in one pass.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -229,7 +230,7 @@ fn dry_brush_reach(
     };
     // A step of contrast c, blurred by sigma, has a gradient of 0.8 c / sigma in its middle.
     let outline = outline_px / OUTLINE_SIGMAS / 0.8 / OUTLINE_CONTRAST;
-    // Water in the paint makes a dark of the subject paler, but it stays a dark.
+    // Water makes a dark of the subject paler, but it stays a dark.
     let darkest = darkest * (1.0 - (1.0 - darkest) * (settings.wash.density - 1.0)).max(0.0);
     DryBrushReach { threshold, softness, patches, outline, darkest }
 }
@@ -249,8 +250,8 @@ pub struct Wash {
     pub controls: Controls,
 }
 
-/// Factors of effects, 0 to 1 for each pixel, of the size of the picture. An effect without
-/// a control is at its full strength everywhere.
+/// Factors of effects, 0 to 1 for each pixel, in the size of the picture. Without a control the
+/// effect is at its full strength everywhere.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Controls {
     /// Factor of the dry brush.
@@ -259,8 +260,8 @@ pub struct Controls {
     pub density: Option<Field<f32>>,
 }
 
-/// Mask pictures of any size, which are stretched over a painting: white where an effect is
-/// at its full strength, black where there is none.
+/// Mask pictures of any size, which we stretch over a painting. White means full strength of the
+/// effect, black means none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Masks {
     /// Mask of the dry brush.
@@ -308,7 +309,8 @@ impl Wash {
     /// Copies the wash into the memory of `compute`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn upload(&self, compute: &mut Compute) -> Result<WashImages, DeviceError> {
         let color = compute.upload(&self.color)?;
         WashImages::new(compute, color, &self.controls)
@@ -316,10 +318,11 @@ impl Wash {
 }
 
 impl WashImages {
-    /// A picture in the memory of `compute`, with controls that are copied there.
+    /// A picture in the memory of `compute`. This copies the controls there.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn new(
         compute: &mut Compute,
         color: ColorImage,

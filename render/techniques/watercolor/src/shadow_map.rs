@@ -1,5 +1,6 @@
-//! Shadow maps: what a distant light sees of a model (Williams 1978), with soft borders by the share
-//! of nearby pixels that are closer to the light (Reeves, Salesin and Cook 1987).
+//! Shadow maps: the surfaces of a model that a distant light sees (Williams 1978). The borders are
+//! soft, since we take the share of nearby pixels that are closer to the light (Reeves, Salesin and
+//! Cook 1987).
 
 use glam::{Mat4, Vec3};
 use graphics::camera::Camera;
@@ -7,11 +8,11 @@ use graphics::compute::{Compute, Image};
 use graphics::gpu::DeviceError;
 use graphics::surface::{Fragment, Model, VisibilityBuffer};
 
-/// Vertical angle of view of the camera in the place of a distant light, in degrees: narrow, so
-/// that its rays are nearly parallel.
+/// Vertical angle of view in degrees of the camera that stands for a distant light. This is narrow,
+/// so that the rays are nearly parallel.
 const VIEW_DEG: f32 = 4.0;
 
-/// Cosine of the light below which shadows fade, since light that grazes a surface gives it little
+/// Shadows fade below this cosine of the light, since light that grazes a surface gives it little
 /// anyway. About 14 degrees, chosen by eye.
 pub(super) const GRAZING: f32 = 0.25;
 
@@ -49,11 +50,12 @@ pub(super) struct ShadowView {
 }
 
 impl ShadowMap {
-    /// The map of `side` x `side` pixels of `model`, which lies in a sphere, for a light in
-    /// `direction` (towards the light, of length 1).
+    /// The map of `side` x `side` pixels of `model`, which lies in a sphere. You give the light by
+    /// a unit vector towards it, `direction`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     ///
     /// # Panics
     /// If another form of [`Compute`] made the model.

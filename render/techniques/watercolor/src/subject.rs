@@ -44,7 +44,6 @@ pub struct Subject {
 #[derive(Debug)]
 pub struct WatercolorPainter(Work);
 
-/// A subject that is being painted.
 #[derive(Debug)]
 enum Work {
     Photograph(Box<PhotographInWork>),
@@ -55,7 +54,7 @@ enum Work {
 struct PhotographInWork {
     photograph: Photograph,
     painter: PhotographPainter,
-    /// A picture is painted in its memory and leaves none.
+    /// Painting a picture uses up this memory.
     prepared: Option<PreparedPhotograph>,
     /// The picture at the end of the stages.
     painted: Option<Field<[f32; 4]>>,
@@ -74,7 +73,7 @@ impl PhotographInWork {
         Ok(Self { photograph, painter, prepared: Some(prepared), painted: None, regions, px_mm })
     }
 
-    /// The prepared photograph, which is prepared again after a picture.
+    /// Takes the prepared photograph. After each picture we prepare it again.
     fn take_prepared(&mut self) -> Result<PreparedPhotograph, PhotographPainterError> {
         match self.prepared.take() {
             Some(prepared) => Ok(prepared),
@@ -150,7 +149,8 @@ impl WatercolorPainter {
         }
     }
 
-    /// Chooses the pigments of `glazes` for this view, so that all later paintings have the same.
+    /// Chooses the pigments of `glazes` for this view, so that all later paintings have the same
+    /// pigments. Call this before the first frame, for example.
     ///
     /// # Errors
     /// The errors of [`Self::painting`].

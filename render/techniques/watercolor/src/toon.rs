@@ -1,11 +1,10 @@
 //! Toon shading: surfaces in a few steps of light.
 //!
-//! Bousseau, Kaplan, Thollot and Sillion 2006, section 3.1: the diffuse term n . l selects a
-//! grey from a one-dimensional texture, and the grey sets the density d at which the colour
-//! C of the surface is painted, as all of their watercolor does:
-//! `C (1 - (1 - C) (d - 1))` with `d = 1 + strength (0.5 - grey)`, at least 0. So shade is
-//! thick paint, light is thin paint, and white stays white. Where another surface stands
-//! between the light and a point, the point lies in the shade.
+//! We follow Bousseau, Kaplan, Thollot and Sillion 2006, section 3.1. The diffuse term n . l
+//! selects a grey from a one-dimensional texture. This grey sets the density d at which we paint
+//! the colour C of the surface: `C (1 - (1 - C) (d - 1))` with `d = 1 + strength (0.5 - grey)`, at
+//! least 0. So shade is thick paint, light is thin paint, and white stays white. Where another
+//! surface stands between the light and a point, the point lies in the shade.
 
 use glam::{Mat4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -54,17 +53,18 @@ impl Default for Toon {
     }
 }
 
-/// Shades what `camera` sees of `model`, which was drawn into `visible`: encoded sRGB in
-/// 0..1, with the share of the pixel that surfaces cover, and (1, 1, 1, 0) where there are
-/// none. The picture is `toon.samples` times smaller than `visible`. Shadows are cast by what
-/// `shadows`, a map of the light of `toon`, shows. Without it there are none.
+/// Shades what `camera` sees of `model`, which you have drawn into `visible`. The result is encoded
+/// sRGB in 0..1 with the share of the pixel that surfaces cover, and (1, 1, 1, 0) where there are
+/// none. The picture is `toon.samples` times smaller than `visible`. If you pass `shadows`, a map
+/// of the light of `toon`, its surfaces cast shadows.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
-/// If `visible` is of another mesh, its size is no multiple of the samples, or another form
-/// of [`Compute`] made an input.
+/// If `visible` is of another mesh, its size is not a multiple of the samples, or another form of
+/// [`Compute`] made an input.
 pub fn shade_toon(
     compute: &mut Compute,
     model: &Model,
@@ -91,7 +91,6 @@ pub fn shade_toon(
     }
 }
 
-/// A pixel that shows bare paper.
 const PAPER: [f32; 4] = [1.0, 1.0, 1.0, 0.0];
 
 fn shade_toon_on_cpu(
@@ -163,7 +162,7 @@ type LastLit = Option<(u32, f32)>;
 
 impl Shader<'_> {
     /// The colour of a sample. The samples of a pixel that show one triangle share the light that
-    /// reaches the first of them, which `last` keeps.
+    /// reaches the first of them. We keep this light in `last`.
     #[inline]
     fn color(&self, fragment: Fragment, last: &mut LastLit) -> Vec3 {
         let point = SurfacePoint::new(self.mesh, fragment);

@@ -1,8 +1,6 @@
-//! `impasto artmap build`: a map of samples.
-//!
-//! `impasto artmap check`: checks a map.
-//!
-//! `impasto artmap show`: lists the samples of a file, or the tiles of a map.
+//! `impasto artmap build` makes a map of samples, `impasto artmap check` checks it, and `impasto
+//! artmap show` lists the samples of a file or the tiles of a map. You see them side by side if you
+//! ask for a sheet.
 
 use std::path::PathBuf;
 
@@ -245,7 +243,7 @@ impl Show {
         }
     }
 
-    /// Reads the file. One of another format is told as one without samples.
+    /// Reads the file. If it has another format, we say that it has no samples.
     fn content(&self) -> Result<Content> {
         match SampleSet::open(&self.file) {
             Ok(set) => Ok(Content::Samples(set)),

@@ -1,6 +1,5 @@
-//! `impasto artmap sample`: samples of a picture, by marks.
-//!
-//! Marks proposed by `impasto artmap sample --propose`.
+//! `impasto artmap sample` takes samples of a picture, by marks. With `--propose` it writes marks
+//! that you can edit.
 
 use std::path::{Path, PathBuf};
 
@@ -400,7 +399,7 @@ impl Proposal<'_> {
     }
 }
 
-/// Names of the samples whose distance of strokes would have to be marked.
+/// Names of the samples for which you would have to mark the distance of strokes.
 fn without_spacing(
     source: &SourcePicture,
     marks: &Marks,
@@ -412,7 +411,7 @@ fn without_spacing(
     }
 }
 
-/// Points of the line of a mark; none for other areas.
+/// Points of the line of a mark. Other areas have none.
 fn points(mark: &Mark) -> &[[f64; 2]] {
     match &mark.area {
         MarkedArea::Scribble(points) => points,

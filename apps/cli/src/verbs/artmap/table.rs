@@ -66,7 +66,7 @@ pub(super) fn heights_mm(sample: &Sample) -> Option<[f64; 2]> {
     Some([sum / sample.texels().max(1) as f64, most])
 }
 
-/// Names of the pigments of a set; empty without paint.
+/// Names of the pigments of a set. This is empty without paint.
 pub(super) fn pigment_names(set: &SampleSet) -> Vec<String> {
     set.paint.as_ref().map(PaintOfSamples::pigment_names).unwrap_or_default()
 }

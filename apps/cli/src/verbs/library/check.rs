@@ -1,6 +1,5 @@
-//! `impasto library check`: checks a library for faults and doubtful pigments.
-//!
-//! `impasto library diff`: compares two libraries in colour.
+//! `impasto library check` checks a library for faults and doubtful pigments, and `impasto library
+//! diff` compares two libraries in colour.
 
 use std::path::PathBuf;
 
@@ -15,7 +14,7 @@ use crate::failure::{Failure, Result};
 use crate::library_choice::chosen;
 use crate::readings::{ViewingOptions, library, remark_coverage, viewing};
 
-/// Number of worst samples that are printed; chosen by eye.
+/// Number of worst samples that we print, chosen by eye.
 const WORST: usize = 3;
 
 /// Check a library for faults and doubtful pigments

@@ -1,13 +1,7 @@
-//! `impasto library convert`: converts a library to another grid, white or kind of amounts, or
-//! makes one from a table of K and S.
-//!
-//! Options of `merge` and `convert` for resampling curves to another grid.
-//!
-//! `impasto library merge`: merges libraries into one.
-//!
-//! `impasto library rename`: renames pigments.
-//!
-//! `impasto library subset`: keeps some pigments of a library.
+//! `impasto library convert` converts a library to another grid, white or kind of amounts, or makes
+//! one from a table of K and S. `merge` merges libraries into one, `rename` renames pigments, and
+//! `subset` keeps the pigments that you name. The options for resampling curves to another grid are
+//! here too.
 
 use std::path::{Path, PathBuf};
 
@@ -209,7 +203,7 @@ pub(super) struct ResamplingOptions {
 }
 
 impl ResamplingOptions {
-    /// Interpolation given by the option; `None` if it is absent.
+    /// Interpolation that you give by the option, `None` if it is absent.
     pub(super) fn method(self) -> Option<Interpolation> {
         self.interpolation.map(|name| match name {
             InterpolationName::Linear => Interpolation::Linear,

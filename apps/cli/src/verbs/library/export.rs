@@ -1,6 +1,5 @@
-//! `impasto library export`: writes a library in formats of other programs.
-//!
-//! `impasto library from-rgb`: guesses a pigment from a colour.
+//! `impasto library export` writes a library in formats of other programs, and `impasto library
+//! from-rgb` guesses a pigment from a colour, e.g. `#c9a227`.
 
 use std::path::PathBuf;
 
@@ -69,7 +68,7 @@ pub(super) struct Export {
 }
 
 impl Export {
-    /// The format: that of `--to`, else that of the output's ending.
+    /// The format that you give by `--to`, else the format that follows from the output's ending.
     fn format(&self, console: &mut Console<'_>) -> Result<Format> {
         let ending = self.output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let named = ending.as_deref().and_then(|ending| Format::from_str(ending, true).ok());

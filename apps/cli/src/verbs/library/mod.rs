@@ -1,8 +1,5 @@
-//! `impasto library`: inspects, merges and changes pigment libraries.
-//!
-//! `impasto library list`: lists the pigments with their colours.
-//!
-//! `impasto library show`: prints the curves of one pigment.
+//! `impasto library` inspects, merges and changes pigment libraries. For example, `list` prints the
+//! pigments with their colours, and `show` prints the curves of the pigment that you name.
 
 mod convert;
 mod export;

@@ -1,10 +1,6 @@
-//! A subject, and the files that it is painted into.
-//!
-//! Options for the brushwork: maps from files or painted in a style, and the regions they are for.
-//!
-//! Options for paintings with pigments.
-//!
-//! A folder of OpenEXR frames.
+//! A subject, and the files that we paint it into. This file also holds the options for the
+//! brushwork (maps that you give as files or by a style, and the regions they are for) and for
+//! paintings with pigments, and a folder of OpenEXR frames.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -1,6 +1,5 @@
-//! `impasto painterly`: paints 3D models and pictures in the brushwork of art maps.
-//!
-//! Options for directions of strokes and the depth of a picture.
+//! `impasto painterly` paints 3D models and pictures in the brushwork of art maps. You can give
+//! directions of strokes, and the depth of a picture.
 
 mod job;
 

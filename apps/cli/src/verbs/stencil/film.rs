@@ -1,8 +1,6 @@
-//! The frames of a script in their order.
-//!
-//! Single pictures of a world, and their files.
-//!
-//! Moments of a script beside the frames of its animation, from which an interrupted one goes on.
+//! We make the frames of a script in their order, and single pictures of a world with their files.
+//! Beside the frames of an animation we keep moments of the script, from which you can continue an
+//! interrupted one.
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +29,7 @@ use crate::pictures::{OpenExports, PX_MM};
 use crate::progress::waited;
 use crate::technique::{painted, write_stages};
 
-/// A script whose frames are made.
+/// A script, and the frames that we make of it.
 pub(super) struct Film<'a> {
     pub(super) script: &'a OpenScript,
     pub(super) scene: &'a Scene,
@@ -209,8 +207,8 @@ impl Snapshots {
         }
     }
 
-    /// Finds the snapshots of this `wish` in the folder of its frames. Others, and damaged ones,
-    /// are told and not used.
+    /// Finds the snapshots of this `wish` in the folder of its frames. If some belong to another
+    /// wish or are damaged, we say so and do not use them.
     pub(super) fn find(
         folder: &Path,
         wish: String,
@@ -283,7 +281,7 @@ impl Snapshots {
     }
 }
 
-/// Name of the file of a frame; indices count from 0, names from 1.
+/// Name of the file of a frame. Indices count from 0, names from 1.
 fn file_name(frame: usize) -> String {
     format!("frame-{:04}.world", frame + 1)
 }

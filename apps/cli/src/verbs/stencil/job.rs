@@ -1,6 +1,4 @@
-//! One run: what is painted, and into which files.
-//!
-//! The summary of a finished run.
+//! One run: the scene that you paint, the files that we write, and the summary at the end.
 
 use std::path::{Path, PathBuf};
 

@@ -1,12 +1,6 @@
-//! All options of the verb.
-//!
-//! Options for what is poured, and for how long.
-//!
-//! Options for painting with measured pigments.
-//!
-//! Options for settings: a preset, a file, single settings.
-//!
-//! Options and files of everything that is written beside an animation.
+//! All options of the verb. For example, you say how much paint to pour and for how long, which
+//! measured pigments to paint with, which preset, file or single settings to use, and which files
+//! to write beside an animation.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -78,13 +72,13 @@ pub(crate) struct Stencil {
     pub(super) pigments: PigmentOptions,
 }
 
-/// Parses what pictures show; an error lists the names.
+/// Parses the subject of pictures. Errors list the names.
 fn shows() -> impl TypedValueParser<Value = Show> {
     let names = PossibleValuesParser::new(Show::ALL.map(Show::name));
     names.try_map(|name| name.parse::<Show>())
 }
 
-/// Paint of a pour whose amount is not given, in mm3: a film of 0.02 mm on a disc 60 mm wide.
+/// Paint in mm3 of a pour if you give no amount. This is a film of 0.02 mm on a disc 60 mm wide.
 const AMOUNT_MM3: f64 = 60.0;
 /// Longest time over which such paint flows, in seconds.
 const FLOW_S: f64 = 3.0;
@@ -212,7 +206,7 @@ fn place(text: &str) -> Result<([f64; 2], f64)> {
     ))
 }
 
-/// Reads `NAME=PART,NAME=PART`; a name alone has one part.
+/// Reads `NAME=PART,NAME=PART`. A name alone has one part.
 fn parts(text: &str, library: &PigmentLibrary) -> Result<Vec<(String, f64)>> {
     let wrong = || {
         Failure::usage(
@@ -340,7 +334,7 @@ impl PigmentOptions {
         Ok(Some(VolumePigments { library, slots, own_colors: None, ground, lighting }))
     }
 
-    /// No pigments; refuses options that are of pigments.
+    /// Refuses options for pigments, since there are none.
     fn without_library(&self) -> Result<Option<VolumePigments>> {
         let given = [
             ("--ground", self.ground.is_some()),
@@ -494,7 +488,7 @@ impl MeshFolder {
     }
 }
 
-/// Name of the file of a frame; indices count from 0, names from 1.
+/// Name of the file of a frame. Indices count from 0, names from 1.
 fn file_name(index: usize) -> String {
     format!("frame-{:04}.ply", index + 1)
 }

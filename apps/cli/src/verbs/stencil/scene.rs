@@ -1,8 +1,5 @@
-//! The scene, its cameras and its script.
-//!
-//! The cameras of a script.
-//!
-//! The steps of the pictures of a run.
+//! The scene, its script, the cameras of this script, and the steps at which we make the pictures
+//! of a run.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +24,7 @@ pub(super) struct OpenScript {
     pub(super) script: Script,
     /// Name of the file and its text.
     file: Option<(String, String)>,
-    /// Number of its own pours; later ones are of the command line.
+    /// Number of its own pours. You gave the later ones on the command line.
     own_pours: usize,
     /// Whether the command line gives the duration.
     seconds_given: bool,
@@ -38,7 +35,7 @@ pub(super) struct OpenScript {
 /// A scene ready to be painted.
 pub(super) struct Scene {
     pub(super) mesh: Mesh,
-    /// Cameras of the frames; one for a camera that stands still.
+    /// Cameras of the frames. If the camera stands still, this is one.
     pub(super) cameras: Vec<Camera>,
     /// Width and height of a picture in pixels.
     pub(super) size: (usize, usize),

@@ -1,6 +1,7 @@
-//! Guides: lines drawn by hand along which strokes run, over a view of a model or over a picture.
+//! Guides are lines that you draw by hand over a view of a model or over a picture. Strokes run
+//! along them.
 //!
-//! They are written in a TOML file:
+//! You write them in a TOML file, for example:
 //!
 //! ```toml
 //! picture = "view.png"
@@ -11,9 +12,10 @@
 //! points = [[10, 20], [40, 25], [90, 60]]
 //! ```
 //!
-//! Places are pixels from the upper left corner of a picture of `size_px`, which may be fractions.
-//! Strokes run along a line. What flows, flows from its first point to its last. `camera` belongs
-//! to views of models: degrees around the model, above the horizon, and of the field of view.
+//! Places are pixels from the upper left corner of a picture of `size_px`. They may be fractions.
+//! Strokes run along a line. Anything that flows goes from its first point to its last. You give
+//! `camera` for views of models: degrees around the model, above the horizon, and of the field of
+//! view.
 
 mod on_mesh;
 
@@ -76,8 +78,8 @@ impl Guides {
         })
     }
 
-    /// The camera from which a model of these vertices was drawn upon, `None` if the guides do not
-    /// tell.
+    /// The camera from which you drew on a model of these vertices, `None` if the guides do not
+    /// say.
     #[must_use]
     pub fn camera_around(&self, positions: &[[f32; 3]]) -> Option<Camera> {
         let [azimuth_deg, elevation_deg, field_of_view_deg] = self.camera?;
@@ -250,7 +252,7 @@ fn steps(points: &[[f64; 2]], scale: DVec2) -> impl Iterator<Item = Step> {
     })
 }
 
-/// The way out where the parser knows none.
+/// The hint if the parser has none.
 const KEYS: &str = "keys are picture, size_px and camera, and points in each [[guide]]";
 
 /// The whole file, with the places of its points.
@@ -264,7 +266,7 @@ struct FileOfGuides {
     guide: Vec<EntryOfGuide>,
 }
 
-/// A list of `N` numbers: serde takes an array of more for one of `N`.
+/// A list of exactly `N` numbers. We need this because serde takes an array of more for one of `N`.
 #[derive(Deserialize)]
 #[serde(try_from = "Vec<T>")]
 struct Exactly<T, const N: usize>([T; N]);

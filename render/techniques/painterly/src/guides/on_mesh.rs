@@ -1,4 +1,4 @@
-//! Guides laid on a model, or on a picture of any size.
+//! We lay guides on a model, or on a picture of any size.
 
 use std::collections::BTreeMap;
 
@@ -27,8 +27,9 @@ struct View<'a> {
 
 impl Guides {
     /// Lays the guides on the surface of `mesh` that `camera` sees in a picture of `size_px`. In
-    /// steps of at most 1 px a direction is given to the nearest corner of the triangle seen there.
-    /// Directions of one line at one vertex are averaged. Lines have gaps where nothing is seen.
+    /// steps of at most 1 px, we give a direction to the nearest corner of the triangle that you
+    /// see there. We average the directions of one line at one vertex. Lines have gaps where they
+    /// meet nothing.
     ///
     /// # Errors
     /// [`GuidesError`] if the guides are not on their picture, see [`Self::check`], or a guide sees
@@ -83,8 +84,8 @@ impl<'a> View<'a> {
     }
 
     /// The vertex nearest to the surface point of a step, and the unit direction of the line over
-    /// the triangle there. The plane of the triangle is met, not the next surface point, so that a
-    /// step over an edge to another surface has no direction towards it.
+    /// the triangle there. We meet the plane of this triangle, not the next surface point, so that
+    /// a step over an edge to another surface does not point towards it.
     fn direction(&self, step: Step) -> Option<(u32, DVec3)> {
         let fragment = self.visible[(step.at.x as usize, step.at.y as usize)];
         if fragment.triangle == NO_TRIANGLE {
@@ -128,8 +129,8 @@ pub struct GuideSample {
 }
 
 impl Guides {
-    /// Places along all guides, one after the other, in steps of at most 1 px of a picture of
-    /// `width` x `height` pixels, to which the picture of the guides is scaled.
+    /// Places along all guides, one after the other, in steps of at most 1 px. You give the size of
+    /// a picture, `width` x `height` pixels, and we scale the guides to it.
     ///
     /// # Errors
     /// [`GuidesError`] if the guides are not on their picture, see [`Self::check`].

@@ -191,7 +191,7 @@ fn turns(settings: &Settings, degrees: f32) -> Vec<[StrokeSplat; 2]> {
     let cameras = Framing::default().fit_turntable(&mesh.positions, (360.0 / degrees) as usize);
     let [before, after] =
         [0, 1].map(|at| painter.splats(&cameras[at], (300, 300), 0.0).unwrap().1.concat());
-    // Splats have no name. A start in the map that no other has serves as one.
+    // Splats have no name, so we use their start in the map, which no other splat has.
     fn key(splat: &StrokeSplat) -> [u32; 2] {
         splat.offset.map(f32::to_bits)
     }

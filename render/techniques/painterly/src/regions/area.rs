@@ -1,4 +1,4 @@
-//! Which region a place of a subject belongs to, and how it is painted.
+//! Finds the region that a place of a subject belongs to, and how we paint it.
 
 use glam::Vec2;
 use graphics::field::Field;
@@ -15,7 +15,6 @@ const MOST_PX: f32 = 2048.0;
 pub(crate) struct Style {
     /// Index of the map.
     pub(crate) map: usize,
-    /// Size of strokes relative to the settings.
     pub(crate) size: f32,
     /// Lengths of the map by which strokes move in a loop.
     pub(crate) periods: u32,
@@ -23,11 +22,10 @@ pub(crate) struct Style {
     pub(crate) twinkle: f32,
     /// Number of changes to lighter and darker in a loop.
     pub(crate) twinkles: u32,
-    /// Darkest and lightest tone.
     pub(crate) tones: [f32; 2],
 }
 
-/// The regions of a subject, 0 is what no region covers.
+/// The regions of a subject. Region 0 is everything that you give no region.
 #[derive(Debug, Clone)]
 pub(crate) struct RegionMap {
     /// One more than the list of regions: everything else comes first.
@@ -184,7 +182,7 @@ fn pixel<T>(field: &Field<T>, share: Vec2) -> (usize, usize) {
     (at(share.x, field.width()), at(share.y, field.height()))
 }
 
-/// Whether a point lies in a polygon, by the even-odd rule.
+/// Whether a point lies in a polygon. We use the even-odd rule.
 fn within(points: &[[f32; 2]], at: Vec2) -> bool {
     let mut inside = false;
     let mut last = Vec2::from(points[points.len() - 1]);

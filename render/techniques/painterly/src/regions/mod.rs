@@ -1,5 +1,5 @@
-//! Regions of a subject that are painted in another way than the rest: their data, their TOML files
-//! and the faults of those.
+//! Regions of a subject that you paint in another way than the rest, for example the sky with
+//! longer strokes. This file holds their data, their TOML files and the faults of those files.
 
 mod area;
 
@@ -29,7 +29,7 @@ pub struct Regions {
     pub labels: Option<Field<[u8; 3]>>,
 }
 
-/// How a part of a subject is painted. What is `None` is as everywhere else.
+/// How you paint a part of a subject. Everything that is `None` stays as it is elsewhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
     /// Name for messages.
@@ -62,12 +62,12 @@ pub enum RegionArea {
     Polygon(Vec<[f32; 2]>),
     /// Where the picture of labels has this colour, encoded sRGB.
     Label([u8; 3]),
-    /// All of these parts of a model: materials with this name.
+    /// All parts of a model with this material.
     Material(String),
 }
 
 impl Region {
-    /// A region that differs in nothing.
+    /// A region that changes nothing yet.
     #[must_use]
     pub fn new(name: &str, area: RegionArea) -> Self {
         Self {

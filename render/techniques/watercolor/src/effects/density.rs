@@ -1,10 +1,10 @@
 //! The density of pigment: colours made deeper and paler.
 //!
-//! Bousseau, Kaplan, Thollot and Sillion 2006, section 3.2: a colour C at density d becomes
-//! `C (1 - (1 - C) (d - 1))`. So d = 1 keeps the colour and d = 2, two glazes, squares it.
-//! A texture T sets the density `d = 1 + strength (T - pivot)`, where the pivot is 0.5 for
-//! textures that vary about their mean, and 0 for edges, which only add density. Densities
-//! below 0 count as 0.
+//! We follow Bousseau, Kaplan, Thollot and Sillion 2006, section 3.2. A colour C at density d
+//! becomes `C (1 - (1 - C) (d - 1))`. For example, d = 1 keeps the colour and d = 2, two glazes,
+//! squares it. A texture T sets the density `d = 1 + strength (T - pivot)`. The pivot is 0.5 for
+//! textures that vary about their mean, and 0 for edges, which only add density. Densities below 0
+//! count as 0.
 
 use pulp::Simd;
 use rayon::prelude::*;
@@ -25,12 +25,13 @@ pub struct DensityLayer<'a> {
     pub pivot: f32,
 }
 
-/// Brings `color` to the density `overall` (0 and up, 1 keeps it), then applies
-/// each of `layers`, one after the other. `mask`, 0 to 1, scales the change of each layer. Bare
-/// paper and colours of density 1 keep their bits.
+/// Brings `color` to the density `overall` (0 and up, 1 keeps it), then applies `layers` one after
+/// the other. Where you pass a `mask`, 0 to 1, it scales the change of each layer. Bare paper and
+/// colours of density 1 keep their bits.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.

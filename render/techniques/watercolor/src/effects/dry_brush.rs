@@ -1,11 +1,10 @@
-//! A brush with little water: it touches the heights of the paper, and the hollows stay
-//! bare.
+//! A brush with little water. It touches the heights of the paper, and the hollows stay bare.
 //!
-//! Bousseau et al. 2006, section 3.2: a threshold of the paper's height. Below the
-//! threshold paint fades out over a small band, so that its edge has no steps. Near outlines
-//! and in dark washes the brush is wet: a painter lays darks and contours with care.
+//! We take a threshold of the paper's height (Bousseau et al. 2006, section 3.2). Below this
+//! threshold paint fades out over a small band, so that its edge has no steps. Near outlines and in
+//! dark washes the brush is wet, since a painter lays darks and contours with care.
 //!
-//! [`color_mask`] limits the brush to pixels of about one colour.
+//! Use [`color_mask`] to limit the brush to pixels of about one colour.
 
 use graphics::compute::{ColorImage, Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use graphics::field::Field;
@@ -21,8 +20,8 @@ pub struct DryBrushReach {
     pub threshold: f32,
     /// Range of heights below the threshold over which paint fades out, above 0.
     pub softness: f32,
-    /// How much the dry brush keeps to patches, 0 to 1: at 0 it is dry everywhere, at 1 only
-    /// where the wash flows thinly.
+    /// How much the dry brush keeps to patches, 0 to 1. At 0 it is dry everywhere. At 1 it is dry
+    /// only where the wash flows thinly.
     pub patches: f32,
     /// How fast the brush becomes wet with the strength of an outline ([`super::edges`]). At 0
     /// it passes over outlines.
@@ -56,13 +55,14 @@ impl DryBrushReach {
     }
 }
 
-/// Reduces the coverage of `color` to what a dry brush leaves on paper of `heights` (0 to 1)
-/// where the wash has this `flow`. `edges` are the outlines that it keeps from. Without them
-/// it passes over outlines. `mask`, 0 to 1, is where the brush is dry. Without one it is
-/// dry everywhere.
+/// Reduces the coverage of `color` to the share that a dry brush leaves on paper of `heights` (0 to
+/// 1) where the wash has this `flow`. The brush keeps away from the outlines in `edges`. If you
+/// pass none, it passes over outlines. `mask`, 0 to 1, says where the brush is dry. If you pass
+/// none, it is dry everywhere.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.
@@ -237,7 +237,8 @@ fn lab_from_encoded(xyz_from_linear: &[[f32; 3]; 3], encoded: [f32; 3]) -> [f32;
 /// between, multiplied by `mask`.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.

@@ -1,18 +1,17 @@
 //! Edges of washes: dark where pigment gathers at their rim, and uneven where they follow the
 //! grain of the paper (Bousseau et al. 2006, section 3.2).
 //!
-//! [`edges`] is the texture that makes rims denser: the symmetric gradient
-//! `|p(x-1) - p(x+1)| + |p(y-1) - p(y+1)|` of the picture over white paper, averaged over
-//! red, green and blue. The picture may be blurred before, which widens edges. At the
-//! border between paint and bare paper even pale pigment gathers, so the gradient of the
-//! coverage replaces the one of the colour where it is greater. Values are 0 to 2. Outside the
-//! picture, its outermost pixels are repeated.
+//! [`edges`] is the texture that makes rims denser. We take the symmetric gradient `|p(x-1) -
+//! p(x+1)| + |p(y-1) - p(y+1)|` of the picture over white paper, averaged over red, green and blue.
+//! You can blur the picture before, which widens edges. At the border between paint and bare paper
+//! even pale pigment gathers, so there we use the gradient of the coverage if it is greater. Values
+//! are 0 to 2. Outside the picture we repeat its outermost pixels.
 //!
-//! [`wobble`] displaces the picture by the slopes of the paper: x by the horizontal gradient of
-//! its height and y by the vertical one. Colours are interpolated linearly between pixels,
-//! weighted by coverage, so that the colour of bare paper never mixes in. Where the grain is too
-//! fine for the pixels of the picture, the paper may have a finer grid. A pixel is then the mean
-//! of one displaced sample for each of its cells, as if a larger picture had been reduced.
+//! [`wobble`] displaces the picture by the slopes of the paper: x by the horizontal gradient of its
+//! height and y by the vertical one. We interpolate colours linearly between pixels and weight them
+//! by coverage, so that the colour of bare paper never mixes in. If the grain is too fine for the
+//! pixels of the picture, you can give the paper a finer grid. A pixel is then the mean of one
+//! displaced sample for each of its cells, as if we had reduced a larger picture.
 
 use graphics::compute::{ColorImage, Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
 use graphics::field::Field;
@@ -25,7 +24,8 @@ use rayon::prelude::*;
 /// standard deviation `width_px` (0 and up).
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If another form of [`Compute`] made the image.
@@ -75,9 +75,7 @@ pub(crate) fn edges_on_cpu(color: &Field<[f32; 4]>, width_px: f32) -> Field<f32>
 struct Scratch {
     /// One row over white paper, its ends repeated.
     line: Vec<[f32; 4]>,
-    /// Rows blurred horizontally.
     sideways: Vec<[f32; 4]>,
-    /// Rows blurred in both directions.
     blurred: Vec<[f32; 4]>,
 }
 
@@ -184,7 +182,6 @@ struct EdgeBlurParams {
     along: [u32; 2],
     /// Index of the first weight in the batch.
     first: u32,
-    /// Number of weights.
     count: u32,
     /// 1 if the pixels have yet to be composited over white paper.
     bare: u32,
@@ -241,13 +238,14 @@ fn edges_on_gpu(
     Ok(edges)
 }
 
-/// Displaces `color` by `px_per_slope` times the slope of `heights`: the height to the right
-/// minus the height to the left, and below minus above. Beyond the borders both images continue
-/// with their outermost pixels. A `px_per_slope` of 0 changes nothing. The heights have the
-/// size of the picture, or a whole multiple of it.
+/// Displaces `color` by `px_per_slope` times the slope of `heights`. This slope is the height to
+/// the right minus the height to the left, and below minus above. Beyond the borders both images
+/// continue with their outermost pixels. If you pass a `px_per_slope` of 0, nothing changes. The
+/// heights have the size of the picture, or a whole multiple of it.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.

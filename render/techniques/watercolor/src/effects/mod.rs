@@ -1,7 +1,7 @@
 //! The effects of watercolor on a picture, one file each.
 //!
-//! Each effect is a function over [`graphics::compute::Compute`] with a form for the
-//! processor, which is its specification, and a kernel that agrees with it to rounding.
+//! Each effect is a function over [`graphics::compute::Compute`]. It has a form for the processor,
+//! which is the specification, and a kernel that agrees with this form to rounding.
 
 mod density;
 mod edges;

@@ -1,8 +1,8 @@
 //! The last step of a watercolor: paint composited on coloured paper, with its grain in
 //! the light.
 //!
-//! Watercolor is transparent: its colour is multiplied with the paper's. Light comes
-//! from the upper left, so slopes that face it are lighter.
+//! Watercolor is transparent, so we multiply its colour with the paper's. Light comes from the
+//! upper left. Slopes that face this light are brighter.
 
 use rayon::prelude::*;
 
@@ -37,7 +37,8 @@ impl PaperShading {
 /// covered everywhere. White paper without relief keeps the bits of fully covered pixels.
 ///
 /// # Errors
-/// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+/// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+/// processor.
 ///
 /// # Panics
 /// If sizes differ, or another form of [`Compute`] made an image.

@@ -17,20 +17,21 @@ const FRONT: f32 = 0.02;
 /// Least width over which the rim begins, in pixels.
 const FRONT_PX: f32 = 0.75;
 
-/// How far the front reaches outwards and inwards in lobes of three sizes: the radius of the circle in
-/// the noise that they are taken from (each unit of its length holds a lobe), and their height as a
-/// share of the radius of the bloom. Noise on a circle leaves the front in one piece. Chosen by eye.
+/// How far the front reaches outwards and inwards, in lobes of three sizes. Each pair holds the
+/// radius of the circle in the noise that we take the lobes from (each unit of its length holds a
+/// lobe), and their height as a share of the radius of the bloom. Noise on a circle leaves the
+/// front in one piece. We chose this by eye.
 const LOBES: [(f32, f32); 3] = [(1.2, 0.20), (3.0, 0.18), (7.0, 0.08)];
 
-/// Currents that bend the front: waves over the width of the largest bloom, and how far they carry
-/// it, as a share of the radius. Chosen by eye.
+/// Currents that bend the front. The first number counts waves over the width of the largest bloom.
+/// The second says how far they carry the front, as a share of the radius. We chose this by eye.
 const CURRENTS: (f32, f32) = (9.0, 0.17);
 
 /// Distance from the middle that a front reaches at most, as a share of the radius.
 const REACH: f32 = 1.6;
 
-/// Darkness of the rim on black, as a share of that on white: a thick wash shows pigment that is
-/// added less. Chosen by eye.
+/// Darkness of the rim on black, relative to the rim on white: in a thick wash you see added
+/// pigment less. We chose this by eye.
 const ON_BLACK: f32 = 0.3;
 
 /// Length and width of a bloom, as shares of its diameter. Chosen by eye.
@@ -43,7 +44,6 @@ const PALE: f32 = 0.3;
 /// second on in another: wider than the steps of a gradient. Chosen by eye.
 const ONE_WASH: [f32; 2] = [0.25, 0.4];
 
-/// A bloom of water.
 #[derive(Debug, Clone, Copy)]
 struct Bloom {
     x: f32,
@@ -68,10 +68,10 @@ impl Bloom {
     }
 }
 
-/// The change of density by back-runs, 0 to 1: 0.5 changes nothing, less is paler, more is
-/// darker. Water carries the pigment from a bloom to its rim. `wash` has the colours that water
-/// falls into, encoded sRGB with coverage: a bloom stays in a wash of about one colour, and
-/// bare paper has none.
+/// The change of density by back-runs, 0 to 1: 0.5 changes nothing, less is paler, more is darker.
+/// Water carries the pigment from a bloom to its rim. You pass the colours that water falls into as
+/// `wash`, encoded sRGB with coverage. A bloom stays in a wash of about one colour. Bare paper has
+/// no blooms.
 #[must_use]
 pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f32> {
     let width = wash.width();

@@ -1,6 +1,6 @@
 //! Textures of pigment, water and paper, which change the density of paint.
 //!
-//! The processor computes them once, from seeds or scans. Values lie in 0..1 with a mean of
+//! We compute them once on the processor, from seeds or scans. Values lie in 0..1 with a mean of
 //! about 0.5.
 
 mod noise;
@@ -26,7 +26,7 @@ pub struct Textures {
     pub dispersion: Field<f32>,
     /// Heights and measures of the paper.
     pub paper: PaperTexture,
-    /// Touch of the dry brush. Without it the heights of the paper decide.
+    /// Touch of the dry brush. If this is `None`, the heights of the paper decide.
     pub touch: Option<BrushTouch>,
     /// Change of density by back-runs, 0 to 1, with 0.5 for none.
     pub back_runs: Option<Field<f32>>,
@@ -39,8 +39,8 @@ const PAPER_SCALE_PX: usize = 1000;
 const MOST_CELLS: usize = 8;
 
 impl Textures {
-    /// Computes the textures of a picture of `width` x `height` pixels. `settings` are those
-    /// for this size ([`Settings::for_size`]).
+    /// Computes the textures of a picture of `width` x `height` pixels. You pass the `settings` for
+    /// this size ([`Settings::for_size`]).
     ///
     /// # Errors
     /// [`PaperTextureError`] if the paper's scan cannot be read or the paper cannot be made.
@@ -59,9 +59,9 @@ impl Textures {
         })
     }
 
-    /// Textures of a picture of a photograph: [`Self::new`] with back-runs, and with finer
-    /// heights of the paper in pictures too small for its grain (below 1000 pixels). `wash` has
-    /// the colours that back-runs flow into ([`back_runs`]).
+    /// Textures of a picture of a photograph. This is [`Self::new`] with back-runs, and with finer
+    /// heights of the paper in pictures too small for its grain (below 1000 pixels). `wash` has the
+    /// colours that back-runs flow into ([`back_runs`]).
     ///
     /// # Errors
     /// [`PaperTextureError`] if the paper's scan cannot be read or the paper cannot be made.
@@ -83,7 +83,8 @@ impl Textures {
     /// Copies the textures into the memory of `compute`.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub fn upload(self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
         let heights = compute.upload(&self.paper.heights)?;
         self.with_heights(heights, compute)
@@ -93,7 +94,8 @@ impl Textures {
     /// of the heights, which [`PaperImage::texture`] then lacks.
     ///
     /// # Errors
-    /// [`DeviceError`] if a device runs out of memory or is lost, which the processor never does.
+    /// [`DeviceError`] if the device runs out of memory or is lost. This never happens on the
+    /// processor.
     pub(crate) fn give(mut self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
         let heights = std::mem::replace(&mut self.paper.heights, Field::filled(0, 0, 0.0));
         let heights = compute.give(heights)?;
@@ -130,7 +132,7 @@ pub struct TextureImages {
     pub dispersion: GreyImage,
     /// Heights and measures of the paper.
     pub paper: PaperImage,
-    /// Touch of the dry brush. Without it the heights of the paper decide.
+    /// Touch of the dry brush. If this is `None`, the heights of the paper decide.
     pub touch: Option<(GreyImage, Quantiles)>,
     /// Change of density by back-runs, 0 to 1, with 0.5 for none.
     pub back_runs: Option<GreyImage>,

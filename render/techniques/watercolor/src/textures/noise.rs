@@ -1,5 +1,5 @@
-//! Noise of pigment: clouds carried by the water of a wet wash, grains that gather in flocks of
-//! several sizes, and the quantiles of such a texture.
+//! Noise of pigment: clouds carried by the water of a wet wash, and grains that gather in flocks of
+//! several sizes. You also find the quantiles of such a texture here.
 
 use graphics::field::Field;
 use graphics::noise::{Hills, random};

@@ -22,8 +22,8 @@ const BUMP_MM: f64 = 1.3;
 /// Standard deviation of the heights of cold-pressed paper and of scans. Chosen by eye.
 const SPREAD: f64 = 0.18;
 
-/// Height difference between black and white of a scan in mm: an assumption, close to
-/// the relief of cold-pressed paper.
+/// Height difference between black and white of a scan in mm. We assume this. It is close to the
+/// relief of cold-pressed paper.
 const SCAN_MM: f64 = 0.1;
 
 /// Largest width or height of a scaled scan in pixels.
@@ -32,9 +32,9 @@ const LARGEST: usize = 16384;
 /// Heights of a paper, with the measures that effects need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperTexture {
-    /// Heights in 0..1, with a mean of 0.5. The standard deviation is 0.18 for cold-pressed
-    /// paper and for scans. For other papers it is proportional to their relief in mm. Values
-    /// outside 0..1 are clipped.
+    /// Heights in 0..1, with a mean of 0.5. The standard deviation is 0.18 for cold-pressed paper
+    /// and for scans. For other papers it is proportional to their relief in mm. We clip values
+    /// outside 0..1.
     pub heights: Field<f32>,
     /// Width of a pixel in mm.
     pub px_mm: f64,
@@ -97,7 +97,7 @@ impl PaperTexture {
         Ok(Self { heights, px_mm, unit_mm, depth: depth as f32, slope, quantiles, fine: None })
     }
 
-    /// Adds heights on a grid `factor` times as fine, by which outlines are displaced
+    /// Adds heights on a grid `factor` times as fine, by which we displace outlines
     /// ([`super::super::wobble`]). A factor of 1 adds none. `settings` belong to this paper.
     ///
     /// # Errors
@@ -139,8 +139,8 @@ impl PaperTexture {
         if self.slope > 0.0 { amount / self.slope } else { 0.0 }
     }
 
-    /// [`Self::per_slope`] times the relief of the paper relative to cold-pressed paper, so that
-    /// `amount` is reached on cold-pressed paper.
+    /// [`Self::per_slope`] times the relief of the paper relative to cold-pressed paper. You reach
+    /// `amount` on cold-pressed paper.
     #[must_use]
     pub fn relief_per_slope(&self, amount: f32) -> f32 {
         self.per_slope(amount * self.depth)
@@ -274,8 +274,8 @@ pub struct BrushTouch {
 }
 
 impl BrushTouch {
-    /// The touch of the strokes of `settings` on `paper`. `None` if the brush is not dry or
-    /// has no streaks, so that the heights of the paper alone decide.
+    /// The touch of the strokes of `settings` on `paper`. This is `None` if the brush is not dry or
+    /// has no streaks. Then the heights of the paper alone decide.
     #[must_use]
     pub fn new(
         paper: &PaperTexture,
