@@ -25,7 +25,9 @@ use crate::optics::Scene;
 /// bug, and the call panics.
 #[derive(Debug)]
 pub enum PaintEngine {
+    /// On the processor.
     Cpu(Box<CpuPaint>),
+    /// On a graphics device.
     Gpu(Box<GpuPaint>),
 }
 
