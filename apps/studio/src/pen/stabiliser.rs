@@ -1,19 +1,21 @@
 //! Steadies the way of a brush. It follows the places of the pen by a rule without time:
-//! | \- Average: the brush is at the mean of the last length of the pen's way. Each part weighs as
-//! much
+//!
+//! - Average: the brush is at the mean of the last length of the pen's way. Each part weighs as much
 //!   as it is long, so it does not matter how often a device reports. On a straight way the brush
 //!   stays half the length behind.
 //! - String: the pen pulls the brush by a string. The brush moves only while the string is taut,
 //!   towards the pen.
-//! | When you lift the pen, the brush catches up with its last place.
-//! | This also derives a pressure from the speed, for devices that measure none.
-//! | A slow movement presses more: the pressure is `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`,
-//! for example 0.70 at rest, 0.475 at 500 points per second and 0.25 at very high speed. (A point
-//! is 1/96 inch, so 500 points are 132 mm.) We smooth the speed over 0.2 s and start at 500, so
-//! that every stroke begins at a moderate pressure. This pressure changes by at most the full
-//! pressure a second, because even a steady hand moves unevenly. At the start of a stroke the
-//! pressure rises from a fifth to the full value over 10 points of path or 60 ms, whichever comes
-//! first. At the end it falls to 0. All constants were chosen by eye.
+//!
+//! When you lift the pen, the brush catches up with its last place.
+//!
+//! This also derives a pressure from the speed, for devices that measure none. A slow movement
+//! presses more: the pressure is `FAST + (SLOW - FAST) / (1 + speed / MEDIUM)`, for example 0.70 at
+//! rest, 0.475 at 500 points per second and 0.25 at very high speed. (A point is 1/96 inch, so 500
+//! points are 132 mm.) We smooth the speed over 0.2 s and start at 500, so that every stroke begins
+//! at a moderate pressure. This pressure changes by at most the full pressure a second, because even
+//! a steady hand moves unevenly. At the start of a stroke the pressure rises from a fifth to the
+//! full value over 10 points of path or 60 ms, whichever comes first. At the end it falls to 0. We
+//! chose all constants by eye.
 
 use std::collections::VecDeque;
 

@@ -55,8 +55,8 @@ impl DryBrushReach {
     }
 }
 
-/// Reduces the coverage of `color` to the share that a dry brush leaves on paper of `heights` (0 to
-/// 1) where the wash has this `flow`. The brush keeps away from the outlines in `edges`. If you
+/// Reduces the coverage of `color` to the share that a dry brush leaves on paper of `heights`, from
+/// 0 to 1, where the wash has this `flow`. The brush keeps away from the outlines in `edges`. If you
 /// pass none, it passes over outlines. `mask`, 0 to 1, says where the brush is dry. If you pass
 /// none, it is dry everywhere.
 ///
