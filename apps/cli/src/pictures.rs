@@ -261,8 +261,9 @@ impl OpenExports {
             wrote.push(path.to_owned());
             write_whole(path, bytes)
         };
-        let outside =
-            waited("making the files", console, || exports.write_with(painting, &mut keep))?;
+        let outside = waited("making the files", console, || {
+            exports.write_with(painting, &mut keep).map_err(Failure::from)
+        })?;
         streamed.iter().try_for_each(|bytes| console.stream(bytes))?;
         if let Some(folder) = &exports.pigment_maps {
             wrote.retain(|path| path.parent() != Some(folder));

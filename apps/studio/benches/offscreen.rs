@@ -1,5 +1,6 @@
 //! Frames of the whole window drawn on a graphics adapter without a window system.
-//! | `cargo bench -p impasto-studio --bench offscreen [-- WIDTHxHEIGHT] [flat] [cpu] [SECONDS]`
+//!
+//! `cargo bench -p impasto-studio --bench offscreen [-- WIDTHxHEIGHT] [flat] [cpu] [SECONDS]`
 //! paints one stroke at 95 mm/s, as a hand with a mouse would. It draws frames as fast as they
 //! come, and waits for each. If you pass nothing, this uses 3840 x 2160 pixels at two a point, the
 //! round brush that the program opens with, the paint on the graphics adapter, and 10 seconds.

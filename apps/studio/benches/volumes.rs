@@ -1,6 +1,7 @@
 //! Speed of a scene of paint volumes while you work in it. This uses the worker alone, and asks for
 //! pictures as a window of 1280 x 800 does.
-//! | `cargo bench -p impasto-studio --bench volumes` pours on the village, turns it, and does both.
+//!
+//! `cargo bench -p impasto-studio --bench volumes` pours on the village, turns it, and does both.
 //! It prints pictures a second, the speed of time, and the time from a pour to the first colour.
 
 #![expect(clippy::print_stdout, reason = "a bench prints")]

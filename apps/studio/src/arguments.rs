@@ -102,7 +102,8 @@ pub struct Stop {
 
 impl Start {
     /// Parses the command line. The first argument is the program's name.
-    /// | \# Errors
+    ///
+    /// # Errors
     /// [`Stop`] for `--help` and `--version`, invalid arguments, a log file that cannot be opened,
     /// and a system without a home folder.
     pub fn from_arguments(

@@ -1,5 +1,6 @@
 //! Windows that float over canvas and panels, e.g. tables of keys and choosers of pigments.
-//! | Escape closes the topmost one. They appear beside the canvas's upper left corner, never over
+//!
+//! Escape closes the topmost one. They appear beside the canvas's upper left corner, never over
 //! the menu bar. If you open a window, the open menu closes.
 
 use eframe::egui::{Context, Id, Key, LayerId, Modifiers, Order, Popup, Rect, Ui, Window, vec2};

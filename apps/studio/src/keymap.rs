@@ -1,5 +1,6 @@
 //! Keys and their actions: standard keys, your changes, and the table in use.
-//! | A text names an action, for example `undo` or `tool-paint`. Names of actions in scenes begin
+//!
+//! A text names an action, for example `undo` or `tool-paint`. Names of actions in scenes begin
 //! with `scene.`. The window installs the tables in use in egui's context. Menus, tooltips and
 //! panels look keys up there by these names.
 
@@ -55,7 +56,8 @@ pub enum InvalidShortcut {
 
 impl Shortcut {
     /// The shortcut of a pressed key.
-    /// | \# Errors
+    ///
+    /// # Errors
     /// `InvalidShortcut` if the key or a modifier has its own meaning.
     pub fn of_press(key: Key, held: Modifiers) -> Result<Self, InvalidShortcut> {
         let reserved = |why| Err(InvalidShortcut::Reserved(why));

@@ -1,8 +1,10 @@
 //! The interactive painting program: you paint by hand with calibrated pigments.
-//! | The window thread draws and handles input. The worker thread of the crate `session` moves all
+//!
+//! The window thread draws and handles input. The worker thread of the crate `session` moves all
 //! paint. It takes [`session::Command`]s and answers with [`session::Event`]s. A panel shows the
 //! state that the worker last reported and returns commands.
-//! | Out of scope: measuring and fitting pigments (see the program `impasto`).
+//!
+//! Out of scope: measuring and fitting pigments (see the program `impasto`).
 
 pub mod theme;
 pub mod language;

@@ -1,5 +1,6 @@
 //! The pace of frames that other threads ask for: at most one for each picture of the display.
-//! | If the last frame is older than this, we draw the next at once, so a pen that begins to paint
+//!
+//! If the last frame is older than this, we draw the next at once, so a pen that begins to paint
 //! waits for nothing. Input of the window system has its own frames, which wait for the display.
 
 use web_time::{Duration, Instant};

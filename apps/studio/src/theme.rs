@@ -98,7 +98,8 @@ fn of(theme: Theme) -> Colors {
 
 /// Contrast of two opaque colours, 1 to 21: the ratio of their relative luminances, each with 5 %
 /// of stray light added.
-/// | Source: WCAG 2.2, definitions of "contrast ratio" and "relative luminance".
+///
+/// Source: WCAG 2.2, definitions of "contrast ratio" and "relative luminance".
 #[must_use]
 pub fn contrast(one: Color32, other: Color32) -> f64 {
     let one = luminance(one) + 0.05;

@@ -21,7 +21,8 @@ use session::initial_commands;
 const SMALLEST: [f32; 2] = [900.0, 600.0];
 
 /// Opens the window and returns when you close it.
-/// | \# Errors
+///
+/// # Errors
 /// [`Problem`] with a hint if there is no display or no graphics adapter that can draw in the
 /// window.
 pub fn run(start: Start) -> Result<(), Problem> {

@@ -1,12 +1,15 @@
 //! Speed and memory of the built program on a virtual screen.
-//! | `cargo bench -p impasto-studio --bench speed [-- MEASUREMENT ..] [SECONDS]` measures, by
+//!
+//! `cargo bench -p impasto-studio --bench speed [-- MEASUREMENT ..] [SECONDS]` measures, by
 //! names:
-//! | \- `round`: the round brush that the program opens with (60 cells) at 95 mm/s
+//!
+//! - `round`: the round brush that the program opens with (60 cells) at 95 mm/s
 //! - `flat`: a loaded flat of 25 mm (250 cells), as fast
 //! - `idle`: time of the processor while nobody does anything
 //! - `strokes`: memory at the start and after 200 strokes of the round brush
 //! - `large`: memory with a canvas of 8000 x 8000 cells
-//! | Without names it measures all. The window has 1920 x 1080 points. Figures of strokes come from
+//!
+//! Without names it measures all. The window has 1920 x 1080 points. Figures of strokes come from
 //! the program's option `--figures`, one line a second. You need Xvfb and a graphics adapter. A
 //! software adapter shares the processor with the paint.
 

@@ -1,6 +1,7 @@
 //! Renders the pictures of the window for the README: the real window with a real worker, without a
 //! window system, while it paints a small study.
-//! | `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
+//!
+//! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
 //! `studio-lights.png`, `studio-colour.png`, `studio-marks.png`, `studio-guides.png`,
 //! `studio-layers.png` and `studio-volumes.png` there. If you add the name `studio-volumes`, it
 //! makes only the picture of the scene. `docs/images/studio.sh` converts them to the JPEGs in

@@ -1,6 +1,7 @@
 //! Translates key presses to intents while no text field has the focus, and shows the window in
 //! which you change keys.
-//! | A tool key selects its tool. If you hold it while you use the pointer, releasing it restores
+//!
+//! A tool key selects its tool. If you hold it while you use the pointer, releasing it restores
 //! the previous tool, as in other painting programs.
 
 use std::sync::Arc;

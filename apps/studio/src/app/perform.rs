@@ -1,8 +1,10 @@
 //! Performs the intents of menus, toolbar and keyboard, and connects the window to the system:
 //! title, dropped files, performance log, closing.
-//! | This also draws what lies over the whole window, e.g. the windows of pen and own brushes, the
+//!
+//! This also draws what lies over the whole window, e.g. the windows of pen and own brushes, the
 //! quick palette and the guided tour.
-//! | [`Between`] holds the changes by a stroke between two frames. A page in a browser shows only
+//!
+//! [`Between`] holds the changes by a stroke between two frames. A page in a browser shows only
 //! this part, because a whole frame takes long without a graphics card.
 
 use std::path::{Path, PathBuf};

@@ -1,8 +1,10 @@
 //! Opens and shows the dialogs, and does what the painter answers. This also crops the painting,
 //! saves lines drawn on the reference picture, and handles the files of scenes.
-//! | The history of a painting keeps pieces of a canvas of one size. If you crop, this history
+//!
+//! The history of a painting keeps pieces of a canvas of one size. If you crop, this history
 //! ends, and a new recording begins with the part that stays.
-//! | The script of a scene is small. If you open another scene or close the window without saving,
+//!
+//! The script of a scene is small. If you open another scene or close the window without saving,
 //! the autosave of the scene stays, and the next start offers to recover it.
 
 use std::path::{Path, PathBuf};

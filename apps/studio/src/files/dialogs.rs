@@ -1,5 +1,6 @@
 //! Small dialogs: questions, export, new painting, preferences.
-//! | Enter presses the default button of a dialog. In a field, Enter just leaves the field. You
+//!
+//! Enter presses the default button of a dialog. In a field, Enter just leaves the field. You
 //! press it again, or Ctrl+Enter at any time, for the button.
 
 use std::path::Path;

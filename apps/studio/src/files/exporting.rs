@@ -65,7 +65,8 @@ impl ExportKind {
 
 /// Writes `export` of `document` under `light` to `path`. Returns a remark if colours were outside
 /// the gamut.
-/// | \# Errors
+///
+/// # Errors
 /// [`JobError`] if the export failed or was cancelled. This leaves no incomplete file, but pigment
 /// maps written before stay.
 pub(crate) fn export(
@@ -298,7 +299,8 @@ pub(super) struct Recorded {
 
 impl Recorded {
     /// Plays the recording on the processor and writes the timelapse to `path`.
-    /// | \# Errors
+    ///
+    /// # Errors
     /// [`JobError`] if it cannot be played or written, or was cancelled. This leaves no incomplete
     /// animation.
     pub(super) fn write_timelapse(

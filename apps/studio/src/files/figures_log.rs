@@ -51,7 +51,8 @@ pub struct FiguresLog {
 
 impl FiguresLog {
     /// Opens `path` for appending. If it does not exist, this creates it.
-    /// | \# Errors
+    ///
+    /// # Errors
     /// [`Problem`] if the file cannot be written.
     pub fn open(path: &Path) -> Result<Self, Problem> {
         let file = File::options().create(true).append(true).open(path);

@@ -1,6 +1,7 @@
 //! The canvas of a new painting as data: its format, its ground, and the canvases kept for the next
 //! painting.
-//! | Paper has the sizes of ISO 216 and US Letter (ANSI/ASME Y14.1). For French canvases by number
+//!
+//! Paper has the sizes of ISO 216 and US Letter (ANSI/ASME Y14.1). For French canvases by number
 //! (figure, paysage, marine) see B. Haaf, "Industriell vorgrundierte Malleinen", Zeitschrift fuer
 //! Kunsttechnologie und Konservierung 1 (1987), 7-71, as tabulated in Wikipedia, "French standard
 //! sizes for oil paintings".

@@ -1,6 +1,7 @@
 //! Reads files of any kind, and the numbered revisions of a painting. The content decides on the
 //! kind, the name does not.
-//! | Revisions lie beside `study.exr` in a folder `study.revisions`, for example as `0001.exr` with
+//!
+//! Revisions lie beside `study.exr` in a folder `study.revisions`, for example as `0001.exr` with
 //! the thumbnail `0001.png`. We keep a revision only on request, because undo and autosave cover
 //! the time between two saves.
 
@@ -286,7 +287,8 @@ pub(super) fn list(path: &Path, task: &Task) -> Result<Vec<Revision>, JobError> 
 }
 
 /// Deletes the revision in `path` with its thumbnail, and the folder if this empties it.
-/// | \# Errors
+///
+/// # Errors
 /// [`Problem`] if `path` is not a revision or cannot be removed.
 pub(super) fn delete(path: &Path) -> Result<(), Problem> {
     let beside = path.parent().and_then(Path::extension).is_some_and(|end| end == "revisions");

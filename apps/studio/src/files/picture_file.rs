@@ -31,7 +31,8 @@ pub(crate) struct ReadPicture {
 
 /// Reads a photograph, a linear OpenEXR, or a painting under its own light. Reduces it in linear
 /// light so that no side is above `longest`. A painting may take `most_bytes` of memory.
-/// | \# Errors
+///
+/// # Errors
 /// [`Problem`] if the file cannot be read as a picture.
 pub(crate) fn read_picture(
     path: &Path,

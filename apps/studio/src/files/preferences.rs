@@ -1,5 +1,6 @@
 //! The painter's preferences, a JSON file in the program's own folder.
-//! | We keep keys that this version does not know, so that older and newer versions can share the
+//!
+//! We keep keys that this version does not know, so that older and newer versions can share the
 //! file. If a value makes no sense, we report it and use the default. A file that is not JSON is
 //! renamed.
 

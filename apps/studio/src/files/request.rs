@@ -201,7 +201,8 @@ impl SwatchFormat {
     }
 
     /// Writes mixtures to a file, with their colours under the light of `weights`.
-    /// | \# Errors
+    ///
+    /// # Errors
     /// [`Problem`] if the format does not allow a name, or the file cannot be written.
     pub fn write(
         self,
@@ -222,7 +223,8 @@ impl SwatchFormat {
 }
 
 /// Reads mixtures or colours, by the extension of the file.
-/// | \# Errors
+///
+/// # Errors
 /// [`Problem`] that names the file and its fault.
 pub(super) fn read_swatches(path: &Path) -> Result<ReadSwatches, Problem> {
     let name = path.display().to_string();

@@ -1,9 +1,11 @@
 //! The languages of the window. The sources hold English texts, and each other language has a table
 //! with their translations.
-//! | You show a text through [`tr`], one with values through `tr_format`. Both look it up in the
+//!
+//! You show a text through [`tr`], one with values through `tr_format`. Both look it up in the
 //! table of the language that [`speak`] chose for this thread. If the table lacks a text, you see
 //! the English one. Tables of data hold English texts, which we translate where we show them.
-//! | Only the thread of the window chooses a language. All others speak English, as the tests do.
+//!
+//! Only the thread of the window chooses a language. All others speak English, as the tests do.
 //! The session writes labels of actions in English, so we recognise these by their pattern.
 
 use std::cell::Cell;

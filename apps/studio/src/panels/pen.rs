@@ -1,6 +1,7 @@
 //! The window of the pen: pressure curve with a test field, stabiliser, and options of single
 //! brushes.
-//! | You drag points of the curve, click to add one, and remove one with the right button or by
+//!
+//! You drag points of the curve, click to add one, and remove one with the right button or by
 //! dragging it out. A line marks the present pressure.
 
 use eframe::egui::{

@@ -66,7 +66,8 @@ pub enum PenEvent {
 }
 
 /// All devices that can paint: styluses, mice and fingers.
-/// | Call [`Pen::read_systems`] once a frame before egui processes its input, then
+///
+/// Call [`Pen::read_systems`] once a frame before egui processes its input, then
 /// [`Pen::process_frame`].
 #[derive(Debug, Default)]
 pub struct Pen {

@@ -156,7 +156,8 @@ const OLD: Duration = Duration::from_millis(200);
 pub(super) type Stamp = (Pos2, Instant);
 
 /// Reports of the window system without an event so far, in order.
-/// | The events of the window carry no times, so we match them by their places.
+///
+/// The events of the window carry no times, so we match them by their places.
 #[derive(Debug, Default)]
 pub(super) struct Stamps(VecDeque<Stamp>);
 

@@ -1,5 +1,6 @@
 //! Styluses in a page: reports of the browser's pointer events.
-//! | A browser gives every quantity a value, even if a stylus does not measure it: 0 for tilt and
+//!
+//! A browser gives every quantity a value, even if a stylus does not measure it: 0 for tilt and
 //! rotation, and 0.5 for the pressure. So we count a quantity as measured after its first other
 //! value. Some browsers on Windows 11 report 0.5 for every stylus. Then the pressure follows from
 //! the speed, as with a mouse, and we show a message.

@@ -1,8 +1,10 @@
 //! Styluses under X11, through XInput 2 on a separate connection.
-//! | Every device with an axis labelled `Abs Pressure` is a stylus. We select its events on the
+//!
+//! Every device with an axis labelled `Abs Pressure` is a stylus. We select its events on the
 //! program's window, in addition to the events of the pointer that it moves. Of other devices that
 //! move a pointer, we read only the times of their events.
-//! | In XInput, an axis of a stylus is a number within a range, and a label identifies it.
+//!
+//! In XInput, an axis of a stylus is a number within a range, and a label identifies it.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 

@@ -1,5 +1,6 @@
 //! Draws quads in the window, by our own shader or by egui's.
-//! | egui's shader contains code that filters textures itself. A software driver executes this for
+//!
+//! egui's shader contains code that filters textures itself. A software driver executes this for
 //! every pixel even if it is not needed, so it takes some twenty times as long. Our shader only
 //! samples or fills. [`quicken`] also gives it the large opaque areas of egui's widgets, e.g. the
 //! trays and cards that took more than half of a frame.

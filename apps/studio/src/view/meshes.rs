@@ -1,5 +1,6 @@
 //! Draws the meshes of the interface, above all text, with the quads' shader.
-//! | egui's shader filters textures and dithers. A software driver executes all of this for every
+//!
+//! egui's shader filters textures and dithers. A software driver executes all of this for every
 //! pixel, which took three quarters of a frame. Here a pixel is one sample of a texture times a
 //! colour.
 

@@ -1,5 +1,6 @@
 //! A picture with its mipmap levels.
-//! | Each level has half the width and height of the one below, rounded up. A cell is the mean, in
+//!
+//! Each level has half the width and height of the one below, rounded up. A cell is the mean, in
 //! linear light, of the two by two cells below it, so that a picture keeps its brightness when you
 //! zoom out. We average only the changed part again.
 

@@ -1,6 +1,7 @@
 //! The outline of a surface (a rectangle, or a palette with a thumb hole), and the brush head as a
 //! cursor: an outline seen from above, clear inside.
-//! | The cursor is a dark line with a light one in it, so that you see it on light and on dark
+//!
+//! The cursor is a dark line with a light one in it, so that you see it on light and on dark
 //! paint. It surrounds the whole head as it is bent now, and never covers the place that it paints.
 //! The handle is a line that begins outside, with a dot of the brush's paint at its end. If a head
 //! is too small for an outline, the cursor is a ring with four ticks.

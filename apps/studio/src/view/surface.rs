@@ -1,8 +1,10 @@
 //! A surface in the window: zoom and pan, its pictures, and the line between two lights.
-//! | A [`Patch`] is a rectangle of its pixels, computed on the processor. A page in a browser shows
+//!
+//! A [`Patch`] is a rectangle of its pixels, computed on the processor. A page in a browser shows
 //! a stroke by patches between its frames: without a graphics card, a browser takes 60 ms for a
 //! frame, and 8 ms for a patch.
-//! | On a palette, a line between the lights would show each heap under only one of them. To mix,
+//!
+//! On a palette, a line between the lights would show each heap under only one of them. To mix,
 //! you must see the same heap under both, so a switch shows the whole palette under the first or
 //! the second light.
 

@@ -1,10 +1,13 @@
 //! Zoom, pan, rotation and mirroring of a surface.
-//! | You choose a [`ViewState`]. A [`Placement`] is this view in a rectangle of the window at one
+//!
+//! You choose a [`ViewState`]. A [`Placement`] is this view in a rectangle of the window at one
 //! pixel density, as an affine map:
-//! | \```text
+//!
+//! \```text
 //! point = middle + M R s (cell - centre)
 //! ```
-//! | Here R is the rotation, M the mirroring (left and right of the rotated surface) and s the
+//!
+//! Here R is the rotation, M the mirroring (left and right of the rotated surface) and s the
 //! scale in points per cell. We compute it in f64, so that a position maps back to within a
 //! millionth of a cell.
 

@@ -1,5 +1,6 @@
 //! The program in a window on a virtual screen: starting, painting, saving, killing.
-//! | You need Xvfb and a graphics adapter (software is enough). Without them the tests pass and
+//!
+//! You need Xvfb and a graphics adapter (software is enough). Without them the tests pass and
 //! print a note. If the variable `IMPASTO_GPU_TESTS` names a file, each test appends the adapter's
 //! name or `none`.
 

@@ -1,6 +1,7 @@
 //! A scripted painter uses the built program. It does everything that the guides explain, and takes
 //! a picture of the screen at every station for a person to look at.
-//! | It does everything twice: in the program on its screen, and in a twin window without a screen.
+//!
+//! It does everything twice: in the program on its screen, and in a twin window without a screen.
 //! The twin has the same set-up and knows where each control is.
 
 #[expect(dead_code, reason = "the tests of the panels need more of it")]

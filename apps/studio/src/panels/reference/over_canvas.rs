@@ -1,5 +1,6 @@
 //! Tools of the pointer on the reference picture: drawing marks and guides, and picking colours.
-//! | The picture can also lie over the canvas, so that you can draw after it. It is never painted,
+//!
+//! The picture can also lie over the canvas, so that you can draw after it. It is never painted,
 //! saved or exported.
 
 use eframe::egui::epaint::{Mesh, Vertex};
