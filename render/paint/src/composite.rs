@@ -1,11 +1,14 @@
 //! Composites Kubelka-Munk layers: the internal reflectance of painted cells.
 //!
 //! The layer equations in Baxter, Wendt and Lin 2004 (eq. 8 and 9) are misprinted. You find the
-//! form with decaying exponentials at [`spectra::optics::Layer::new`] . With d = 1 over a backing
+//! form with decaying exponentials at [`spectra::optics::Layer::new`]. With d = 1 over a backing
 //! g, and rearranged so that it subtracts no nearly equal values and divides once, that form is:
-//! ```text x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e) den   = (K + S) (1 - e) + (1 + e)
-//! x above = (K + S (1 - g)) (1 - e) + (1 + e) x      (den - n g) R = (n above + 4 e x^2 g) / (den
-//! above) ```
+//! ```text
+//! x = sqrt(K (K + 2 S))   e = exp(-2 x)   n = S (1 - e)
+//! den   = (K + S) (1 - e) + (1 + e) x
+//! above = (K + S (1 - g)) (1 - e) + (1 + e) x      (den - n g)
+//! R = (n above + 4 e x^2 g) / (den above)
+//! ```
 
 use pulp::Simd;
 

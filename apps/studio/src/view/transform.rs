@@ -3,7 +3,7 @@
 //! You choose a [`ViewState`]. A [`Placement`] is this view in a rectangle of the window at one
 //! pixel density, as an affine map:
 //!
-//! \```text
+//! ```text
 //! point = middle + M R s (cell - centre)
 //! ```
 //!

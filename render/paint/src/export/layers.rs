@@ -4,10 +4,16 @@
 //! Light passes through a film of paint twice and scatters on its way, so you cannot blend a film
 //! with the colour below by one share of opacity. But at one pixel, over one colour, you can reach
 //! every colour. With `b` the colour below and `c` the colour with the film, both as stored
-//! (encoded sRGB, 0 to 1), programs show ```text c = a f + (1 - a) b ``` for opacity a and colour
-//! f. f lies within 0..1 if a is at least the share by which some channel of b is moved towards
-//! black or white, ```text least = max over channels of (b - c) / b and (c - b) / (1 - b) ``` We
-//! take the greater of this share and the film's own hiding power, and solve for f. This never
+//! (encoded sRGB, 0 to 1), programs show
+//! ```text
+//! c = a f + (1 - a) b
+//! ```
+//! for opacity a and colour f. f lies within 0..1 if a is at least the share by which some channel
+//! of b is moved towards black or white,
+//! ```text
+//! least = max over channels of (b - c) / b and (c - b) / (1 - b)
+//! ```
+//! We take the greater of this share and the film's own hiding power, and solve for f. This never
 //! clips a value, and the stack of layers shows the painting to the rounding of 16 bits.
 
 use graphics::export::{ExportError, OpenRaster, PictureFile, srgb16};
