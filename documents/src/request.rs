@@ -274,8 +274,8 @@ mod tests {
         for (json, message, hint) in [
             (r#"{"pair": 3, "grain": "fine"}"#, "pair takes A,B, found `3`", "try `pair = 1,2`"),
             (r#"{"grain": "corse"}"#, "grain: unknown word `corse`", "did you mean coarse?"),
-            (r#"{"grian": "fine"}"#, "unknown key `grian`", "did you mean grain?"),
-            (r#"{"inner": {"cuont": 1}}"#, "unknown key `cuont`", "did you mean count?"),
+            (r#"{"grein": "fine"}"#, "unknown key `grein`", "did you mean grain?"),
+            (r#"{"inner": {"coumt": 1}}"#, "unknown key `coumt`", "did you mean count?"),
             (
                 r#"{"inner": {"count": -1}}"#,
                 "inner.count: invalid value: number `-1`, expected a whole number, 0 or more",

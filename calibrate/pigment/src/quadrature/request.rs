@@ -65,7 +65,7 @@ pub struct QuadratureOutcome {
 }
 
 impl QuadratureOutcome {
-    /// The outcome for programs, with the keys of `impasto quadrature --json`. `library` is that of the request.
+    /// The outcome as JSON for programs. Pass the library of the request as `library`.
     #[must_use]
     pub fn to_json(&self, library: Option<&PigmentLibrary>) -> Value {
         match (&self.effective, library) {
