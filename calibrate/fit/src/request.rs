@@ -28,6 +28,7 @@ use crate::observation::BelowSurface;
 /// errors.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(description = "Options of a fit")]
 pub struct FitRequest {
     /// Method of the fit
     pub method: Method,
@@ -83,6 +84,7 @@ impl Default for Provenance {
 /// Options of a validation. [`Self::run`] validates.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(description = "Options of a validation")]
 pub struct ValidationRequest {
     /// Options of the fits
     pub fit: FitRequest,

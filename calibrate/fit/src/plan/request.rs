@@ -12,6 +12,7 @@ use crate::fit::ExpectedNoise;
 /// Options of [`plan`](super::plan). [`Self::run`] plans.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(description = "Options of a plan of swatches")]
 pub struct PlanRequest {
     /// A black, for shades
     pub black: Option<String>,

@@ -49,6 +49,7 @@ pub struct Batch {
 /// fields are the help texts of the command line and the descriptions of the schema.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(description = "Options of a correction")]
 pub struct CorrectRequest {
     /// Match the color under the lights, or the spectrum of a measured standard
     #[serde(rename = "by")]

@@ -89,7 +89,7 @@ impl ToleranceOrigin {
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(rename = "MatchRequest")]
+#[schemars(rename = "MatchRequest", description = "Options of a search for recipes")]
 pub struct MatchOptions {
     /// Match the color under the lights, or the spectrum of a measured target
     #[serde(rename = "by")]

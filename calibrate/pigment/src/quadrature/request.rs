@@ -32,6 +32,7 @@ pub enum QuadratureChoice {
 /// Options of a quadrature. [`Self::run`] chooses the wavelengths and tests them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(description = "Options of a quadrature")]
 pub struct QuadratureRequest {
     /// Method of choosing them [default: library where one is given, else moments]
     pub method: Option<QuadratureChoice>,
