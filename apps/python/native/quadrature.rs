@@ -1,7 +1,6 @@
 //! A few wavelengths instead of many.
 
 use calibrate::quadrature::QuadratureRequest;
-use documents::Task;
 use documents::request::request_from_json;
 use pyo3::prelude::*;
 
