@@ -222,7 +222,7 @@ mod tests {
                 "surface takes K1,K2 or none, found `0.03`",
                 "try `saunderson = 0.03,0.6`",
             ),
-            (r#"{"metod": "qp"}"#, "unknown key `metod`", "did you mean method?"),
+            (r#"{"metho": "qp"}"#, "unknown key `metho`", "did you mean method?"),
             (
                 r#"{"method": "best"}"#,
                 "method: unknown word `best`",
