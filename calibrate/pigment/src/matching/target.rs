@@ -230,8 +230,8 @@ fn visual_weights(
 pub struct ViewingCondition {
     /// Light and observer.
     pub viewing: Viewing,
-    /// Weight of the colour difference under this light, above 0 and below 1e9. Only the ratios of several
-    /// weights matter, e.g. 2 and 1 is the same as 4 and 2.
+    /// Weight of the colour difference under this light, above 0 and below 1e9. Only the ratios of
+    /// several weights matter.
     pub weight: f64,
 }
 
