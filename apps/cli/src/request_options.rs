@@ -34,6 +34,11 @@ impl<T: CommandLine> RequestOptions<T> {
         request_of(self.given.clone()).map_err(refusal::<T>)
     }
 
+    /// Whether an option was given with this text.
+    pub(crate) fn is(&self, key: &str, text: &str) -> bool {
+        self.given.get(key).is_some_and(|given| given == text)
+    }
+
     /// Takes the texts of an option out of those that were given.
     pub(crate) fn take(&mut self, key: &str) -> Vec<String> {
         let texts = match self.given.remove(key) {

@@ -1,4 +1,4 @@
-//! What to fit and how: the options of a fit and of a validation, which every program fills in its own way.
+//! The options of a fit and of a validation. Every program fills them in its own way.
 //!
 //! Comments of the fields are the help texts of the command line and the descriptions of the schema.
 
@@ -58,7 +58,7 @@ pub struct FitRequest {
     pub exclude: Vec<String>,
     /// Light and observer of the colour errors
     pub viewing: Viewing,
-    /// What the library says about itself
+    /// Title, licence and source of the library
     pub provenance: Provenance,
 }
 
@@ -95,14 +95,12 @@ pub struct ValidationRequest {
 }
 
 impl FitRequest {
-    /// The surface that the request states. Either of `surface` and `specular` may say that the specular
-    /// reflection is excluded, of which a film without a surface has none.
+    /// The surface that the request states, if it does. You can exclude the specular reflection in either
+    /// `surface` or `specular`.
     pub(crate) fn stated_surface(&self) -> Option<Surface> {
         self.surface.map(|surface| match self.specular {
-            specular @ Specular::Excluded if surface != Surface::NONE => {
-                Surface { specular, ..surface }
-            }
-            _ => surface,
+            specular @ Specular::Excluded => Surface { specular, ..surface },
+            Specular::Included => surface,
         })
     }
 }
@@ -207,6 +205,14 @@ mod tests {
         assert_eq!(request.smoothness, Smoothness::Fixed(10.0));
         assert_eq!(request.unevenness, Some(0.0));
         assert_eq!(request.stated_surface(), Some(Surface::of_most_paints(Specular::Excluded)));
+    }
+
+    #[test]
+    fn an_excluded_reflection_is_recorded_without_a_surface_too() {
+        let text = r#"{"surface": [0, 0], "specular": "excluded"}"#;
+        let request: FitRequest = request_from_json(text).unwrap();
+        let excluded = Surface { specular: Specular::Excluded, ..Surface::NONE };
+        assert_eq!(request.stated_surface(), Some(excluded));
     }
 
     #[test]

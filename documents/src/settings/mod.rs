@@ -82,8 +82,8 @@ pub trait Table: Serialize + DeserializeOwned + Default + Clone {
     /// The fault of a value that does not fit those beside it.
     fn check_together(&self, base: &KeyPath) -> Checked;
 
-    /// The values of all settings in the order of [`rows`]: those of the rows `Number` and `Whole`, `None` for
-    /// all others.
+    /// The values of all settings in the order of [`rows`]. Only rows of numbers (`Number` and `Whole`) have a
+    /// value here, all others `None`.
     fn numbers(&self) -> Vec<Option<f64>>;
 }
 

@@ -6,7 +6,7 @@ use calibrate::quadrature::QuadratureRequest;
 use calibrate::{FitRequest, ValidationRequest};
 use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
-use serde_json::json;
+use serde_json::{Value, json};
 use suite::program::{impasto, repository};
 
 /// The schema of every request that programs pass.
@@ -53,6 +53,21 @@ fn a_value_that_an_option_does_not_take_is_refused_with_a_way_out() {
         let run = impasto(&["fit", &oils, option, value]);
         let wanted = format!("error: {option} {message}\nhint: try {option} {hint}\n");
         assert_eq!((run.status, run.err.as_str()), (2, wanted.as_str()), "{option} {value}");
+    }
+}
+
+#[test]
+fn only_a_surface_can_exclude_its_specular_reflection() {
+    let oils = repository("measurements/van-gogh-oils.csv");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("oils.json");
+    let file = path.to_str().unwrap();
+    for (surface, recorded) in [("none", "included"), ("0,0", "excluded")] {
+        let options = ["--method", "qp", "--saunderson", surface, "--specular", "excluded"];
+        let run = impasto(&[&["fit", &oils, "-o", file], &options[..]].concat());
+        assert_eq!(run.status, 0, "{}", run.err);
+        let library: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+        assert_eq!(library["saunderson"]["specular"], recorded, "--saunderson {surface}");
     }
 }
 

@@ -173,6 +173,10 @@ impl CalibrationOptions {
                 "leave one of them out",
             ));
         }
+        // Without a surface there is no specular reflection to exclude.
+        if options.is("surface", "none") {
+            options.take("specular");
+        }
         Ok(FitRequest { reference, viewing, ..options.request()? })
     }
 }

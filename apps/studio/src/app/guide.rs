@@ -82,8 +82,8 @@ impl Facts {
         self.lighting != before.lighting
     }
 
-    /// Lowers the counts to those of `now`. Undo removes actions, and the oldest leave the history
-    /// when its memory is full. If you washed a brush, you can load it again.
+    /// Lowers each count that is higher than in `now`. Undo removes actions, and the oldest leave
+    /// the history when its memory is full. If you washed a brush, you can load it again.
     fn lower_to(&mut self, now: &Self) {
         self.strokes = self.strokes.min(now.strokes);
         self.mixing_strokes = self.mixing_strokes.min(now.mixing_strokes);

@@ -34,7 +34,7 @@ const TABLES: [&str; 10] = [
     "files/new_canvas.rs",
 ];
 
-/// What stands before texts of these sources that nobody sees: names of widgets, labels of the
+/// The code before texts of these sources that you never see: names of widgets, labels of the
 /// history, the title and numbers.
 const UNSEEN: [&str; 7] = [
     "Id::unique(",

@@ -1,4 +1,4 @@
-//! What is refused, with its place and a way out, before anything is written.
+//! Faulty input is refused before anything is written. The error names the place and the way out.
 
 use std::path::Path;
 

@@ -354,7 +354,7 @@ fn show_tool(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     percent(ui, tr("Strength"), tip, &mut grip.strength, 1.0..=100.0);
 }
 
-/// What a tool does, in a few words.
+/// Describes a tool in a few words.
 fn about(tool: SceneTool) -> &'static str {
     match tool {
         SceneTool::Pour => tr("the tube in hand, where the pen is held"),

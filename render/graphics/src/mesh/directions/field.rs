@@ -75,10 +75,10 @@ impl DirectionField {
     /// neighbours decide. If you give a vertex a guide, it has the direction of the guide.
     ///
     /// # Errors
-    /// As [`Self::of_curvature`].
+    /// This fails like [`Self::of_curvature`].
     ///
     /// # Panics
-    /// As [`Self::of_curvature`], and if there are fewer lines than vertices.
+    /// This panics like [`Self::of_curvature`], and if there are fewer lines than vertices.
     pub fn of_lines(
         mesh: &Mesh,
         lines: &[Line],

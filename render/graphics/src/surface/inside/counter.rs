@@ -65,11 +65,11 @@ impl InsideCounter {
     /// ([`crate::gpu::Device::scatters`]).
     ///
     /// # Errors
-    /// As [`Self::counts`], and [`DeviceError::Refused`] on a device that cannot write to buffers
-    /// from fragments.
+    /// This fails like [`Self::counts`]. On a device that cannot write to buffers from fragments you
+    /// get [`DeviceError::Refused`].
     ///
     /// # Panics
-    /// As [`Self::counts`], and if a surface has no weight.
+    /// This panics like [`Self::counts`], and if a surface has no weight.
     pub fn weighed(
         &mut self,
         compute: &mut Compute,
@@ -97,11 +97,11 @@ impl InsideCounter {
     /// of the surface lets the triangle there pass. The count is 0 where nothing is seen.
     ///
     /// # Errors
-    /// As [`Self::weighed`].
+    /// This fails like [`Self::weighed`].
     ///
     /// # Panics
-    /// As [`Self::counts`]. Also if a surface has no gate, or (on the processor) if a triangle that
-    /// is seen has no normal.
+    /// This panics like [`Self::counts`], if a surface has no gate, and on the processor if a
+    /// visible triangle has no normal.
     pub fn gated(
         &mut self,
         compute: &mut Compute,

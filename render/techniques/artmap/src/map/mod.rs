@@ -73,7 +73,7 @@ impl ArtMap {
     /// ([`key_maps_with_stages`]).
     ///
     /// # Errors
-    /// As [`Self::of`].
+    /// This fails like [`Self::of`].
     pub fn with_stages(
         set: &SampleSet,
         settings: &SynthesisSettings,

@@ -122,7 +122,7 @@ pub struct Stage {
 /// - `map-1-level-1` and on: the map of the sample at each level.
 ///
 /// # Errors
-/// As [`key_maps`].
+/// This fails like [`key_maps`].
 pub fn key_maps_with_stages(
     set: &SampleSet,
     settings: &SynthesisSettings,

@@ -94,8 +94,8 @@ impl DeviceMotion {
     /// damps. You get the same bits on the same device.
     ///
     /// # Errors
-    /// As [`super::advance`], and [`MotionError::Device`] for a device that has no room, or
-    /// failed. No volume has moved then.
+    /// This fails like [`super::advance`]. If the device runs out of memory or fails, you get
+    /// [`MotionError::Device`]. No volume has moved then.
     pub fn advance(
         &mut self,
         device: &mut Device,

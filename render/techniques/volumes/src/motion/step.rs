@@ -438,7 +438,7 @@ pub fn advance(
 /// The conditions of a step. `None` for a step of 0 seconds.
 ///
 /// # Errors
-/// As [`advance`].
+/// This fails like [`advance`].
 pub(super) fn conditions<'a>(
     volumes: &[Volume],
     settings: &'a MotionSettings,

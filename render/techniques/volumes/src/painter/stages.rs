@@ -27,7 +27,7 @@ impl VolumePainter {
     /// letters, digits and dashes, and the fourth value of all pictures is 1.
     ///
     /// # Errors
-    /// As [`Self::paint`].
+    /// This fails like [`Self::paint`].
     pub fn stages(
         &mut self,
         world: &World,
@@ -185,7 +185,7 @@ impl VolumePainter {
     /// A picture of the scene that shows `show`. Otherwise this is like [`Self::paint`].
     ///
     /// # Errors
-    /// As [`Self::paint`].
+    /// This fails like [`Self::paint`].
     pub fn shown(
         &mut self,
         world: &World,
@@ -255,7 +255,7 @@ impl VolumePainter {
     /// in mm by pigment.
     ///
     /// # Errors
-    /// As [`Self::paint`]; [`PaintingError::Export`].
+    /// This fails like [`Self::paint`], and with [`PaintingError::Export`] if a layer cannot be written.
     pub fn passes(
         &mut self,
         world: &World,

@@ -114,7 +114,8 @@ impl VolumePainter {
     /// cell for each pixel. You can save it, relight it and give it other pigments.
     ///
     /// # Errors
-    /// As [`Self::paint`]; [`PaintingError::NoPigments`] without [`Self::with_pigments`].
+    /// This fails like [`Self::paint`]. If you did not call [`Self::with_pigments`], you get
+    /// [`PaintingError::NoPigments`].
     pub fn painting(
         &mut self,
         world: &World,

@@ -97,7 +97,7 @@ impl Performance {
     /// ([`World::step_on`]).
     ///
     /// # Errors
-    /// As [`Self::advance_to`], and if the device fails.
+    /// This fails like [`Self::advance_to`], and if the device fails.
     pub fn advance_on(
         &mut self,
         device: &mut StepDevice,

@@ -224,7 +224,7 @@ impl World {
         }
     }
 
-    /// Of the surface with paint of a volume, the share for which `below` is true.
+    /// Share of a volume's surface samples within its radius for which `below` is true.
     pub(super) fn share_below(&self, index: usize, below: impl Fn(Vec3) -> bool) -> f32 {
         let volume = &self.volumes[index];
         let samples = &self.grid.samples;

@@ -31,8 +31,8 @@ impl World {
     /// near samples.
     ///
     /// # Errors
-    /// As [`Self::step`], and if the device fails. All paint that has moved until then is in
-    /// the tally.
+    /// This fails like [`Self::step`], and if the device fails. The tally then holds all paint that
+    /// has moved so far.
     pub fn step_on(&mut self, device: &mut StepDevice) -> Result<(), WorldError> {
         let serving = device.serving(&self.volumes)?;
         self.step_by(serving)
