@@ -49,7 +49,7 @@ pub fn request_from_json<T: DeserializeOwned>(json: &str) -> Result<T, RequestEr
 pub fn request_of<T: DeserializeOwned>(mut values: Map<String, Value>) -> Result<T, RequestError> {
     drop_nulls(&mut values);
     let json = Value::Object(values).to_string();
-    Source::json("the request", &json).and_then(|source| source.typed()).map_err(Into::into)
+    Source::json("the request", &json).and_then(|source| source.typed_json()).map_err(Into::into)
 }
 
 fn drop_nulls(values: &mut Map<String, Value>) {

@@ -73,5 +73,5 @@ mod report;
 pub use picture::PictureError;
 #[cfg(feature = "pictures")]
 pub use report::Report;
-pub use report::{STEPS, absences, page_alone};
+pub use report::{Head, STEPS, Warning, absences, page_alone};
 pub use subject::Subject;

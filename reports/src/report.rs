@@ -140,7 +140,7 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
 /// If a drawing thread panics.
 #[must_use]
 pub fn page_alone(subject: &Subject<'_>, task: &Task) -> String {
-    html(&head(subject), &drawn(subject, task), Links::Within)
+    html(&head(subject), &drawn(subject, task), &[])
 }
 
 /// The sections that are not empty.
@@ -189,7 +189,7 @@ impl Report {
             files.push((path("png"), picture.clone()));
             files.push((path("csv"), figure.data.csv().into_bytes()));
         }
-        let page = html(&self.head, &self.sections, Links::Beside);
+        let page = html(&self.head, &self.sections, &["svg", "png", "csv"]);
         files.push(("report.html".to_owned(), page.into_bytes()));
         files
     }
@@ -243,17 +243,12 @@ pub struct Warning {
     pub recipes: Vec<(String, String)>,
 }
 
-/// Where the links below a figure lead.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Links {
-    /// To the files `figures/NAME.svg`, `.png` and `.csv` beside the page.
-    Beside,
-    /// To the numbers as CSV, within the page.
-    Within,
-}
+/// Endings of the files `figures/NAME.ENDING` of each figure, to which the page links. If there are none, it holds the
+/// numbers itself.
+type Endings<'a> = &'a [&'a str];
 
 #[must_use]
-pub(crate) fn html(head: &Head, sections: &[Section], links: Links) -> String {
+pub(crate) fn html(head: &Head, sections: &[Section], files: Endings<'_>) -> String {
     let title = escaped(&head.title);
     let style = style(sections);
     let mut out = format!(
@@ -294,7 +289,7 @@ pub(crate) fn html(head: &Head, sections: &[Section], links: Links) -> String {
             match part {
                 Part::Figure(figure) => {
                     number += 1;
-                    out += &figure_html(figure, number, links);
+                    out += &figure_html(figure, number, files);
                 }
                 Part::Table(title, table) => out += &table_html(title, table),
             }
@@ -338,19 +333,17 @@ fn contents(sections: &[Section]) -> String {
     out + "</ol>\n</nav>\n"
 }
 
-fn figure_html(figure: &Figure, number: usize, links: Links) -> String {
+fn figure_html(figure: &Figure, number: usize, files: Endings<'_>) -> String {
     let Figure { name, title, caption, command, svg, .. } = figure;
     let [title, caption] = [title, caption].map(|text| escaped(text));
-    let files = match links {
-        Links::Beside => ["svg", "png", "csv"]
-            .map(|ending: &str| {
-                format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase())
-            })
-            .join(" "),
-        Links::Within => format!(
-            "<a download=\"{name}.csv\" href=\"data:text/csv;charset=utf-8,{}\">CSV</a>",
-            percent_encoded(&figure.data.csv())
-        ),
+    let files = if files.is_empty() {
+        let csv = percent_encoded(&figure.data.csv());
+        format!("<a download=\"{name}.csv\" href=\"data:text/csv;charset=utf-8,{csv}\">CSV</a>")
+    } else {
+        let links = files.iter().map(|ending: &&str| {
+            format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase())
+        });
+        links.collect::<Vec<_>>().join(" ")
     };
     format!(
         "<figure id=\"{name}\">\n<div class=\"drawing\" tabindex=\"0\">\n{svg}</div>\n\

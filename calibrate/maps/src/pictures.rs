@@ -340,6 +340,7 @@ impl Overview {
     }
 }
 
+#[cfg(feature = "files")]
 fn inside(from: usize, to: usize, first: usize) -> Range<usize> {
     from - first..to - first
 }

@@ -133,12 +133,17 @@ impl<'t> Source<'t> {
                 let bytes = error.span().unwrap_or(0..self.text.len());
                 self.explained(bytes, error.message())
             }),
-            Language::Json => serde_json::from_str(self.text).map_err(|error| {
-                let end = offset_at(self.text, error.line(), error.column());
-                let start = end.saturating_sub(1);
-                self.explained(start..start + 1, &without_place(&error.to_string()))
-            }),
+            Language::Json => self.typed_json(),
         }
+    }
+
+    /// The whole JSON text as a `T`. A program that calls this alone holds no code that reads `T` from TOML.
+    pub(crate) fn typed_json<T: DeserializeOwned>(&self) -> Result<T, TextError> {
+        serde_json::from_str(self.text).map_err(|error| {
+            let end = offset_at(self.text, error.line(), error.column());
+            let start = end.saturating_sub(1);
+            self.explained(start..start + 1, &without_place(&error.to_string()))
+        })
     }
 
     /// Checks the keys `format` and `version` of the whole text, and returns the version.

@@ -68,6 +68,7 @@ pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeE
     }
 }
 
+#[cfg(feature = "files")]
 fn bytes(place: &PathBuf) -> Option<u64> {
     std::fs::metadata(place).map(|about| about.len()).ok()
 }
