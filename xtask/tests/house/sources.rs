@@ -81,3 +81,38 @@ fn every_golden_file_says_how_it_was_made_and_is_compared() {
         assert!(tests.contains(&format!("read(\"{stem}\")")), "{path} is compared nowhere");
     }
 }
+
+#[test]
+fn architecture_names_files_that_exist() {
+    let page = text("ARCHITECTURE.md");
+    let (_, sections) = page.split_once("## Order of files").unwrap();
+    let paths: Vec<String> = texts(&[".rs", ".wgsl", ".js"])
+        .into_keys()
+        .chain(files_below("render/techniques"))
+        .collect();
+    let mut folders: Vec<&str> = Vec::new();
+    let mut checked = 0;
+    for line in sections.lines() {
+        if let Some(title) = line.strip_prefix("### ") {
+            folders = title.split(", ").flat_map(|part| part.split(" and ")).collect();
+        }
+        // The first cell of a row names files and folders below those of the section's crates.
+        let Some(cell) = line.strip_prefix("| `").and_then(|row| row.split(" | ").next()) else {
+            continue;
+        };
+        if line.starts_with("| `let") || line.starts_with("| `use` lines") {
+            continue;
+        }
+        let names = cell.split('`').step_by(2).flat_map(|name| name.split('/'));
+        for name in names.filter(|name| !name.is_empty()) {
+            let is_there = paths.iter().any(|path| {
+                let mut parts = path.split('/');
+                parts.any(|part| folders.contains(&part))
+                    && parts.any(|part| part.split('.').next() == Some(name))
+            });
+            assert!(is_there || folders.contains(&name), "ARCHITECTURE.md: {name} of {folders:?}");
+            checked += 1;
+        }
+    }
+    assert!(checked > 150, "only {checked} names were found");
+}
