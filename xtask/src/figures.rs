@@ -30,7 +30,7 @@ pub enum Mark {
     ThatOf,
     /// "whose" in comments.
     Whose,
-    /// Semicolons in comments.
+    /// Semicolons in comments, except in examples.
     Semicolons,
     /// "you", "your", "we", "our" and "this" in comments.
     YouWeThis,
@@ -93,7 +93,7 @@ pub struct Figures {
     pub code: usize,
     /// Lines that begin with `use`.
     pub uses: usize,
-    /// Words of comments.
+    /// Words of comments without their examples.
     pub words: usize,
     /// Lines of the longest file, shaders included.
     pub longest: usize,
@@ -167,10 +167,17 @@ impl Figures {
         self.files += 1;
         let mut code = String::new();
         let mut lines = 0;
+        // Examples inside comments are code, not words.
+        let mut is_example = false;
         for (line, number) in text.lines().map(str::trim).zip(1..) {
             lines = number;
             if line.starts_with("//") {
-                self.count_words(line.trim_start_matches(['/', '!']), &format!("{path}:{number}"));
+                let words = line.trim_start_matches(['/', '!']);
+                if words.trim_start().starts_with("```") {
+                    is_example = !is_example;
+                } else if !is_example {
+                    self.count_words(words, &format!("{path}:{number}"));
+                }
             } else if !line.is_empty() {
                 self.code += 1;
                 let rest = line.strip_prefix("pub").unwrap_or(line);
@@ -445,7 +452,7 @@ mod tests {
 
     #[test]
     fn words_of_comments_are_counted() {
-        let code = "//! The width, that of a head whose hair is wet; e.g. this one.\nconst A: u8 = 1; // no\n";
+        let code = "//! The width, that of a head whose hair is wet; e.g. this one.\n//! ```\n//! let a = 1;\n//! ```\nconst A: u8 = 1; // no\n";
         let figures = figures(&[("a/src/lib.rs", code)]);
         assert_eq!(figures.words, 14);
         for mark in [Mark::ThatOf, Mark::Whose, Mark::Semicolons, Mark::ForExample, Mark::YouWeThis]

@@ -6,6 +6,7 @@ mod artmap;
 mod errors;
 mod matching;
 mod painterly;
+mod request_page;
 mod requests;
 mod stencil;
 mod verbs;

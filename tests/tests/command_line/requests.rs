@@ -9,8 +9,10 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 use suite::program::{impasto, repository};
 
+use crate::request_page;
+
 /// The schema of every request that programs pass.
-fn schema() -> String {
+fn schema() -> Value {
     let mut generator: SchemaGenerator = SchemaSettings::draft2020_12().into_generator();
     generator.subschema_for::<FitRequest>();
     generator.subschema_for::<ValidationRequest>();
@@ -18,28 +20,38 @@ fn schema() -> String {
     generator.subschema_for::<MatchOptions>();
     generator.subschema_for::<CorrectRequest>();
     generator.subschema_for::<QuadratureRequest>();
-    let schema = json!({
+    json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Requests of impasto",
         "$defs": generator.take_definitions(true),
-    });
-    format!("{schema:#}\n")
+    })
+}
+
+/// Checks that the file at `path` holds `text`. Writes it if `IMPASTO_ACCEPT_SCHEMA` is 1.
+fn assert_committed(path: &str, text: &str) {
+    let file = repository(path);
+    if std::env::var_os("IMPASTO_ACCEPT_SCHEMA").is_some_and(|value| value == "1") {
+        std::fs::write(&file, text).unwrap();
+    }
+    let committed = std::fs::read_to_string(&file).unwrap();
+    let mut lines = committed.lines().zip(text.lines()).enumerate();
+    let first = lines.find(|(_, (committed, now))| committed != now);
+    assert!(
+        committed == text,
+        "{path} differs: {first:?}\nif this is meant, run again with IMPASTO_ACCEPT_SCHEMA=1"
+    );
 }
 
 #[test]
 fn schema_of_requests_is_committed() {
-    let path = repository("docs/schema/requests.json");
+    assert_committed("docs/schema/requests.json", &format!("{:#}\n", schema()));
+}
+
+#[test]
+fn the_guide_has_a_table_of_every_request() {
     let schema = schema();
-    if std::env::var_os("IMPASTO_ACCEPT_SCHEMA").is_some_and(|value| value == "1") {
-        std::fs::write(&path, &schema).unwrap();
-    }
-    let committed = std::fs::read_to_string(&path).unwrap();
-    let mut lines = committed.lines().zip(schema.lines()).enumerate();
-    let first = lines.find(|(_, (committed, now))| committed != now);
-    assert!(
-        committed == schema,
-        "docs/schema/requests.json differs: {first:?}\nif this is meant, run again with IMPASTO_ACCEPT_SCHEMA=1"
-    );
+    let page = request_page::page(schema["$defs"].as_object().unwrap());
+    assert_committed("docs/guide/requests.md", &page);
 }
 
 #[test]

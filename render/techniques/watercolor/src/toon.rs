@@ -250,7 +250,10 @@ struct ToonParams {
 
 pub(super) static TOON: Kernel = Kernel {
     name: "watercolor_toon",
-    source: include_str!("toon.wgsl"),
+    source: concat!(
+        include_str!("../../../graphics/src/surface/textured.wgsl"),
+        include_str!("toon.wgsl"),
+    ),
     parameters: layout!(ToonParams {
         eye,
         strength,

@@ -253,7 +253,11 @@ impl ShadeParams {
 
 pub(crate) static SHADE: Kernel = Kernel {
     name: "volumes_shade",
-    source: concat!(include_str!("../hatching/ink.wgsl"), include_str!("shade.wgsl")),
+    source: concat!(
+        include_str!("../../../../graphics/src/surface/textured.wgsl"),
+        include_str!("../hatching/ink.wgsl"),
+        include_str!("shade.wgsl"),
+    ),
     parameters: layout!(ShadeParams {
         eye,
         pixel,
