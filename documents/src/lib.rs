@@ -25,5 +25,6 @@ pub mod settings;
 
 pub use task::{Cancellation, Cancelled, Progress, Steps, Task};
 pub use wording::{
-    ParserReason, counted, counted_as, did_you_mean, name_list, plain_parser_message, similar_names,
+    ParserReason, counted, counted_as, did_you_mean, name_list, plain_parser_message, question,
+    similar_names,
 };

@@ -26,7 +26,7 @@ use serde::Deserializer;
 use serde::de::{DeserializeOwned, Error, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 
-use crate::hint::{Explain, Fault, Hint};
+use crate::hint::{Explain, Hint};
 use crate::text::{Source, TextError};
 
 /// Reads a request from JSON. A key with the value `null` counts as absent.
@@ -62,7 +62,9 @@ fn drop_nulls(values: &mut Map<String, Value>) {
 }
 
 /// A key of a request that does not exist, or a value that its key does not take.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Explain)]
+#[hint(with = hint.as_deref().map(Hint::new))]
+#[fault(Setting)]
 pub struct RequestError {
     /// Path of the key, with dots between its steps. `None` where the reason is a whole sentence, or the text
     /// is not JSON.
@@ -127,16 +129,6 @@ impl fmt::Display for RequestError {
 }
 
 impl std::error::Error for RequestError {}
-
-impl Explain for RequestError {
-    fn hint(&self) -> Option<Hint> {
-        self.hint.as_deref().map(Hint::new)
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
-}
 
 impl From<TextError> for RequestError {
     fn from(error: TextError) -> Self {

@@ -42,6 +42,21 @@ pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) ->
     (!similar.is_empty()).then(|| format!("did you mean {}?", similar.join(" or ")))
 }
 
+/// The question of [`did_you_mean`] with a space behind it, or an empty text. Write it before a list
+/// of all names.
+///
+/// ```
+/// let known = ["Viridian".to_owned(), "Zinc White".to_owned()];
+/// let hint = documents::question("Viridan", &known) + "pigments: " + &known.join(", ");
+/// assert_eq!(hint, "did you mean Viridian? pigments: Viridian, Zinc White");
+/// assert_eq!(documents::question("Umber", &known), "");
+/// ```
+#[must_use]
+pub fn question<S: AsRef<str>>(name: &str, known: &[S]) -> String {
+    did_you_mean(name, known.iter().map(AsRef::as_ref))
+        .map_or_else(String::new, |question| question + " ")
+}
+
 /// Edit distance between `a` and `b` (Levenshtein 1966): insertions, deletions and
 /// substitutions of letters.
 fn edit_distance(a: &[char], b: &[char]) -> usize {

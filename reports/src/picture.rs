@@ -6,7 +6,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use documents::hint::{Explain, Fault};
+use documents::hint::Explain;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
 
@@ -50,17 +50,12 @@ fn load() -> Arc<Database> {
 }
 
 /// A drawing that cannot be rendered.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[fault(Environment)]
 #[error("a figure cannot be rendered: {reason}")]
 pub struct PictureError {
     /// Reason, as text.
     pub reason: String,
-}
-
-impl Explain for PictureError {
-    fn fault(&self) -> Fault {
-        Fault::Environment
-    }
 }
 
 #[cfg(test)]

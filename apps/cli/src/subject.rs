@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use documents::did_you_mean;
 use documents::file::{is_standard_input, read};
+use documents::question;
 use graphics::camera::{Camera, CameraPath, Framing};
 use graphics::mesh::{Mesh, SampleModel};
 use graphics::picture::Photograph;
@@ -79,10 +79,9 @@ impl SubjectOptions {
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
                 let names = SampleModel::ALL.map(SampleModel::name);
-                let similar = did_you_mean(name, names).map_or_else(String::new, |s| s + " ");
                 return Err(Failure::usage(
                     format!("unknown shape `{name}`"),
-                    format!("{similar}shapes are {}", names.join(", ")),
+                    format!("{}shapes are {}", question(name, &names), names.join(", ")),
                 ));
             };
             return self.mesh(shape.mesh(TRIANGLES), Vec::new());

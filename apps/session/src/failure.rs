@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Hint};
 
 /// A file or folder that cannot be used. The message is one sentence with the causes.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[hint(with = hint.clone())]
+#[fault(Environment)]
 #[error("{what}")]
 pub struct FileFailure {
     /// The path, and what is wrong with it.
@@ -36,16 +38,6 @@ impl FileFailure {
     /// A failure without advice, with the causes of `error`.
     pub(crate) fn without_hint(error: &dyn std::error::Error) -> Self {
         Self { what: with_causes(error), hint: None }
-    }
-}
-
-impl Explain for FileFailure {
-    fn hint(&self) -> Option<Hint> {
-        self.hint.clone()
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Environment
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use documents::file::disk;
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use paint::brush::HeadShape;
 use paint::document::{Document, Lighting};
 use paint::file::{self, PaintingFileError};
@@ -30,27 +30,18 @@ pub(super) struct PreparedPainting {
     pub(super) remarks: Vec<String>,
 }
 
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub(super) enum OpenError {
     #[error(transparent)]
     ScriptStart(#[from] ScriptStartError),
     #[error(transparent)]
     Painting(#[from] PaintingError),
     #[error("the painting that the script continues: {path}: {reason}")]
+    #[hint("put it back where the script names it")]
     Start { path: String, reason: String },
     #[error("the painting that the script continues: {0}")]
+    #[hint(inner)]
     StartFile(#[from] PaintingFileError),
-}
-
-impl Explain for OpenError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::ScriptStart(error) => error.hint(),
-            Self::Painting(error) => error.hint(),
-            Self::Start { .. } => Some(Hint::new("put it back where the script names it")),
-            Self::StartFile(error) => error.hint(),
-        }
-    }
 }
 
 /// Prepares the painting of `origin`.

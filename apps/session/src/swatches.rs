@@ -21,7 +21,7 @@
 //!
 //! You may leave out `vehicle` and `light`.
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use paint::document::Slots;
 use paint::layer::SLOTS;
 use paint::strokes::Recipe;
@@ -35,10 +35,11 @@ use spectra::color::Rgb;
 use spectra::swatch_file::{SwatchColor, SwatchEntry, SwatchFile};
 
 /// Why a file of saved mixtures cannot be read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum SwatchBookError {
     /// The file is not JSON.
     #[error("{file}: {source}")]
+    #[hint("choose a file that the studio has written")]
     Json {
         /// Name of the file.
         file: String,
@@ -47,6 +48,8 @@ pub enum SwatchBookError {
     },
     /// The file is JSON of another kind, or of a later version.
     #[error("{file}: key `{key}`: expected {expected}, found `{found}`")]
+    #[hint(if *key == "version", "a later version of the studio wrote it; use that one")]
+    #[hint("choose a file of kept mixtures")]
     Kind {
         /// Name of the file.
         file: String,
@@ -59,6 +62,7 @@ pub enum SwatchBookError {
     },
     /// A value cannot be used.
     #[error("{file}: key `{key}`: {reason}")]
+    #[hint("correct this value in the file")]
     Value {
         /// Name of the file.
         file: String,
@@ -67,19 +71,6 @@ pub enum SwatchBookError {
         /// Expected value, and the one found.
         reason: String,
     },
-}
-
-impl Explain for SwatchBookError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Json { .. } => "choose a file that the studio has written",
-            Self::Kind { key: "version", .. } => {
-                "a later version of the studio wrote it; use that one"
-            }
-            Self::Kind { .. } => "choose a file of kept mixtures",
-            Self::Value { .. } => "correct this value in the file",
-        }))
-    }
 }
 
 const LONGEST_NAME: usize = 60;

@@ -1,7 +1,7 @@
 //! From swatches to a pigment library with its evidence. Call this if you have swatches already.
 
 use documents::Task;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use spectra::optics::Surface;
 
 use crate::fit::{
@@ -223,7 +223,7 @@ fn evidence(
 }
 
 /// A calibration that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum CalibrationError {
     /// Readings cannot be used.
     #[error(transparent)]
@@ -231,20 +231,4 @@ pub enum CalibrationError {
     /// The fit failed.
     #[error(transparent)]
     Fit(#[from] FitError),
-}
-
-impl Explain for CalibrationError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Measurement(error) => error.hint(),
-            Self::Fit(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Measurement(error) => error.fault(),
-            Self::Fit(error) => error.fault(),
-        }
-    }
 }

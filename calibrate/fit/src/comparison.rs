@@ -2,7 +2,7 @@
 //! leave out of the fit.
 
 use documents::Task;
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use pigment::palette::{MeasuredSample, Palette};
 use pigment::{PigmentId, Recipe};
 use spectra::optics::Surface;
@@ -307,10 +307,11 @@ fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> 
 }
 
 /// A library and measurements that cannot be compared.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ComparisonError {
     /// Every sample contains a pigment that the library lacks.
     #[error("every sample holds a pigment that the library has not; measured are `{}`", measured.join(", "))]
+    #[hint("pigments of the library: {}", library.join(", "))]
     NothingInCommon {
         /// Names of the measured pigments.
         measured: Vec<String>,
@@ -319,6 +320,7 @@ pub enum ComparisonError {
     },
     /// The readings do not cover the library's wavelengths.
     #[error("the library stands on {library}, the readings on `{readings}`")]
+    #[hint("fit a library from these readings, or measure the whole band")]
     Band {
         /// Wavelengths of the readings.
         readings: Grid,
@@ -328,18 +330,4 @@ pub enum ComparisonError {
     /// The readings cannot be interpolated to the library's wavelengths.
     #[error(transparent)]
     Interpolate(#[from] InterpolateError),
-}
-
-impl Explain for ComparisonError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::NothingInCommon { library, .. } => {
-                Some(Hint::new(format!("pigments of the library: {}", library.join(", "))))
-            }
-            Self::Band { .. } => {
-                Some(Hint::new("fit a library from these readings, or measure the whole band"))
-            }
-            Self::Interpolate(_) => None,
-        }
-    }
 }

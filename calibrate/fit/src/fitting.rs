@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use documents::hint::{Explain, Fault, Hint};
-use documents::{Task, counted};
+use documents::hint::Explain;
+use documents::{Task, counted, question};
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, Evidence, Input, PigmentLibrary};
@@ -418,10 +418,11 @@ pub(crate) fn check_above_surface(
 }
 
 /// A fit or validation that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum FittingError {
     /// A sample or pigment is not among the readings.
     #[error("no {what} is called `{name}`")]
+    #[hint(verbatim, "{}{what}s: {}", question(name, known), known.join(", "))]
     UnknownName {
         /// `sample` or `pigment`.
         what: &'static str,
@@ -432,30 +433,41 @@ pub enum FittingError {
     },
     /// No pigment can be guessed as the reference.
     #[error("no pigment is called white, so none can be the reference whose S is 1")]
+    #[hint("name it: [reference=\"{first}\"]")]
     NoWhite {
         /// Name of the first pigment, for advice.
         first: String,
     },
     /// Every sample is excluded.
     #[error("every sample is excluded")]
+    #[hint("leave out some [exclude]")]
     AllExcluded,
     /// Absolute amounts have no reference and a method of their own.
     #[error("absolute amounts take neither a reference white nor another method")]
+    #[hint("leave out [reference] and [method]")]
+    #[fault(Setting)]
     AbsoluteOptions,
     /// A validation of absolute amounts cannot be limited to pigments.
     #[error("a validation with certain pigments needs relative amounts")]
+    #[hint("leave out [with]")]
+    #[fault(Setting)]
     AbsoluteWith,
     /// Films of absolute amounts do not hide, so that they have no residuals for maps.
     #[error("residuals of films that hide need relative amounts")]
+    #[hint("leave out [residuals]")]
+    #[fault(Setting)]
     AbsoluteResiduals,
     /// A validation needs two groups or more.
     #[error("a validation in groups needs at least 2, found `{folds}`")]
+    #[hint("try [folds=10]")]
+    #[fault(Setting)]
     Folds {
         /// Number of groups that was given.
         folds: usize,
     },
     /// No mixture can be left out.
     #[error("{}", nothing_to_leave_out(needed))]
+    #[hint("measure more mixtures of each pigment (masstone, two tints, a shade)")]
     NothingToLeaveOut {
         /// Mixtures without which a pigment would not be identified.
         needed: Vec<String>,
@@ -477,42 +489,6 @@ fn nothing_to_leave_out(needed: &[String]) -> String {
     }
     let needed = needed.join(", ");
     format!("no mixture can be left out: without it a pigment would not be identified ({needed})")
-}
-
-impl Explain for FittingError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::UnknownName { what, name, known } => {
-                let question = documents::did_you_mean(name, known.iter().map(String::as_str));
-                let question = question.map_or_else(String::new, |question| question + " ");
-                return Some(Hint::verbatim(format!("{question}{what}s: {}", known.join(", "))));
-            }
-            Self::NoWhite { first } => format!("name it: [reference=\"{first}\"]"),
-            Self::AllExcluded => "leave out some [exclude]".into(),
-            Self::AbsoluteOptions => "leave out [reference] and [method]".into(),
-            Self::AbsoluteWith => "leave out [with]".into(),
-            Self::AbsoluteResiduals => "leave out [residuals]".into(),
-            Self::Folds { .. } => "try [folds=10]".into(),
-            Self::NothingToLeaveOut { .. } => {
-                "measure more mixtures of each pigment (masstone, two tints, a shade)".into()
-            }
-            Self::Band(error) => return error.hint(),
-            Self::Measurement(error) => return error.hint(),
-            Self::Calibration(error) => return error.hint(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::AbsoluteOptions
-            | Self::AbsoluteWith
-            | Self::AbsoluteResiduals
-            | Self::Folds { .. } => Fault::Setting,
-            Self::Measurement(error) => error.fault(),
-            Self::Calibration(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use documents::counted;
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use pigment::library::Input;
 use pigment::remark::Remark;
 use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};
@@ -435,7 +435,7 @@ pub struct ReadingOptions {
 }
 
 /// Measurement files that cannot be read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum ReadingsError {
     /// A file cannot be read.
     #[error(transparent)]
@@ -454,6 +454,7 @@ pub enum ReadingsError {
     References(#[from] ReferenceFilesError),
     /// Counts and white do not make a reflectance.
     #[error("{file}: cannot be set against the white of {white}")]
+    #[hint(inner)]
     Referencing {
         /// File of the samples.
         file: String,
@@ -465,34 +466,12 @@ pub enum ReadingsError {
     },
     /// A white is given, but the file is a measurement CSV, which holds reflectances.
     #[error("a white needs counts as an instrument writes them, found a CSV: `{file}`")]
+    #[hint(
+        "give the spectrometer's own file, or two columns `nm counts`, or leave out [white_reading]"
+    )]
+    #[fault(Setting)]
     CsvOfCounts {
         /// File name as the caller gave it.
         file: String,
     },
-}
-
-impl Explain for ReadingsError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Instrument(error) => error.hint(),
-            Self::Measurement(error) => error.hint(),
-            Self::Recipes(error) => error.hint(),
-            Self::References(error) => error.hint(),
-            Self::Referencing { reason, .. } => reason.hint(),
-            Self::CsvOfCounts { .. } => Some(Hint::new(
-                "give the spectrometer's own file, or two columns `nm counts`, or leave out [white_reading]",
-            )),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Instrument(error) => error.fault(),
-            Self::References(error) => error.fault(),
-            Self::CsvOfCounts { .. } => Fault::Setting,
-            Self::Measurement(_) | Self::Recipes(_) | Self::Referencing { .. } => Fault::Input,
-        }
-    }
 }

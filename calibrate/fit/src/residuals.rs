@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use documents::file::{FileError, read, write_whole};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use pigment::digits::rounded;
 use pigment::fit_settings::FitSettings;
 use pigment::library::{Input, to_text};
@@ -210,13 +210,14 @@ impl Residuals {
 }
 
 /// A file that holds no residuals, or residuals that do not suit a library.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ResidualsError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
     /// The text is not JSON, or its keys are not the keys of residuals.
     #[error("{file}: {reason}")]
+    #[hint("`impasto validate READINGS.csv [residuals=FILE.json]` makes them")]
     Syntax {
         /// File name as the caller gave it.
         file: String,
@@ -225,6 +226,7 @@ pub enum ResidualsError {
     },
     /// The key `format` does not name residuals.
     #[error("{file}: `format` must be \"impasto-residuals\", found `{found}`")]
+    #[hint("`impasto validate READINGS.csv [residuals=FILE.json]` makes them")]
     Format {
         /// File name as the caller gave it.
         file: String,
@@ -233,6 +235,7 @@ pub enum ResidualsError {
     },
     /// The file's version is newer than this program.
     #[error("{file}: this program reads residuals up to version {newest}, found `{found}`")]
+    #[hint("a newer impasto may read it")]
     Version {
         /// File name as the caller gave it.
         file: String,
@@ -253,6 +256,9 @@ pub enum ResidualsError {
     },
     /// The residuals do not cover the library's wavelengths.
     #[error("the residuals are known on {found}, the library needs {needed}")]
+    #[hint(
+        "take the residuals of the readings from which the library was fitted, or state [model_error=0.1]"
+    )]
     Wavelengths {
         /// Wavelengths of the residuals.
         found: Grid,
@@ -261,38 +267,13 @@ pub enum ResidualsError {
     },
     /// Too few mixtures were left out.
     #[error("the residuals hold `{found}` mixtures, {least} are needed to tell how a library errs")]
+    #[hint("validate readings of more mixtures, or state [model_error=0.1]")]
     Few {
         /// Number of mixtures.
         found: usize,
         /// Least number that is needed.
         least: usize,
     },
-}
-
-impl Explain for ResidualsError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Syntax { .. } | Self::Format { .. } => {
-                Some(Hint::new("`impasto validate READINGS.csv [residuals=FILE.json]` makes them"))
-            }
-            Self::Version { .. } => Some(Hint::new("a newer impasto may read it")),
-            Self::Figures { .. } => None,
-            Self::Wavelengths { .. } => Some(Hint::new(
-                "take the residuals of the readings from which the library was fitted, or state [model_error=0.1]",
-            )),
-            Self::Few { .. } => {
-                Some(Hint::new("validate readings of more mixtures, or state [model_error=0.1]"))
-            }
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 #[cfg(test)]

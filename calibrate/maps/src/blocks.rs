@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use documents::Task;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 use crate::cube::{Block, Cube, CubeError};
 use crate::pixel_maps::{BlockMaps, MapError};
@@ -33,7 +33,7 @@ pub struct MapOutcome {
 }
 
 /// A run failed. Shards that it wrote before are whole.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum RunError<E: Error + 'static> {
     /// The cube cannot be read.
     #[error(transparent)]
@@ -44,24 +44,6 @@ pub enum RunError<E: Error + 'static> {
     /// The maps cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
-}
-
-impl<E: Explain + 'static> Explain for RunError<E> {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Cube(error) => error.hint(),
-            Self::Map(error) => error.hint(),
-            Self::Store(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Cube(error) => error.fault(),
-            Self::Map(error) => error.fault(),
-            Self::Store(error) => error.fault(),
-        }
-    }
 }
 
 /// Maps every shard of `store` that is not finished. `map` maps a block. We call it for one block

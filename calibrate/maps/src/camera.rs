@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -258,10 +258,12 @@ impl CameraSettings {
 }
 
 /// The camera cannot take a scene or settings.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum CameraError {
     /// A setting is out of its range.
     #[error("{name} of the camera must be {least} to {most}, found `{value}`")]
+    #[hint("give another [{name}]")]
+    #[fault(Setting)]
     Setting {
         /// Name of the setting.
         name: &'static str,
@@ -285,29 +287,11 @@ pub enum CameraError {
         "the camera sees {} to {} nm, the spectra of the scene go from {} to {} nm",
         RANGE_NM[0], RANGE_NM[1], grid.start_nm(), grid.end_nm()
     )]
+    #[hint("paint with a library of visible or near infrared wavelengths")]
     Wavelengths {
         /// Wavelengths of the scene.
         grid: Grid,
     },
-}
-
-impl Explain for CameraError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Setting { name, .. } => Some(Hint::new(format!("give another [{name}]"))),
-            Self::Size { .. } => None,
-            Self::Wavelengths { .. } => {
-                Some(Hint::new("paint with a library of visible or near infrared wavelengths"))
-            }
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Setting { .. } => Fault::Setting,
-            _ => Fault::Input,
-        }
-    }
 }
 
 /// The reflection changes over this distance in pixels.

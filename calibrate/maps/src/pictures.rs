@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use documents::hint::Explain;
 use pigment::PigmentLibrary;
 use spectra::Viewing;
 
@@ -236,7 +237,7 @@ fn file_name(name: &str) -> String {
 }
 
 /// We cannot make a picture of a field.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PictureError {
     /// The number of values differs from the number of pixels, or there are none.
     #[error("{values} values for a picture of {width} x {height} pixels")]
@@ -252,8 +253,6 @@ pub enum PictureError {
     #[error("the picture cannot be encoded")]
     Encoder(#[from] png::EncodingError),
 }
-
-impl documents::hint::Explain for PictureError {}
 
 /// Encodes `width` x `height` values as a PNG file, with the colours of `ramp`. NaN is transparent.
 ///

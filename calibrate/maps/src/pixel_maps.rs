@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use calibrate::ResidualsError;
 use documents::Cancelled;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use half::f16;
 use pigment::RecipeError;
 use serde::{Deserialize, Serialize};
@@ -300,10 +300,11 @@ impl MapsAbout {
 }
 
 /// We cannot make a map.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum MapError {
     /// The wavelengths of the scan do not rise.
     #[error("wavelengths must rise strictly, found `{after}` nm at band {band} after {before} nm")]
+    #[hint("sort the bands of the scan by wavelength, in nm")]
     Order {
         /// Number of the band, counted from 1.
         band: usize,
@@ -315,6 +316,9 @@ pub enum MapError {
     /// Too few bands of the scan lie within the library's wavelengths.
     #[error(
         "{inside} of {bands} bands lie within {start_nm} to {end_nm} nm, where the library's K and S are known; {needed} are needed"
+    )]
+    #[hint(
+        "check that the wavelengths are in nm, or fit a library from readings that cover the scan"
     )]
     Overlap {
         /// Number of bands of the scan.
@@ -330,12 +334,15 @@ pub enum MapError {
     },
     /// A name matches no pigment of the library, or several.
     #[error(transparent)]
+    #[fault(Setting)]
     Name(#[from] RecipeError),
     /// Residuals do not suit the library.
     #[error(transparent)]
     Residuals(#[from] ResidualsError),
     /// Too few or too many pigments take part.
     #[error("1 to {most} pigments can take part in a map, found `{found}`")]
+    #[hint("name the pigments with [palette]")]
+    #[fault(Setting)]
     Pigments {
         /// Number of pigments that would take part.
         found: usize,
@@ -344,6 +351,8 @@ pub enum MapError {
     },
     /// A pigment belongs to two groups.
     #[error("{pigment} is in the group `{first}` and in the group `{second}`")]
+    #[hint("name each pigment in one [group]")]
+    #[fault(Setting)]
     TwoGroups {
         /// Name of the pigment.
         pigment: String,
@@ -354,12 +363,17 @@ pub enum MapError {
     },
     /// The ground is not a reflectance, or does not cover the bands of the scan.
     #[error("the spectrum of the ground {problem}")]
+    #[hint(
+        "give reflectances from 0 to 1 at rising wavelengths that cover the scan, or a region of bare ground in the scan, as the [ground]"
+    )]
+    #[fault(Setting)]
     Ground {
         /// The fault, as part of a sentence.
         problem: String,
     },
     /// A setting is out of its range.
     #[error("{name} must be {range}, found `{value}`")]
+    #[fault(Setting)]
     Setting {
         /// Name of the setting.
         name: &'static str,
@@ -370,6 +384,7 @@ pub enum MapError {
     },
     /// The number of reflectances is not a whole number of pixels.
     #[error("{values} reflectances are no whole number of pixels of {bands} bands")]
+    #[hint("give the reflectances pixel after pixel, all bands of each")]
     Length {
         /// Number of reflectances.
         values: usize,
@@ -378,6 +393,7 @@ pub enum MapError {
     },
     /// The number of masks is not the number of pixels.
     #[error("{masks} masks for {pixels} pixels")]
+    #[hint("give one mask for each pixel, or none at all")]
     Masks {
         /// Number of masks.
         masks: usize,
@@ -386,12 +402,14 @@ pub enum MapError {
     },
     /// We cannot map any pixel of the survey.
     #[error("none of {pixels} surveyed pixels holds a reflectance that can be mapped")]
+    #[hint("check that the scan holds reflectances from 0 to 1 rather than raw counts or percent")]
     NothingToSurvey {
         /// Number of pixels that were surveyed.
         pixels: usize,
     },
     /// You made the book with another library, other wavelengths or other settings.
     #[error("the book of the survey was made for `{found}`, not for `{expected}`")]
+    #[hint("survey the scan again with these settings")]
     OtherBook {
         /// Identity of the book.
         found: String,
@@ -400,6 +418,9 @@ pub enum MapError {
     },
     /// You made the book with another error of the library's predictions.
     #[error("the survey was made with {found}, not with {expected}")]
+    #[hint(
+        "give the same [residuals] or [model_error] as for the survey, or survey the scan again"
+    )]
     OtherModelError {
         /// Error of the book, in words.
         found: String,
@@ -408,6 +429,7 @@ pub enum MapError {
     },
     /// We cannot read the file of a book.
     #[error("the book of a survey is not valid: {reason}")]
+    #[hint("survey the scan again: without this file, or with another one as the [survey]")]
     Book {
         /// Reason, in words.
         reason: String,
@@ -415,55 +437,6 @@ pub enum MapError {
     /// Someone ended the survey early.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-}
-
-impl Explain for MapError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Order { .. } => {
-                Some(Hint::new("sort the bands of the scan by wavelength, in nm"))
-            }
-            Self::Overlap { .. } => Some(Hint::new(
-                "check that the wavelengths are in nm, or fit a library from readings that cover the scan",
-            )),
-            Self::Name(error) => error.hint(),
-            Self::Residuals(error) => error.hint(),
-            Self::Pigments { .. } => Some(Hint::new("name the pigments with [palette]")),
-            Self::TwoGroups { .. } => Some(Hint::new("name each pigment in one [group]")),
-            Self::Setting { .. } => None,
-            Self::Book { .. } => Some(Hint::new(
-                "survey the scan again: without this file, or with another one as the [survey]",
-            )),
-            Self::Ground { .. } => Some(Hint::new(
-                "give reflectances from 0 to 1 at rising wavelengths that cover the scan, or a region of bare ground in the scan, as the [ground]",
-            )),
-            Self::Length { .. } => {
-                Some(Hint::new("give the reflectances pixel after pixel, all bands of each"))
-            }
-            Self::Masks { .. } => Some(Hint::new("give one mask for each pixel, or none at all")),
-            Self::NothingToSurvey { .. } => Some(Hint::new(
-                "check that the scan holds reflectances from 0 to 1 rather than raw counts or percent",
-            )),
-            Self::Cancelled(error) => error.hint(),
-            Self::OtherBook { .. } => Some(Hint::new("survey the scan again with these settings")),
-            Self::OtherModelError { .. } => Some(Hint::new(
-                "give the same [residuals] or [model_error] as for the survey, or survey the scan again",
-            )),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Residuals(error) => error.fault(),
-            Self::Name(_)
-            | Self::Pigments { .. }
-            | Self::TwoGroups { .. }
-            | Self::Ground { .. }
-            | Self::Setting { .. } => Fault::Setting,
-            Self::Cancelled(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use documents::Task;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use pigment::library::Input;
 use pigment::{PigmentLibrary, RecipeError};
 use serde_json::{Map, Value, json};
@@ -269,7 +269,7 @@ fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
 }
 
 /// We cannot survey a scan.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum SurveyError {
     /// The scan cannot be read.
     #[error(transparent)]
@@ -282,6 +282,8 @@ pub enum SurveyError {
         "the region {}..{},{}..{} (rows, columns) does not lie within the scan's {lines} x {samples} pixels",
         region.rows.start, region.rows.end, region.columns.start, region.columns.end
     )]
+    #[hint("leave [region] out to map all of the scan")]
+    #[fault(Setting)]
     Region {
         /// Region that you asked for.
         region: Region,
@@ -290,24 +292,6 @@ pub enum SurveyError {
         /// Columns of the scan.
         samples: usize,
     },
-}
-
-impl Explain for SurveyError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Cube(error) => error.hint(),
-            Self::Map(error) => error.hint(),
-            Self::Region { .. } => Some(Hint::new("leave [region] out to map all of the scan")),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Cube(error) => error.fault(),
-            Self::Map(error) => error.fault(),
-            Self::Region { .. } => Fault::Setting,
-        }
-    }
 }
 
 /// A pigment with a smaller share takes no part in the mapped mixture of a spot.
@@ -394,7 +378,7 @@ impl SurveyedScan {
 }
 
 /// We cannot map a spot.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum SpotError {
     /// The region is not within the scan, or we cannot read the scan.
     #[error(transparent)]
@@ -410,28 +394,10 @@ pub enum SpotError {
         "rows {}..{}, columns {}..{}: none of these pixels can be mapped",
         region.rows.start, region.rows.end, region.columns.start, region.columns.end
     )]
+    #[hint("choose another [spot]")]
+    #[fault(Setting)]
     NothingMapped {
         /// Region of the spot.
         region: Region,
     },
-}
-
-impl Explain for SpotError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Cube(error) => error.hint(),
-            Self::Map(error) => error.hint(),
-            Self::Recipe(error) => error.hint(),
-            Self::NothingMapped { .. } => Some(Hint::new("choose another [spot]")),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Cube(error) => error.fault(),
-            Self::Map(error) => error.fault(),
-            Self::Recipe(error) => error.fault(),
-            Self::NothingMapped { .. } => Fault::Setting,
-        }
-    }
 }

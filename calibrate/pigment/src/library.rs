@@ -7,7 +7,7 @@ use std::path::Path;
 
 use documents::file::{FileError, read, write_whole};
 use documents::hint::Explain;
-use documents::{counted, did_you_mean};
+use documents::{counted, question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -696,12 +696,6 @@ pub enum RecipeError {
         /// The part or sum out of range.
         parts: f64,
     },
-}
-
-/// A question after the pigment that `name` may mean, with a space behind it, or nothing.
-fn question(name: &str, known: &[String]) -> String {
-    did_you_mean(name, known.iter().map(String::as_str))
-        .map_or_else(String::new, |question| question + " ")
 }
 
 #[cfg(test)]

@@ -7,10 +7,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::replace::{check, replace};
-use crate::hint::{Explain, Fault, Hint};
+use crate::hint::Explain;
 
 /// We could not read or write a file. Nothing on the disk has changed.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Explain)]
+#[hint(inner = reason)]
+#[fault(Environment)]
 pub struct FileError {
     /// Path of the file as you gave it.
     pub path: PathBuf,
@@ -64,16 +66,6 @@ impl FileAction {
             Self::Read => "read",
             Self::Write => "written",
         }
-    }
-}
-
-impl Explain for FileError {
-    fn hint(&self) -> Option<Hint> {
-        self.reason.hint()
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Environment
     }
 }
 

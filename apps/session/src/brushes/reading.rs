@@ -106,7 +106,8 @@ impl<'a> Object<'a> {
 }
 
 /// A file of brushes that cannot be used, with the key that is wrong.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[hint(with = hint.clone())]
 #[error("{file}: {}{what}", place(key))]
 pub struct BrushFileError {
     /// Name of the file.
@@ -122,10 +123,4 @@ pub struct BrushFileError {
 
 fn place(key: &str) -> String {
     if key.is_empty() { String::new() } else { format!("key `{key}`: ") }
-}
-
-impl Explain for BrushFileError {
-    fn hint(&self) -> Option<Hint> {
-        self.hint.clone()
-    }
 }

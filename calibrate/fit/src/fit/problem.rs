@@ -1,7 +1,7 @@
 //! Data of a fit as arrays: K/S of the mixtures, K and S of all pigments.
 
 use documents::Cancelled;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use pigment::{Curves, PigmentId};
 use spectra::Grid;
 use spectra::optics::Surface;
@@ -97,13 +97,19 @@ pub(crate) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// A fit that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum FitError {
     /// No sample can be fitted.
     #[error("no sample can be fitted: none ties its pigments to the reference white")]
+    #[hint(
+        "measure the white by itself and mixtures with it, or name another white with [reference]"
+    )]
     Empty,
     /// No mixture contains the reference pigment.
     #[error("the reference pigment occurs in no mixture")]
+    #[hint(
+        "measure the white by itself and mixtures with it, or name another white with [reference]"
+    )]
     Reference,
     /// An observation has another number of pigments or wavelengths.
     #[error(
@@ -129,25 +135,6 @@ pub enum FitError {
     /// The fit was asked to end before its time.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-}
-
-impl Explain for FitError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Empty | Self::Reference => Some(Hint::new(
-                "measure the white by itself and mixtures with it, or name another white with [reference]",
-            )),
-            Self::Shape { .. } | Self::Solver { .. } => None,
-            Self::Cancelled(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Cancelled(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 /// K and S of all pigments, by pigment and wavelength.

@@ -13,10 +13,12 @@ pub(crate) fn k1_below(least: f64) -> f64 {
 }
 
 /// Readings that cannot be used. Every variant names the place of the fault.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum MeasurementError {
     /// A cell, row or column of the table is faulty.
     #[error(transparent)]
+    #[hint(with = sheet_hint(_0))]
+    #[fault(Input)]
     Sheet(CsvTableError),
     /// The file is binary, or a damaged workbook.
     #[error(transparent)]
@@ -39,6 +41,7 @@ pub enum MeasurementError {
     },
     /// Two columns have the same header.
     #[error("{place} occurs twice, as column number {first} and {second}")]
+    #[hint("remove or rename one of the two columns")]
     RepeatedColumn {
         /// File, row and column.
         place: CellPlace,
@@ -49,6 +52,7 @@ pub enum MeasurementError {
     },
     /// A wavelength occurs twice.
     #[error("{place}: the wavelength {nm} nm occurs twice")]
+    #[hint("remove or rename one of the two columns")]
     RepeatedWavelength {
         /// File, row and column.
         place: CellPlace,
@@ -57,6 +61,7 @@ pub enum MeasurementError {
     },
     /// The wavelengths of the columns neither rise nor fall throughout.
     #[error("{place}: wavelengths must rise or fall throughout, found {nm} nm after {before} nm")]
+    #[hint("order the wavelength columns from short to long")]
     UnorderedWavelength {
         /// File, row and column.
         place: CellPlace,
@@ -67,12 +72,16 @@ pub enum MeasurementError {
     },
     /// A header is a number outside the wavelengths at which paint is measured.
     #[error("{place} is no wavelength from 200 to 2500 nm")]
+    #[hint("a pigment's name must not be a number")]
     WavelengthRange {
         /// File, row and column.
         place: CellPlace,
     },
     /// A reading is negative or far above white.
     #[error("{place}: expected a reflectance {range}, found `{value}`")]
+    #[hint(
+        "set [percent] or [fraction] if the unit was recognised wrongly; a dark reading below 0 means that the instrument's zero is off"
+    )]
     Reflectance {
         /// File and row. The column is the wavelength.
         place: CellPlace,
@@ -84,6 +93,9 @@ pub enum MeasurementError {
     /// Most readings of a spectrum are negative or far above white.
     #[error(
         "{file}, line {line}: readings of {sample} must be {range}, most of its {count} are not, found `{bad}`"
+    )]
+    #[hint(
+        "the file may hold a detector's counts ([white_reading=FILE] [dark_reading=FILE]), or another unit ([percent], [fraction])"
     )]
     Noise {
         /// File name as the caller gave it.
@@ -103,6 +115,7 @@ pub enum MeasurementError {
     #[error(
         "{file}, row {row}: the file is in percent, but no value of this reading exceeds `{largest}`, as if it were a fraction"
     )]
+    #[hint("write all readings in one unit, or set [percent] if this sample really is that dark")]
     MixedScale {
         /// File name as the caller gave it.
         file: String,
@@ -115,6 +128,7 @@ pub enum MeasurementError {
     #[error(
         "{place}: sample {sample} has another amount than in {first_file}, row {first_row}: `{amount}`"
     )]
+    #[hint("one name is one sample; rename one of the two, or give both the same amounts")]
     Contradiction {
         /// File, row and column.
         place: CellPlace,
@@ -129,6 +143,13 @@ pub enum MeasurementError {
     },
     /// A film of paint has no recipe.
     #[error("{file}, row {row}: sample {sample} is paint, but no pigment has an amount")]
+    #[hint(
+        if !has_cards,
+        "if it is a bare card or paper, say so in a column `film`: `none` for it, `paint` for the others; else write its amounts in the pigment columns. A file of recipes may have both: [recipes=FILE.csv]"
+    )]
+    #[hint(
+        "write the amounts in the pigment columns, or in a file of recipes ([recipes=FILE.csv]); film `none` is a bare card"
+    )]
     NoRecipe {
         /// File name as the caller gave it.
         file: String,
@@ -142,6 +163,10 @@ pub enum MeasurementError {
     /// A reading is below the surface's own reflection.
     #[error(
         "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, below k1 = {k1}: the surface alone would reflect more"
+    )]
+    #[hint(
+        "give a k1 below every reading, such as [saunderson={:.3},{k2}], or read such samples as black: [below_surface=floor]",
+        k1_below(*least)
     )]
     BelowSurface {
         /// File name as the caller gave it.
@@ -163,6 +188,7 @@ pub enum MeasurementError {
     },
     /// No file has a column with the name of a pigment that was asked for.
     #[error("no file has a column of the pigment `{name}`")]
+    #[hint("[pigments=NAME] takes the heading of a column, once for each pigment")]
     NoPigmentColumn {
         /// Name that was asked for.
         name: String,
@@ -170,6 +196,9 @@ pub enum MeasurementError {
     /// Most readings of films are below what a paint's surface reflects by itself.
     #[error(
         "{file}, row {row}: beginning with sample {sample}, {below} of {count} readings of paint are below k1 = {k1}: the surface alone would reflect more"
+    )]
+    #[hint(
+        "readings in fractions (white near 1) take [fraction]; for a surface that reflects less, give its k1 and k2, such as [saunderson={below_all}]"
     )]
     MostBelowSurface {
         /// File name as the caller gave it.
@@ -189,11 +218,18 @@ pub enum MeasurementError {
     },
     /// A film is darker over the brighter of two cards.
     #[error("{0}")]
+    #[hint(
+        "paint cannot do this; {} and {} may be exchanged in the column `backing`, or leave the sample out: [exclude={}]",
+        _0.bright,
+        _0.dark,
+        _0.sample
+    )]
     DarkerOverBrighter(Box<DarkerFilm>),
     /// A reading is above the greatest value under this surface.
     #[error(
         "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, above a perfect white"
     )]
+    #[hint("set [percent] or [fraction] if the unit was recognised wrongly")]
     AboveWhite {
         /// File name as the caller gave it.
         file: String,
@@ -208,6 +244,11 @@ pub enum MeasurementError {
     },
     /// The backing of a film was not measured bare.
     #[error("{file}, row {row}: sample {sample} {}", no_bare_reading(backing))]
+    #[hint(
+        if backing.is_empty(),
+        "add a row with the reading of the bare card or paper, and a column `film` with `none` in it and `paint` in the others; more than one card takes a column `backing` too. A file of recipes may have these columns instead: [recipes=FILE.csv]"
+    )]
+    #[hint("add a row with film `none` and backing `{backing}`: the card without paint")]
     NoBareBacking {
         /// File name as the caller gave it.
         file: String,
@@ -222,6 +263,7 @@ pub enum MeasurementError {
     #[error(
         "{file}: all files must have one set of wavelengths; {first} has {wanted}, found `{found}`"
     )]
+    #[hint("fit files of different wavelengths one by one")]
     Grid {
         /// File that differs.
         file: String,
@@ -234,6 +276,9 @@ pub enum MeasurementError {
     },
     /// The file is of another kind.
     #[error("{file}: expected a table of readings (CSV), found `{found}`")]
+    #[hint(
+        "a pigment library is read by mix, quadrature and library; fit, validate and color read CSV"
+    )]
     NoTable {
         /// File name as the caller gave it.
         file: String,
@@ -242,6 +287,19 @@ pub enum MeasurementError {
     },
     /// No spectrum of a file is a reflectance.
     #[error("{file}, line {line}: {sample} is {quantity}; reflectance is wanted")]
+    #[hint(
+        if *quantity == MeasuredQuantity::Counts,
+        "counts need a white and a dark reading: [white_reading=FILE] [dark_reading=FILE]"
+    )]
+    #[hint(
+        if *quantity == MeasuredQuantity::Power,
+        "the light of a lamp is read by [illuminant=FILE]"
+    )]
+    #[hint(
+        if *quantity == MeasuredQuantity::Transmittance,
+        "if it was read over a white tile, set [as_reflectance]"
+    )]
+    #[hint("export reflectance from the instrument's program")]
     NoReflectance {
         /// File name as the caller gave it.
         file: String,
@@ -272,6 +330,7 @@ pub enum MeasurementError {
     #[error(
         "{file}: the spectra must overlap; {first} ends at {end_nm} nm, and {second} begins at {start_nm} nm"
     )]
+    #[hint("read them as files of their own")]
     Apart {
         /// File name as the caller gave it.
         file: String,
@@ -286,7 +345,32 @@ pub enum MeasurementError {
     },
     /// The files hold bare cards only.
     #[error("no row is a film of paint")]
+    #[hint(
+        "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns"
+    )]
     NoFilms,
+}
+
+fn sheet_hint(error: &CsvTableError) -> Option<Hint> {
+    Some(Hint::new(match error {
+        CsvTableError::MissingColumn { .. } => {
+            "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400"
+        }
+        CsvTableError::RowLength { wanted, found, .. } if found > wanted => {
+            "numbers take a decimal point; a decimal comma splits a cell in two"
+        }
+        CsvTableError::RowLength { .. } => "the row may be cut off; write empty cells as `,,`",
+        CsvTableError::Cell { text, .. } if text.contains(',') => {
+            "numbers have a decimal point, or a decimal comma in every reading of the file"
+        }
+        CsvTableError::Cell { wanted: "a reflectance", text, .. } if text.is_empty() => {
+            "fill in the reading, or remove the row of a sample that was not read"
+        }
+        CsvTableError::Cell { wanted: "an amount of pigment", .. } => {
+            "a column that is neither known nor a wavelength is read as a pigment; if it is none, name those that are: [pigments=NAME]"
+        }
+        CsvTableError::Cell { .. } => return None,
+    }))
 }
 
 fn no_bare_reading(backing: &str) -> String {
@@ -294,105 +378,6 @@ fn no_bare_reading(backing: &str) -> String {
         return "lies on a backing of which there is no bare reading".to_owned();
     }
     format!("lies on `{backing}`, of which there is no bare reading")
-}
-
-impl Explain for MeasurementError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Instrument(error) => return error.hint(),
-            Self::Sheet(CsvTableError::MissingColumn { .. }) => {
-                "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400".into()
-            }
-            Self::RepeatedColumn { .. } | Self::RepeatedWavelength { .. } => {
-                "remove or rename one of the two columns".into()
-            }
-            Self::UnorderedWavelength { .. } => {
-                "order the wavelength columns from short to long".into()
-            }
-            Self::Sheet(CsvTableError::RowLength { wanted, found, .. }) if found > wanted => {
-                "numbers take a decimal point; a decimal comma splits a cell in two".into()
-            }
-            Self::Sheet(CsvTableError::RowLength { .. }) => {
-                "the row may be cut off; write empty cells as `,,`".into()
-            }
-            Self::Sheet(CsvTableError::Cell { text, .. }) if text.contains(',') => {
-                "numbers have a decimal point, or a decimal comma in every reading of the file".into()
-            }
-            Self::Sheet(CsvTableError::Cell { wanted: "a reflectance", text, .. })
-                if text.is_empty() =>
-            {
-                "fill in the reading, or remove the row of a sample that was not read".into()
-            }
-            Self::Sheet(CsvTableError::Cell { wanted: "an amount of pigment", .. }) => {
-                "a column that is neither known nor a wavelength is read as a pigment; if it is none, name those that are: [pigments=NAME]".into()
-            }
-            Self::NoTable { .. } => {
-                "a pigment library is read by mix, quadrature and library; fit, validate and color read CSV".into()
-            }
-            Self::Contradiction { .. } => {
-                "one name is one sample; rename one of the two, or give both the same amounts".into()
-            }
-            Self::WavelengthRange { .. } => "a pigment's name must not be a number".into(),
-            Self::Grid { .. } => "fit files of different wavelengths one by one".into(),
-            Self::MixedScale { .. } => {
-                "write all readings in one unit, or set [percent] if this sample really is that dark".into()
-            }
-            Self::Reflectance { .. } => {
-                "set [percent] or [fraction] if the unit was recognised wrongly; a dark reading below 0 means that the instrument's zero is off".into()
-            }
-            Self::Noise { .. } => {
-                "the file may hold a detector's counts ([white_reading=FILE] [dark_reading=FILE]), or another unit ([percent], [fraction])".into()
-            }
-            Self::BelowSurface { least, k2, .. } => format!(
-                "give a k1 below every reading, such as [saunderson={:.3},{k2}], or read such samples as black: [below_surface=floor]",
-                k1_below(*least)
-            ),
-            Self::MostBelowSurface { below_all, .. } => format!(
-                "readings in fractions (white near 1) take [fraction]; for a surface that reflects less, give its k1 and k2, such as [saunderson={below_all}]"
-            ),
-            Self::DarkerOverBrighter(film) => format!(
-                "paint cannot do this; {} and {} may be exchanged in the column `backing`, or leave the sample out: [exclude={}]",
-                film.bright, film.dark, film.sample
-            ),
-            Self::NoPigmentColumn { .. } => {
-                "[pigments=NAME] takes the heading of a column, once for each pigment".into()
-            }
-            Self::NoBareBacking { backing, .. } if backing.is_empty() => {
-                "add a row with the reading of the bare card or paper, and a column `film` with `none` in it and `paint` in the others; more than one card takes a column `backing` too. A file of recipes may have these columns instead: [recipes=FILE.csv]".into()
-            }
-            Self::NoBareBacking { backing, .. } => format!(
-                "add a row with film `none` and backing `{backing}`: the card without paint"
-            ),
-            Self::NoFilms => {
-                "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into()
-            }
-            Self::NoRecipe { has_cards: false, .. } => {
-                "if it is a bare card or paper, say so in a column `film`: `none` for it, `paint` for the others; else write its amounts in the pigment columns. A file of recipes may have both: [recipes=FILE.csv]".into()
-            }
-            Self::NoRecipe { .. } => {
-                "write the amounts in the pigment columns, or in a file of recipes ([recipes=FILE.csv]); film `none` is a bare card".into()
-            }
-            Self::NoReflectance { quantity, .. } => match quantity {
-                MeasuredQuantity::Counts => {
-                    "counts need a white and a dark reading: [white_reading=FILE] [dark_reading=FILE]"
-                }
-                MeasuredQuantity::Power => "the light of a lamp is read by [illuminant=FILE]",
-                MeasuredQuantity::Transmittance => {
-                    "if it was read over a white tile, set [as_reflectance]"
-                }
-                _ => "export reflectance from the instrument's program",
-            }
-            .into(),
-            Self::Apart { .. } => "read them as files of their own".into(),
-            Self::AboveWhite { .. } => {
-                "set [percent] or [fraction] if the unit was recognised wrongly".into()
-            }
-            Self::Sheet(CsvTableError::Cell { .. })
-            | Self::Empty { .. }
-            | Self::UnnamedColumn { .. }
-            | Self::Band { .. } => return None,
-        }))
-    }
 }
 
 /// Where a film of paint is darker over the brighter of two cards, which no paint can be.

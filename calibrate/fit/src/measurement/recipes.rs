@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use documents::name_list;
 
 use super::column::{Column, TableKind};
@@ -177,25 +177,32 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
 }
 
 /// Recipes that cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum RecipesError {
     /// The table is faulty.
     #[error(transparent)]
     Table(#[from] MeasurementError),
     /// A column is a wavelength.
     #[error("{place} is a wavelength; recipes hold no readings")]
+    #[hint("a file that holds both is a measurement file; leave out [recipes]")]
     Wavelength {
         /// File, row and column.
         place: CellPlace,
     },
     /// No column is a pigment.
     #[error("{file}, row 1: no column is a pigment")]
+    #[hint(
+        "columns of recipes: sample, then optionally reading, film, backing, thickness_mm, then one per pigment"
+    )]
     NoPigments {
         /// File name as the caller gave it.
         file: String,
     },
     /// Two rows name the same reading.
     #[error("{file}, row {second}: a recipe of `{name}` stands in row {first} already")]
+    #[hint(
+        "remove one; where a sample was read several times, name each reading in a column `reading`"
+    )]
     Repeated {
         /// File name as the caller gave it.
         file: String,
@@ -208,6 +215,7 @@ pub enum RecipesError {
     },
     /// The measurement file has recipes of its own.
     #[error("{file}: the measurement file has amounts of its own, of `{pigments}`")]
+    #[hint("leave out [recipes], or remove the pigment columns from the measurement file")]
     Twice {
         /// Name of the measurement file.
         file: String,
@@ -218,6 +226,9 @@ pub enum RecipesError {
     #[error(
         "{file}: no recipe has the name of a reading; recipes: {recipes}; readings: {readings}"
     )]
+    #[hint(
+        "names must be spelled alike in both; a column `reading` of the recipes may hold those of the measurement file"
+    )]
     NoneMatched {
         /// Name of the file of recipes.
         file: String,
@@ -226,27 +237,4 @@ pub enum RecipesError {
         /// First names in the measurement file.
         readings: String,
     },
-}
-
-impl Explain for RecipesError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Table(error) => return error.hint(),
-            Self::Wavelength { .. } => {
-                "a file that holds both is a measurement file; leave out [recipes]"
-            }
-            Self::NoPigments { .. } => {
-                "columns of recipes: sample, then optionally reading, film, backing, thickness_mm, then one per pigment"
-            }
-            Self::Repeated { .. } => {
-                "remove one; where a sample was read several times, name each reading in a column `reading`"
-            }
-            Self::Twice { .. } => {
-                "leave out [recipes], or remove the pigment columns from the measurement file"
-            }
-            Self::NoneMatched { .. } => {
-                "names must be spelled alike in both; a column `reading` of the recipes may hold those of the measurement file"
-            }
-        }))
-    }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use documents::hint::{Explain, Hint};
-use documents::{did_you_mean, name_list};
+use documents::hint::Explain;
+use documents::{name_list, question};
 use serde::{Deserialize, Serialize};
 use spectra::{Grid, IrregularSpectrum};
 
@@ -255,10 +255,11 @@ impl AveragedSpectra {
 }
 
 /// A name that does not denote one spectrum.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum SpectrumNameError {
     /// No spectrum and no sample has this name.
     #[error("no spectrum is called `{name}`")]
+    #[hint(verbatim, "{}samples: {}", question(name, samples), name_list(samples, LISTED, ", "))]
     Unknown {
         /// The name that no spectrum has.
         name: String,
@@ -267,25 +268,13 @@ pub enum SpectrumNameError {
     },
     /// The sample has several spectra, and you need one of them.
     #[error("`{name}` has several spectra")]
+    #[hint(verbatim, "select one of them: {}", spectra.join(", "))]
     Several {
         /// Name of the sample.
         name: String,
         /// Names of its spectra.
         spectra: Vec<String>,
     },
-}
-
-impl Explain for SpectrumNameError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::verbatim(match self {
-            Self::Unknown { name, samples } => {
-                let question = did_you_mean(name, samples.iter().map(String::as_str));
-                let question = question.map_or_else(String::new, |question| question + " ");
-                format!("{question}samples: {}", name_list(samples, LISTED, ", "))
-            }
-            Self::Several { spectra, .. } => format!("select one of them: {}", spectra.join(", ")),
-        }))
-    }
 }
 
 /// The grid for `wavelengths_nm`, which rise strictly: [`Grid::suited_to`] them.

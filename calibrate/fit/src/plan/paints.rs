@@ -2,7 +2,7 @@
 //! impossible.
 
 use documents::Cancelled;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use pigment::{PigmentId, Recipe, RecipeError};
 use spectra::Grid;
 
@@ -218,25 +218,36 @@ impl MeasurementForm {
 }
 
 /// A plan that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
+#[fault(Setting)]
 pub enum PlanError {
     /// A name cannot head a pigment's column of a measurement file.
     #[error("a measurement file would not read this as a pigment's name: `{name}`")]
+    #[hint(
+        "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number"
+    )]
     Name {
         /// Name of the paint.
         name: String,
     },
     /// Two paints have one name.
     #[error("each paint is named once, found twice `{name}`")]
+    #[hint("remove one, or give the second paint another name")]
     Twice {
         /// Name of both paints.
         name: String,
     },
     /// There is no paint besides the white.
     #[error("a plan needs a pigment beside the white")]
+    #[hint("name the pigments: impasto plan \"Cobalt Blue\" [white=\"Titanium White\"]")]
     NoColor,
     /// The number of swatches is out of range.
     #[error("{paints} paints are planned with {least} to {most} swatches, found `{swatches}`")]
+    #[hint(
+        if swatches < least,
+        "try [swatches={least}] or more; K of every paint and S of all but the white are unknown"
+    )]
+    #[hint("try [swatches={most}] or fewer; [replicates] repeat one swatch")]
     Swatches {
         /// Number of paints.
         paints: usize,
@@ -251,6 +262,7 @@ pub enum PlanError {
     #[error(
         "a tint of 1 to 4 needs {needed} g a swatch on a balance that shows {resolution} g, found `{grams}`"
     )]
+    #[hint("try [grams={needed}], or a finer [balance]")]
     Grams {
         /// Least mass of a swatch in grams.
         needed: f64,
@@ -261,6 +273,7 @@ pub enum PlanError {
     },
     /// A number is not above 0.
     #[error("{what} must be above 0 and finite, found `{value}`")]
+    #[hint("give grams, such as [grams=10] [balance=0.01]")]
     NotPositive {
         /// Name of the quantity.
         what: &'static str,
@@ -271,6 +284,7 @@ pub enum PlanError {
     #[error(
         "expected noise is two errors from 0 to below 1, one of them above 0, found `{constant}` and `{even}`"
     )]
+    #[hint("try 0.002 of the instrument and 0.01 of weighing and mixing")]
     Noise {
         /// Error of the instrument that was given.
         constant: f64,
@@ -279,6 +293,8 @@ pub enum PlanError {
     },
     /// The swatches would not identify every pigment.
     #[error("these swatches would not identify `{}`", paints.join(", "))]
+    #[hint("give more [swatches]")]
+    #[fault(Input)]
     Unidentified {
         /// Names of the paints that would not be identified.
         paints: Vec<String>,
@@ -289,39 +305,4 @@ pub enum PlanError {
     /// The search was asked to end before its time.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-}
-
-impl Explain for PlanError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Name { .. } => {
-                "use a word that is none of the file's own columns (sample, film, backing, thickness_mm, replicate) and no number".into()
-            }
-            Self::Twice { .. } => "remove one, or give the second paint another name".into(),
-            Self::NoColor => {
-                "name the pigments: impasto plan \"Cobalt Blue\" [white=\"Titanium White\"]".into()
-            }
-            Self::Swatches { least, most, swatches, .. } => {
-                if swatches < least {
-                    format!("try [swatches={least}] or more; K of every paint and S of all but the white are unknown")
-                } else {
-                    format!("try [swatches={most}] or fewer; [replicates] repeat one swatch")
-                }
-            }
-            Self::Grams { needed, .. } => format!("try [grams={needed}], or a finer [balance]"),
-            Self::NotPositive { .. } => "give grams, such as [grams=10] [balance=0.01]".into(),
-            Self::Noise { .. } => "try 0.002 of the instrument and 0.01 of weighing and mixing".into(),
-            Self::Unidentified { .. } => "give more [swatches]".into(),
-            Self::Prior(error) => return error.hint(),
-            Self::Cancelled(error) => return error.hint(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Unidentified { .. } | Self::Prior(_) => Fault::Input,
-            Self::Cancelled(error) => error.fault(),
-            _ => Fault::Setting,
-        }
-    }
 }

@@ -4,16 +4,17 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 /// We cannot open or read a cube.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum CubeError {
     /// The operating system cannot read a file.
     #[error(transparent)]
     File(#[from] FileError),
     /// The file or folder is not a cube, or it is of a kind that we do not read.
     #[error("{}: {problem}", path.display())]
+    #[hint("{way_out}")]
     Format {
         /// Path as you gave it.
         path: PathBuf,
@@ -24,6 +25,7 @@ pub enum CubeError {
     },
     /// A key of a header is missing or has an impossible value.
     #[error("{}{}: `{key}` {problem}", path.display(), line_words(*line))]
+    #[hint("{way_out}")]
     Key {
         /// Path of the header.
         path: PathBuf,
@@ -41,6 +43,9 @@ pub enum CubeError {
         "{}: the header {} describes {expected} bytes ({sizes}), found `{found}`",
         data.display(), header.display()
     )]
+    #[hint(
+        "correct samples, lines, bands, data type or header offset in the header, or copy the data file again"
+    )]
     Size {
         /// Path of the data.
         data: PathBuf,
@@ -55,6 +60,9 @@ pub enum CubeError {
     },
     /// The values are counts of a detector, or a multiple of reflectance that we cannot find out.
     #[error("{}: the values are no reflectances: the largest read is `{largest}`", path.display())]
+    #[hint(
+        "raw counts need [white_reading=FILE] and [dark_reading=FILE]; reflectances times a factor need [scale=10000] with that factor"
+    )]
     NoReflectance {
         /// Path of the cube.
         path: PathBuf,
@@ -63,6 +71,7 @@ pub enum CubeError {
     },
     /// We cannot use any sampled pixel.
     #[error("{}: {problem}", path.display())]
+    #[hint("{way_out}")]
     Unusable {
         /// Path of the cube.
         path: PathBuf,
@@ -73,6 +82,7 @@ pub enum CubeError {
     },
     /// A white or dark reading does not fit the cube.
     #[error("{}: the {role} reading {problem}", path.display())]
+    #[hint("{way_out}")]
     Reading {
         /// Path of the reading.
         path: PathBuf,
@@ -85,6 +95,7 @@ pub enum CubeError {
     },
     /// We cannot decode stored data.
     #[error("{}: {problem}", path.display())]
+    #[hint("{way_out}")]
     Data {
         /// Path of the file.
         path: PathBuf,
@@ -95,6 +106,8 @@ pub enum CubeError {
     },
     /// You ask for pixels or bands that the cube does not have.
     #[error("{}: {asked} lie outside the cube of {has}", path.display())]
+    #[hint("name rows, columns and wavelengths inside it")]
+    #[fault(Setting)]
     Outside {
         /// Path of the cube.
         path: PathBuf,
@@ -143,34 +156,6 @@ impl CubeError {
         way_out: impl Into<String>,
     ) -> Self {
         Self::Data { path: path.to_owned(), problem: problem.into(), way_out: way_out.into() }
-    }
-}
-
-impl Explain for CubeError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Format { way_out, .. }
-            | Self::Key { way_out, .. }
-            | Self::Unusable { way_out, .. }
-            | Self::Reading { way_out, .. }
-            | Self::Data { way_out, .. } => Some(Hint::new(way_out.clone())),
-            Self::Size { .. } => Some(Hint::new(
-                "correct samples, lines, bands, data type or header offset in the header, or copy the data file again",
-            )),
-            Self::NoReflectance { .. } => Some(Hint::new(
-                "raw counts need [white_reading=FILE] and [dark_reading=FILE]; reflectances times a factor need [scale=10000] with that factor",
-            )),
-            Self::Outside { .. } => Some(Hint::new("name rows, columns and wavelengths inside it")),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Outside { .. } => Fault::Setting,
-            _ => Fault::Input,
-        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Hint};
 use half::f16;
 use serde_json::{Map, Value, json};
 
@@ -257,13 +257,19 @@ impl Tiles {
 }
 
 /// We cannot write or read maps.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum StoreError {
     /// We cannot read or write a file of the description.
     #[error(transparent)]
     File(#[from] FileError),
     /// We cannot write a shard. Shards written before are whole.
     #[error("{}: the shard of {shard} cannot be written", path.display())]
+    #[hint(
+        if source.reason.kind() == std::io::ErrorKind::StorageFull,
+        "free space on the disk, then go on with [resume]"
+    )]
+    #[hint(with = source.hint().or_else(|| Some(Hint::new("go on with [resume] afterwards"))))]
+    #[fault(Environment)]
     Shard {
         /// Path of the store.
         path: PathBuf,
@@ -274,6 +280,9 @@ pub enum StoreError {
     },
     /// The output exists, and you did not ask to resume it.
     #[error("{}: exists already and {holds}", path.display())]
+    #[hint(if *is_maps, "go on with [resume], or name another folder with [out]")]
+    #[hint("name another folder with [out]")]
+    #[fault(Setting)]
     Exists {
         /// Path of the store.
         path: PathBuf,
@@ -284,6 +293,10 @@ pub enum StoreError {
     },
     /// The output belongs to a run of other settings.
     #[error("{}: holds maps of another run: `{key}` is {found}, now {expected}", path.display())]
+    #[hint(
+        "name another folder with [out], or map with the scan, library and settings of that run"
+    )]
+    #[fault(Setting)]
     OtherRun {
         /// Path of the store.
         path: PathBuf,
@@ -304,6 +317,7 @@ pub enum StoreError {
     },
     /// Shards are missing.
     #[error("{}: {missing} of {shards} shards are not written yet", path.display())]
+    #[hint("go on with [resume]")]
     Unfinished {
         /// Path of the store.
         path: PathBuf,
@@ -314,45 +328,13 @@ pub enum StoreError {
     },
     /// The store is damaged or not a store of maps.
     #[error("{}: {problem}", path.display())]
+    #[hint("map the scan again into another folder")]
     Damaged {
         /// Path of the file.
         path: PathBuf,
         /// The fault that we found.
         problem: String,
     },
-}
-
-impl Explain for StoreError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Shard { source, .. } => match source.reason.kind() {
-                std::io::ErrorKind::StorageFull => {
-                    Some(Hint::new("free space on the disk, then go on with [resume]"))
-                }
-                _ => source.hint().or_else(|| Some(Hint::new("go on with [resume] afterwards"))),
-            },
-            Self::Unfinished { .. } => Some(Hint::new("go on with [resume]")),
-            Self::Exists { is_maps: true, .. } => {
-                Some(Hint::new("go on with [resume], or name another folder with [out]"))
-            }
-            Self::Exists { .. } => Some(Hint::new("name another folder with [out]")),
-            Self::OtherRun { .. } => Some(Hint::new(
-                "name another folder with [out], or map with the scan, library and settings of that run",
-            )),
-            Self::Maps { .. } => None,
-            Self::Damaged { .. } => Some(Hint::new("map the scan again into another folder")),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Shard { .. } => Fault::Environment,
-            Self::Exists { .. } | Self::OtherRun { .. } => Fault::Setting,
-            Self::Maps { .. } | Self::Unfinished { .. } | Self::Damaged { .. } => Fault::Input,
-        }
-    }
 }
 
 #[cfg(test)]

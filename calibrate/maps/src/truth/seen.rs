@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use documents::file::FileError;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
@@ -238,7 +238,7 @@ impl TruthArray {
 }
 
 /// We cannot write, read or compare truth.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum TruthError {
     /// We cannot read or write a file.
     #[error(transparent)]
@@ -248,12 +248,15 @@ pub enum TruthError {
     Maps(#[from] StoreError),
     /// The folder holds something else.
     #[error("{}: holds files that are no truth of a simulated scan", path.display())]
+    #[hint("name another folder, or empty this one")]
+    #[fault(Setting)]
     Exists {
         /// Path of the folder.
         path: PathBuf,
     },
     /// The folder does not hold truth, or it is damaged.
     #[error("{}: {problem}", path.display())]
+    #[hint("simulate the scan again")]
     Damaged {
         /// Path of the file or folder.
         path: PathBuf,
@@ -273,6 +276,8 @@ pub enum TruthError {
         "{}: the maps end at row {} and column {}, the truth has {lines} x {samples} pixels",
         path.display(), ends.0, ends.1
     )]
+    #[hint("name the truth of the scan that was mapped")]
+    #[fault(Setting)]
     Size {
         /// Path of the truth.
         path: PathBuf,
@@ -283,28 +288,6 @@ pub enum TruthError {
         /// Columns of the truth.
         samples: usize,
     },
-}
-
-impl Explain for TruthError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Maps(error) => error.hint(),
-            Self::Exists { .. } => Some(Hint::new("name another folder, or empty this one")),
-            Self::Damaged { .. } => Some(Hint::new("simulate the scan again")),
-            Self::Rows { .. } => None,
-            Self::Size { .. } => Some(Hint::new("name the truth of the scan that was mapped")),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Maps(error) => error.fault(),
-            Self::Exists { .. } | Self::Size { .. } => Fault::Setting,
-            Self::Damaged { .. } | Self::Rows { .. } => Fault::Input,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use documents::hint::Explain;
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -98,11 +99,9 @@ impl GroundKind {
 }
 
 /// A name does not belong to a kind of ground.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 #[error("a ground is linen, paper, panel or wood, found `{0}`")]
 pub struct ParseGroundKindError(pub String);
-
-impl documents::hint::Explain for ParseGroundKindError {}
 
 impl FromStr for GroundKind {
     type Err = ParseGroundKindError;
