@@ -221,8 +221,8 @@ pub(crate) struct TimelapseReport {
 }
 
 impl TimelapseOptions {
-    /// Checks settings and files. Returns `None` if no timelapse is requested. `writes` tells
-    /// whether another output has this file.
+    /// Checks settings and files. Returns `None` if no timelapse is requested. `writes` says
+    /// whether another output of the verb already writes this file.
     pub(crate) fn open(
         &self,
         inputs: &[PathBuf],

@@ -24,14 +24,14 @@ pub struct Screen {
     pub owns_errors: bool,
 }
 
-/// How much a verb tells beside its results.
+/// How much a verb prints besides its results.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Voice {
     /// Only warnings and errors.
     Quiet,
     #[default]
     Usual,
-    /// Also what was chosen, and how long it took.
+    /// Also prints what was chosen and how long it took.
     Verbose,
 }
 

@@ -91,7 +91,7 @@ pub(crate) fn at_most(value: f64, most: usize) -> String {
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }
 
-/// A number with this many decimals. One that rounds to zero has no sign.
+/// Formats a number with this many decimals. A number that rounds to zero gets no minus sign.
 pub(crate) fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {

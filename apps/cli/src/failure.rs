@@ -134,7 +134,7 @@ pub(crate) fn with_options(hint: &Hint) -> String {
     })
 }
 
-/// Digits in a row from which a number is written with an exponent.
+/// A number with at least this many digits in a row is written with an exponent.
 const LONG: usize = 20;
 
 /// Gives very long numbers of a message an exponent. For example, 1e300 written out has 301 digits.

@@ -10,7 +10,7 @@ use clap_mangen::roff::{Inline, Roff, bold, roman};
 
 use crate::library_choice::VARIABLE;
 
-/// Exit status of every verb, as docs/guide/command-line.md tells it.
+/// Exit status of every verb, as docs/guide/command-line.md describes it.
 const STATUS: [(&str, &str); 4] = [
     ("0", "Done, also where the reader of a pipe wants no more."),
     ("1", "The data: a file does not hold what is needed, or a check says no."),

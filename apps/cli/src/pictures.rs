@@ -142,7 +142,7 @@ impl Exports {
         }
     }
 
-    /// Refuses a file of `--output` if its ending names no kind.
+    /// Refuses a file of `--output` with an ending that we do not know.
     fn check_endings(&self) -> Result<()> {
         let Some(path) = self.output.iter().find(|path| Kind::of(path).is_none()) else {
             return Ok(());

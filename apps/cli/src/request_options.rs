@@ -39,7 +39,7 @@ impl<T: CommandLine> RequestOptions<T> {
         self.given.get(key).is_some_and(|given| given == text)
     }
 
-    /// Takes the texts of an option out of those that were given.
+    /// Removes an option and returns the texts that were given for it.
     pub(crate) fn take(&mut self, key: &str) -> Vec<String> {
         let texts = match self.given.remove(key) {
             Some(Value::Array(texts)) => texts,
@@ -198,7 +198,8 @@ fn kind(schema: &Value) -> Option<Kind> {
     })
 }
 
-/// The schemas of which a value meets one.
+/// The alternatives of a schema, of which a value must meet one. A schema without alternatives is
+/// its only one.
 fn alternatives(schema: &Value) -> Vec<&Value> {
     let of = ["anyOf", "oneOf"].into_iter().filter_map(|key| schema.get(key)?.as_array());
     let inner: Vec<&Value> = of.flatten().flat_map(alternatives).collect();
@@ -250,7 +251,8 @@ impl Key {
         T::adapted(&self.name, option)
     }
 
-    /// The value of the key for the texts that a command gives.
+    /// Converts the texts of an option into the JSON value of its key. A text that is not a number
+    /// stays a text, so that the request can refuse it.
     fn value(&self, texts: Vec<String>) -> Value {
         let whole = |text: &String| text.parse::<u64>().ok().map(Value::from);
         let number = |text: &String| text.parse::<f64>().ok().map(|number| json!(number));

@@ -51,7 +51,7 @@ pub(crate) struct SubjectOptions {
 pub(crate) enum PictureViews {
     /// The whole picture from the front.
     Front,
-    /// Also cameras that options turn.
+    /// From the front, or from where `--camera` and `--turntable` turn the camera.
     Turned,
     /// Any camera, with pictures of any shape.
     Free,
@@ -155,8 +155,8 @@ impl SubjectOptions {
         }
     }
 
-    /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
-    /// before it: one, or those of a swing around that place.
+    /// Positions of the cameras of a picture, in degrees to the right and upwards from straight
+    /// before it: one position, or those of a swing around it.
     pub(crate) fn picture_turns(&self) -> Result<Vec<[f32; 2]>> {
         Ok(picture_turns(self.picture_camera()?, self.turntable))
     }
@@ -229,7 +229,8 @@ impl SubjectOptions {
     }
 }
 
-/// Whether a file is a mesh: by its ending, standard input if it begins like no picture.
+/// Whether a file is a mesh. Its ending decides. Standard input is a mesh if it does not begin like
+/// a picture.
 fn is_mesh(path: &Path) -> Result<bool> {
     if is_standard_input(path) {
         return Ok(!begins_like_picture(&read(path)?));

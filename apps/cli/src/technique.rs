@@ -135,7 +135,7 @@ pub(crate) fn prepared<T: Technique>(
     followed(console, |task| T::prepare(subject, settings, task))
 }
 
-/// Paints a subject as it is seen.
+/// Paints a subject in one view, behind a spinner or bar.
 pub(crate) fn painted<T: Technique>(
     painter: &mut T,
     view: T::View<'_>,

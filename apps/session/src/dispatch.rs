@@ -228,7 +228,7 @@ impl WorkerLoop<'_> {
         }
     }
 
-    /// Undoes or repeats a whole group of strokes, if the action would do that to one of them.
+    /// If the action would undo or repeat one stroke of a group, does this for the whole group.
     fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, PaintingError> {
         let OpenPainting { prepared, groups, .. } = self.open_mut();
         let session = &mut prepared.session;

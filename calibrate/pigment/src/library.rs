@@ -698,7 +698,8 @@ pub enum RecipeError {
     },
 }
 
-/// A question after the pigment that `name` may mean, with a space behind it, or nothing.
+/// Asks for the pigment that `name` may mean, e.g. `did you mean Viridian? `, with a space at the
+/// end. Empty if no known name is like it.
 fn question(name: &str, known: &[String]) -> String {
     did_you_mean(name, known.iter().map(String::as_str))
         .map_or_else(String::new, |question| question + " ")

@@ -208,7 +208,8 @@ pub(super) fn fit_of_all(
     Ok(prepared.fit(&waiting.task("fitting"))?)
 }
 
-/// Whether the value of `--white` is the file of a reading, FILE or FILE#NAME, and no pigment.
+/// Whether the value of `--white` names the file of a reading (FILE or FILE#NAME) and not a
+/// pigment.
 fn is_reading(text: &str) -> bool {
     Path::new(split_file_and_name(text).0).is_file()
 }

@@ -175,7 +175,7 @@ impl Paint {
         Ok(Some((path, document, table)))
     }
 
-    /// The library that was named, else the one that the script names, else the default one.
+    /// The library that you name, else the one that the script names, else the default one.
     fn script_library(
         &self,
         script: &StrokeScript,

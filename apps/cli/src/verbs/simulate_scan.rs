@@ -240,7 +240,8 @@ impl<'d> Painting<'d> {
         Ok(truth.add(&found)?)
     }
 
-    /// Parts of what is seen of a cell: of the pigments, of the layers, of the ground.
+    /// What you see at a cell, in shares: first of the pigments, then of the layers, then of the
+    /// ground.
     fn seen(&self, x: usize, y: usize) -> Vec<f64> {
         let seen = self.exact.seen(x, y);
         let pigments = self.pigments.iter().map(|&place| seen.pigments[place]);

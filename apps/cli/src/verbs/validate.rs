@@ -101,10 +101,12 @@ impl Validate {
     }
 }
 
-/// Time of a fit without one mixture over that of the fit of all, whose estimates it reuses and whose
-/// standard deviations it lacks. Measured with the oils on two cores: 0.22; more cores need less.
+/// Time of a fit without one mixture divided by the time of the full fit. Such a fit starts from
+/// the estimates of the full fit, and computes no standard deviations. With the oils we measured
+/// 0.22 on two cores, and less on more cores.
 const REFIT: f64 = 0.25;
-/// Expected seconds of a validation from which groups are advised.
+/// If a validation is expected to take longer than this, in seconds, we advise to validate in
+/// groups.
 const LONG: f64 = 120.0;
 /// Number of groups that is advised.
 const FOLDS: usize = 10;

@@ -143,9 +143,7 @@ pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
     [red, green, blue].map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
-/// The answer to the painter: what is at a place, if there is a surface, and the colour shown
-/// there.
-/// `slots` are the pigments of the volumes.
+/// Describes for the painter what is at a place (if there is a surface) and the colour shown there.
 pub(super) fn told(
     found: Option<(Vec3, Found)>,
     srgb: [u8; 3],

@@ -87,7 +87,7 @@ pub(super) enum Finished {
     /// The revisions were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
     /// An autosave was written. `revision` is the painting's counter of changes at this time,
-    /// `recorded` the number of kept actions of its recording.
+    /// `recorded` the number of actions in the saved recording.
     Autosaved {
         revision: u64,
         epoch: u64,
@@ -95,7 +95,7 @@ pub(super) enum Finished {
         desk: Box<Desk>,
         digest: Option<(PathBuf, Option<String>)>,
     },
-    /// The sets of own brushes were read. Some files may have these problems.
+    /// The painter's sets of brushes were read. The problems are about files that we could not use.
     BrushSetsRead(Vec<StoredSet>, Vec<Problem>),
     /// A file of brushes was read.
     BrushesRead { path: PathBuf, brushes: ReadBrushes },

@@ -19,12 +19,12 @@ pub fn stage(text: &str) {
     hear_stage(text);
 }
 
-/// A task that tells the page the `text` of each report.
+/// A task that passes the `text` of each report to the page.
 pub fn task(text: impl Fn(&Progress) -> String + Send + Sync + 'static) -> Task {
     Task::observed(move |progress| hear_stage(&text(progress)))
 }
 
-/// A task that tells the page `name`, then each further percent of `all` steps.
+/// A task that passes `name` to the page, then each further percent of `all` steps.
 pub fn task_in_percent(name: &'static str, all: usize) -> Task {
     hear_stage(name);
     let all = all.max(1) as u64;

@@ -395,7 +395,7 @@ impl Explain for MeasurementError {
     }
 }
 
-/// Where a film of paint is darker over the brighter of two cards, which no paint can be.
+/// A film of paint that is darker over the brighter of two cards. No paint can do this.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DarkerFilm {
     /// File name as the caller gave it.

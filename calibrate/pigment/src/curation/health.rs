@@ -25,7 +25,7 @@ pub enum Severity {
 pub struct Finding {
     /// Severity of the finding.
     pub severity: Severity,
-    /// Name of the pigment concerned. `None` where the whole library is.
+    /// Name of the pigment concerned. `None` if the finding is about the whole library.
     pub pigment: Option<String>,
     /// Description of the finding.
     pub what: String,

@@ -198,8 +198,8 @@ impl Painting {
         })
     }
 
-    /// Also keeps a picture under a second light, for a view that is split between the two.
-    /// `None` frees its memory. Not an action of the history.
+    /// Also keeps a picture under a second light, for a view that is split between the two. `None`
+    /// frees its memory. This is not an action of the history.
     ///
     /// # Errors
     /// [`PaintingError::Light`] if the light is unknown. The second light stays unchanged.

@@ -339,8 +339,8 @@ fn divide<'a>(
     Divide { tones, coloring: layer.roots.coloring(), overhang: overlap.overhang, thin }
 }
 
-/// Keeps the strokes that a picture of the settings needs, `more` times as many, at so many pixels
-/// to a unit of the subject. Returns the share of them that continue a neighbour.
+/// Keeps the strokes that a picture of `per_unit` pixels per unit of the subject needs, at up to
+/// `more` times its density. Returns the share of them that continue a neighbour.
 fn kept(
     roots: Roots,
     features: &Features,

@@ -103,7 +103,7 @@ impl Tones {
         Self { slices, maps, low, step }
     }
 
-    /// A map, in the order in which they were given.
+    /// The map with this number, in the order in which you gave them.
     #[inline(always)]
     pub(super) fn map(&self, map: usize) -> &LaidMap {
         &self.maps[map]

@@ -75,7 +75,7 @@ pub enum SavedError {
 pub(crate) trait Stored: Sized {
     fn store(&self, bytes: &mut Vec<u8>);
 
-    /// Reads one. `None` if the bytes end too early, or are not such a value.
+    /// Reads one value. `None` if the bytes end too early or do not encode such a value.
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 

@@ -198,7 +198,7 @@ pub(super) struct Maps {
     regions: Regions,
 }
 
-/// The map of everything else, and those of materials.
+/// The maps of `--map`: one for everything, and one for each material that has its own.
 struct Chosen<'a> {
     base: Option<&'a str>,
     of_material: Vec<(&'a str, &'a str)>,

@@ -176,7 +176,7 @@ pub(super) const EVERY: usize = 50;
 /// Number of snapshots that are kept.
 const KEPT: usize = 2;
 
-/// Plays scripts, from the newest snapshot where there is one.
+/// Plays scripts. If there are snapshots of an earlier run, we continue from the newest one.
 pub(super) struct Snapshots {
     /// Device of large worlds.
     device: StepDevice,
@@ -252,7 +252,7 @@ impl Snapshots {
         }
     }
 
-    /// Plays on until `step`, by way of a snapshot where one is ahead.
+    /// Plays until `step`. If a snapshot on the way is ahead of us, we continue from it.
     pub(super) fn advance(
         &mut self,
         play: &mut Performance,

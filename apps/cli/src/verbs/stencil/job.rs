@@ -187,9 +187,9 @@ impl Job {
         Ok(prepared::<VolumePainter>(subject, &self.settings, console)?)
     }
 
-    /// The script at the time of single pictures. It is played to the last step of all first, so
-    /// that an event that cannot be done is told before anything is written. A run that left
-    /// snapshots has done so already.
+    /// Plays the script to the time of the single pictures. To report an impossible event before
+    /// anything is written, this first plays the script to its very last step. If an earlier run
+    /// left snapshots, it has checked this already.
     fn rehearsed(&self, has_frames: bool, snapshots: &mut Snapshots) -> Result<Performance> {
         let located = |error| self.script.located_event(error);
         let mut play = self.beginning.clone();

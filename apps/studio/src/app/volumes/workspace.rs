@@ -64,7 +64,7 @@ pub struct Volumes {
     /// Camera and size of the picture that we last sent to the worker.
     pub(super) told: (Option<Camera>, [usize; 2]),
     pub(super) device: Option<Device>,
-    /// Whether we have told the worker that the device is down.
+    /// Whether the worker knows that the pointing device is down.
     pub(super) pours: bool,
     /// The answer to a right click, and where you clicked.
     pub(super) here: Option<(Pos2, Option<Here>)>,

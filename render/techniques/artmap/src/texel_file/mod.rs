@@ -212,7 +212,7 @@ impl Filling {
         Ok(())
     }
 
-    /// The part. This fails if a row is missing.
+    /// Returns the finished part. This fails if a row is missing.
     fn whole(self, origin: Origin<'_>) -> Result<PartPlanes, TexelFileError> {
         let plan = self.layout.plan;
         match self.rows.iter().position(|filled| !filled) {

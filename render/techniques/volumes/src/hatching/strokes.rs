@@ -104,7 +104,8 @@ impl Stroke {
         }
     }
 
-    /// The middle line of the stroke at `along` 0 to 1 of its length, at a `size`.
+    /// The point on the middle line of the stroke at `along`, 0 to 1 of its length, if the stroke
+    /// is drawn at this `size`.
     pub(super) fn place(&self, along: f32, size: f32) -> [f32; 2] {
         let arc = self.bow * (4.0 * along * (1.0 - along) - 0.67);
         let down = self.slope * (along - 0.5) + arc + between(&self.wobble, along);
