@@ -165,7 +165,7 @@ mod caught {
     use std::io::{self, Read, Seek};
     use std::os::fd::OwnedFd;
 
-    /// Standard error as it was, put back when dropped.
+    /// The original standard error. Dropping this puts it back.
     struct PutBack(OwnedFd);
 
     impl Drop for PutBack {

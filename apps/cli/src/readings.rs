@@ -193,7 +193,7 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 
-/// Whether a file is TOML: by its ending, standard input by what it holds.
+/// Whether a file is TOML. Its ending decides, or the content of standard input.
 pub(crate) fn is_toml(path: &Path) -> bool {
     match is_standard_input(path) {
         true => holds_toml(&documents::file::read(path).unwrap_or_default()),

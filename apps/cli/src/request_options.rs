@@ -99,7 +99,7 @@ pub(crate) fn without_value_help(option: Arg) -> Arg {
     option.value_parser(PossibleValuesParser::new(names))
 }
 
-/// An option that does not take one of its values.
+/// The option without `left_out`, one of its possible values.
 pub(crate) fn without_value(option: Arg, left_out: &str) -> Arg {
     let mut values = option.get_possible_values();
     values.retain(|value| value.get_name() != left_out);
@@ -115,7 +115,7 @@ fn refusal<T: CommandLine>(error: RequestError) -> Failure {
     })
 }
 
-/// An option as it is typed.
+/// The option as a user types it, e.g. `--least-share`.
 fn shown(option: &Arg) -> String {
     format!("--{}", option.get_long().unwrap_or_default())
 }

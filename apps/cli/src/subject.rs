@@ -131,7 +131,7 @@ impl SubjectOptions {
         self.camera.is_some() || self.turntable.is_some()
     }
 
-    /// Shows the subject in its size by the usual camera.
+    /// The subject at the same size, seen by the default camera.
     pub(crate) fn without_camera(&self) -> Self {
         Self { width: self.width, height: self.height, camera: None, turntable: None }
     }

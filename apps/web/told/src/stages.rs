@@ -14,7 +14,7 @@ extern "C" {
     fn hear_defect(text: &str);
 }
 
-/// Tells the page the stage of long work.
+/// Passes the stage of long work to the page.
 pub fn stage(text: &str) {
     hear_stage(text);
 }

@@ -129,7 +129,7 @@ impl Spines {
         self.settle(grip, relief);
     }
 
-    /// Whether a blade lies on its other side at `grip` than it did.
+    /// Whether the blade turns over to its other side at `grip`.
     pub(super) fn turns_over(&self, grip: &Grip) -> bool {
         self.of.rigid && self.axis.dot(grip.axis) < 0.0
     }

@@ -85,7 +85,7 @@ impl StrokeTool {
         *self == Self::Paint
     }
 
-    /// The tool with its number replaced by `change` of it.
+    /// The tool with `change` applied to its number.
     #[must_use]
     pub fn map(self, change: impl Fn(f64) -> f64) -> Self {
         match self {

@@ -14,8 +14,8 @@ use crate::optics::Scene;
 use crate::scene::{Appearance, PixelsPerCell, SpectralStack, fine_picture};
 
 impl Painting {
-    /// Renders the parts of the picture that are out of date, and returns the tiles rendered
-    /// since the last call. With `second`, the picture under the second light.
+    /// Renders the parts of the picture that are out of date, and returns the tiles rendered since
+    /// the last call. If `second` is true, this is the picture under the second light.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost, or its memory does not suffice for a second

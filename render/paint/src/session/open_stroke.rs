@@ -51,8 +51,8 @@ impl PaintingSession {
         Ok(self.brushes.find(brush).ok_or_else(unknown)?)
     }
 
-    /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints
-    /// them. If one is refused, those before it count, and the stroke stays open.
+    /// Rounds samples and adds them to the open stroke. [`PaintingSession::advance`] paints them.
+    /// If we refuse a sample, the samples before it count, and the stroke stays open.
     ///
     /// # Errors
     /// [`PaintingError`] for an impossible sample (its index counts from the first of the

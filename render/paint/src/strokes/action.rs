@@ -104,7 +104,7 @@ pub enum Action {
     Merge {
         /// One of the two, which must be dry.
         layer: LayerRef,
-        /// The other one. The layer below by default.
+        /// The other layer. By default, this is the layer below.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         with: Option<LayerRef>,
     },

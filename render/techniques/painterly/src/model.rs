@@ -16,7 +16,7 @@ use graphics::surface::PackedMesh;
 /// settings. It is the height of a 4 : 3 picture less a margin.
 const FILLED: f32 = 0.69;
 
-/// We keep strokes up to this many times the density that a model needs which fills the picture.
+/// We keep strokes up to this many times the density that we need if a model fills the picture.
 const MORE: f32 = 2.0;
 
 /// With default settings, smaller strokes show where a surface bends by more than this within half

@@ -59,9 +59,9 @@ pub struct Painter {
     /// The paint of the maps, if they have any. If maps cannot be joined in paint, you can still
     /// use their colours.
     paint: Result<Option<PaintTones>, PaintOfMapsError>,
-    /// Films of the subject's own colours.
+    /// Height of the films that show the subject's own colours.
     film: FilmHeight,
-    /// Pigments for them, if not from the maps' library.
+    /// Pigments of these films, if they do not come from the library of the maps.
     pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
     /// The ground of the last painting.
     pub(super) ground: Option<BuiltGround>,
@@ -307,7 +307,7 @@ impl Painter {
             .unwrap_or_else(|| (Arc::new(PigmentLibrary::van_gogh_oils()), None))
     }
 
-    /// Films of the subject's own colours.
+    /// Height of the films that show the subject's own colours.
     pub(super) fn film(&self) -> FilmHeight {
         self.film
     }
@@ -492,7 +492,7 @@ fn add(lower: &mut Field<f32>, upper: &Field<f32>) {
     lower.values_mut().iter_mut().zip(upper.values()).for_each(|(lower, upper)| *lower += upper);
 }
 
-/// A ground, and what it was built from but for the library.
+/// A ground, and everything that we built it from except the library.
 #[derive(Debug)]
 pub(super) struct BuiltGround {
     spec: GroundSpec,

@@ -54,7 +54,7 @@ pub(super) enum Detail {
 pub(super) struct Surface {
     /// The mesh with the normals that light meets.
     pub(super) mesh: Arc<Mesh>,
-    /// That mesh with the colours of this layer.
+    /// The mesh with the colours of this layer.
     pub(super) packed: Arc<PackedMesh>,
     pub(super) directions: Arc<Directions>,
     pub(super) detail: Detail,

@@ -29,8 +29,9 @@ const FACING: [f32; 2] = [0.0, 0.6];
 /// Cosines between eye and normal over which splats begin to cover.
 const COVERING: [f32; 2] = [0.0, 0.2];
 
-/// Lengths of the projected direction, by its own length, over which splats gain weight: the
-/// direction of strokes that run towards the eye is not stable.
+/// A splat gains weight while the length of its projected direction rises from the first value to
+/// the second, relative to its true length. The direction of strokes that run towards the eye is
+/// not stable.
 const LENGTH: [f32; 2] = [0.05, 0.35];
 
 /// Weight of strokes that run towards the eye. With this they show only where there are no others.

@@ -260,7 +260,7 @@ fn print(set: &SampleSet, reports: &[PassageReport], console: &mut Console<'_>) 
     table.print(console)
 }
 
-/// Remark on strokes that were seen in the relief.
+/// Words that say that strokes were seen in the relief. Empty if they were seen in the colours.
 fn in_relief(seen: StrokesSeen) -> &'static str {
     if seen == StrokesSeen::Relief { " in relief" } else { "" }
 }

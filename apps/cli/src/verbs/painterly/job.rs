@@ -242,8 +242,8 @@ impl BrushworkOptions {
         Ok(Maps { named, regions })
     }
 
-    /// The map that a region calls: a file beside the file of regions or as on the command line, or a
-    /// style.
+    /// Opens the map that a region names: a file beside the file of regions or as on the command
+    /// line, or a style.
     fn map_of_region(&self, name: &str, console: &Console<'_>) -> Result<ArtMap> {
         let folder = self.regions.as_deref().and_then(Path::parent);
         let beside = folder.map(|folder| folder.join(name)).filter(|path| path.exists());
@@ -338,7 +338,8 @@ impl PigmentOptions {
         self.path().cloned()
     }
 
-    /// Title, ground and pigments, if the picture is a painting: if `wanted` or asked for here.
+    /// Title, ground and pigments, if the picture becomes a painting. This is so if `wanted` is
+    /// true or if options ask for it.
     pub(super) fn materials(
         &self,
         title: &str,

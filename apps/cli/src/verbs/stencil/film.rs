@@ -237,7 +237,7 @@ impl Snapshots {
         Ok(Self { folder: folder.to_owned(), wish, found, files, ..Self::none(device) })
     }
 
-    /// Whether there is one.
+    /// Whether there is a snapshot.
     pub(super) fn any(&self) -> bool {
         !self.found.is_empty()
     }

@@ -231,7 +231,7 @@ fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
     }
 }
 
-/// The script with all that options change of it.
+/// Reads the script and changes it as the options say.
 fn script(
     verb: &Stencil,
     path: &Path,

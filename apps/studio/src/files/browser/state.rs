@@ -21,7 +21,7 @@ pub(crate) struct BrowserOptions {
     pub(crate) filters: &'static [Filter],
     /// Extension added to the name of a new file, if any.
     pub(crate) ending: Option<&'static str>,
-    /// Other extensions that a new file can have. It gets none of our own then.
+    /// If a new file has one of these extensions, we do not add our own.
     pub(crate) others: &'static [&'static str],
     /// Suggested name of a new file.
     pub(crate) name: String,

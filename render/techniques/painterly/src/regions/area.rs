@@ -122,7 +122,7 @@ impl RegionMap {
         Ok(Self { styles, of_material: vec![0], of_px: Some(of_px) })
     }
 
-    /// Number of the region of a place: of a material, at texture coordinates.
+    /// Number of the region at these texture coordinates of a material.
     pub(crate) fn at(&self, material: u32, share: Vec2) -> u16 {
         match &self.of_px {
             Some(of_px) => of_px[pixel(of_px, share)],
