@@ -90,15 +90,15 @@ impl Console<'_> {
 
     /// Prints one line of remarks.
     pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> Result<()> {
-        self.told(Voice::Usual, text)
+        self.remark_at(Voice::Usual, text)
     }
 
     /// Prints one line that you see only with `--verbose`.
     pub(crate) fn detail(&mut self, text: impl AsRef<str>) -> Result<()> {
-        self.told(Voice::Verbose, text)
+        self.remark_at(Voice::Verbose, text)
     }
 
-    fn told(&mut self, least: Voice, text: impl AsRef<str>) -> Result<()> {
+    fn remark_at(&mut self, least: Voice, text: impl AsRef<str>) -> Result<()> {
         if self.voice >= least {
             writeln!(self.err, "{}", text.as_ref())?;
         }
@@ -117,7 +117,7 @@ impl Console<'_> {
             }
             let least =
                 if remark.kind == RemarkKind::Warning { Voice::Quiet } else { Voice::Usual };
-            self.told(least, line)?;
+            self.remark_at(least, line)?;
         }
         Ok(())
     }
@@ -125,7 +125,7 @@ impl Console<'_> {
     /// Prints warnings, one per line.
     pub(crate) fn warnings(&mut self, warnings: &[String]) -> Result<()> {
         for warning in warnings {
-            self.told(Voice::Quiet, format!("warning: {warning}"))?;
+            self.remark_at(Voice::Quiet, format!("warning: {warning}"))?;
         }
         Ok(())
     }

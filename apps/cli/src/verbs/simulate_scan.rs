@@ -227,11 +227,11 @@ impl<'d> Painting<'d> {
         classes: &mut [u64],
     ) -> Result<()> {
         let columns = camera.scene().samples;
-        let told = camera.rows(rows.clone(), &|line| {
+        let scanned = camera.rows(rows.clone(), &|line| {
             (0..columns).flat_map(|x| self.exact.measured_reflectance(x, line)).collect()
         });
-        scan.add(&told.told)?;
-        let found = truth_rows(camera, self.parts, rows, told.mean, &|line| {
+        scan.add(&scanned.told)?;
+        let found = truth_rows(camera, self.parts, rows, scanned.mean, &|line| {
             (0..columns).flat_map(|x| self.seen(x, line)).collect()
         });
         for class in &found.class {

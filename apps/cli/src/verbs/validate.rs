@@ -91,10 +91,10 @@ impl Validate {
         }
         if self.json {
             let seconds = start.elapsed().as_secs_f64();
-            let mut told = fit::timed(validation.errors_json(), seconds);
-            told["strength_free"] = json!(validation.errors.strength_free);
-            told["by_pigment"] = json!(validation.errors.by_pigment);
-            return console.json(&told);
+            let mut errors = fit::timed(validation.errors_json(), seconds);
+            errors["strength_free"] = json!(validation.errors.strength_free);
+            errors["by_pigment"] = json!(validation.errors.by_pigment);
+            return console.json(&errors);
         }
         console.warnings(&warnings)?;
         console.line(validation.report().to_string())
@@ -132,13 +132,13 @@ mod tests {
 
     #[test]
     fn groups_are_advised_where_one_by_one_takes_minutes() {
-        let told = |mixtures, seconds, by_groups| {
+        let advised = |mixtures, seconds, by_groups| {
             folds_advice(mixtures, Duration::from_secs(seconds), by_groups)
         };
-        let advice = told(2000, 30, false).unwrap();
+        let advice = advised(2000, 30, false).unwrap();
         assert!(advice.text.contains("250 minutes"), "{advice:?}");
         assert!(format!("{advice:?}").contains("folds=10"), "{advice:?}");
-        assert!(told(2000, 30, true).is_none());
-        assert!(told(40, 1, false).is_none());
+        assert!(advised(2000, 30, true).is_none());
+        assert!(advised(40, 1, false).is_none());
     }
 }

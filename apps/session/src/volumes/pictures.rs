@@ -79,7 +79,7 @@ impl Scene {
             let found = found_at(self.timeline.now().world(), &hit, profile);
             (hit.place, found)
         });
-        told(found, srgb, self.materials.slots, &self.recorded.base().regions)
+        described(found, srgb, self.materials.slots, &self.recorded.base().regions)
     }
 
     /// The script as it would be saved, seen by `camera`. Fails if it is too long for a file.
@@ -144,7 +144,7 @@ pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
 }
 
 /// Describes for the painter what is at a place (if there is a surface) and the colour shown there.
-pub(super) fn told(
+pub(super) fn described(
     found: Option<(Vec3, Found)>,
     srgb: [u8; 3],
     slots: Slots,

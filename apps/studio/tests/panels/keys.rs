@@ -63,8 +63,8 @@ fn a_key_of_another_action_is_named_and_taken_only_if_wanted() {
     let mut window = Window::open("keys-conflict");
     window.key(Modifiers::NONE, Key::F1);
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::W);
-    let told = "W is the key of Wash the brush.";
-    assert!(window.harness().query_by_label(told).is_some(), "both are named");
+    let message = "W is the key of Wash the brush.";
+    assert!(window.harness().query_by_label(message).is_some(), "both are named");
     window.save("keys-conflict");
     window.click("Cancel");
     assert!(window.studio().files.preferences.keys.is_empty(), "nothing changed");
@@ -77,7 +77,7 @@ fn a_key_of_another_action_is_named_and_taken_only_if_wanted() {
     // You cannot use reserved keys and see the reason. Escape leaves the key.
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Space);
     let refused = window.harness().query_by_label_contains("the space bar moves the view");
-    assert!(refused.is_some(), "the reason is told");
+    assert!(refused.is_some(), "you see the reason");
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Escape);
     assert!(window.studio().visible.keys, "the window stays");
     assert_eq!(keys_of(&window, "mirror"), Some(vec!["M", "W"]));
@@ -135,8 +135,8 @@ fn faults_of_the_preferences_are_told_and_unknown_names_kept() {
     let keys = &mut window.studio_mut().files.preferences.keys;
     keys.insert("fly".to_owned(), vec!["F".to_owned()]);
     window.harness().run_ok();
-    let told = window.harness().query_all_by_label_contains("`fly` is nothing").count();
-    assert_eq!(told, 1);
+    let faults = window.harness().query_all_by_label_contains("`fly` is nothing").count();
+    assert_eq!(faults, 1);
     window.key(Modifiers::NONE, Key::F1);
     press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::K);
     assert_eq!(keys_of(&window, "fly"), Some(vec!["F"]), "it is kept");

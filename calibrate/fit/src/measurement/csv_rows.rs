@@ -533,8 +533,11 @@ mod tests {
         ] {
             let (pigments, remarks) = read(heading, cells);
             assert_eq!(pigments, ["White", "Red"], "{heading}");
-            let told = heading.replace(',', ", ");
-            assert!(remarks.contains(&told) && remarks.contains("ignored"), "{heading}: {remarks}");
+            let listed = heading.replace(',', ", ");
+            assert!(
+                remarks.contains(&listed) && remarks.contains("ignored"),
+                "{heading}: {remarks}"
+            );
         }
     }
 

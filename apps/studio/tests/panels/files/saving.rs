@@ -74,7 +74,7 @@ fn a_painting_whose_palette_is_damaged_opens_and_says_so() {
         panic!("{:?}", window.state().commands)
     };
     assert_eq!(**read, canvas);
-    assert!(shows(&window, "palette"), "the problem is told");
+    assert!(shows(&window, "palette"), "you see the problem");
 }
 
 #[test]
@@ -242,8 +242,8 @@ fn a_window_that_is_closed_while_it_saves_closes_when_it_has_saved() {
     ask(&mut window, FileRequest::Save);
     assert!(!closes(&mut window), "it is not saved yet");
     assert!(!window.state_mut().files().has_dialog(), "nothing has to be asked");
-    let told = window.state_mut().files().take_status().unwrap();
-    assert!(told.text.contains("being saved") && told.text.contains("closes"), "{told:?}");
+    let status = window.state_mut().files().take_status().unwrap();
+    assert!(status.text.contains("being saved") && status.text.contains("closes"), "{status:?}");
     window.state_mut().holds_snapshots = false;
     let mut closed = false;
     until(&mut window, "the end", |window| {
@@ -459,7 +459,7 @@ fn a_script_is_saved_beside_its_subject_only() {
     files.save_scene(&recording, folder.path().join("jug.toml"));
     let start = Instant::now();
     while window.query_by_label_contains("save it in").is_none() {
-        assert!(start.elapsed() < PATIENCE, "nothing is told");
+        assert!(start.elapsed() < PATIENCE, "there is no message");
         window.step();
     }
     assert!(!folder.path().join("jug.toml").exists(), "nothing is written");

@@ -283,8 +283,8 @@ mod tests {
         assert!(frames_fit(3333.3, 30.0).is_ok() && frames_fit(3600.0, 27.7).is_ok());
         let fault = cells_too_small(0.001, 0.002_105_3);
         assert_eq!(fault.hint().unwrap().to_string(), "cell = 0.00211 fits");
-        let told = "grid.cell takes a width of at most 1048576 cells, found `0.001`";
-        assert_eq!(fault.to_string(), told);
+        let message = "grid.cell takes a width of at most 1048576 cells, found `0.001`";
+        assert_eq!(fault.to_string(), message);
         assert_eq!(check_particles(&[3; 3000]), Ok(()));
         let fault = check_particles(&[5; 300]).unwrap_err();
         assert_eq!(fault.key.to_string(), "[[volume]] 196, detail");
