@@ -1,5 +1,5 @@
-//! Options and files of an animation: a folder of frames that you can resume, and one file. The
-//! options of a timelapse of a script, and its files, are here too.
+//! Options of animations and timelapses. An animation has a folder of frames, so that you can
+//! resume it, and a file that plays.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;

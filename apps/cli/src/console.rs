@@ -1,7 +1,7 @@
-//! Output of a verb: results, remarks and patches of colour. We also catch lines that graphics
-//! drivers and their libraries print to standard error by themselves, for example "XDG_RUNTIME_DIR
-//! is invalid or not set in the environment", and quote the command line so that you can type it
-//! again.
+//! Where a verb prints: results, remarks and patches of colour. This also keeps standard error
+//! clean of lines that graphics drivers and their libraries print there by themselves, for example
+//! "XDG_RUNTIME_DIR is invalid or not set in the environment", and quotes command lines so that you
+//! can type them again.
 
 use std::io::Write;
 use std::path::Path;

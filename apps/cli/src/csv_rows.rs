@@ -1,6 +1,5 @@
-//! Rows of JSON as a table of CSV. You also find here how we write numbers in sentences and tables,
-//! without zeros and signs that say nothing, and a colour as a patch and a code, marked where the
-//! display cannot show it.
+//! Prints rows of JSON as CSV. This file also says how verbs write numbers (without zeros and signs
+//! that say nothing) and colours (as a patch and a code, marked if the display cannot show them).
 
 use serde_json::Value;
 use spectra::color::{Lab, Rgb, RgbSpace};

@@ -39,11 +39,11 @@ fn collect(command: &Command, pages: &mut Vec<Page>) -> Result<(), (String, io::
     let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
     let page = page(command, &name).map_err(|error| (name.clone(), error))?;
     pages.push((format!("{name}.1"), page));
-    shown(command).try_for_each(|inner| collect(inner, pages))
+    listed_verbs(command).try_for_each(|inner| collect(inner, pages))
 }
 
 /// Verbs below `command` that have a page.
-fn shown(command: &Command) -> impl Iterator<Item = &Command> {
+fn listed_verbs(command: &Command) -> impl Iterator<Item = &Command> {
     let inner = command.get_subcommands();
     inner.filter(|inner| !inner.is_hide_set() && inner.get_name() != "help")
 }

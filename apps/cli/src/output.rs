@@ -1,5 +1,5 @@
-//! Output files. We check them before the slow part of a verb, then write them whole or not at all.
-//! A folder of intermediate stages as PNG is here too.
+//! Output files and folders of output. We check them before the slow part of a verb, and write a
+//! file whole or not at all.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -1,6 +1,5 @@
-//! Export options of a painting, and the files that they write. Pictures that are not paintings are
-//! here too, e.g. sheets, pictures with marks, pictures in a map's brushwork, and the options of
-//! the canvas that you paint a picture on.
+//! Options that export a painting, and the files that they write. Other pictures that verbs write
+//! use the functions here too, for example sheets of samples.
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
-//! Options for measurement files (format, units, references of counts), and reading them. This file
-//! also holds what several verbs share: light, observer and pigment library, the white, dark and
-//! tile that convert the counts of a spectrometer to reflectance, spectra that you name as `FILE`
-//! or `FILE#NAME`, and target colours (for example `#rrggbb`, CIELAB, or measured spectra).
+//! Options that read measurements. For measurement files these are the format, the units and the
+//! references that convert counts to reflectance (white, dark and tile). Several verbs also share
+//! the options for light and observer, spectra that you name as `FILE` or `FILE#NAME`, and target
+//! colours, for example `#rrggbb`, CIELAB, or measured spectra.
 
 use std::path::{Path, PathBuf};
 

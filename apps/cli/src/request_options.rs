@@ -55,7 +55,7 @@ impl<T: CommandLine> Args for RequestOptions<T> {
         let options: Vec<(Arg, &Key)> = keys.iter().map(|key| (key.option::<T>(), key)).collect();
         let names: BTreeMap<String, String> = options
             .iter()
-            .map(|(option, key)| (format!("`{}`", key.name), shown(option)))
+            .map(|(option, key)| (format!("`{}`", key.name), as_typed(option)))
             .collect();
         let helped = options.into_iter().map(|(option, key)| {
             let mut text = key.help.clone();
@@ -111,12 +111,12 @@ fn refusal<T: CommandLine>(error: RequestError) -> Failure {
     let keys = keys::<T>();
     Failure::of_request(&error, |name| {
         let key = keys.iter().find(|key| key.name == name);
-        key.map_or_else(|| name.to_owned(), |key| shown(&key.option::<T>()))
+        key.map_or_else(|| name.to_owned(), |key| as_typed(&key.option::<T>()))
     })
 }
 
 /// The option as a user types it, e.g. `--least-share`.
-fn shown(option: &Arg) -> String {
+fn as_typed(option: &Arg) -> String {
     format!("--{}", option.get_long().unwrap_or_default())
 }
 

@@ -1,5 +1,5 @@
-//! Techniques of painting as verbs use them: the options of their settings, and the work of their
-//! painters behind a bar.
+//! What all verbs of painting share: the options for presets and settings of a technique, and
+//! painting behind a progress bar.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! The built program told to end: it leaves no half-written file, and ends by the signal.
+//! Sends signals to the built program: it leaves no half-written file, and ends by the signal.
 
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
@@ -82,7 +82,7 @@ fn a_run_that_ends_before_its_first_write_makes_no_folder() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // It tells what it read, checks its folder, then refits and draws for a while.
+    // It prints what it read, checks its folder, then refits and draws for a while.
     let mut messages = BufReader::new(child.stderr.take().unwrap());
     messages.read_line(&mut String::new()).unwrap();
     std::thread::sleep(Duration::from_millis(50));

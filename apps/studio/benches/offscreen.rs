@@ -183,7 +183,7 @@ impl TestRenderer for Kept {
 /// Bounding box of the canvas in pixels, from the last line of the log of figures.
 fn last_canvas(log: &std::path::Path) -> Result<[f64; 4], Box<dyn Error>> {
     let text = std::fs::read_to_string(log)?;
-    let line = text.lines().last().ok_or("no figures were told")?;
+    let line = text.lines().last().ok_or("no figures were printed")?;
     let canvas = serde_json::from_str::<serde_json::Value>(line)?["canvas_px"].clone();
     Ok(serde_json::from_value(canvas)?)
 }

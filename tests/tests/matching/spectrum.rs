@@ -1,7 +1,6 @@
-//! Recipes by spectrum: mixtures found again from their own reflectance, limits, and what is
-//! refused.
-//!
-//! Recipe search with progress, and with cancelling from another thread.
+//! Tests of recipes by spectrum: mixtures are found again from their own reflectance, limits hold,
+//! and what cannot be searched is refused. Also tests of the progress of a search, and of
+//! cancelling it from another thread.
 
 use std::thread;
 use std::time::{Duration, Instant};

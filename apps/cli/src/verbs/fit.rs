@@ -1,8 +1,5 @@
-//! `impasto fit`: fits a pigment library to measurements.
-//!
-//! Options that `fit` and `validate` share: measurement files and settings of the fit.
-//!
-//! JSON of `fit` and `validate`.
+//! `impasto fit` fits a pigment library to measurements. The options for measurement files and for
+//! the fit are here, because `validate` has them too, and so is the JSON of both.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

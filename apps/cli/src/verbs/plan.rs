@@ -1,6 +1,4 @@
-//! `impasto plan`: plans the swatches to prepare.
-//!
-//! Report of a plan as text.
+//! `impasto plan` plans the swatches to prepare, and prints the plan as text, CSV or JSON.
 
 use std::path::PathBuf;
 

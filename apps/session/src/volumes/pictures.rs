@@ -1,5 +1,5 @@
-//! Views of a scene: pictures, its painting, volumes, paint and colour at a place, and its
-//! script.
+//! What you can ask of a scene: pictures, its painting, what lies at a place of the picture, and
+//! its script.
 
 use glam::Vec3;
 use graphics::camera::Camera;

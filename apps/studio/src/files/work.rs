@@ -12,12 +12,12 @@ use session::swatches::SwatchBook;
 use session::{Command, LostSession, RecoveredWork};
 use web_time::{Duration, Instant};
 
-use super::desk::Desk;
 use super::exporting::{Export, TimelapseExport};
 use super::job::Job;
 use super::opened::{Opened, Revision};
 use super::problem::Problem;
 use super::request::{DrawnFile, ReadSwatches, ReferenceChange};
+use super::window_setup::WindowSetup;
 
 /// Why we asked the worker for a snapshot or a recording.
 #[derive(Debug)]
@@ -92,7 +92,7 @@ pub(super) enum Finished {
         revision: u64,
         epoch: u64,
         recorded: usize,
-        desk: Box<Desk>,
+        setup: Box<WindowSetup>,
         digest: Option<(PathBuf, Option<String>)>,
     },
     /// The painter's sets of brushes were read. The problems are about files that we could not use.

@@ -1,4 +1,4 @@
-//! Errors of the libraries as pages take them: JSON in the words of the page.
+//! Turns errors of the libraries into JSON, in the words of the page.
 
 use std::error::Error;
 

@@ -1,4 +1,4 @@
-//! Stages and defects, which the page hears while a call runs.
+//! Reports the stages of long work, and defects of the program, to the page while a call runs.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

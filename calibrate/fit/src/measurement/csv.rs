@@ -1,4 +1,5 @@
-//! Reads a measurement CSV. We read a large one in pieces, so that only the readings are in memory at once.
+//! Reads a measurement CSV. We read a large one in pieces, so that only the readings are in memory
+//! at once.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};

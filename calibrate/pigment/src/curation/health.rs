@@ -119,7 +119,7 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
             format!("{start} to {end} nm leaves out a part of the visible band"),
         ),
         BandCoverage::Missing => {
-            found(Severity::Fault, format!("{start} to {end} nm is no visible light"));
+            found(Severity::Fault, format!("{start} to {end} nm is not visible light"));
         }
     }
     if library.grid.step_nm() > COARSE_STEP_NM {
@@ -128,7 +128,7 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
     }
     for (what, text) in [("licence", &library.licence), ("source", &library.source)] {
         if text.trim().is_empty() {
-            found(Severity::Warning, format!("no {what} is told"));
+            found(Severity::Warning, format!("no {what} is stated"));
         }
     }
     let white = library.reference_id().map(|id| &library[id]);
@@ -214,7 +214,7 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     ] {
         match uncertainty(curve, sd) {
             None if sd.is_empty() => {
-                found(Severity::Warning, format!("no deviation of {letter} is told"));
+                found(Severity::Warning, format!("no deviation of {letter} is stated"));
             }
             Some(share) if share > UNCERTAIN => {
                 let what = format!("{letter} is known to {:.0} % only (median)", 100.0 * share);

@@ -256,7 +256,7 @@ pub(super) fn shown<'a>(
                 }
                 let [u, v] = [place[0][column] as usize, place[1][column] as usize];
                 let [a, b] = [share[0][column] as u32, share[1][column] as u32];
-                let texel = texels.between(u, v, a, b);
+                let texel = texels.interpolated(u, v, a, b);
                 let high = furrow + texel[3] * ridges;
                 let own_weight = own_weight * high * high;
                 let pixel = [row, column];

@@ -107,7 +107,8 @@ impl Painter {
             let features = Features::new(Arc::clone(&hierarchy), own.strokes.seed);
             let roots = Roots::new(surface, Arc::clone(&coloring), lightness);
             let density = (more, own.reference_px / units);
-            let (roots, matched) = kept(roots, &features, (&tones, &slices), &own, density);
+            let (roots, matched) =
+                with_kept_strokes(roots, &features, (&tones, &slices), &own, density);
             strokes += roots.count();
             continued += matched * roots.count() as f64;
             layers.push(Layered { features, roots });
@@ -341,7 +342,7 @@ fn divide<'a>(
 
 /// Keeps the strokes that a picture of `per_unit` pixels per unit of the subject needs, at up to
 /// `more` times its density. Returns the share of them that continue a neighbour.
-fn kept(
+fn with_kept_strokes(
     roots: Roots,
     features: &Features,
     (tones, slices): (&Tones, &[usize]),
@@ -503,7 +504,7 @@ pub(super) struct BuiltGround {
 
 impl BuiltGround {
     /// The ground of a painting of this size and width of cells. We keep it for the next one.
-    pub(super) fn kept(
+    pub(super) fn reused_or_built(
         kept: &mut Option<Self>,
         spec: &GroundSpec,
         (size, cell_mm): ((usize, usize), f64),
@@ -657,7 +658,8 @@ mod tests {
         let mut kept = None;
         let mut built = |kind: GroundKind, size: (usize, usize), cell_mm: f64| {
             let spec = kind.spec(1);
-            let found = BuiltGround::kept(&mut kept, &spec, (size, cell_mm), &library).unwrap();
+            let found =
+                BuiltGround::reused_or_built(&mut kept, &spec, (size, cell_mm), &library).unwrap();
             assert_eq!(found, spec.build(size.0, size.1, cell_mm, &library).unwrap());
         };
         for size in [(12, 9), (12, 9), (9, 12)] {

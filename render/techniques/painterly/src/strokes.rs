@@ -309,7 +309,7 @@ pub(super) fn outlines(
     seen.par_iter()
         .with_min_len(256)
         .filter_map(|seen: &SeenFeature| {
-            outline(seen, (&roots.single(&seen.feature), roots), tones, sight, (radii, end))
+            outline(seen, (&roots.unmatched(&seen.feature), roots), tones, sight, (radii, end))
         })
         .collect()
 }

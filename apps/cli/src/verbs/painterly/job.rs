@@ -1,6 +1,6 @@
-//! A subject, and the files that we paint it into. This file also holds the options for the
-//! brushwork (maps that you give as files or by a style, and the regions they are for) and for
-//! paintings with pigments, and a folder of OpenEXR frames.
+//! One run of `impasto painterly`: the subject, the files to write, and the options for the
+//! brushwork (maps from files or from a style, and the regions that use them) and for paintings
+//! with pigments.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
-//! We make the frames of a script in their order, and single pictures of a world with their files.
-//! Beside the frames of an animation we keep moments of the script, from which you can continue an
-//! interrupted one.
+//! Makes the frames of a script in order, and single pictures of a world. While we make an
+//! animation, we keep snapshots of the script beside its frames, from which you can continue if you
+//! interrupt it.
 
 use std::path::{Path, PathBuf};
 

@@ -78,7 +78,7 @@ impl Job {
                 script.text(&scene, &title, &to, (library.as_deref(), light.as_deref()))?
             }
         };
-        let beginning = script.beginning(&scene, &settings)?;
+        let beginning = script.performance_at_start(&scene, &settings)?;
         let compute = verb.backend.compute(console)?;
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);

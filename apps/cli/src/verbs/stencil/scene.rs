@@ -1,5 +1,5 @@
-//! The scene, its script, the cameras of this script, and the steps at which we make the pictures
-//! of a run.
+//! The scene that a script is played in: the mesh, the cameras, and the steps at which we make
+//! pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -140,7 +140,11 @@ impl OpenScript {
     }
 
     /// The script before its first step.
-    pub(super) fn beginning(&self, scene: &Scene, settings: &Settings) -> Result<Performance> {
+    pub(super) fn performance_at_start(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<Performance> {
         let Scene { mesh, cameras, size, .. } = scene;
         let view = FirstView::new(mesh, &cameras[0], *size);
         Performance::new(&self.script, mesh, settings, &view).map_err(|error| {

@@ -126,11 +126,11 @@ impl Drop for Monkey {
     fn drop(&mut self) {
         if std::thread::panicking() {
             let count = self.record.len();
-            let mut label = format!("seed {}, {count} actions; the last of them:\n", self.seed);
+            let mut text = format!("seed {}, {count} actions; the last of them:\n", self.seed);
             for what in &self.record[count.saturating_sub(TOLD)..] {
-                let _ = writeln!(label, "  {what}");
+                let _ = writeln!(text, "  {what}");
             }
-            let _ = std::io::stderr().write_all(label.as_bytes());
+            let _ = std::io::stderr().write_all(text.as_bytes());
         }
     }
 }

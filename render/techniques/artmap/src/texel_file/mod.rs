@@ -174,7 +174,7 @@ impl<'a> Opened<'a> {
                 parts[block.index.layer].fill(origin, &block)?;
             }
         }
-        parts.into_iter().map(|part| part.whole(origin)).collect()
+        parts.into_iter().map(|part| part.finished(origin)).collect()
     }
 }
 
@@ -213,7 +213,7 @@ impl Filling {
     }
 
     /// Returns the finished part. This fails if a row is missing.
-    fn whole(self, origin: Origin<'_>) -> Result<PartPlanes, TexelFileError> {
+    fn finished(self, origin: Origin<'_>) -> Result<PartPlanes, TexelFileError> {
         let plan = self.layout.plan;
         match self.rows.iter().position(|filled| !filled) {
             Some(row) => Err(origin.part(&plan.name, format!("lacks row `{row}`"))),

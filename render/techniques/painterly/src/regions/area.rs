@@ -55,7 +55,7 @@ impl RegionMap {
             };
             let RegionArea::Material(name) = &region.area else {
                 let fault = format!("{} is an area of pictures", region.area.key());
-                return error(fault, "parts of a model are told by material = \"NAME\"");
+                return error(fault, "name the parts of a model by material = \"NAME\"");
             };
             if region.angle_deg.is_some() || region.around.is_some() {
                 let fault = "angle_deg and around are for pictures".to_owned();

@@ -215,7 +215,7 @@ pub(super) fn check_range(key: &KeyPath, value: f64, [least, most]: [f64; 2]) ->
         _ if value > most => format!("the most is {most}"),
         _ => "write a number".to_owned(),
     };
-    Err(Fault::new(key, format!("{least} to {most}"), shown(value), hint))
+    Err(Fault::new(key, format!("{least} to {most}"), number_text(value), hint))
 }
 
 pub(super) fn check_positive(key: &KeyPath, value: f64, most: f64) -> Checked {
@@ -226,7 +226,7 @@ pub(super) fn check_positive(key: &KeyPath, value: f64, most: f64) -> Checked {
         true => format!("the most is {most}"),
         false => "write a number above 0, or leave the table out".to_owned(),
     };
-    Err(Fault::new(key, format!("a number above 0, up to {most}"), shown(value), hint))
+    Err(Fault::new(key, format!("a number above 0, up to {most}"), number_text(value), hint))
 }
 
 pub(super) fn check_time(key: &KeyPath, seconds: f64) -> Checked {
@@ -252,7 +252,7 @@ pub(super) fn check_direction(key: &KeyPath, direction: [f64; 3]) -> Checked {
 }
 
 /// A number as text. Large ones have an exponent: for example, 1e300 would take 301 digits.
-fn shown(value: f64) -> String {
+fn number_text(value: f64) -> String {
     if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") }
 }
 
