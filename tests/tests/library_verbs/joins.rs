@@ -309,7 +309,7 @@ fn what_was_made_doubtful_is_found() {
         "the same figures as Minium",
         "spelled almost as Vermilion",
         "guessed from a colour",
-        "K is known to 1",
+        "K is uncertain by 1",
         "no evidence",
     ] {
         assert!(found.contains(words), "{words}: {found}");

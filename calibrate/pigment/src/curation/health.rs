@@ -217,7 +217,7 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
                 found(Severity::Warning, format!("no deviation of {letter} is stated"));
             }
             Some(share) if share > UNCERTAIN => {
-                let what = format!("{letter} is known to {:.0} % only (median)", 100.0 * share);
+                let what = format!("{letter} is uncertain by {:.0} % (median)", 100.0 * share);
                 found(Severity::Warning, what);
             }
             _ => {}
