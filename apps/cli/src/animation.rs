@@ -200,7 +200,7 @@ pub(crate) struct TimelapseOptions {
     /// How long the last frame is shown, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, allow_negative_numbers = true)]
     timelapse_hold: f64,
-    /// Show passages that are undone later too
+    /// Also show passages that are undone later
     #[arg(long)]
     timelapse_undone: bool,
 }

@@ -266,7 +266,7 @@ impl Key {
     }
 }
 
-/// The option with a help of paragraphs, of which `-h` shows the first.
+/// Gives the option a help of several paragraphs, of which `-h` shows only the first.
 fn with_help(option: Arg, text: &str) -> Arg {
     let paragraphs = paragraphs(text);
     let option = option.help(first_paragraph(text));

@@ -36,11 +36,11 @@ pub(crate) struct SubjectOptions {
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     height: Option<u64>,
     /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`; or a file of keyframes (.toml). Of a picture, where its camera
-    /// may move: degrees to the right and upwards
+    /// view, such as `30,20,30`; or a file of keyframes (.toml). For a picture, if its camera may
+    /// move: degrees to the right and upwards
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames; before a picture, where its camera
+    /// Turn the camera around a mesh in this number of frames; in front of a picture, if its camera
     /// may move, it swings
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     turntable: Option<u64>,
@@ -239,9 +239,9 @@ fn is_mesh(path: &Path) -> Result<bool> {
     Ok(matches!(ending.as_deref(), Some("obj" | "gltf" | "glb" | "ply")))
 }
 
-/// Degrees to the right and upwards of the cameras before a picture: `way`, or as many as `frames`
-/// of a swing around that place. Without a `way` it is straight before it, and a swing is a small
-/// one.
+/// Degrees to the right and upwards of the cameras before a picture: `way` alone, or as many as
+/// `frames` on a swing around it. Without a `way`, the camera is straight before the picture, and a
+/// swing is small.
 pub(crate) fn picture_turns(way: Option<[f32; 2]>, frames: Option<u64>) -> Vec<[f32; 2]> {
     let Some(frames) = frames else { return vec![way.unwrap_or_default()] };
     let [right, up] = way.unwrap_or([SWING_DEG, SWING_DEG / 2.0]);

@@ -18,7 +18,7 @@ use session::{Pace, WorkerOptions};
 struct Arguments {
     /// A painting (.exr) to go on with, a pigment library (.json) to begin with, a recording of
     /// strokes (.json) to play, a picture (.png, .jpg, .tif, .webp) to pin beside the canvas, or a
-    /// lamp's spectrum to paint under; told apart by content. Or a scene of paint volumes: shape:village,
+    /// lamp's spectrum to paint under. The content decides. Or a scene of paint volumes: shape:village,
     /// a model (.glb, .obj, .ply) or a script (.toml)
     file: Option<PathBuf>,
     /// Processor or graphics adapter for the paint [default: from the preferences, else

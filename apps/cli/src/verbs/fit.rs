@@ -32,9 +32,9 @@ pub(crate) struct Fit {
     output: Option<PathBuf>,
     #[command(flatten)]
     provenance: RequestOptions<Provenance>,
-    /// Fit to one half of the mixtures alone: every second, from the first (0) or the second (1) on, with all
-    /// films of one pigment. What a painting of the one library looks like to the other shows how far it can be
-    /// believed
+    /// Fit to one half of the mixtures alone: every second one, from the first (0) or the second (1)
+    /// on, with all films of one pigment. To see how far maps can be believed, paint with the library
+    /// of one half and map with the other
     #[arg(long, value_name = "0|1", value_parser = clap::value_parser!(u8).range(0..=1))]
     half: Option<u8>,
     #[command(flatten)]

@@ -33,7 +33,8 @@ pub(crate) struct SimulateScan {
     /// The folder of the truth [default: SCAN-truth.zarr]
     #[arg(long, value_name = "FOLDER")]
     truth: Option<PathBuf>,
-    /// Number of bands, evenly from 400 to 1000 nm, or over what the painting's library has of it
+    /// Number of bands, evenly from 400 to 1000 nm, or over the part of it that the painting's
+    /// library covers
     #[arg(long, value_name = "N", default_value_t = CameraSettings::default().bands)]
     bands: usize,
     /// Standard deviation of the blur in pixels
@@ -42,7 +43,7 @@ pub(crate) struct SimulateScan {
     /// Standard deviation of the shot noise at a reflectance of 1
     #[arg(long, value_name = "SD", default_value_t = CameraSettings::default().shot_noise)]
     shot_noise: f64,
-    /// Standard deviation of the noise of reading, in reflectance
+    /// Standard deviation of the readout noise, in reflectance
     #[arg(long, value_name = "SD", default_value_t = CameraSettings::default().read_noise)]
     read_noise: f64,
     /// Change of the white from the first to the last line, as a fraction

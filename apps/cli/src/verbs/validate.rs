@@ -111,8 +111,8 @@ const LONG: f64 = 120.0;
 /// Number of groups that is advised.
 const FOLDS: usize = 10;
 
-/// Advice to leave out groups where leaving out mixtures one by one would take minutes, judged from the
-/// time of the fit of all samples.
+/// Advises to leave out groups if leaving out mixtures one by one would take minutes. We judge this
+/// by the time of the full fit.
 fn folds_advice(mixtures: usize, fit: Duration, by_groups: bool) -> Option<Remark> {
     let seconds = |fits: usize| REFIT * fit.as_secs_f64() * fits as f64;
     let long = !by_groups && mixtures > FOLDS && seconds(mixtures) > LONG;

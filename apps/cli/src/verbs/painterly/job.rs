@@ -309,7 +309,7 @@ pub(super) struct PigmentOptions {
     /// that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
     #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
     pigments_before: Option<PathBuf>,
     /// Up to eight pigments for those colours, separated by commas [default: those that come nearest]

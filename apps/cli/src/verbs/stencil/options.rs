@@ -234,7 +234,7 @@ pub(super) struct PigmentOptions {
     /// library that a script names, if its volumes show glazes]
     #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
-    /// The library, as it was named before
+    /// Old name of LIBRARY
     #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
     pigments_before: Option<PathBuf>,
     /// Up to eight pigments of the volumes, separated by commas
