@@ -98,8 +98,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
 pub(crate) fn command() -> Command {
     let plain = with_examples(Arguments::command());
     let verbs = grouped(&plain);
-    let more =
-        "`impasto VERB --help` explains a verb; docs/guide/index.md lists the guides.";
+    let more = "`impasto VERB --help` explains a verb; docs/guide/index.md lists the guides.";
     plain.help_template(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n{{options}}\n\n{more}\n"
     ))

@@ -162,7 +162,7 @@ fn scenes_have_keys_of_their_own() {
 }
 
 /// Whether a control with this label shows a tooltip that contains `words`.
-fn tells(window: &mut Window, label: &str, words: &str) -> bool {
+fn has_tooltip_with(window: &mut Window, label: &str, words: &str) -> bool {
     let count = window.harness().query_all_by_label(label).count();
     (0..count).any(|index| {
         let control = window.harness().query_all_by_label(label).nth(index);
@@ -197,7 +197,7 @@ fn tooltips_tell_the_keys_in_use() {
         window.harness().step();
     }
     window.settle();
-    assert!(tells(&mut window, "Over canvas", "to draw after (key F5). It is never"));
+    assert!(has_tooltip_with(&mut window, "Over canvas", "to draw after (key F5). It is never"));
     window.studio_mut().open_scene(&context, Subject::Shape("village".to_owned()));
     wait(&mut window, "the first picture", |volumes| volumes.picture().is_some());
     for (label, words) in [
@@ -207,7 +207,7 @@ fn tooltips_tell_the_keys_in_use() {
         ("Volumes", "grey drawing (key Shift+F2)"),
         ("Own", "own colours (key Shift+F3)"),
     ] {
-        assert!(tells(&mut window, label, words), "{label}: {words}");
+        assert!(has_tooltip_with(&mut window, label, words), "{label}: {words}");
     }
 }
 

@@ -109,7 +109,7 @@ impl Session {
         assert!(events > 0, "{} has done something", grip.tool.name());
     }
 
-    /// Stops time and goes to the end of the recording, where the verb ends. Returns its step.
+    /// Stops time and goes to the end of the recording, which `impasto stencil` paints. Returns its step.
     fn seek_end(&mut self) -> u64 {
         self.ask(VolumeCommand::Play(false));
         self.wait(|session| !session.state().time.playing);
