@@ -241,8 +241,8 @@ fn a_film_is_laid_over_the_ground_that_is_told() {
         mix.push(&told_thickness);
         mix.extend(recipe_text.iter().map(String::as_str));
         let mixed = impasto(&mix).json();
-        let targets = numbers(&recipe["lab"]["D65"]);
-        suite::golden::assert_near("Lab", &targets, &numbers(&mixed["lab"]), 1e-6);
+        let found = numbers(&recipe["lab"]["D65"]);
+        suite::golden::assert_near("Lab", &found, &numbers(&mixed["lab"]), 1e-6);
         recipe["thickness"].as_f64().unwrap()
     }
     let chosen = over("0.3", "0.2:3");
@@ -290,8 +290,8 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
     let path = path.display().to_string();
     let run = impasto(&["match", &path, "#c8b080", "--over", "0.85", "--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
-    let run = run.json();
-    let recipe = &run[0]["recipes"][0];
+    let targets = run.json();
+    let recipe = &targets[0]["recipes"][0];
     let pigments = recipe["pigments"].as_array().unwrap().iter();
     let amounts: Vec<String> =
         pigments.map(|p| format!("{}={}", p["name"].as_str().unwrap(), p["amount"])).collect();

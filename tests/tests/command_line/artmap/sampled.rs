@@ -20,9 +20,8 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     let marks = folder.write("marks.toml", MARKS);
     let [output, sheet, marked] = ["s.exr", "s.png", "m.png"].map(|name| folder.file(name));
     let arguments = ["sample", &picture, "--marks", &marks, "--output", &output];
-    let output =
-        done(&[&arguments[..], &["--sheet", &sheet, "--marked", &marked, "--json"]].concat());
-    let json = json.json();
+    let run = done(&[&arguments[..], &["--sheet", &sheet, "--marked", &marked, "--json"]].concat());
+    let json = run.json();
     assert_eq!(
         (&json["provenance"], &json["pigments"]),
         (&json!("picture strokes.png"), &json!([]))
@@ -55,9 +54,9 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
 
     let shown = done(&["show", &output, "--json"]).json();
     assert_eq!((&shown["provenance"], &shown["spacing"]), (&json["provenance"], &json["spacing"]));
-    for (shown, json) in [(&shown["samples"][0], shade), (&shown["samples"][1], wall)] {
+    for (shown, printed) in [(&shown["samples"][0], shade), (&shown["samples"][1], wall)] {
         for key in ["name", "size", "texels", "colour", "mm_per_texel", "height_mm"] {
-            assert_eq!(shown[key], json[key], "{key}");
+            assert_eq!(shown[key], printed[key], "{key}");
         }
     }
     let marked = image::open(&marked).unwrap().into_rgb8();

@@ -164,12 +164,12 @@ fn an_animation_that_was_interrupted_ends_in_the_same_bytes() {
     let scene = [&[&model[..]], &SMALL[..], &POUR].concat();
     let moving = ["--animation", &film, "--rate", "8", "--json"];
     let frames = Path::new(&film).with_extension("frames");
-    let json = |found: u64| {
+    let film_with_frames_found = |found: u64| {
         let json = done(&[&scene[..], &moving].concat()).json();
         assert_eq!((&json["frames"], &json["frames_found"]), (&5.into(), &found.into()), "{json}");
         fs::read(&film).unwrap()
     };
-    let whole = json(0);
+    let whole = film_with_frames_found(0);
     assert!(whole.starts_with(b"GIF89a"));
     let names = files(&frames, ".png");
     assert_eq!(names.len(), 5, "{names:?}");
@@ -177,7 +177,7 @@ fn an_animation_that_was_interrupted_ends_in_the_same_bytes() {
         fs::remove_file(frames.join(&names[index])).unwrap();
     }
     fs::remove_file(&film).unwrap();
-    assert!(whole == json(2), "the same bytes");
+    assert!(whole == film_with_frames_found(2), "the same bytes");
     // A frame is the still of its time, and the first shows no colour yet.
     done(&[&scene[..], &["--at", "0.25", "--picture", &still]].concat());
     let [first, middle, last] = [0, 2, 4].map(|index: usize| pixels(frames.join(&names[index])));

@@ -276,7 +276,7 @@ impl PointerLine {
                         ..
                     } if !self.points.is_empty() => {
                         self.points.push(pos);
-                        ended = Some(drawn(std::mem::take(&mut self.points)));
+                        ended = Some(click_or_line(std::mem::take(&mut self.points)));
                     }
                     _ => {}
                 }
@@ -294,7 +294,7 @@ impl PointerLine {
     }
 }
 
-fn as_file(points: Vec<Pos2>) -> Drawn {
+fn click_or_line(points: Vec<Pos2>) -> Drawn {
     let first = points[0];
     if points.iter().all(|point| point.distance(first) <= CLICK_POINTS) {
         Drawn::Click(first)

@@ -82,7 +82,7 @@ impl Surroundings {
         // FNV-1a (Fowler, Noll, Vo 1991) over words.
         let mut fingerprint = 0xcbf2_9ce4_8422_2325_u64;
         let mut add = |word: u32| {
-            fingerprint = (fingerprint ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3)
+            fingerprint = (fingerprint ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3);
         };
         for (_, value, ..) in settings.numbers() {
             add(value.to_bits());
